@@ -1,0 +1,85 @@
+// The OpenCL device that everything else runs on: selection, tuning, and the cache of built programs.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "vorocl/export.hpp"
+
+namespace vorocl {
+
+/// How kernels are shaped for a device. Results never depend on it, only speed does.
+struct Tuning {
+  int vector_width = 1;          ///< pixels of a row that one work-item computes: 1, 2, 4, 8 or 16
+  std::size_t group_width = 32;  ///< work-items of a work-group along a row ...
+  std::size_t group_height = 8;  ///< ... and across rows
+};
+
+/// One OpenCL device of this machine, as `vorocl devices` lists it.
+struct DeviceDescription {
+  std::size_t platform_index = 0;
+  std::size_t device_index = 0;  ///< within its platform; "platform:device" selects it
+  std::string platform;
+  std::string name;
+  std::string type;  ///< "GPU", "CPU" or "accelerator"
+  std::string opencl_version;
+  std::string driver_version;
+  unsigned compute_units = 0;
+  std::size_t global_memory = 0;   ///< bytes
+  std::size_t max_allocation = 0;  ///< bytes, the largest single buffer
+  std::string why_not;             ///< why VoroCL cannot use it; empty if it can
+  bool selected = false;           ///< Device::select() would take it ...
+  std::string reason;              ///< ... and why
+};
+
+/// A context, an in-order queue and the programs built for them. Copies share all of it. Safe to use from
+/// several threads, as far as each thread has its own Seeds and Diagram.
+class VOROCL_API Device {
+ public:
+  /// Picks a device: the `request` if it is not empty, else the environment variable VOROCL_DEVICE, else an
+  /// NVIDIA GPU, another GPU, a CPU (PoCL), in this order. A request is a case-insensitive part of a
+  /// platform's or a device's name, or "platform:device" indices. Throws Error, which lists what there is, if
+  /// nothing matches.
+  static Device select(const std::string& request = "");
+
+  /// All devices of all platforms, with the one that select(request) would take marked. Empty without a
+  /// platform.
+  static std::vector<DeviceDescription> list(const std::string& request = "");
+
+  /// Adopts the caller's context and queue (both are retained). Throws Error if either is null, if they do
+  /// not belong together or if the queue is out of order. Device times are 0 unless the queue has profiling
+  /// enabled.
+  Device(const cl::Context& context, const cl::CommandQueue& queue);
+
+  const cl::Context& context() const;
+  const cl::CommandQueue& queue() const;
+  const cl::Device& cl_device() const;
+  std::string name() const;
+  std::string platform_name() const;
+  std::string driver_version() const;
+
+  /// The default tuning of the device's class, unless with_tuning() changed it.
+  const Tuning& tuning() const;
+
+  /// The same device, queue and program cache with other kernel shapes. Throws Error if one cannot be.
+  Device with_tuning(const Tuning& tuning) const;
+
+  /// Waits until all that was enqueued is done.
+  void finish() const;
+
+  /// True if both use one queue (whatever their tuning).
+  bool same_as(const Device& other) const { return queue()() == other.queue()(); }
+
+  struct State;
+  /// For the library's own sources.
+  State& state() const { return *state_; }
+
+ private:
+  std::shared_ptr<State> state_;
+  Tuning tuning_;
+};
+
+}  // namespace vorocl

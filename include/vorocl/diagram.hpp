@@ -1,0 +1,60 @@
+// The diagram: the image of labels, kept on the device.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "vorocl/device.hpp"
+#include "vorocl/export.hpp"
+#include "vorocl/grid.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl {
+
+/// A label image of width * height uint32, row-major, and every buffer that an engine needs to fill it:
+/// engines allocate theirs at their first use of a diagram, later frames of a moving run allocate nothing.
+class VOROCL_API Diagram {
+ public:
+  /// All labels are no_label. Throws Error if the device cannot hold the label image.
+  Diagram(const Device& device, const Grid& grid);
+
+  // Copies would share the images that engines overwrite.
+  Diagram(const Diagram&) = delete;
+  Diagram& operator=(const Diagram&) = delete;
+  Diagram(Diagram&&) = default;
+  Diagram& operator=(Diagram&&) = default;
+
+  const Device& device() const { return device_; }
+  const Grid& grid() const { return grid_; }
+
+  /// The labels, for use in OpenCL without a copy: row-major uint32, valid once the queue gets there.
+  const cl::Buffer& labels() const { return labels_; }
+
+  /// The labels on the host, size width * height. Waits. Throws Error if the seeds had a bad point.
+  std::vector<std::uint32_t> read() const;
+
+  /// Waits for the queue. Throws Error if the seeds had a bad point.
+  void wait() const;
+
+  /// For engines: what a scratch buffer is for.
+  enum class Scratch { packed_front, packed_back, seeded, flags, count_ };
+
+  /// For engines: the scratch buffer of this use, made at its first use or when more bytes are asked for than
+  /// it has. Throws Error, saying how much is needed and there is, if the device cannot hold it.
+  const cl::Buffer& scratch(Scratch use, std::size_t bytes);
+
+  /// For engines, at their start: throws Error unless seeds and diagram have one device and one grid;
+  /// remembers the seeds, so that a bad point among them is reported at the next wait.
+  void begin(const Seeds& seeds);
+
+ private:
+  Device device_;
+  Grid grid_;
+  cl::Buffer labels_;
+  std::vector<cl::Buffer> scratch_;
+  std::optional<Seeds> seeds_;  // of the last engine that ran
+};
+
+}  // namespace vorocl

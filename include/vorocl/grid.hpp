@@ -1,0 +1,57 @@
+// The words that every part of the library uses: point, grid, label, metric, neighbourhood.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "vorocl/export.hpp"
+
+namespace vorocl {
+
+/// The label of a pixel that has no nearest seed (there are no seeds, or no wave reached it).
+constexpr std::uint32_t no_label = 0xffffffffu;
+
+/// A position in pixel units: pixel i of an axis covers [i, i + 1), its centre is i + 0.5; y points down.
+/// A seed is snapped to the pixel that contains it, which limits its accuracy to half a pixel.
+struct Point {
+  double x = 0;
+  double y = 0;
+};
+
+/// How far apart two pixel centres are, computed in integers on every device.
+enum class Metric {
+  euclidean,  ///< L2 (compared as dx * dx + dy * dy)
+  manhattan,  ///< L1: |dx| + |dy|
+};
+
+/// Which pixels a wave looks at besides the pixel itself.
+enum class Neighbourhood {
+  moore,        ///< the 8 neighbours at the step length
+  von_neumann,  ///< the 4 neighbours at the step length that share a row or a column with it
+};
+
+/// The size of a diagram in pixels, row-major, (0, 0) at the top left.
+class VOROCL_API Grid {
+ public:
+  static constexpr int max_side = 32768;  ///< past it a squared distance leaves 31 bits
+  static constexpr std::size_t max_pixels = 1u << 30;
+
+  /// Throws Error unless both sides are in [1, max_side] and width * height is at most max_pixels.
+  Grid(std::int64_t width, std::int64_t height);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int longest_side() const { return width_ > height_ ? width_ : height_; }
+  std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+
+  friend bool operator==(const Grid& a, const Grid& b) {
+    return a.width_ == b.width_ && a.height_ == b.height_;
+  }
+  friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
+
+ private:
+  int width_;
+  int height_;
+};
+
+}  // namespace vorocl

@@ -1,0 +1,45 @@
+// A plan: the waves that a flooding algorithm runs, as plain data that can be printed and tested without a
+// device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vorocl/export.hpp"
+#include "vorocl/grid.hpp"
+
+namespace vorocl {
+
+/// One pass over all pixels with one step length (in pixels, at least 1).
+struct Wave {
+  int step = 1;
+  Neighbourhood neighbourhood = Neighbourhood::moore;
+
+  friend bool operator==(const Wave& a, const Wave& b) {
+    return a.step == b.step && a.neighbourhood == b.neighbourhood;
+  }
+};
+
+using Plan = std::vector<Wave>;
+
+/// The variants of jump flooding, by the waves they add to JFA's (Rong & Tan 2006, 2007).
+enum class JumpFloodingVariant {
+  jfa,           ///< k1, k1 / 2, ..., 1
+  jfa_plus_1,    ///< JFA, then 1
+  jfa_plus_2,    ///< JFA, then 2, 1
+  one_plus_jfa,  ///< 1, then JFA
+};
+
+/// k1 = 2^(ceil(log2 N) - 1), the first step of JFA, with N the longest side (the paper's k_1). 0 for N = 1,
+/// which needs no wave.
+VOROCL_API int first_step(const Grid& grid);
+
+/// The waves of jump flooding on a grid: steps first_step(grid), half of it, ..., 1, and the variant's extra
+/// waves. A grid of one pixel has an empty plan.
+VOROCL_API Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant = JumpFloodingVariant::jfa,
+                                   Neighbourhood neighbourhood = Neighbourhood::moore);
+
+/// The steps, each von Neumann wave marked: "32v 16v 8 4 2 1".
+VOROCL_API std::string to_string(const Plan& plan);
+
+}  // namespace vorocl

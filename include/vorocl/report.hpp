@@ -1,0 +1,37 @@
+// What an engine reports of one diagram: its waves and its times.
+#pragma once
+
+#include <CL/opencl.hpp>
+
+#include "vorocl/export.hpp"
+
+namespace vorocl {
+
+/// Engines enqueue and return; their report can be asked later.
+class VOROCL_API Report {
+ public:
+  Report() = default;
+  Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds)
+      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds) {}
+
+  /// The waves that ran, 0 for an engine without waves.
+  int waves() const { return waves_; }
+
+  /// Completes with the diagram.
+  const cl::Event& event() const { return last_; }
+
+  /// The device's time from the start of the diagram's first command to the end of its last one, with the
+  /// gaps between them. Waits for it. 0 if the queue does not profile.
+  double milliseconds() const;
+
+  /// The host's time to enqueue the diagram.
+  double host_milliseconds() const { return host_milliseconds_; }
+
+ private:
+  int waves_ = 0;
+  cl::Event first_;
+  cl::Event last_;
+  double host_milliseconds_ = 0;
+};
+
+}  // namespace vorocl

@@ -1,0 +1,46 @@
+// Jump flooding: the waves of a plan, with the stamping of seeds fused into the first and the ids into the last.
+
+#include "wave.cl"
+
+// The first wave, straight from the map of the pixels that hold a seed. Its candidates are the run's own pixels
+// moved by the neighbours' offsets: from the last to the first, in their order of distance, each that is there wins.
+kernel void seed_wave(global const uchar* restrict seeded, global uint* restrict out, int width, int height,
+                      int step) {
+  if (!has_run(width, height)) return;
+  const int x = run_x(width), y = run_y();
+  const uint_run pixel = run_positions(x, y);
+  uint_run best = (uint_run)EMPTY;
+#pragma unroll
+  for (int i = VOROCL_NEIGHBOURS - 1; i >= 0; --i) {
+    const int from_x = x + neighbour_x[i] * step, from_y = y + neighbour_y[i] * step;
+    if (from_y < 0 || from_y >= height || from_x <= -VOROCL_WIDTH || from_x >= width) continue;
+    uint_run present = LOAD_BYTES(seeded + VOROCL_GUARD + from_y * width + from_x);
+    if (from_x < 0 || from_x + VOROCL_WIDTH > width) present = inside_row(from_x, width, present, (uint_run)0);
+    best = select(best, pixel + (uint)(neighbour_y[i] * step * 65536 + neighbour_x[i] * step), present != 0);
+  }
+  store_labels(best, out, x, y, width);
+}
+
+kernel void wave(global const uint* restrict in, global uint* restrict out, int width, int height, int step) {
+  if (!has_run(width, height)) return;
+  const int x = run_x(width), y = run_y();
+  store_labels(nearest_label(in, x, y, width, height, step), out, x, y, width);
+}
+
+// The last wave writes ids, which it looks up in an image that holds each seed's id at its pixel. The pixels of a run
+// mostly have one seed where cells are wide: then one look-up serves all.
+kernel void last_wave(global const uint* restrict in, global const uint* restrict ids, global uint* restrict labels,
+                      int width, int height, int step) {
+  if (!has_run(width, height)) return;
+  const int x = run_x(width), y = run_y();
+  const uint_run best = nearest_label(in, x, y, width, height, step);
+  const uint first = FIRST_LANE(best);
+  uint_run found;
+  if (ANY(best != first)) {
+    const uint_run at = select(pixel_index(best, width), (uint_run)0, (best & EMPTY_BIT) != 0);
+    found = select(gather(ids, at), (uint_run)NO_LABEL, (best & EMPTY_BIT) != 0);
+  } else {
+    found = first & EMPTY_BIT ? NO_LABEL : ids[packed_y(first) * width + packed_x(first)];
+  }
+  STORE_RUN(found, labels + y * width + x);
+}

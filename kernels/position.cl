@@ -1,0 +1,66 @@
+// Seed positions, distances and the tie rule: what every engine must agree on, to the bit.
+//
+// A seed's position is packed as y << 16 | x. The sign bit says that there is no seed (EMPTY); real coordinates
+// are at most 0x7fff. Packed positions in unsigned order are in row-major order of position, so:
+//
+//   THE TIE RULE: of the seeds at the least distance, the one with the smallest packed position wins.
+
+#include "vector.cl"
+
+#define NO_LABEL 0xffffffffu
+#define EMPTY_BIT 0x80000000u
+#define EMPTY 0x80008000u
+
+inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
+inline int packed_x(uint position) { return (int)(position & 0xffffu); }
+inline int packed_y(uint position) { return (int)(position >> 16); }
+
+// Where a seed's pixel is in a row-major image.
+inline uint_run pixel_index(uint_run position, int width) {
+  return (position >> 16) * (uint)width + (position & 0xffffu);
+}
+
+// Packed positions of the run's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
+inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
+
+// The distance between two packed positions: squared for VOROCL_EUCLIDEAN, else Manhattan. The coordinates are
+// subtracted as 16-bit numbers, which cannot overflow for real positions. Both metrics are then the sum of two
+// products of 16-bit numbers, a form that compilers turn into one multiply-add instruction (pmaddwd on x86).
+#ifdef VOROCL_EUCLIDEAN
+#define FACTOR(difference) (difference)
+#else
+#define FACTOR(difference) (((difference) >> (short)15) | (short)1)  // the sign: -1 or 1
+#endif
+#define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
+  inline uint_n name(uint_n a, uint_n b) {                                                            \
+    const short_2n difference = as_short_2n(a) - as_short_2n(b);                                      \
+    const short_2n factor = FACTOR(difference);                                                       \
+    return as_uint_n(convert_int_n(difference.even) * convert_int_n(factor.even) +                    \
+                     convert_int_n(difference.odd) * convert_int_n(factor.odd));                      \
+  }
+
+#if VOROCL_WIDTH == 1
+DEFINE_DISTANCE_BETWEEN(distance_between, uint, short2, as_uint, as_short2, convert_int)
+#elif VOROCL_WIDTH == 2
+DEFINE_DISTANCE_BETWEEN(distance_between, uint2, short4, as_uint2, as_short4, convert_int2)
+#elif VOROCL_WIDTH == 4
+DEFINE_DISTANCE_BETWEEN(distance_between, uint4, short8, as_uint4, as_short8, convert_int4)
+#elif VOROCL_WIDTH == 8
+DEFINE_DISTANCE_BETWEEN(distance_between, uint8, short16, as_uint8, as_short16, convert_int8)
+#else  // there is no short32: two halves
+DEFINE_DISTANCE_BETWEEN(distance_between_halves, uint8, short16, as_uint8, as_short16, convert_int8)
+inline uint16 distance_between(uint16 a, uint16 b) {
+  return (uint16)(distance_between_halves(a.lo, b.lo), distance_between_halves(a.hi, b.hi));
+}
+#endif
+
+// As distance_between(), where the position may be empty: that is farther than any seed. What the subtraction
+// made of an empty position is of no account, for its sign bit alone puts it past every real distance.
+inline uint_run distance_to_label(uint_run position, uint_run pixel) {
+  return distance_between(position, pixel) | (position & EMPTY_BIT);
+}
+
+// One step of the tie rule's minimum: takes a candidate whose distance is the least one, if it comes first.
+inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
+  return select(best, min(best, candidate), distance == least);
+}

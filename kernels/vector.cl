@@ -1,0 +1,75 @@
+// A run: VOROCL_WIDTH neighbouring pixels of one row, which one work-item computes together.
+//
+// PoCL does not vectorise branchy per-pixel kernels, so kernels are written on explicit vectors; a GPU takes
+// runs of one pixel from the same source. VOROCL_WIDTH (1, 2, 4, 8 or 16) is a build option. A row always
+// holds at least one whole run: the host never builds for a width above that of the grid.
+
+// Images that waves read at an offset have VOROCL_GUARD (a build option, at least VOROCL_WIDTH) spare values before and
+// behind their pixels, so that a run which sticks out of the grid can be loaded whole and its outer lanes masked.
+
+#define JOIN_(a, b) a##b
+#define JOIN(a, b) JOIN_(a, b)
+
+#if VOROCL_WIDTH == 1
+typedef uint uint_run;
+typedef int int_run;
+#define LANES 0u
+#define LOAD_RUN(pointer) (*(pointer))
+#define STORE_RUN(values, pointer) (*(pointer) = (values))
+#define LOAD_BYTES(pointer) ((uint)*(pointer))
+#define FIRST_LANE(values) (values)
+// any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
+#define ANY(condition) (condition)
+#else
+typedef JOIN(uint, VOROCL_WIDTH) uint_run;
+typedef JOIN(int, VOROCL_WIDTH) int_run;
+#define LOAD_RUN(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
+#define STORE_RUN(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
+#define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
+#define FIRST_LANE(values) ((values).s0)
+#define ANY(condition) any(condition)
+#endif
+
+#if VOROCL_WIDTH == 2
+#define LANES ((uint2)(0, 1))
+#elif VOROCL_WIDTH == 4
+#define LANES ((uint4)(0, 1, 2, 3))
+#elif VOROCL_WIDTH == 8
+#define LANES ((uint8)(0, 1, 2, 3, 4, 5, 6, 7))
+#elif VOROCL_WIDTH == 16
+#define LANES ((uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#endif
+
+// The table's values at the run's indices.
+inline uint gather_1(global const uint* table, uint at) { return table[at]; }
+inline uint2 gather_2(global const uint* table, uint2 at) {
+  return (uint2)(gather_1(table, at.lo), gather_1(table, at.hi));
+}
+inline uint4 gather_4(global const uint* table, uint4 at) {
+  return (uint4)(gather_2(table, at.lo), gather_2(table, at.hi));
+}
+inline uint8 gather_8(global const uint* table, uint8 at) {
+  return (uint8)(gather_4(table, at.lo), gather_4(table, at.hi));
+}
+inline uint16 gather_16(global const uint* table, uint16 at) {
+  return (uint16)(gather_8(table, at.lo), gather_8(table, at.hi));
+}
+#define gather JOIN(gather_, VOROCL_WIDTH)
+
+// The sum of a run's lanes.
+inline uint lane_sum_1(uint values) { return values; }
+inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }
+inline uint lane_sum_4(uint4 values) { return lane_sum_2(values.lo + values.hi); }
+inline uint lane_sum_8(uint8 values) { return lane_sum_4(values.lo + values.hi); }
+inline uint lane_sum_16(uint16 values) { return lane_sum_8(values.lo + values.hi); }
+#define lane_sum JOIN(lane_sum_, VOROCL_WIDTH)
+
+// Whether this work-item has a run at all: the launch is rounded up to whole work-groups.
+inline bool has_run(int width, int height) {
+  return (int)get_global_id(0) * VOROCL_WIDTH < width && (int)get_global_id(1) < height;
+}
+
+// The first pixel of this work-item's run. The last run of a row is moved left so that it ends with the row:
+// it computes some pixels a second time, to the same values.
+inline int run_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
+inline int run_y(void) { return (int)get_global_id(1); }

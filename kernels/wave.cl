@@ -1,0 +1,47 @@
+// One wave of flooding: every pixel takes the best of its own label and its neighbours' at a step.
+//
+// A wave gathers: it reads one image of packed positions and writes another, so its result does not depend on the
+// order in which work-items run (the paper's Algorithm 1 scatters, and so races). Rong & Tan 2006.
+
+#include "position.cl"
+
+// Of the values of a run that starts at x, those whose pixel is in the row; `outside` in the other lanes.
+inline uint_run inside_row(int x, int width, uint_run values, uint_run outside) {
+  return select(outside, values, (uint)x + LANES < (uint_run)(uint)width);
+}
+
+// The labels of a run that starts at (x, y); pixels outside the grid are empty. All tests but the last one are
+// the same for the whole run.
+inline uint_run load_labels(global const uint* image, int x, int y, int width, int height) {
+  if (y < 0 || y >= height || x <= -VOROCL_WIDTH || x >= width) return EMPTY;
+  uint_run labels = LOAD_RUN(image + VOROCL_GUARD + y * width + x);
+  if (x < 0 || x + VOROCL_WIDTH > width) return inside_row(x, width, labels, (uint_run)EMPTY);
+  return labels;
+}
+
+inline void store_labels(uint_run labels, global uint* image, int x, int y, int width) {
+  STORE_RUN(labels, image + VOROCL_GUARD + y * width + x);
+}
+
+// A pixel and its neighbours, nearest first and within each distance in row-major order. The build option
+// VOROCL_NEIGHBOURS says how many take part: 5 for a von Neumann wave, 9 for a Moore wave, the pixel itself counted.
+constant int neighbour_x[9] = {0, 0, -1, 1, 0, -1, 1, -1, 1};
+constant int neighbour_y[9] = {0, -1, 0, 0, 1, -1, -1, 1, 1};
+
+// The labels of the run at (x, y) after a wave. First the least distance of all candidates, then the first position
+// among those that have it: that keeps the tie rule at one masked minimum a candidate.
+inline uint_run nearest_label(global const uint* image, int x, int y, int width, int height, int step) {
+  const uint_run pixel = run_positions(x, y);
+  uint_run label[VOROCL_NEIGHBOURS], distance[VOROCL_NEIGHBOURS];
+  uint_run least = (uint_run)0xffffffffu;
+#pragma unroll
+  for (int i = 0; i < VOROCL_NEIGHBOURS; ++i) {
+    label[i] = load_labels(image, x + neighbour_x[i] * step, y + neighbour_y[i] * step, width, height);
+    distance[i] = distance_to_label(label[i], pixel);
+    least = min(least, distance[i]);
+  }
+  uint_run best = (uint_run)0xffffffffu;
+#pragma unroll
+  for (int i = 0; i < VOROCL_NEIGHBOURS; ++i) best = first_of_nearest(best, label[i], distance[i], least);
+  return best;
+}

@@ -1,0 +1,49 @@
+// Device memory: allocation that says how much is needed and there is, and typed transfers.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "opencl_error.hpp"
+#include "vorocl/device.hpp"
+
+namespace vorocl {
+
+/// A buffer of at least `bytes` (and at least 4, for OpenCL has no empty buffers). `held` counts the bytes
+/// that the caller holds already. Throws Error that names the purpose if the device cannot hold it.
+cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,
+                    std::size_t held = 0);
+
+/// Fills `count` values; returns the command's event.
+template <typename T>
+cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::size_t count) {
+  cl::Event event;
+  check(device.queue().enqueueFillBuffer(buffer, value, 0, count * sizeof(T), nullptr, &event),
+        "filling a buffer");
+  return event;
+}
+
+/// Copies to the device. Waits, so that the caller may reuse the values.
+template <typename T>
+void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
+  if (values.empty()) return;
+  check(device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data()),
+        "writing a buffer");
+}
+
+/// Copies `count` values from the device, from the one at `first` on. Waits.
+template <typename T>
+std::vector<T> download(const Device& device, const cl::Buffer& buffer, std::size_t count,
+                        std::size_t first = 0) {
+  std::vector<T> values(count);
+  if (count > 0) {
+    check(device.queue().enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T),
+                                           values.data()),
+          "reading a buffer");
+  }
+  return values;
+}
+
+}  // namespace vorocl

@@ -1,0 +1,47 @@
+#include "vorocl/error.hpp"
+
+#include "opencl_error.hpp"
+
+namespace vorocl {
+
+namespace {
+
+std::string error_name(cl_int code) {
+  switch (code) {
+    case CL_DEVICE_NOT_AVAILABLE:
+      return "device not available";
+    case CL_COMPILER_NOT_AVAILABLE:
+      return "no compiler for this device";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+      return "out of device memory";
+    case CL_OUT_OF_RESOURCES:
+      return "out of device resources (often: out of device memory)";
+    case CL_OUT_OF_HOST_MEMORY:
+      return "out of host memory";
+    case CL_INVALID_VALUE:
+      return "invalid value";
+    case CL_INVALID_CONTEXT:
+      return "invalid context";
+    case CL_INVALID_COMMAND_QUEUE:
+      return "invalid command queue";
+    case CL_INVALID_MEM_OBJECT:
+      return "invalid buffer";
+    case CL_INVALID_BUFFER_SIZE:
+      return "invalid buffer size";
+    case CL_INVALID_KERNEL_NAME:
+      return "no such kernel";
+    case CL_INVALID_WORK_GROUP_SIZE:
+      return "invalid work-group size";
+    default:
+      return "OpenCL error";
+  }
+}
+
+}  // namespace
+
+void check(cl_int code, const std::string& what) {
+  if (code == CL_SUCCESS) return;
+  throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")");
+}
+
+}  // namespace vorocl

@@ -1,0 +1,68 @@
+#include "kernel.hpp"
+
+#include <algorithm>
+
+#include "program.hpp"
+
+namespace vorocl {
+
+namespace {
+
+int run_width_for(const Device& device, const Grid& grid) {
+  int width = device.tuning().vector_width;
+  while (width > grid.width()) width /= 2;
+  return width;
+}
+
+std::string build_options(int run_width, const KernelOptions& options) {
+  return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(run_width) +
+         " -DVOROCL_GUARD=" + std::to_string(guard) +
+         (options.metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
+         (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
+                                                        : " -DVOROCL_NEIGHBOURS=5");
+}
+
+std::size_t round_up(std::size_t count, std::size_t multiple) {
+  return (count + multiple - 1) / multiple * multiple;
+}
+
+/// The wanted size, halved while that still covers the count: a small launch needs no large group.
+std::size_t group_size(std::size_t wanted, std::size_t count) {
+  while (wanted % 2 == 0 && wanted / 2 >= count) wanted /= 2;
+  return wanted;
+}
+
+}  // namespace
+
+Kernel::Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
+               const KernelOptions& options)
+    : device_(device), name_(name), grid_(grid), run_width_(run_width_for(device, grid)) {
+  cl_int code = CL_SUCCESS;
+  kernel_ = cl::Kernel(program_for(device, file, build_options(run_width_, options)), name.c_str(), &code);
+  check(code, "making the kernel " + name);
+}
+
+cl::Event Kernel::enqueue_over_grid() {
+  const Tuning& tuning = device_.tuning();
+  const auto width = static_cast<std::size_t>(run_width_);
+  const std::size_t runs = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
+  const auto rows = static_cast<std::size_t>(grid_.height());
+  const std::size_t group_width = group_size(tuning.group_width, runs);
+  const std::size_t group_height = group_size(tuning.group_height, rows);
+  return enqueue({round_up(runs, group_width), round_up(rows, group_height)}, {group_width, group_height});
+}
+
+cl::Event Kernel::enqueue_over_items(std::size_t count) {
+  if (count == 0) return {};
+  const std::size_t group = group_size(device_.tuning().group_width * device_.tuning().group_height, count);
+  return enqueue(cl::NDRange(round_up(count, group)), cl::NDRange(group));
+}
+
+cl::Event Kernel::enqueue(const cl::NDRange& global, const cl::NDRange& local) {
+  cl::Event event;
+  check(device_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, global, local, nullptr, &event),
+        "launching " + name_ + " on " + device_.name());
+  return event;
+}
+
+}  // namespace vorocl

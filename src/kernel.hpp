@@ -1,0 +1,66 @@
+// A kernel ready to launch: over the runs of a grid, or over a list of items.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <cstddef>
+#include <string>
+
+#include "opencl_error.hpp"
+#include "vorocl/device.hpp"
+#include "vorocl/grid.hpp"
+
+namespace vorocl {
+
+/// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
+constexpr std::size_t guard = 16;
+
+/// What kernels are specialised for when they are built, besides the vector width. Kernels that read no
+/// distance or no neighbours are the same for all.
+struct KernelOptions {
+  Metric metric = Metric::euclidean;
+  Neighbourhood neighbourhood = Neighbourhood::moore;
+};
+
+/// Made per call, never shared between threads: an OpenCL kernel object holds its arguments.
+class Kernel {
+ public:
+  /// The kernel `name` of a kernel file, built for the device's vector width, or less where a row is shorter
+  /// than that.
+  Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
+         const KernelOptions& options = {});
+
+  /// Enqueues one work-item a run of every row, with these arguments. Work-items outside the grid must
+  /// return.
+  template <typename... Arguments>
+  cl::Event over_grid(const Arguments&... arguments) {
+    set_arguments(0, arguments...);
+    return enqueue_over_grid();
+  }
+
+  /// Enqueues `count` work-items (rounded up: those past the count must return), with these arguments.
+  /// Enqueues nothing for a count of 0.
+  template <typename... Arguments>
+  cl::Event over_items(std::size_t count, const Arguments&... arguments) {
+    set_arguments(0, arguments...);
+    return enqueue_over_items(count);
+  }
+
+ private:
+  void set_arguments(cl_uint) {}
+  template <typename First, typename... Rest>
+  void set_arguments(cl_uint index, const First& first, const Rest&... rest) {
+    check(kernel_.setArg(index, first), "setting argument " + std::to_string(index) + " of " + name_);
+    set_arguments(index + 1, rest...);
+  }
+  cl::Event enqueue_over_grid();
+  cl::Event enqueue_over_items(std::size_t count);
+  cl::Event enqueue(const cl::NDRange& global, const cl::NDRange& local);
+
+  Device device_;
+  std::string name_;
+  Grid grid_;
+  int run_width_;  // pixels that one work-item computes
+  cl::Kernel kernel_;
+};
+
+}  // namespace vorocl

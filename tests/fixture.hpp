@@ -1,0 +1,37 @@
+// What every test file shares: the Boost.Test set-up and the device that the tests run on.
+#pragma once
+
+#include <boost/test/unit_test.hpp>
+#include <string>
+
+#include "vorocl/vorocl.hpp"
+
+namespace vorocl {
+
+/// The device of all tests of a program: VOROCL_DEVICE, else the library's choice. One, so that kernels are
+/// built once.
+inline const Device& test_device() {
+  static const Device device = Device::select();
+  return device;
+}
+
+/// Checks that an Error is thrown whose text holds all of these parts.
+template <typename Function>
+void check_error(Function function, std::initializer_list<std::string> parts) {
+  try {
+    function();
+    BOOST_ERROR("no Error was thrown");
+  } catch (const Error& error) {
+    for (const std::string& part : parts) {
+      BOOST_TEST(std::string(error.what()).find(part) != std::string::npos,
+                 "\"" << error.what() << "\" does not say \"" << part << "\"");
+    }
+  }
+}
+
+inline const char* name_of(Metric metric) { return metric == Metric::euclidean ? "euclidean" : "manhattan"; }
+inline const char* name_of(Neighbourhood n) { return n == Neighbourhood::moore ? "moore" : "von Neumann"; }
+
+constexpr Metric both_metrics[] = {Metric::euclidean, Metric::manhattan};
+
+}  // namespace vorocl

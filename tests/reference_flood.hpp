@@ -1,0 +1,56 @@
+// Flooding as the paper words it, pixel by pixel on the host: what the device's waves must equal, label for
+// label.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "brute_force.hpp"
+#include "vorocl/plan.hpp"
+
+namespace vorocl {
+
+/// Whether seed a is to be preferred to seed b at a pixel (any seed is preferred to no_label).
+inline bool preferred(std::uint32_t a, std::uint32_t b, const Pixel& at, const std::vector<Pixel>& seeds,
+                      Metric metric) {
+  if (a == no_label || b == no_label) return a != no_label;
+  const std::int64_t da = distance(at, seeds[a], metric), db = distance(at, seeds[b], metric);
+  if (da != db) return da < db;
+  if (seeds[a] < seeds[b] || seeds[b] < seeds[a]) return seeds[a] < seeds[b];
+  return a < b;
+}
+
+/// Stamps the seeds on the labels, then runs the plan's waves.
+inline std::vector<std::uint32_t> reference_flood(const Grid& grid, const std::vector<Pixel>& seeds,
+                                                  const Plan& plan, Metric metric,
+                                                  std::vector<std::uint32_t> labels = {}) {
+  const int width = grid.width(), height = grid.height();
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  };
+  labels.resize(grid.pixels(), no_label);
+  for (std::uint32_t id = 0; id < seeds.size(); ++id) {
+    std::uint32_t& label = labels[at(seeds[id].x, seeds[id].y)];
+    if (preferred(id, label, seeds[id], seeds, metric)) label = id;
+  }
+  for (const Wave& wave : plan) {
+    const std::vector<std::uint32_t> before = labels;
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        std::uint32_t& label = labels[at(x, y)];
+        for (int dy = -1; dy <= 1; ++dy) {
+          for (int dx = -1; dx <= 1; ++dx) {
+            if (wave.neighbourhood == Neighbourhood::von_neumann && dx != 0 && dy != 0) continue;
+            const int from_x = x + dx * wave.step, from_y = y + dy * wave.step;
+            if (from_x < 0 || from_x >= width || from_y < 0 || from_y >= height) continue;
+            const std::uint32_t candidate = before[at(from_x, from_y)];
+            if (preferred(candidate, label, {x, y}, seeds, metric)) label = candidate;
+          }
+        }
+      }
+    }
+  }
+  return labels;
+}
+
+}  // namespace vorocl

@@ -1,0 +1,112 @@
+// Devices: selection, adoption, tuning, and programs from several threads.
+#define BOOST_TEST_MODULE device
+#include <cstdlib>
+#include <thread>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+#include "program.hpp"
+
+using namespace vorocl;
+
+BOOST_AUTO_TEST_CASE(selection_follows_the_request) {
+  const std::vector<DeviceDescription> devices = Device::list();
+  BOOST_REQUIRE(!devices.empty());
+  int selected = 0;
+  for (const DeviceDescription& device : devices) {
+    selected += device.selected ? 1 : 0;
+    BOOST_TEST(device.selected == !device.reason.empty());
+    if (!device.why_not.empty()) continue;
+    const std::string indices =
+        std::to_string(device.platform_index) + ":" + std::to_string(device.device_index);
+    BOOST_TEST(Device::select(indices).name() == device.name);
+    BOOST_TEST(Device::select(indices).platform_name() == device.platform);
+  }
+  BOOST_TEST(selected == 1);
+  check_error([] { Device::select("no such device"); }, {"no such device", devices.front().name, "0:0"});
+}
+
+BOOST_AUTO_TEST_CASE(the_environment_is_asked_before_the_librarys_own_order) {
+  const char* const before = std::getenv("VOROCL_DEVICE");
+  const std::string kept = before == nullptr ? "" : before;
+  setenv("VOROCL_DEVICE", "something else", 1);
+  check_error([] { Device::select(); }, {"something else"});
+  const DeviceDescription first = Device::list("0:0").front();
+  BOOST_TEST(Device::select("0:0").name() == first.name);  // and a request before the environment
+  if (before == nullptr) {
+    unsetenv("VOROCL_DEVICE");
+  } else {
+    setenv("VOROCL_DEVICE", kept.c_str(), 1);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_callers_context_and_queue_are_adopted) {
+  const cl::Device cl_device = test_device().cl_device();
+  const cl::Context context(cl_device);
+  const cl::CommandQueue queue(context, cl_device);  // no profiling
+  const Device device(context, queue);
+  BOOST_TEST(device.queue()() == queue());
+  const Grid grid(20, 10);
+  Diagram diagram(device, grid);
+  const Report report = jump_flooding(Seeds(device, grid, {{3, 4}}), diagram);
+  BOOST_TEST(diagram.read() == std::vector<std::uint32_t>(200, 0));
+  BOOST_TEST(report.milliseconds() == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_adopted_is_refused) {
+  const cl::Device cl_device = test_device().cl_device();
+  const cl::Context context(cl_device), other(cl_device);
+  check_error([&] { Device(cl::Context(), cl::CommandQueue(context, cl_device)); }, {"null"});
+  check_error([&] { Device(context, cl::CommandQueue()); }, {"null"});
+  check_error([&] { Device(other, cl::CommandQueue(context, cl_device)); }, {"another context"});
+  const cl::CommandQueue out_of_order(context, cl_device, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE);
+  check_error([&] { Device(context, out_of_order); }, {"out of order"});
+}
+
+BOOST_AUTO_TEST_CASE(unfit_tunings_are_refused) {
+  check_error([] { test_device().with_tuning({3, 8, 8}); }, {"vector width of 3"});
+  check_error([] { test_device().with_tuning({32, 8, 8}); }, {"vector width of 32"});
+  check_error([] { test_device().with_tuning({1, 0, 8}); }, {"0 x 8"});
+  check_error([] { test_device().with_tuning({1, 1 << 20, 8}); }, {"1048576 x 8"});
+}
+
+BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {
+  const Seeds seeds(test_device(), Grid(10, 20), {{1, 1}});
+  Diagram other_grid(test_device(), Grid(20, 10));
+  check_error([&] { jump_flooding(seeds, other_grid); }, {"10 x 20", "20 x 10"});
+  Diagram other_device(Device::select(), Grid(10, 20));
+  check_error([&] { jump_flooding(seeds, other_device); }, {"different devices"});
+}
+
+BOOST_AUTO_TEST_CASE(a_diagram_larger_than_the_device_is_refused) {
+  const std::size_t largest = test_device().cl_device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
+  const Grid grid(32768, 32768);
+  if (grid.pixels() * 4 <= largest) return;  // nothing is too large for this device
+  check_error([&] { Diagram(test_device(), grid); },
+              {"too little device memory", "4096.0 MiB", "MiB in one buffer"});
+}
+
+BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
+  // A vector width that does not exist makes the kernel's types unknown.
+  check_error([] { program_for(test_device(), "jump_flooding.cl", "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16"); },
+              {"jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
+}
+
+BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
+  const Grid grid(130, 70);
+  const auto pixels = random_pixels(grid, 40, 5);
+  const auto truth = brute_force(grid, pixels, Metric::manhattan);
+  const Device shared = Device::select();  // nothing built yet
+  std::vector<std::vector<std::uint32_t>> labels(8);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    threads.emplace_back([&, i] {
+      const Device device = i % 2 == 0 ? shared : Device::select();
+      Diagram diagram(device, grid);
+      standard_flooding(Seeds(device, grid, centres(pixels)), diagram, {Metric::manhattan});
+      labels[i] = diagram.read();
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& image : labels) BOOST_TEST((image == truth));
+}

@@ -1,0 +1,138 @@
+// Seeds: snapping, the caller's buffer, masks, and random numbers against the published known answers.
+#define BOOST_TEST_MODULE seeds
+#include <array>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const double not_a_number = std::numeric_limits<double>::quiet_NaN();
+const double infinity = std::numeric_limits<double>::infinity();
+
+cl::Buffer buffer_of(const std::vector<cl_float2>& values) {
+  return cl::Buffer(test_device().queue(), values.begin(), values.end(), true);
+}
+
+/// Philox-4x32-10 as published (Salmon et al. 2011), in 64-bit products: another form than the kernel's.
+std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t p0 = std::uint64_t{0xd2511f53} * c[0], p1 = std::uint64_t{0xcd9e8d57} * c[2];
+    c = {static_cast<std::uint32_t>(p1 >> 32) ^ c[1] ^ k[0], static_cast<std::uint32_t>(p1),
+         static_cast<std::uint32_t>(p0 >> 32) ^ c[3] ^ k[1], static_cast<std::uint32_t>(p0)};
+    k = {k[0] + 0x9e3779b9u, k[1] + 0xbb67ae85u};
+  }
+  return c;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(points_are_snapped_to_the_pixel_that_contains_them) {
+  const Seeds seeds(test_device(), Grid(10, 8), {{0, 0}, {9.999, 7.999}, {3.0, 2.999}, {0.5, 5}});
+  const std::vector<Point> centres = seeds.read();
+  const std::vector<Point> expected = {{0.5, 0.5}, {9.5, 7.5}, {3.5, 2.5}, {0.5, 5.5}};
+  BOOST_REQUIRE(centres.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    BOOST_TEST(centres[i].x == expected[i].x);
+    BOOST_TEST(centres[i].y == expected[i].y);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_points_are_named) {
+  const Grid grid(10, 8);
+  const auto seeds_with = [&](Point bad) { Seeds(test_device(), grid, {{1, 1}, {2, 2}, bad, bad}); };
+  check_error([&] { seeds_with({not_a_number, 1}); }, {"point 2", "nan", "not finite"});
+  check_error([&] { seeds_with({1, infinity}); }, {"point 2", "inf", "not finite"});
+  check_error([&] { seeds_with({10, 1}); }, {"point 2", "10.0", "outside the grid", "[0, 10)"});
+  check_error([&] { seeds_with({1, -0.001}); }, {"point 2", "-0.001", "outside the grid"});
+}
+
+BOOST_AUTO_TEST_CASE(points_in_the_callers_buffer) {
+  const Grid grid(300, 200);
+  std::vector<cl_float2> values;
+  for (const Pixel& pixel : random_pixels(grid, 1000, 3)) {
+    values.push_back({{static_cast<float>(pixel.x) + 0.75f, static_cast<float>(pixel.y) + 0.25f}});
+  }
+  const Seeds seeds(test_device(), grid, buffer_of(values), values.size());
+  const std::vector<Point> read = seeds.read();
+  BOOST_REQUIRE(read.size() == values.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    BOOST_TEST(read[i].x == std::floor(values[i].s[0]) + 0.5);
+    BOOST_TEST(read[i].y == std::floor(values[i].s[1]) + 0.5);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_wait) {
+  const Grid grid(30, 20);
+  std::vector<cl_float2> values(100, {{5, 5}});
+  values[70] = {{-1, 0}};
+  values[41] = {{3, static_cast<float>(not_a_number)}};
+  const Seeds seeds(test_device(), grid, buffer_of(values), values.size());
+  Diagram diagram(test_device(), grid);
+  jump_flooding(seeds, diagram);
+  check_error([&] { diagram.read(); }, {"point 41", "nan"});
+  check_error([&] { seeds.read(); }, {"point 41", "nan"});
+}
+
+BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
+  const Grid grid(30, 20);
+  check_error([&] { Seeds(test_device(), grid, cl::Buffer(), 1); }, {"null"});
+  const cl::Buffer small = buffer_of(std::vector<cl_float2>(9));
+  check_error([&] { Seeds(test_device(), grid, small, 10); }, {"72 bytes", "10 points need 80"});
+  const Device other = Device::select();
+  check_error([&] { Seeds(other, grid, small, 9); }, {"another OpenCL context"});
+}
+
+BOOST_AUTO_TEST_CASE(a_mask_gives_ids_in_row_major_order) {
+  const Grid grid(4, 3);
+  const Seeds seeds = Seeds::from_mask(test_device(), grid, {0, 1, 0, 0, 9, 0, 0, 255, 0, 0, 1, 0});
+  const std::vector<Point> read = seeds.read();
+  const std::vector<Point> expected = {{1.5, 0.5}, {0.5, 1.5}, {3.5, 1.5}, {2.5, 2.5}};
+  BOOST_REQUIRE(read.size() == expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    BOOST_TEST(read[i].x == expected[i].x);
+    BOOST_TEST(read[i].y == expected[i].y);
+  }
+  check_error([&] { Seeds::from_mask(test_device(), grid, {1, 0}); }, {"2 pixels", "12"});
+}
+
+BOOST_AUTO_TEST_CASE(philox_has_its_published_answers) {
+  // From the known-answer vectors of Random123, the authors' reference library.
+  const auto expect = [](std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key,
+                         std::array<std::uint32_t, 4> answer) { BOOST_TEST(philox(counter, key) == answer); };
+  expect({0, 0, 0, 0}, {0, 0}, {0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
+  expect({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff},
+         {0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
+  expect({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0},
+         {0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
+}
+
+BOOST_AUTO_TEST_CASE(random_seeds_are_philox_numbers) {
+  const Grid grid(1000, 37);
+  const std::uint64_t rng_seed = 0x123456789abcdef0;
+  const std::vector<Point> read = Seeds::random(test_device(), grid, 5000, rng_seed).read();
+  for (std::uint32_t id = 0; id < read.size(); ++id) {
+    const auto bits = philox({id, 0, 0, 0}, {0x9abcdef0, 0x12345678});
+    BOOST_REQUIRE(read[id].x == static_cast<double>((bits[0] * std::uint64_t{1000}) >> 32) + 0.5);
+    BOOST_REQUIRE(read[id].y == static_cast<double>((bits[1] * std::uint64_t{37}) >> 32) + 0.5);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(random_seeds_are_uniform) {
+  // Chi-squared over 8 x 8 blocks: 63 degrees of freedom, and 103.4 is passed by one run in a thousand.
+  const Grid grid(512, 512);
+  const std::size_t count = 64000;
+  std::array<double, 64> blocks{};
+  for (const Point& point : Seeds::random(test_device(), grid, count, 7).read()) {
+    blocks[static_cast<std::size_t>(point.y / 64) * 8 + static_cast<std::size_t>(point.x / 64)] += 1;
+  }
+  double chi_squared = 0;
+  for (const double block : blocks) chi_squared += (block - 1000) * (block - 1000) / 1000;
+  BOOST_TEST(chi_squared < 103.4);
+  BOOST_TEST(chi_squared > 30.0);  // and not suspiciously even either
+}
