@@ -27,20 +27,12 @@ kernel void wave(global const uint* restrict in, global uint* restrict out, int 
   store_labels(nearest_label(in, x, y, width, height, step), out, x, y, width);
 }
 
-// The last wave writes ids, which it looks up in an image that holds each seed's id at its pixel. The pixels of a run
-// mostly have one seed where cells are wide: then one look-up serves all.
+// The last wave writes ids, which it looks up in the ids at the seeds' pixels (see seeds.cl).
 kernel void last_wave(global const uint* restrict in, global const uint* restrict ids, global uint* restrict labels,
                       int width, int height, int step) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   const uint_run best = nearest_label(in, x, y, width, height, step);
-  const uint first = FIRST_LANE(best);
-  uint_run found;
-  if (ANY(best != first)) {
-    const uint_run at = select(pixel_index(best, width), (uint_run)0, (best & EMPTY_BIT) != 0);
-    found = select(gather(ids, at), (uint_run)NO_LABEL, (best & EMPTY_BIT) != 0);
-  } else {
-    found = first & EMPTY_BIT ? NO_LABEL : ids[packed_y(first) * width + packed_x(first)];
-  }
-  STORE_RUN(found, labels + y * width + x);
+  const uint_run at = select(FIRST_ID + pixel_index(best, width), (uint_run)0, (best & EMPTY_BIT) != 0);
+  store_looked_up(ids, at, labels, y * width + x);
 }

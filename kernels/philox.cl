@@ -1,6 +1,10 @@
 // Philox-4x32-10, a counter-based random number generator (Salmon et al. 2011, "Parallel random numbers: as easy as
 // 1, 2, 3"): the numbers depend on counter and key alone, so they are the same on every device.
 
+// What a counter is used for: its last word, so that no two uses share numbers.
+#define PHILOX_POSITIONS 0u
+#define PHILOX_MOTION 1u
+
 inline uint4 philox(uint4 counter, uint2 key) {
   for (int round = 0; round < 10; ++round) {
     const uint high_0 = mul_hi(counter.s0, 0xd2511f53u), low_0 = counter.s0 * 0xd2511f53u;

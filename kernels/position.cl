@@ -20,6 +20,12 @@ inline uint_run pixel_index(uint_run position, int width) {
   return (position >> 16) * (uint)width + (position & 0xffffu);
 }
 
+// The list of seed positions has one value more than there are seeds: EMPTY, which every label that names no seed is
+// clamped to when its position is looked up.
+
+// An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
+#define FIRST_ID 1
+
 // Packed positions of the run's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
 inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
 

@@ -1,15 +1,13 @@
 // Seeds: making their packed positions, and stamping them where a wave starts from.
 
-#include "position.cl"
 #include "philox.cl"
-
-// What a counter of the random generator is used for: its last word, so that no two uses share numbers.
-#define PHILOX_POSITIONS 0u
+#include "position.cl"
 
 // Points in pixel units to packed positions. A bad point leaves its index, if it is the first one, and no seed.
 kernel void snap_points(global const float2* restrict points, global uint* restrict positions, uint count,
                         int width, int height, global uint* restrict first_bad) {
   const uint id = (uint)get_global_id(0);
+  if (id == count) positions[id] = EMPTY;
   if (id >= count) return;
   const float2 point = points[id];
   // Written so that a NaN fails.
@@ -23,6 +21,7 @@ kernel void snap_points(global const float2* restrict points, global uint* restr
 
 kernel void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {
   const uint id = (uint)get_global_id(0);
+  if (id == count) positions[id] = EMPTY;
   if (id >= count) return;
   const uint4 bits = philox((uint4)(id, 0, 0, PHILOX_POSITIONS), key);
   positions[id] = pack((int)uniform_below(bits.s0, (uint)width), (int)uniform_below(bits.s1, (uint)height));
@@ -35,16 +34,16 @@ kernel void mark_seeds(global const uint* restrict positions, uint count, global
   seeded[VOROCL_GUARD + packed_y(positions[id]) * width + packed_x(positions[id])] = 1;
 }
 
-// An image of ids at the seeds' pixels, in two steps: of the seeds on one pixel the lowest id stays. The other pixels
-// are never looked up, so they keep what they held.
+// An image of ids at the seeds' pixels (FIRST_ID + the pixel's index), in two steps: of the seeds on one pixel the lowest
+// id stays. The other pixels are never looked up, so they keep what they held.
 kernel void clear_ids(global const uint* restrict positions, uint count, global uint* restrict ids, int width) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || positions[id] & EMPTY_BIT) return;
-  ids[packed_y(positions[id]) * width + packed_x(positions[id])] = NO_LABEL;
+  ids[FIRST_ID + packed_y(positions[id]) * width + packed_x(positions[id])] = NO_LABEL;
 }
 
 kernel void stamp_ids(global const uint* restrict positions, uint count, global uint* restrict ids, int width) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || positions[id] & EMPTY_BIT) return;
-  atomic_min(ids + packed_y(positions[id]) * width + packed_x(positions[id]), id);
+  atomic_min(ids + FIRST_ID + packed_y(positions[id]) * width + packed_x(positions[id]), id);
 }

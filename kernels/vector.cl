@@ -17,7 +17,6 @@ typedef int int_run;
 #define LOAD_RUN(pointer) (*(pointer))
 #define STORE_RUN(values, pointer) (*(pointer) = (values))
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
-#define FIRST_LANE(values) (values)
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
 #else
@@ -26,7 +25,6 @@ typedef JOIN(int, VOROCL_WIDTH) int_run;
 #define LOAD_RUN(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
 #define STORE_RUN(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
-#define FIRST_LANE(values) ((values).s0)
 #define ANY(condition) any(condition)
 #endif
 
@@ -40,21 +38,23 @@ typedef JOIN(int, VOROCL_WIDTH) int_run;
 #define LANES ((uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #endif
 
-// The table's values at the run's indices.
-inline uint gather_1(global const uint* table, uint at) { return table[at]; }
-inline uint2 gather_2(global const uint* table, uint2 at) {
-  return (uint2)(gather_1(table, at.lo), gather_1(table, at.hi));
+// Stores the table's values at the run's indices, lane by lane: a CPU has them in scalar registers anyway. (Given a
+// pointer instead of an index, PoCL's compiler builds a vector of them first, which costs a quarter of a wave.)
+inline void store_looked_up_1(global const uint* table, uint at, global uint* out, int first) { out[first] = table[at]; }
+#define LANE(i) out[first + 0x##i] = table[at.s##i]
+inline void store_looked_up_2(global const uint* table, uint2 at, global uint* out, int first) { LANE(0), LANE(1); }
+inline void store_looked_up_4(global const uint* table, uint4 at, global uint* out, int first) {
+  LANE(0), LANE(1), LANE(2), LANE(3);
 }
-inline uint4 gather_4(global const uint* table, uint4 at) {
-  return (uint4)(gather_2(table, at.lo), gather_2(table, at.hi));
+inline void store_looked_up_8(global const uint* table, uint8 at, global uint* out, int first) {
+  LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7);
 }
-inline uint8 gather_8(global const uint* table, uint8 at) {
-  return (uint8)(gather_4(table, at.lo), gather_4(table, at.hi));
+inline void store_looked_up_16(global const uint* table, uint16 at, global uint* out, int first) {
+  LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7);
+  LANE(8), LANE(9), LANE(a), LANE(b), LANE(c), LANE(d), LANE(e), LANE(f);
 }
-inline uint16 gather_16(global const uint* table, uint16 at) {
-  return (uint16)(gather_8(table, at.lo), gather_8(table, at.hi));
-}
-#define gather JOIN(gather_, VOROCL_WIDTH)
+#undef LANE
+#define store_looked_up JOIN(store_looked_up_, VOROCL_WIDTH)
 
 // The sum of a run's lanes.
 inline uint lane_sum_1(uint values) { return values; }

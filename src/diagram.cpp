@@ -39,6 +39,11 @@ void Diagram::begin(const Seeds& seeds) {
                 " x " + std::to_string(grid_.height()));
   }
   seeds_ = seeds;
+  age_ = 0;
+}
+
+bool Diagram::holds_labels_of(const Seeds& seeds) const {
+  return seeds_ && seeds_->positions()() == seeds.positions()() && seeds_->vanishings() == seeds.vanishings();
 }
 
 }  // namespace vorocl

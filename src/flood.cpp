@@ -28,6 +28,17 @@ void Flood::first_wave(const Wave& wave) {
                     .over_grid(seeded_, front_, grid.width(), grid.height(), wave.step);
 }
 
+void Flood::advance_labels() {
+  const Device& device = diagram_.device();
+  const Grid& grid = diagram_.grid();
+  const auto count = static_cast<cl_uint>(seeds_.size());
+  first_event_ =
+      Kernel(device, "dynamic_jump_flooding.cl", "advance_labels", grid)
+          .over_grid(diagram_.labels(), seeds_.positions(), count, front_, grid.width(), grid.height());
+  Kernel(device, "dynamic_jump_flooding.cl", "stamp_positions", grid)
+      .over_items(count, seeds_.positions(), count, front_, grid.width());
+}
+
 void Flood::wave(const Wave& wave) {
   const Grid& grid = diagram_.grid();
   last_event_ = Kernel(diagram_.device(), "jump_flooding.cl", "wave", grid, {metric_, wave.neighbourhood})
@@ -46,7 +57,8 @@ void Flood::reporting_wave(Neighbourhood neighbourhood, int number, const cl::Bu
 void Flood::last_wave(const Wave& wave) {
   const Device& device = diagram_.device();
   const Grid& grid = diagram_.grid();
-  // The back image is free now: it takes the ids that the wave looks up.
+  // The back image is free now: it takes the ids that the wave looks up, behind the label of an empty pixel.
+  fill(device, back_, no_label, 1);
   const auto count = static_cast<cl_uint>(seeds_.size());
   for (const char* const name : {"clear_ids", "stamp_ids"}) {
     Kernel(device, "seeds.cl", name, grid).over_items(count, seeds_.positions(), count, back_, grid.width());

@@ -25,6 +25,9 @@ class Flood {
   /// Stamps the seeds on an empty image, and runs a first wave over it.
   void first_wave(const Wave& wave);
 
+  /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
+  void advance_labels();
+
   void wave(const Wave& wave);
 
   /// A wave of step 1 that stores `number` in `last_change` if it changes a label.

@@ -1,6 +1,48 @@
 #include "vorocl/plan.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "vorocl/error.hpp"
+
 namespace vorocl {
+
+namespace {
+
+void check_options(const DynamicPlanOptions& options) {
+  if (!std::isfinite(options.max_step) || options.max_step < 0) {
+    throw Error("the longest motion of a seed is " + std::to_string(options.max_step) +
+                "; it must be 0 pixels or more");
+  }
+  if (options.von_neumann_waves < 0 || options.von_neumann_waves > 2) {
+    throw Error(std::to_string(options.von_neumann_waves) +
+                " von Neumann waves are not possible; 0, 1 or 2 are");
+  }
+  if (options.extra_waves < 0 || options.extra_waves > 2) {
+    throw Error(std::to_string(options.extra_waves) + " extra waves are not possible; 0, 1 or 2 are");
+  }
+}
+
+/// The least power of two that is at least 2 L and d_max, or the grid's first step if that is less. 2 L is
+/// compared in integers: step >= 2 sqrt(pixels / seeds), squared.
+int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_step) {
+  const int most = std::max(first_step(grid), 1);
+  const auto covers = [&](int step) {
+    const auto square = static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(step);
+    return square * seeds >= 4 * static_cast<std::uint64_t>(grid.pixels()) && step >= max_step;
+  };
+  int step = 1;
+  while (step < most && !covers(step)) step *= 2;
+  return step;
+}
+
+void append_extra_waves(Plan& plan, int waves, Neighbourhood neighbourhood) {
+  if (waves == 2) plan.push_back({2, neighbourhood});
+  if (waves >= 1) plan.push_back({1, neighbourhood});
+}
+
+}  // namespace
 
 int first_step(const Grid& grid) {
   int step = 1;
@@ -13,9 +55,24 @@ Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant, Neighbour
   if (first_step(grid) == 0) return plan;
   if (variant == JumpFloodingVariant::one_plus_jfa) plan.push_back({1, neighbourhood});
   for (int step = first_step(grid); step >= 1; step /= 2) plan.push_back({step, neighbourhood});
-  if (variant == JumpFloodingVariant::jfa_plus_2) plan.push_back({2, neighbourhood});
-  if (variant == JumpFloodingVariant::jfa_plus_1 || variant == JumpFloodingVariant::jfa_plus_2) {
-    plan.push_back({1, neighbourhood});
+  if (variant == JumpFloodingVariant::jfa_plus_1) append_extra_waves(plan, 1, neighbourhood);
+  if (variant == JumpFloodingVariant::jfa_plus_2) append_extra_waves(plan, 2, neighbourhood);
+  return plan;
+}
+
+Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, const DynamicPlanOptions& options) {
+  check_options(options);
+  const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
+  const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
+  Plan plan;
+  if (first_step(grid) == 0) return plan;
+  for (int step = dynamic_first_step(grid, seeds, options.max_step); step >= 1; step /= 2)
+    plan.push_back({step, rest});
+  append_extra_waves(plan, options.extra_waves, rest);
+  if (options.neighbourhood == NeighbourhoodMix::mixed) {
+    const std::size_t first_waves =
+        std::min(plan.size() - 1, static_cast<std::size_t>(options.von_neumann_waves));
+    for (std::size_t i = 0; i < first_waves; ++i) plan[i].neighbourhood = Neighbourhood::von_neumann;
   }
   return plan;
 }

@@ -1,8 +1,10 @@
 #include "vorocl/seeds.hpp"
 
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "buffer.hpp"
 #include "kernel.hpp"
@@ -23,17 +25,14 @@ std::uint32_t pack(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
 }
 
-std::vector<std::uint32_t> snap(const Grid& grid, const std::vector<Point>& points) {
-  std::vector<std::uint32_t> positions;
-  positions.reserve(points.size());
-  for (const Point& point : points) {
-    // Written so that a NaN fails.
-    if (!(point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height())) {
-      throw Error(describe_bad_point(positions.size(), point.x, point.y, grid));
-    }
-    positions.push_back(pack(static_cast<int>(point.x), static_cast<int>(point.y)));
+constexpr std::uint32_t absent = 0x80008000u;  // EMPTY of position.cl
+
+std::uint32_t snap(const Grid& grid, std::size_t index, const Point& point) {
+  // Written so that a NaN fails.
+  if (!(point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height())) {
+    throw Error(describe_bad_point(index, point.x, point.y, grid));
   }
-  return positions;
+  return pack(static_cast<int>(point.x), static_cast<int>(point.y));
 }
 
 std::size_t checked_count(std::size_t count) {
@@ -57,38 +56,32 @@ void check_points_buffer(const Device& device, const cl::Buffer& points, std::si
 
 }  // namespace
 
-/// The verdict on points that only the device has seen, read at the first wait.
+/// The verdict on points that only the device has seen, read at each wait. It stays: a bad point is never
+/// forgotten.
 struct Seeds::DeferredCheck {
   cl::Buffer points;     // the caller's, to quote the bad point from
   cl::Buffer first_bad;  // one uint32: the least index of a bad point, or no_label
-  std::mutex mutex;
-  bool known = false;
-  std::string error;  // empty if all points are good
+  std::mutex mutex;      // the check may come from any thread
 };
 
-Seeds::Seeds(const Device& device, const Grid& grid, std::size_t size)
-    : device_(device), grid_(grid), size_(checked_count(size)) {
-  positions_ = allocate(device, size * sizeof(std::uint32_t), "the seeds");
+Seeds::Seeds(const Device& device, const Grid& grid, std::size_t size) : device_(device), grid_(grid) {
+  resize(size);
 }
 
 Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points)
-    : device_(device), grid_(grid), size_(checked_count(points.size())) {
-  const std::vector<std::uint32_t> positions = snap(grid, points);
-  positions_ = allocate(device, size_ * sizeof(std::uint32_t), "the seeds");
-  upload(device, positions_, positions);
+    : device_(device), grid_(grid) {
+  std::vector<std::uint32_t> positions;
+  positions.reserve(points.size() + 1);
+  for (const Point& point : points) positions.push_back(snap(grid, positions.size(), point));
+  resize(points.size());
+  upload(std::move(positions));
 }
 
 Seeds::Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count)
-    : device_(device), grid_(grid), size_(checked_count(count)) {
+    : device_(device), grid_(grid) {
   check_points_buffer(device, points, count);
-  positions_ = allocate(device, size_ * sizeof(std::uint32_t), "the seeds");
-  deferred_ = std::make_shared<DeferredCheck>();
-  deferred_->points = points;
-  deferred_->first_bad = allocate(device, sizeof(std::uint32_t), "the seeds");
-  fill(device, deferred_->first_bad, no_label, 1);
-  Kernel(device, "seeds.cl", "snap_points", grid)
-      .over_items(count, points, positions_, static_cast<cl_uint>(count), grid.width(), grid.height(),
-                  deferred_->first_bad);
+  resize(count);
+  snap_on_device(points);
 }
 
 Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector<std::uint8_t>& mask) {
@@ -104,7 +97,7 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
     }
   }
   Seeds seeds(device, grid, positions.size());
-  upload(device, seeds.positions_, positions);
+  seeds.upload(std::move(positions));
   return seeds;
 }
 
@@ -112,16 +105,71 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   Seeds seeds(device, grid, count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
   Kernel(device, "seeds.cl", "random_positions", grid)
-      .over_items(count, seeds.positions_, static_cast<cl_uint>(count), grid.width(), grid.height(), key);
+      .over_items(count + 1, seeds.positions_, static_cast<cl_uint>(count), grid.width(), grid.height(), key);
   return seeds;
+}
+
+void Seeds::move_to(const std::vector<std::optional<Point>>& points) {
+  std::vector<std::uint32_t> positions;
+  positions.reserve(points.size() + 1);
+  for (const std::optional<Point>& point : points) {
+    positions.push_back(point ? snap(grid_, positions.size(), *point) : absent);
+  }
+  const std::vector<bool> before = present_;
+  const std::size_t size_before = size_;
+  resize(points.size());
+  bool vanished = size_ < size_before;
+  for (std::size_t id = 0; id < size_; ++id) {
+    present_[id] = points[id].has_value();
+    vanished = vanished || (!present_[id] && id < size_before && before[id]);
+    alive_ -= present_[id] ? 0 : 1;
+  }
+  vanishings_ += vanished ? 1 : 0;
+  upload(std::move(positions));
+}
+
+void Seeds::move_to(const cl::Buffer& points, std::size_t count) {
+  check_points_buffer(device_, points, count);
+  vanishings_ += count < size_ ? 1 : 0;
+  resize(count);
+  snap_on_device(points);
+}
+
+/// Makes room for the positions; all seeds count as present until some are said to be absent.
+void Seeds::resize(std::size_t size) {
+  const std::size_t bytes = (checked_count(size) + 1) * sizeof(std::uint32_t);
+  if (positions_() == nullptr || positions_.getInfo<CL_MEM_SIZE>() < bytes) {
+    positions_ = allocate(device_, bytes, "the seeds");
+  }
+  size_ = alive_ = size;
+  present_.assign(size, true);
+}
+
+void Seeds::upload(std::vector<std::uint32_t> positions) {
+  positions.push_back(absent);
+  vorocl::upload(device_, positions_, positions);
+}
+
+void Seeds::snap_on_device(const cl::Buffer& points) {
+  if (!deferred_) {
+    deferred_ = std::make_shared<DeferredCheck>();
+    deferred_->first_bad = allocate(device_, sizeof(std::uint32_t), "the seeds");
+    fill(device_, deferred_->first_bad, no_label, 1);
+  }
+  deferred_->points = points;
+  Kernel(device_, "seeds.cl", "snap_points", grid_)
+      .over_items(size_ + 1, points, positions_, static_cast<cl_uint>(size_), grid_.width(), grid_.height(),
+                  deferred_->first_bad);
 }
 
 std::vector<Point> Seeds::read() const {
   check();
   std::vector<Point> points;
   points.reserve(size_);
+  const double none = std::numeric_limits<double>::quiet_NaN();
   for (const std::uint32_t position : download<std::uint32_t>(device_, positions_, size_)) {
-    points.push_back({(position & 0xffff) + 0.5, (position >> 16) + 0.5});
+    points.push_back(position == absent ? Point{none, none}
+                                        : Point{(position & 0xffff) + 0.5, (position >> 16) + 0.5});
   }
   return points;
 }
@@ -129,15 +177,10 @@ std::vector<Point> Seeds::read() const {
 void Seeds::check() const {
   if (!deferred_) return;
   const std::lock_guard<std::mutex> lock(deferred_->mutex);
-  if (!deferred_->known) {
-    const auto first_bad = download<std::uint32_t>(device_, deferred_->first_bad, 1).front();
-    if (first_bad != no_label) {
-      const auto point = download<cl_float2>(device_, deferred_->points, 1, first_bad).front();
-      deferred_->error = describe_bad_point(first_bad, point.s[0], point.s[1], grid_);
-    }
-    deferred_->known = true;
-  }
-  if (!deferred_->error.empty()) throw Error(deferred_->error);
+  const auto first_bad = download<std::uint32_t>(device_, deferred_->first_bad, 1).front();
+  if (first_bad == no_label) return;
+  const auto point = download<cl_float2>(device_, deferred_->points, 1, first_bad).front();
+  throw Error(describe_bad_point(first_bad, point.s[0], point.s[1], grid_));
 }
 
 }  // namespace vorocl

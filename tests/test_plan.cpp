@@ -26,3 +26,39 @@ BOOST_AUTO_TEST_CASE(plans_of_the_variants) {
                                           Neighbourhood::von_neumann)) == "4v 2v 1v");
   BOOST_TEST(jump_flooding_plan(Grid(1, 1), JumpFloodingVariant::jfa_plus_2).empty());
 }
+
+BOOST_AUTO_TEST_CASE(dynamic_plans_follow_the_formula_of_the_paper) {
+  const auto plan = [](const Grid& grid, std::size_t seeds, const DynamicPlanOptions& options = {}) {
+    return to_string(dynamic_jump_flooding_plan(grid, seeds, options));
+  };
+  // delta_1 = 2^ceil(log2(max(2 L, d_max))): 100 pixels a seed give 2 L = 20, and so 32.
+  BOOST_TEST(plan(Grid(1000, 1000), 10000) == "32v 16v 8 4 2 1");
+  // L = 10 at 10,000 seeds; 2 L = 16 exactly at 15,625 seeds; one seed less makes the next power of two.
+  BOOST_TEST(plan(Grid(1000, 1000), 15625) == "16v 8v 4 2 1");
+  BOOST_TEST(plan(Grid(1000, 1000), 15624) == "32v 16v 8 4 2 1");
+  // The staircase: a factor of four in density is one wave less.
+  BOOST_TEST(plan(Grid(1024, 1024), 1024) == "64v 32v 16 8 4 2 1");
+  BOOST_TEST(plan(Grid(1024, 1024), 4096) == "32v 16v 8 4 2 1");
+  BOOST_TEST(plan(Grid(1024, 1024), 16384) == "16v 8v 4 2 1");
+  // At most the first step of JFA, and at least 1.
+  BOOST_TEST(plan(Grid(8, 8), 1) == "4v 2v 1");
+  BOOST_TEST(plan(Grid(64, 64), 4 * 64 * 64) == "1");
+  // d_max takes over where it is longer than 2 L.
+  BOOST_TEST(plan(Grid(1000, 1000), 10000, {33}) == "64v 32v 16 8 4 2 1");
+  BOOST_TEST(plan(Grid(1000, 1000), 10000, {32}) == "32v 16v 8 4 2 1");
+  BOOST_TEST(plan(Grid(1, 1), 1).empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_neighbourhoods_of_dynamic_plans) {
+  const auto plan = [](std::size_t seeds, NeighbourhoodMix mix, int von_neumann_waves, int extra_waves) {
+    return to_string(
+        dynamic_jump_flooding_plan(Grid(256, 256), seeds, {0, mix, von_neumann_waves, extra_waves}));
+  };
+  BOOST_TEST(plan(4096, NeighbourhoodMix::mixed, 0, 0) == "8 4 2 1");
+  BOOST_TEST(plan(4096, NeighbourhoodMix::mixed, 1, 1) == "8v 4 2 1 1");
+  BOOST_TEST(plan(4096, NeighbourhoodMix::moore, 2, 2) == "8 4 2 1 2 1");
+  BOOST_TEST(plan(4096, NeighbourhoodMix::von_neumann, 0, 1) == "8v 4v 2v 1v 1v");
+  // The last wave is Moore, however short the plan is.
+  BOOST_TEST(plan(65536, NeighbourhoodMix::mixed, 2, 0) == "2v 1");
+  BOOST_TEST(plan(262144, NeighbourhoodMix::mixed, 2, 0) == "1");
+}

@@ -49,12 +49,22 @@ class VOROCL_API Diagram {
   /// remembers the seeds, so that a bad point among them is reported at the next wait.
   void begin(const Seeds& seeds);
 
+  /// For engines that go on from the labels of the last frame: whether there was one, and whether all of its
+  /// seeds are still there, so that every label names one. Asked before begin().
+  bool filled() const { return seeds_.has_value(); }
+  bool holds_labels_of(const Seeds& seeds) const;
+
+  /// For engines: the frames since the labels were last made from nothing.
+  int age() const { return age_; }
+  void set_age(int age) { age_ = age; }
+
  private:
   Device device_;
   Grid grid_;
   cl::Buffer labels_;
   std::vector<cl::Buffer> scratch_;
-  std::optional<Seeds> seeds_;  // of the last engine that ran
+  std::optional<Seeds> seeds_;  // of the last engine that ran, as they were then
+  int age_ = 0;
 };
 
 }  // namespace vorocl

@@ -20,8 +20,9 @@ enum class Palette { viridis, turbo };
 VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid);
 
 /// Colours each pixel by the distance to its label's seed, from 0 to the largest one in the picture: CV_8UC3
-/// (BGR). `seeds` holds the points by id; distances are between pixel centres. no_label is black. Throws
-/// Error unless there is one label a pixel and a seed for every label.
+/// (BGR). `seeds` holds the points by id, NaN for an absent one, as Seeds::read() gives them; distances are
+/// between pixel centres. no_label is black. Throws Error unless there is one label a pixel and a seed for
+/// every label.
 VOROCL_API cv::Mat color_by_distance(const std::vector<std::uint32_t>& labels, const Grid& grid,
                                      const std::vector<Point>& seeds, Metric metric, Palette palette);
 
@@ -29,8 +30,9 @@ VOROCL_API cv::Mat color_by_distance(const std::vector<std::uint32_t>& labels, c
 /// has another label. Throws Error unless the picture has the labels' size.
 VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels);
 
-/// Draws a dot on each seed into a CV_8UC3 picture: dark with a light rim where there is room for it, down to
-/// one pixel where seeds are dense. Throws Error if a point is outside the picture.
+/// Draws a dot on each seed that is not absent (NaN) into a CV_8UC3 picture: dark with a light rim where
+/// there is room for it, down to one pixel where seeds are dense. Throws Error if a point is outside the
+/// picture.
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<Point>& seeds);
 
 }  // namespace vorocl

@@ -2,6 +2,7 @@
 // device.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,26 @@ VOROCL_API int first_step(const Grid& grid);
 /// waves. A grid of one pixel has an empty plan.
 VOROCL_API Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant = JumpFloodingVariant::jfa,
                                    Neighbourhood neighbourhood = Neighbourhood::moore);
+
+/// Which neighbourhoods the waves of dynamic jump flooding have.
+enum class NeighbourhoodMix {
+  mixed,        ///< von Neumann first, then Moore; the last wave is Moore (the paper's choice)
+  moore,        ///< all Moore
+  von_neumann,  ///< all von Neumann, which goes wrong, as the paper shows
+};
+
+struct DynamicPlanOptions {
+  double max_step = 0;  ///< d_max: the longest motion of a seed along an axis since the last frame, in pixels
+  NeighbourhoodMix neighbourhood = NeighbourhoodMix::mixed;
+  int von_neumann_waves = 2;  ///< 0, 1 or 2: how many waves of a mixed plan are von Neumann
+  int extra_waves = 0;        ///< 0, 1 or 2: one more wave of step 1, or two of steps 2 and 1
+};
+
+/// The waves of dynamic jump flooding for a number of seeds that are alive: steps delta_1, half of it, ..., 1
+/// and the extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width *
+/// height / seeds), from 1 to first_step(grid). Throws Error if an option is out of its range.
+VOROCL_API Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds,
+                                           const DynamicPlanOptions& options = {});
 
 /// The steps, each von Neumann wave marked: "32v 16v 8 4 2 1".
 VOROCL_API std::string to_string(const Plan& plan);

@@ -27,6 +27,11 @@ class VOROCL_API Report {
   /// The host's time to enqueue the diagram.
   double host_milliseconds() const { return host_milliseconds_; }
 
+  /// One report of two engines that ran one after the other for one diagram.
+  friend Report operator+(const Report& a, const Report& b) {
+    return {a.waves_ + b.waves_, a.first_, b.last_, a.host_milliseconds_ + b.host_milliseconds_};
+  }
+
  private:
   int waves_ = 0;
   cl::Event first_;

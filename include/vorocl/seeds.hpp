@@ -4,6 +4,7 @@
 #include <CL/opencl.hpp>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "vorocl/device.hpp"
@@ -32,14 +33,29 @@ class VOROCL_API Seeds {
   /// id): the same on every device. Several seeds may fall on one pixel.
   static Seeds random(const Device& device, const Grid& grid, std::size_t count, std::uint64_t rng_seed);
 
+  /// Moves the seeds to new points, for the diagrams that follow. A seed without a point is absent until it
+  /// gets one again. The number of seeds may change: ids past the end are absent. Checks as the constructor.
+  void move_to(const std::vector<std::optional<Point>>& points);
+
+  /// As above, from `count` pairs of float in the caller's buffer; no seed is absent.
+  void move_to(const cl::Buffer& points, std::size_t count);
+
   const Device& device() const { return device_; }
   const Grid& grid() const { return grid_; }
   std::size_t size() const { return size_; }
 
-  /// One uint32 a seed: y << 16 | x of its pixel (at least one value, also where there are no seeds).
+  /// The seeds that are not absent.
+  std::size_t alive() const { return alive_; }
+
+  /// How often a move_to() has made a seed absent that was there before.
+  std::uint64_t vanishings() const { return vanishings_; }
+
+  /// One uint32 a seed: y << 16 | x of its pixel, or 0x80008000 if it is absent; and one more such value at
+  /// the end.
   const cl::Buffer& positions() const { return positions_; }
 
-  /// The centres of the seeds' pixels. Waits. Throws Error if a point of the caller's buffer was bad.
+  /// The centres of the seeds' pixels, (NaN, NaN) for a seed that is absent. Waits. Throws Error if a point
+  /// of the caller's buffer was bad.
   std::vector<Point> read() const;
 
   /// Throws Error if a point of the caller's buffer was bad. Waits for it, the first time.
@@ -48,11 +64,17 @@ class VOROCL_API Seeds {
  private:
   struct DeferredCheck;
   Seeds(const Device& device, const Grid& grid, std::size_t size);
+  void resize(std::size_t size);
+  void upload(std::vector<std::uint32_t> positions);
+  void snap_on_device(const cl::Buffer& points);
 
   Device device_;
   Grid grid_;
-  std::size_t size_;
+  std::size_t size_ = 0;
+  std::size_t alive_ = 0;
+  std::uint64_t vanishings_ = 0;
   cl::Buffer positions_;
+  std::vector<bool> present_;                // by id; empty while all seeds are
   std::shared_ptr<DeferredCheck> deferred_;  // null unless the points came in the caller's buffer
 };
 

@@ -1,0 +1,30 @@
+// Dynamic jump flooding (dJFA): the diagram of seeds that moved, from the one they had before.
+#pragma once
+
+#include "vorocl/diagram.hpp"
+#include "vorocl/export.hpp"
+#include "vorocl/plan.hpp"
+#include "vorocl/report.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl {
+
+struct DynamicJumpFloodingOptions {
+  Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
+  DynamicPlanOptions plan;   ///< the waves; plan.max_step must cover the seeds' motion since the last frame
+  int refresh_interval = 0;  ///< every how many frames a full JFA runs instead; 0: only for frame 0
+};
+
+/// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
+/// seed is looked up at its new position, the seeds are stamped at their new pixels, and waves from a step
+/// that covers a cell and the motion mend the rest. A diagram that nothing has filled yet gets a JFA.
+///
+/// Approximate; close to JFA where seeds are spread evenly (the paper's assumption), worse where they are
+/// not. Seeds may appear and vanish: a label of a vanished seed counts as none, and if a pixel is left
+/// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
+/// device memory a pixel. Enqueues and returns, except that after a seed has vanished it waits to see whether
+/// pixels are left. Throws as jump_flooding().
+VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
+                                        const DynamicJumpFloodingOptions& options = {});
+
+}  // namespace vorocl

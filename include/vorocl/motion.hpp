@@ -1,0 +1,23 @@
+// Random motion of seeds, the paper's model.
+#pragma once
+
+#include <cstdint>
+
+#include "vorocl/export.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl {
+
+/// What happens to a seed that would leave the grid.
+enum class Border {
+  reflect,   ///< it bounces off the grid's edge
+  periodic,  ///< it comes in on the other side
+};
+
+/// Moves each seed by (dx, dy) pixels, each uniform in [-most, most], on the device. The numbers come from
+/// Philox-4x32-10 keyed by the rng seed, the seed's id and the frame: the same on every device. Enqueues and
+/// returns. Throws Error unless `most` is in [0, Grid::max_side].
+VOROCL_API void random_step(Seeds& seeds, int most, Border border, std::uint64_t rng_seed,
+                            std::uint32_t frame);
+
+}  // namespace vorocl

@@ -1,0 +1,25 @@
+// Dynamic jump flooding: the start from the labels of the last frame.
+
+#include "position.cl"
+
+// Each pixel's label to the position that its seed has now; a seed that is there no more leaves its pixels empty.
+kernel void advance_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                           global uint* restrict out, int width, int height) {
+  if (!has_run(width, height)) return;
+  const int first = run_y() * width + run_x(width);
+  const uint_run at = min(LOAD_RUN(labels + first), (uint_run)count);
+  store_looked_up(positions, at, out, VOROCL_GUARD + first);
+}
+
+// Stamps the seeds at their new pixels. Seeds on one pixel write the same value.
+kernel void stamp_positions(global const uint* restrict positions, uint count, global uint* restrict out, int width) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || positions[id] & EMPTY_BIT) return;
+  out[VOROCL_GUARD + packed_y(positions[id]) * width + packed_x(positions[id])] = positions[id];
+}
+
+// Reports whether a pixel has no label.
+kernel void find_unlabelled(global const uint* restrict labels, int width, int height, global int* restrict found) {
+  if (!has_run(width, height)) return;
+  if (ANY(LOAD_RUN(labels + run_y() * width + run_x(width)) == NO_LABEL)) atomic_or(found, 1);
+}

@@ -1,0 +1,35 @@
+#include "vorocl/simulation.hpp"
+
+#include <utility>
+
+#include "vorocl/error.hpp"
+
+namespace vorocl {
+
+Simulation::Simulation(Seeds seeds, Motion motion) : seeds_(std::move(seeds)), motion_(std::move(motion)) {}
+
+std::size_t Simulation::add_engine(Engine engine) {
+  if (frame_ >= 0) throw Error("an engine must be added before the first frame is made");
+  tracks_.push_back({std::move(engine), Diagram(seeds_.device(), seeds_.grid()), {}, {}, 0, 0});
+  return tracks_.size() - 1;
+}
+
+void Simulation::step() {
+  const double d_max = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
+  ++frame_;
+  for (Track& track : tracks_) {
+    track.report = track.engine(seeds_, track.diagram, d_max);
+    if (frame_ == 0) continue;  // every engine starts from nothing there: the paper does not count it
+    track.untimed.push_back(track.report);
+    track.host_milliseconds += track.report.host_milliseconds();
+  }
+}
+
+double Simulation::milliseconds(std::size_t engine) {
+  Track& track = tracks_.at(engine);
+  for (const Report& report : track.untimed) track.milliseconds += report.milliseconds();
+  track.untimed.clear();
+  return track.milliseconds;
+}
+
+}  // namespace vorocl

@@ -1,0 +1,35 @@
+// Runs every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh). Prints
+// nothing.
+#include "brute_force.hpp"
+#include "vorocl/vorocl.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+void run_all(const Device& device, const Grid& grid, Metric metric) {
+  const Seeds seeds(device, grid, centres(random_pixels(grid, 9, 1)));
+  Diagram diagram(device, grid), other(device, grid);
+  for (const Neighbourhood neighbourhood : {Neighbourhood::moore, Neighbourhood::von_neumann}) {
+    jump_flooding(seeds, diagram, {metric, neighbourhood, JumpFloodingVariant::jfa});
+    standard_flooding(seeds, other, {metric, neighbourhood});
+  }
+  similarity(diagram, other);
+  Seeds::random(device, grid, 5, 1).read();
+  const std::vector<cl_float2> points = {{{1, 2}}, {{2, 4}}};
+  const cl::Buffer buffer(device.queue(), points.begin(), points.end(), true);
+  Seeds(device, grid, buffer, points.size()).check();
+}
+
+}  // namespace
+
+int main() {
+  const Device device = Device::select();
+  for (const int vector_width : {1, 4}) {
+    const Device shaped = device.with_tuning({vector_width, 4, 2});
+    for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
+      run_all(shaped, Grid(13, 9), metric);
+      run_all(shaped, Grid(3, 11), metric);
+    }
+  }
+}

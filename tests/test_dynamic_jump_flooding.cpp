@@ -1,0 +1,263 @@
+// Dynamic jump flooding: against a reference label for label, similarity to JFA, and seeds that come and go.
+#define BOOST_TEST_MODULE dynamic_jump_flooding
+#include <algorithm>
+#include <map>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+#include "reference_flood.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+std::vector<std::optional<Point>> present(const std::vector<Pixel>& pixels) {
+  std::vector<std::optional<Point>> points;
+  for (const Pixel& pixel : pixels) points.push_back(centre(pixel));
+  return points;
+}
+
+std::vector<Pixel> pixels_of(const Seeds& seeds) {
+  std::vector<Pixel> pixels;
+  for (const Point& point : seeds.read())
+    pixels.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
+  return pixels;
+}
+
+/// Labels after motion: of seeds that have come to share a pixel, the lowest id has the cell.
+std::vector<std::uint32_t> owners(std::vector<std::uint32_t> labels, const std::vector<Pixel>& seeds) {
+  std::map<Pixel, std::uint32_t> owner;
+  for (std::uint32_t id = 0; id < seeds.size(); ++id) owner.emplace(seeds[id], id);
+  for (std::uint32_t& label : labels) label = owner.at(seeds[label]);
+  return labels;
+}
+
+Simulation random_walk(const Grid& grid, std::size_t count, int most, Border border = Border::reflect) {
+  return Simulation(Seeds::random(test_device(), grid, count, 11), [=](Seeds& seeds, int frame) {
+    random_step(seeds, most, border, 12, static_cast<std::uint32_t>(frame));
+    return static_cast<double>(most);
+  });
+}
+
+Simulation::Engine djfa(Metric metric, DynamicPlanOptions plan = {}, int refresh_interval = 0) {
+  return [=](const Seeds& seeds, Diagram& diagram, double d_max) {
+    DynamicPlanOptions with_motion = plan;
+    with_motion.max_step = d_max;
+    return dynamic_jump_flooding(seeds, diagram, {metric, with_motion, refresh_interval});
+  };
+}
+
+Simulation::Engine jfa(Metric metric) {
+  return
+      [=](const Seeds& seeds, Diagram& diagram, double) { return jump_flooding(seeds, diagram, {metric}); };
+}
+
+/// Mean similarity of engine 0 to each other one, over frames 1 ... frames.
+std::vector<double> mean_similarity(Simulation& simulation, std::size_t engines, int frames) {
+  std::vector<double> means(engines, 0);
+  simulation.step();
+  for (int frame = 1; frame <= frames; ++frame) {
+    simulation.step();
+    for (std::size_t i = 1; i < engines; ++i) {
+      means[i] += similarity(simulation.diagram(), simulation.diagram(i)) / frames;
+    }
+  }
+  return means;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_frame_equals_a_reference) {
+  const NeighbourhoodMix mixes[] = {NeighbourhoodMix::mixed, NeighbourhoodMix::moore,
+                                    NeighbourhoodMix::von_neumann};
+  for (const Metric metric : both_metrics) {
+    for (const Grid& grid : {Grid(61, 47), Grid(16, 33), Grid(130, 3), Grid(1, 1)}) {
+      for (const NeighbourhoodMix mix : mixes) {
+        for (const int extra_waves : {0, 1, 2}) {
+          const DynamicPlanOptions plan = {0, mix, 2, extra_waves};
+          Simulation simulation = random_walk(grid, 60, 3);
+          simulation.add_engine(djfa(metric, plan));
+          simulation.step();
+          auto expected = simulation.diagram().read();
+          for (int frame = 1; frame <= 5; ++frame) {
+            simulation.step();
+            const auto seeds = pixels_of(simulation.seeds());
+            const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), {3, mix, 2, extra_waves});
+                         0u);  // none of these grids leaves a pixel out
+            expected = reference_flood(grid, seeds, waves, metric, owners(expected, seeds));
+            BOOST_TEST((simulation.diagram().read() == expected),
+                       grid.width() << " x " << grid.height() << ", " << name_of(metric) << ", waves "
+                                    << to_string(waves) << ", frame " << frame);
+            BOOST_TEST(simulation.report().waves() == static_cast<int>(waves.size()));
+          }
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_illustration_of_the_paper) {
+  // 50 seeds on 1000 x 1000: the paper and its notebook give a similarity close to 100 %.
+  Simulation simulation = random_walk(Grid(1000, 1000), 50, 5);
+  simulation.add_engine(djfa(Metric::euclidean));
+  simulation.add_engine(jfa(Metric::euclidean));
+  BOOST_TEST(mean_similarity(simulation, 2, 20)[1] >= 99.9);
+}
+
+BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_a_seed) {
+  Simulation euclidean = random_walk(Grid(600, 500), 3000, 5);
+  euclidean.add_engine(djfa(Metric::euclidean));
+  euclidean.add_engine(jfa(Metric::euclidean));
+  BOOST_TEST(mean_similarity(euclidean, 2, 20)[1] >= 99.9);
+
+  // The paper holds its Manhattan variant against the Euclidean JFA: 88 to 92 %. To its own metric it is as
+  // near.
+  Simulation manhattan = random_walk(Grid(600, 500), 3000, 5);
+  manhattan.add_engine(djfa(Metric::manhattan));
+  manhattan.add_engine(jfa(Metric::euclidean));
+  manhattan.add_engine(jfa(Metric::manhattan));
+  const std::vector<double> means = mean_similarity(manhattan, 3, 20);
+  BOOST_TEST(means[1] >= 85);
+  BOOST_TEST(means[1] <= 95);
+  BOOST_TEST(means[2] >= 99.5);
+}
+
+BOOST_AUTO_TEST_CASE(the_same_film_for_every_kernel_shape) {
+  const Grid grid(143, 61);
+  std::vector<std::vector<std::uint32_t>> expected;
+  for (const Tuning& shape :
+       {Tuning{1, 32, 8}, Tuning{1, 7, 3}, Tuning{4, 1, 16}, Tuning{8, 64, 1}, Tuning{16, 64, 1}}) {
+    Seeds seeds = Seeds::random(test_device().with_tuning(shape), grid, 200, 3);
+    Diagram diagram(test_device().with_tuning(shape), grid);
+    for (std::size_t frame = 0; frame < 10; ++frame) {
+      dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {4}, 0});
+      if (expected.size() <= frame) expected.push_back(diagram.read());
+      BOOST_TEST((diagram.read() == expected[frame]),
+                 "vector width " << shape.vector_width << ", frame " << frame);
+      random_step(seeds, 4, Border::periodic, 5, static_cast<std::uint32_t>(frame));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_refresh_is_a_full_jfa) {
+  Simulation simulation = random_walk(Grid(100, 100), 400, 3);
+  simulation.add_engine(djfa(Metric::euclidean, {}, 4));
+  simulation.add_engine(jfa(Metric::euclidean));
+  for (int frame = 0; frame <= 12; ++frame) {
+    simulation.step();
+    const int full = simulation.report(1).waves();
+    BOOST_TEST(simulation.report().waves() == (frame % 4 == 0 ? full : 5));
+    if (frame % 4 == 0) BOOST_TEST(similarity(simulation.diagram(0), simulation.diagram(1)) == 100.0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
+  const Grid grid(200, 150);
+  std::vector<Pixel> pixels = random_pixels(grid, 300, 21);
+  auto points = present(pixels);
+  Seeds seeds(test_device(), grid, centres(pixels));
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram);
+  // All seeds on the left vanish: a hole far wider than 2 L, which only the full JFA that follows can fill.
+  std::vector<Pixel> left;
+  std::vector<std::uint32_t> ids;
+  for (std::uint32_t id = 0; id < pixels.size(); ++id) {
+    if (pixels[id].x < 140) {
+      points[id].reset();
+    } else {
+      left.push_back(pixels[id]);
+      ids.push_back(id);
+    }
+  }
+  seeds.move_to(points);
+  BOOST_TEST(seeds.alive() == left.size());
+  const Report report = dynamic_jump_flooding(seeds, diagram);
+  const auto labels = diagram.read();
+  const auto truth = brute_force(grid, left, Metric::euclidean);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) wrong += labels[i] != ids[truth[i]] ? 1 : 0;
+  BOOST_TEST(wrong < grid.pixels() / 500);
+  BOOST_TEST(report.waves() > static_cast<int>(jump_flooding_plan(grid).size()));
+
+  seeds.move_to(std::vector<std::optional<Point>>(pixels.size()));
+  dynamic_jump_flooding(seeds, diagram);
+  BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), no_label)));
+}
+
+BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
+  // One in ten seeds is absent in each frame, others each time; wrong pixels of all frames against brute
+  // force.
+  const Grid grid(120, 100);
+  const std::vector<Pixel> pixels = random_pixels(grid, 200, 22);
+  Seeds seeds(test_device(), grid, centres(pixels));
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram);
+  std::size_t wrong = 0;
+  for (std::uint32_t frame = 1; frame <= 10; ++frame) {
+    auto points = present(pixels);
+    std::vector<Pixel> alive;
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t id = 0; id < pixels.size(); ++id) {
+      if (id % 10 == frame % 10) {
+        points[id].reset();
+      } else {
+        alive.push_back(pixels[id]);
+        ids.push_back(id);
+      }
+    }
+    seeds.move_to(points);
+    dynamic_jump_flooding(seeds, diagram);
+    const auto labels = diagram.read();
+    const auto truth = brute_force(grid, alive, Metric::euclidean);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      BOOST_REQUIRE(labels[i] < pixels.size());
+      BOOST_REQUIRE(points[labels[i]].has_value());
+      const Pixel at = {static_cast<int>(i % 120), static_cast<int>(i / 120)};
+      wrong += distance(at, pixels[labels[i]], Metric::euclidean) >
+               distance(at, alive[truth[i]], Metric::euclidean);
+    }
+  }
+  BOOST_TEST(wrong < 10 * grid.pixels() / 200);  // half a percent
+}
+
+BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
+  const Grid grid(90, 70);
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)));
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram);
+  for (const unsigned count : {80u, 20u, 1u, 300u}) {
+    const auto pixels = random_pixels(grid, count, count);
+    seeds.move_to(present(pixels));
+    dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {90}, 0});
+    const auto truth = brute_force(grid, pixels, Metric::euclidean);
+    const Verdict verdict = judge(grid, pixels, Metric::euclidean, diagram.read(), truth);
+    BOOST_TEST(verdict.unlabelled + verdict.invalid == 0u);
+    BOOST_TEST(verdict.wrong < grid.pixels() / 50);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
+  const Grid grid(64, 64);
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram);
+  const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
+  const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
+  seeds.move_to(buffer, 2);
+  dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {64}, 0});
+  BOOST_TEST((diagram.read() == brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean)));
+}
+
+BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
+  const Grid grid(8, 8);
+  const Seeds seeds(test_device(), grid, {{1, 1}});
+  Diagram diagram(test_device(), grid);
+  const NeighbourhoodMix mixed = NeighbourhoodMix::mixed;
+  const auto run = [&](const DynamicPlanOptions& plan, int refresh) {
+    dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, plan, refresh});
+  };
+  check_error([&] { run({-1}, 0); }, {"-1.0"});
+  check_error([&] { run({0, mixed, 3, 0}, 0); }, {"3 von Neumann waves"});
+  check_error([&] { run({0, mixed, 2, -1}, 0); }, {"-1 extra waves"});
+  check_error([&] { run({}, -2); }, {"-2 frames"});
+}

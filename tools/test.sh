@@ -1,0 +1,8 @@
+#!/usr/bin/env bash
+# Builds VoroCL and passes the whole test suite (under PoCL, unless VOROCL_DEVICE says otherwise).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+tools/build.sh
+cd build
+ctest --output-on-failure "$@"
