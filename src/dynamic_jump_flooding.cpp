@@ -49,7 +49,7 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
   if (!diagram.filled() || refresh || seeds.alive() == 0) return full_jump_flooding(seeds, diagram, options);
 
   const bool all_labelled = diagram.holds_labels_of(seeds);
-  const Report report = flood_from_last_frame(seeds, diagram, plan, options.metric);
+  Report report = flood_from_last_frame(seeds, diagram, plan, options.metric);
   if (!all_labelled && some_unlabelled(diagram)) return report + full_jump_flooding(seeds, diagram, options);
   diagram.set_age(age);
   return report;
