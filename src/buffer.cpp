@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "opencl_info.hpp"
+
 namespace vorocl {
 
 namespace {
@@ -17,8 +19,8 @@ std::string readable(std::size_t bytes) {
 }  // namespace
 
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose, std::size_t held) {
-  const std::size_t largest = device.cl_device().getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-  const std::size_t all = device.cl_device().getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
+  const std::size_t largest = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+  const std::size_t all = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_GLOBAL_MEM_SIZE);
   // Asked here, because drivers allocate lazily: what does not fit would fail at some later launch.
   if (bytes > largest || held + bytes > all) {
     throw Error("too little device memory for " + purpose + ": it needs " + readable(bytes) +
@@ -27,9 +29,35 @@ cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& 
                 " in one buffer; use a smaller grid or another device");
   }
   cl_int code = CL_SUCCESS;
-  cl::Buffer buffer(device.context(), CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 4), nullptr, &code);
+  const cl::Buffer buffer(
+      clCreateBuffer(device.context()(), CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 4), nullptr, &code));
   check(code, "allocating " + readable(bytes) + " for " + purpose + " on " + device.name());
   return buffer;
+}
+
+std::size_t size_of(const cl::Buffer& buffer) {
+  return info<std::size_t>(clGetMemObjectInfo, buffer(), CL_MEM_SIZE);
+}
+
+void check_foreign_buffer(const Device& device, const cl::Buffer& buffer, std::size_t bytes,
+                          const std::string& name, Access access) {
+  if (buffer() == nullptr) throw Error(name + " is null");
+  if (info<cl_mem_object_type>(clGetMemObjectInfo, buffer(), CL_MEM_TYPE) != CL_MEM_OBJECT_BUFFER) {
+    throw Error(name + " is an OpenCL object of another kind, not a buffer");
+  }
+  if (info<cl_context>(clGetMemObjectInfo, buffer(), CL_MEM_CONTEXT) != device.context()()) {
+    throw Error(name + " belongs to another OpenCL context than the device");
+  }
+  if (size_of(buffer) < bytes) {
+    throw Error(name + " holds " + std::to_string(size_of(buffer)) + " bytes; " + std::to_string(bytes) +
+                " are needed");
+  }
+  const auto flags = info<cl_mem_flags>(clGetMemObjectInfo, buffer(), CL_MEM_FLAGS);
+  if ((flags & CL_MEM_WRITE_ONLY) != 0)
+    throw Error(name + " is write-only for kernels, and they must read it");
+  if (access == Access::read_and_write && (flags & CL_MEM_READ_ONLY) != 0) {
+    throw Error(name + " is read-only for kernels, and they must write it");
+  }
 }
 
 }  // namespace vorocl

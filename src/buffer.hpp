@@ -16,11 +16,23 @@ namespace vorocl {
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,
                     std::size_t held = 0);
 
+/// What the caller's buffer is for.
+enum class Access { read, read_and_write };
+
+/// The bytes of a buffer.
+std::size_t size_of(const cl::Buffer& buffer);
+
+/// Throws Error, naming the buffer ("the buffer of points"), if the device's kernels cannot use `bytes` of
+/// it: it is null, no buffer, of another context, too small or made for another access.
+void check_foreign_buffer(const Device& device, const cl::Buffer& buffer, std::size_t bytes,
+                          const std::string& name, Access access);
+
 /// Fills `count` values; returns the command's event.
 template <typename T>
 cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::size_t count) {
   cl::Event event;
-  check(device.queue().enqueueFillBuffer(buffer, value, 0, count * sizeof(T), nullptr, &event),
+  check(clEnqueueFillBuffer(device.queue()(), buffer(), &value, sizeof(T), 0, count * sizeof(T), 0, nullptr,
+                            &event()),
         "filling a buffer");
   return event;
 }
@@ -29,7 +41,8 @@ cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::siz
 template <typename T>
 void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
   if (values.empty()) return;
-  check(device.queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, values.size() * sizeof(T), values.data()),
+  check(clEnqueueWriteBuffer(device.queue()(), buffer(), CL_TRUE, 0, values.size() * sizeof(T), values.data(),
+                             0, nullptr, nullptr),
         "writing a buffer");
 }
 
@@ -39,8 +52,8 @@ std::vector<T> download(const Device& device, const cl::Buffer& buffer, std::siz
                         std::size_t first = 0) {
   std::vector<T> values(count);
   if (count > 0) {
-    check(device.queue().enqueueReadBuffer(buffer, CL_TRUE, first * sizeof(T), count * sizeof(T),
-                                           values.data()),
+    check(clEnqueueReadBuffer(device.queue()(), buffer(), CL_TRUE, first * sizeof(T), count * sizeof(T),
+                              values.data(), 0, nullptr, nullptr),
           "reading a buffer");
   }
   return values;

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <mutex>
 #include <optional>
 #include <utility>
 
 #include "device_state.hpp"
-#include "opencl_error.hpp"
+#include "opencl_info.hpp"
 
 namespace vorocl {
 
@@ -15,8 +16,7 @@ namespace {
 
 struct Candidate {
   DeviceDescription description;
-  cl::Platform platform;
-  cl::Device device;
+  cl_device_id device;
 };
 
 std::string lower(std::string text) {
@@ -30,10 +30,11 @@ bool contains(const std::string& text, const std::string& part) {
 }
 
 /// Why kernels cannot be built or run there; empty if they can.
-std::string unusable_because(const cl::Device& device) {
-  if (device.getInfo<CL_DEVICE_AVAILABLE>() != CL_TRUE) return "it is not available";
-  if (device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>() != CL_TRUE) return "it has no OpenCL C compiler";
-  const std::string version = device.getInfo<CL_DEVICE_OPENCL_C_VERSION>();  // "OpenCL C 1.2 ..."
+std::string unusable_because(cl_device_id device) {
+  if (device_info<cl_bool>(device, CL_DEVICE_AVAILABLE) != CL_TRUE) return "it is not available";
+  if (device_info<cl_bool>(device, CL_DEVICE_COMPILER_AVAILABLE) != CL_TRUE)
+    return "it has no OpenCL C compiler";
+  const auto version = device_info<std::string>(device, CL_DEVICE_OPENCL_C_VERSION);  // "OpenCL C 1.2 ..."
   if (version.compare(0, 11, "OpenCL C 1.") == 0 && version.compare(0, 12, "OpenCL C 1.2") < 0) {
     return "it has " + version.substr(0, 12) + " and OpenCL C 1.2 is needed";
   }
@@ -45,29 +46,52 @@ std::string type_name(cl_device_type type) {
   return type & CL_DEVICE_TYPE_CPU ? "CPU" : "accelerator";
 }
 
-std::vector<Candidate> find_candidates() {
-  std::vector<Candidate> candidates;
-  std::vector<cl::Platform> platforms;
+std::vector<cl_platform_id> find_platforms() {
+  cl_uint count = 0;
   // The loader returns an error code of its own where there is no platform at all.
-  if (cl::Platform::get(&platforms) != CL_SUCCESS) return candidates;
+  if (clGetPlatformIDs(0, nullptr, &count) != CL_SUCCESS) return {};
+  std::vector<cl_platform_id> platforms(count);
+  check(clGetPlatformIDs(count, platforms.data(), nullptr), "listing the OpenCL platforms");
+  return platforms;
+}
+
+std::vector<cl_device_id> find_devices(cl_platform_id platform) {
+  cl_uint count = 0;
+  if (clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, 0, nullptr, &count) != CL_SUCCESS)
+    return {};  // it has none
+  std::vector<cl_device_id> devices(count);
+  check(clGetDeviceIDs(platform, CL_DEVICE_TYPE_ALL, count, devices.data(), nullptr),
+        "listing the OpenCL devices");
+  return devices;
+}
+
+DeviceDescription describe(cl_platform_id platform, cl_device_id device) {
+  DeviceDescription description;
+  description.platform = info<std::string>(clGetPlatformInfo, platform, CL_PLATFORM_NAME);
+  description.name = device_info<std::string>(device, CL_DEVICE_NAME);
+  description.type = type_name(device_info<cl_device_type>(device, CL_DEVICE_TYPE));
+  description.opencl_version = device_info<std::string>(device, CL_DEVICE_VERSION);
+  description.driver_version = device_info<std::string>(device, CL_DRIVER_VERSION);
+  description.compute_units = device_info<cl_uint>(device, CL_DEVICE_MAX_COMPUTE_UNITS);
+  description.global_memory = device_info<cl_ulong>(device, CL_DEVICE_GLOBAL_MEM_SIZE);
+  description.max_allocation = device_info<cl_ulong>(device, CL_DEVICE_MAX_MEM_ALLOC_SIZE);
+  description.why_not = unusable_because(device);
+  return description;
+}
+
+std::vector<Candidate> find_candidates() {
+  // The loader (ocl-icd) and PoCL set themselves up when they are first asked, without a lock: threads that
+  // ask at the same time see no platform, or crash.
+  static std::mutex first_contact;
+  const std::lock_guard<std::mutex> lock(first_contact);
+  std::vector<Candidate> candidates;
+  const std::vector<cl_platform_id> platforms = find_platforms();
   for (std::size_t p = 0; p < platforms.size(); ++p) {
-    std::vector<cl::Device> devices;
-    if (platforms[p].getDevices(CL_DEVICE_TYPE_ALL, &devices) != CL_SUCCESS)
-      continue;  // a platform without devices
+    const std::vector<cl_device_id> devices = find_devices(platforms[p]);
     for (std::size_t d = 0; d < devices.size(); ++d) {
-      DeviceDescription description;
-      description.platform_index = p;
-      description.device_index = d;
-      description.platform = platforms[p].getInfo<CL_PLATFORM_NAME>();
-      description.name = devices[d].getInfo<CL_DEVICE_NAME>();
-      description.type = type_name(devices[d].getInfo<CL_DEVICE_TYPE>());
-      description.opencl_version = devices[d].getInfo<CL_DEVICE_VERSION>();
-      description.driver_version = devices[d].getInfo<CL_DRIVER_VERSION>();
-      description.compute_units = devices[d].getInfo<CL_DEVICE_MAX_COMPUTE_UNITS>();
-      description.global_memory = devices[d].getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>();
-      description.max_allocation = devices[d].getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
-      description.why_not = unusable_because(devices[d]);
-      candidates.push_back({description, platforms[p], devices[d]});
+      candidates.push_back({describe(platforms[p], devices[d]), devices[d]});
+      candidates.back().description.platform_index = p;
+      candidates.back().description.device_index = d;
     }
   }
   return candidates;
@@ -121,11 +145,11 @@ std::string listing(const std::vector<Candidate>& candidates) {
   return text;
 }
 
-Tuning default_tuning(const cl::Device& device) {
+Tuning default_tuning(cl_device_id device) {
   Tuning tuning;
-  if ((device.getInfo<CL_DEVICE_TYPE>() & CL_DEVICE_TYPE_CPU) != 0) {
+  if ((device_info<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0) {
     // As many lanes as the CPU's registers hold, and a work-group that walks along a row.
-    const auto lanes = static_cast<int>(device.getInfo<CL_DEVICE_NATIVE_VECTOR_WIDTH_INT>());
+    const auto lanes = static_cast<int>(device_info<cl_uint>(device, CL_DEVICE_NATIVE_VECTOR_WIDTH_INT));
     while (tuning.vector_width < 16 && tuning.vector_width * 2 <= lanes) tuning.vector_width *= 2;
     tuning.group_width = 64;
     tuning.group_height = 1;
@@ -151,9 +175,10 @@ Device Device::select(const std::string& request) {
                 "; there are:" + listing(candidates));
   }
   cl_int code = CL_SUCCESS;
-  const cl::Context context(chosen->device, nullptr, nullptr, nullptr, &code);
+  const cl::Context context(clCreateContext(nullptr, 1, &chosen->device, nullptr, nullptr, &code));
   check(code, "making a context on " + chosen->description.name);
-  const cl::CommandQueue queue(context, chosen->device, CL_QUEUE_PROFILING_ENABLE, &code);
+  const cl::CommandQueue queue(
+      clCreateCommandQueue(context(), chosen->device, CL_QUEUE_PROFILING_ENABLE, &code));
   check(code, "making a queue on " + chosen->description.name);
   return Device(context, queue);
 }
@@ -163,7 +188,7 @@ std::vector<DeviceDescription> Device::list(const std::string& request) {
   const std::optional<Candidate> chosen = choose(candidates, effective_request(request));
   std::vector<DeviceDescription> devices;
   for (const Candidate& candidate : candidates) {
-    const bool selected = chosen && candidate.device() == chosen->device();
+    const bool selected = chosen && candidate.device == chosen->device;
     devices.push_back(selected ? chosen->description : candidate.description);
   }
   return devices;
@@ -173,25 +198,33 @@ Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
     : state_(std::make_shared<State>()) {
   if (context() == nullptr || queue() == nullptr)
     throw Error("a Device needs a context and a queue; one is null");
-  if (queue.getInfo<CL_QUEUE_CONTEXT>()() != context()) throw Error("the queue belongs to another context");
-  if ((queue.getInfo<CL_QUEUE_PROPERTIES>() & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) != 0) {
+  if (info<cl_context>(clGetCommandQueueInfo, queue(), CL_QUEUE_CONTEXT) != context()) {
+    throw Error("the queue belongs to another context");
+  }
+  const auto properties =
+      info<cl_command_queue_properties>(clGetCommandQueueInfo, queue(), CL_QUEUE_PROPERTIES);
+  if ((properties & CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE) != 0) {
     throw Error("the queue is out of order; VoroCL needs an in-order queue");
   }
   state_->context = context;
   state_->queue = queue;
-  state_->device = queue.getInfo<CL_QUEUE_DEVICE>();
-  tuning_ = default_tuning(state_->device);
+  const auto device = info<cl_device_id>(clGetCommandQueueInfo, queue(), CL_QUEUE_DEVICE);
+  state_->device = cl::Device(device, true);
+  tuning_ = default_tuning(device);
 }
 
 const cl::Context& Device::context() const { return state_->context; }
 const cl::CommandQueue& Device::queue() const { return state_->queue; }
 const cl::Device& Device::cl_device() const { return state_->device; }
 const Tuning& Device::tuning() const { return tuning_; }
-std::string Device::name() const { return state_->device.getInfo<CL_DEVICE_NAME>(); }
-std::string Device::driver_version() const { return state_->device.getInfo<CL_DRIVER_VERSION>(); }
+std::string Device::name() const { return device_info<std::string>(cl_device()(), CL_DEVICE_NAME); }
+std::string Device::driver_version() const {
+  return device_info<std::string>(cl_device()(), CL_DRIVER_VERSION);
+}
 
 std::string Device::platform_name() const {
-  return cl::Platform(state_->device.getInfo<CL_DEVICE_PLATFORM>()).getInfo<CL_PLATFORM_NAME>();
+  const auto platform = device_info<cl_platform_id>(cl_device()(), CL_DEVICE_PLATFORM);
+  return info<std::string>(clGetPlatformInfo, platform, CL_PLATFORM_NAME);
 }
 
 Device Device::with_tuning(const Tuning& tuning) const {
@@ -201,7 +234,7 @@ Device Device::with_tuning(const Tuning& tuning) const {
                 " is not possible; it must be 1, 2, 4, 8 or 16");
   }
   const std::size_t items = tuning.group_width * tuning.group_height;
-  const std::size_t most = state_->device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>();
+  const std::size_t most = device_info<std::size_t>(cl_device()(), CL_DEVICE_MAX_WORK_GROUP_SIZE);
   if (items < 1 || items > most) {
     throw Error("a work-group of " + std::to_string(tuning.group_width) + " x " +
                 std::to_string(tuning.group_height) + " is not possible; " + name() + " allows 1 to " +
@@ -212,6 +245,21 @@ Device Device::with_tuning(const Tuning& tuning) const {
   return tuned;
 }
 
-void Device::finish() const { check(state_->queue.finish(), "waiting for " + name()); }
+void Device::finish() const { check(clFinish(queue()()), "waiting for " + name()); }
+
+void Device::wait_for(const std::vector<cl::Event>& events) const {
+  std::vector<cl_event> handles;
+  for (const cl::Event& event : events) {
+    if (event() == nullptr) throw Error("an event to wait for is null");
+    if (info<cl_context>(clGetEventInfo, event(), CL_EVENT_CONTEXT) != context()()) {
+      throw Error("an event to wait for belongs to another OpenCL context than the device");
+    }
+    handles.push_back(event());
+  }
+  if (handles.empty()) return;
+  check(
+      clEnqueueBarrierWithWaitList(queue()(), static_cast<cl_uint>(handles.size()), handles.data(), nullptr),
+      "enqueueing a wait on " + name());
+}
 
 }  // namespace vorocl

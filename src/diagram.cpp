@@ -10,6 +10,12 @@ Diagram::Diagram(const Device& device, const Grid& grid)
   fill(device, labels_, no_label, grid.pixels());
 }
 
+Diagram::Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels)
+    : device_(device), grid_(grid), labels_(labels), scratch_(static_cast<std::size_t>(Scratch::count_)) {
+  check_foreign_buffer(device, labels, grid.pixels() * sizeof(std::uint32_t), "the buffer of labels",
+                       Access::read_and_write);
+}
+
 std::vector<std::uint32_t> Diagram::read() const {
   wait();
   return download<std::uint32_t>(device_, labels_, grid_.pixels());
@@ -22,10 +28,10 @@ void Diagram::wait() const {
 
 const cl::Buffer& Diagram::scratch(Scratch use, std::size_t bytes) {
   cl::Buffer& buffer = scratch_[static_cast<std::size_t>(use)];
-  if (buffer() == nullptr || buffer.getInfo<CL_MEM_SIZE>() < bytes) {
+  if (buffer() == nullptr || size_of(buffer) < bytes) {
     buffer = cl::Buffer();
-    std::size_t held = labels_.getInfo<CL_MEM_SIZE>();
-    for (const cl::Buffer& other : scratch_) held += other() == nullptr ? 0 : other.getInfo<CL_MEM_SIZE>();
+    std::size_t held = size_of(labels_);
+    for (const cl::Buffer& other : scratch_) held += other() == nullptr ? 0 : size_of(other);
     buffer = allocate(device_, bytes, "a diagram's working memory", held);
   }
   return buffer;

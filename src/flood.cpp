@@ -68,7 +68,7 @@ void Flood::last_wave(const Wave& wave) {
 }
 
 Report Flood::report(int waves) const {
-  check(diagram_.device().queue().flush(), "starting the diagram");
+  check(clFlush(diagram_.device().queue()()), "starting the diagram");
   const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
   return {waves, first_event_, last_event_, host.count()};
 }

@@ -38,7 +38,8 @@ Kernel::Kernel(const Device& device, const std::string& file, const std::string&
                const KernelOptions& options)
     : device_(device), name_(name), grid_(grid), run_width_(run_width_for(device, grid)) {
   cl_int code = CL_SUCCESS;
-  kernel_ = cl::Kernel(program_for(device, file, build_options(run_width_, options)), name.c_str(), &code);
+  kernel_ = cl::Kernel(
+      clCreateKernel(program_for(device, file, build_options(run_width_, options))(), name.c_str(), &code));
   check(code, "making the kernel " + name);
 }
 
@@ -47,20 +48,22 @@ cl::Event Kernel::enqueue_over_grid() {
   const auto width = static_cast<std::size_t>(run_width_);
   const std::size_t runs = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
   const auto rows = static_cast<std::size_t>(grid_.height());
-  const std::size_t group_width = group_size(tuning.group_width, runs);
-  const std::size_t group_height = group_size(tuning.group_height, rows);
-  return enqueue({round_up(runs, group_width), round_up(rows, group_height)}, {group_width, group_height});
+  const std::size_t local[] = {group_size(tuning.group_width, runs), group_size(tuning.group_height, rows)};
+  const std::size_t global[] = {round_up(runs, local[0]), round_up(rows, local[1])};
+  return enqueue(2, global, local);
 }
 
 cl::Event Kernel::enqueue_over_items(std::size_t count) {
   if (count == 0) return {};
-  const std::size_t group = group_size(device_.tuning().group_width * device_.tuning().group_height, count);
-  return enqueue(cl::NDRange(round_up(count, group)), cl::NDRange(group));
+  const std::size_t local = group_size(device_.tuning().group_width * device_.tuning().group_height, count);
+  const std::size_t global = round_up(count, local);
+  return enqueue(1, &global, &local);
 }
 
-cl::Event Kernel::enqueue(const cl::NDRange& global, const cl::NDRange& local) {
+cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const std::size_t* local) {
   cl::Event event;
-  check(device_.queue().enqueueNDRangeKernel(kernel_, cl::NullRange, global, local, nullptr, &event),
+  check(clEnqueueNDRangeKernel(device_.queue()(), kernel_(), dimensions, nullptr, global, local, 0, nullptr,
+                               &event()),
         "launching " + name_ + " on " + device_.name());
   return event;
 }

@@ -4,6 +4,7 @@
 #include <CL/opencl.hpp>
 #include <cstddef>
 #include <string>
+#include <type_traits>
 
 #include "opencl_error.hpp"
 #include "vorocl/device.hpp"
@@ -49,12 +50,20 @@ class Kernel {
   void set_arguments(cl_uint) {}
   template <typename First, typename... Rest>
   void set_arguments(cl_uint index, const First& first, const Rest&... rest) {
-    check(kernel_.setArg(index, first), "setting argument " + std::to_string(index) + " of " + name_);
+    check(set_argument(index, first), "setting argument " + std::to_string(index) + " of " + name_);
     set_arguments(index + 1, rest...);
+  }
+  cl_int set_argument(cl_uint index, const cl::Buffer& buffer) {
+    return clSetKernelArg(kernel_(), index, sizeof(cl_mem), &buffer());
+  }
+  template <typename T>
+  cl_int set_argument(cl_uint index, const T& value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_union_v<T>, "a number or a vector such as cl_uint2");
+    return clSetKernelArg(kernel_(), index, sizeof(T), &value);
   }
   cl::Event enqueue_over_grid();
   cl::Event enqueue_over_items(std::size_t count);
-  cl::Event enqueue(const cl::NDRange& global, const cl::NDRange& local);
+  cl::Event enqueue(cl_uint dimensions, const std::size_t* global, const std::size_t* local);
 
   Device device_;
   std::string name_;

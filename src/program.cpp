@@ -5,7 +5,7 @@
 
 #include "device_state.hpp"
 #include "kernel_sources.hpp"
-#include "opencl_error.hpp"
+#include "opencl_info.hpp"
 
 namespace vorocl {
 
@@ -33,14 +33,18 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   std::string source;
   std::set<std::string> included;
   append_source(file, included, source);
+  const char* text = source.c_str();
+  const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
-  cl::Program program(device.context(), source, false, &code);
+  const cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
   check(code, "making the program " + file);
-  code = program.build({device.cl_device()}, options.c_str());
-  if (code != CL_SUCCESS) {
-    std::string log;
-    program.getBuildInfo(device.cl_device(), CL_PROGRAM_BUILD_LOG, &log);
-    throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" + log);
+  if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
+    const auto ask = [id](const cl::Program& of, cl_program_build_info name, std::size_t size, void* value,
+                          std::size_t* used) {
+      return clGetProgramBuildInfo(of(), id, name, size, value, used);
+    };
+    throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" +
+                info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG));
   }
   return program;
 }

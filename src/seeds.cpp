@@ -43,15 +43,8 @@ std::size_t checked_count(std::size_t count) {
 }
 
 void check_points_buffer(const Device& device, const cl::Buffer& points, std::size_t count) {
-  if (points() == nullptr) throw Error("the buffer of points is null");
-  if (points.getInfo<CL_MEM_CONTEXT>()() != device.context()()) {
-    throw Error("the buffer of points belongs to another OpenCL context than the device");
-  }
-  const std::size_t needed = count * sizeof(cl_float2), there_is = points.getInfo<CL_MEM_SIZE>();
-  if (there_is < needed) {
-    throw Error("the buffer of points holds " + std::to_string(there_is) + " bytes; " +
-                std::to_string(count) + " points need " + std::to_string(needed));
-  }
+  check_foreign_buffer(device, points, checked_count(count) * sizeof(cl_float2),
+                       "the buffer of " + std::to_string(count) + " points", Access::read);
 }
 
 }  // namespace
@@ -138,7 +131,7 @@ void Seeds::move_to(const cl::Buffer& points, std::size_t count) {
 /// Makes room for the positions; all seeds count as present until some are said to be absent.
 void Seeds::resize(std::size_t size) {
   const std::size_t bytes = (checked_count(size) + 1) * sizeof(std::uint32_t);
-  if (positions_() == nullptr || positions_.getInfo<CL_MEM_SIZE>() < bytes) {
+  if (positions_() == nullptr || size_of(positions_) < bytes) {
     positions_ = allocate(device_, bytes, "the seeds");
   }
   size_ = alive_ = size;

@@ -21,6 +21,28 @@ void run_all(const Device& device, const Grid& grid, Metric metric) {
   Seeds(device, grid, buffer, points.size()).check();
 }
 
+void measure_all(const Device& device, const Grid& grid, Metric metric) {
+  Seeds seeds(device, grid, centres(random_pixels(grid, 9, 2)));
+  Diagram diagram(device, grid);
+  const auto engine = [&](const Seeds& moved, Diagram& filled, double) {
+    return jump_flooding(moved, filled, {metric});
+  };
+  relax(seeds, diagram, engine, 1);
+  cell_statistics(seeds, diagram);
+  CellShapesResult shapes;
+  cell_shapes(seeds, diagram, shapes, metric);
+  AdjacencyResult pairs;
+  adjacency(seeds, diagram, pairs);
+  count_vertices(diagram);
+  Field<std::int32_t> integers;
+  Field<float> floats;
+  Field<std::uint8_t> mask;
+  distance_field(seeds, diagram, integers, metric);
+  distance_field(seeds, diagram, floats, metric);
+  border_mask(diagram, mask);
+  device.finish();
+}
+
 }  // namespace
 
 int main() {
@@ -30,6 +52,8 @@ int main() {
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
       run_all(shaped, Grid(13, 9), metric);
       run_all(shaped, Grid(3, 11), metric);
+      measure_all(shaped, Grid(40, 19), metric);
+      measure_all(shaped, Grid(3, 11), metric);
     }
   }
 }

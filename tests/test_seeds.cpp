@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
   const Grid grid(30, 20);
   check_error([&] { Seeds(test_device(), grid, cl::Buffer(), 1); }, {"null"});
   const cl::Buffer small = buffer_of(std::vector<cl_float2>(9));
-  check_error([&] { Seeds(test_device(), grid, small, 10); }, {"72 bytes", "10 points need 80"});
+  check_error([&] { Seeds(test_device(), grid, small, 10); }, {"10 points", "72 bytes", "80 are needed"});
   const Device other = Device::select();
   check_error([&] { Seeds(other, grid, small, 9); }, {"another OpenCL context"});
 }

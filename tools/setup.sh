@@ -6,7 +6,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-  libopencv-dev
+  libopencv-dev libtiff-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   libboost-test-dev
 )

@@ -70,6 +70,10 @@ class VOROCL_API Device {
   /// Waits until all that was enqueued is done.
   void finish() const;
 
+  /// Lets all that is enqueued from now on wait for events of other queues of the context, on the device:
+  /// returns at once. Throws Error if an event is null or of another context.
+  void wait_for(const std::vector<cl::Event>& events) const;
+
   /// True if both use one queue (whatever their tuning).
   bool same_as(const Device& other) const { return queue()() == other.queue()(); }
 

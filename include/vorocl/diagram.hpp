@@ -20,6 +20,11 @@ class VOROCL_API Diagram {
   /// All labels are no_label. Throws Error if the device cannot hold the label image.
   Diagram(const Device& device, const Grid& grid);
 
+  /// The labels go to the caller's buffer, which may be a sub-buffer, is retained, and keeps what it holds
+  /// until an engine runs. Throws Error if it is null, too small, of another context or not both readable and
+  /// writable by kernels.
+  Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels);
+
   // Copies would share the images that engines overwrite.
   Diagram(const Diagram&) = delete;
   Diagram& operator=(const Diagram&) = delete;
@@ -29,7 +34,8 @@ class VOROCL_API Diagram {
   const Device& device() const { return device_; }
   const Grid& grid() const { return grid_; }
 
-  /// The labels, for use in OpenCL without a copy: row-major uint32, valid once the queue gets there.
+  /// The labels, for use in OpenCL without a copy: row-major uint32, valid once the queue gets there, or once
+  /// an engine's Report::event() is complete.
   const cl::Buffer& labels() const { return labels_; }
 
   /// The labels on the host, size width * height. Waits. Throws Error if the seeds had a bad point.
@@ -39,7 +45,18 @@ class VOROCL_API Diagram {
   void wait() const;
 
   /// For engines: what a scratch buffer is for.
-  enum class Scratch { packed_front, packed_back, seeded, flags, count_ };
+  enum class Scratch {
+    packed_front,
+    packed_back,
+    seeded,
+    flags,
+    exact_bits,
+    exact_pyramid,
+    exact_lists,
+    exact_counts,
+    exact_late,
+    count_
+  };
 
   /// For engines: the scratch buffer of this use, made at its first use or when more bytes are asked for than
   /// it has. Throws Error, saying how much is needed and there is, if the device cannot hold it.

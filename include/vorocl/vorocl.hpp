@@ -2,14 +2,17 @@
 // OpenCL alone; pictures are in vorocl/picture.hpp, which needs OpenCV.
 #pragma once
 
+#include "vorocl/analysis.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
 #include "vorocl/error.hpp"
+#include "vorocl/exact_diagram.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/jump_flooding.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/plan.hpp"
+#include "vorocl/relaxation.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 #include "vorocl/similarity.hpp"

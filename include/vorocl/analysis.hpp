@@ -1,0 +1,6 @@
+// Analysis of diagrams: takes the headers of all measurements.
+#pragma once
+
+#include "vorocl/adjacency.hpp"
+#include "vorocl/cells.hpp"
+#include "vorocl/fields.hpp"

@@ -1,0 +1,38 @@
+// Lloyd relaxation: seeds move to the centroids of their cells until the diagram is centroidal.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vorocl/diagram.hpp"
+#include "vorocl/export.hpp"
+#include "vorocl/seeds.hpp"
+#include "vorocl/simulation.hpp"
+
+namespace vorocl {
+
+/// What relax() did.
+struct Relaxation {
+  /// Of the diagram at the start and after each round: the sum of the squared distances of all pixels to
+  /// their seeds. Exact integers.
+  std::vector<std::uint64_t> energies;
+  bool converged = false;  ///< no seed would move any more
+
+  int rounds() const { return static_cast<int>(energies.size()) - 1; }
+};
+
+/// The sum of the squared Euclidean distances of all pixels with a label to their seeds, in 64-bit integers.
+/// Waits. Throws Error if seeds and diagram do not fit together or the seeds had a bad point.
+VOROCL_API std::uint64_t energy(const Seeds& seeds, const Diagram& diagram);
+
+/// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").
+/// A round moves every seed to the pixel nearest to its cell's centroid (if two are, and the seed is on one
+/// of them, it stays) and lets the engine fill the diagram again; seeds with empty cells stay. Ends after so
+/// many rounds, or when no seed moves. In the end the diagram is that of the seeds.
+///
+/// With an exact Euclidean engine the energy falls with every round, so the end is sure to come; an
+/// approximate engine may make it rise now and then. Seeds that come to share a pixel leave the higher id
+/// without a cell. Waits in every round. Throws Error if `rounds` is negative, and as the engine does.
+VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds);
+
+}  // namespace vorocl

@@ -1,0 +1,72 @@
+// Sums over the pixels of each cell: area and coordinates (for the centroid), and the shape of the cell.
+
+#include "runs.cl"
+
+// 64-bit sums without 64-bit atomics, which OpenCL C 1.2 leaves to chance: a pair (low word, high word) and a carry.
+inline void add_to_pair(global uint* pair, uint value) {
+  if (atomic_add(pair, value) > 0xffffffffu - value) atomic_inc(pair + 1);
+}
+
+// Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs no
+// atomics, for no other work-item adds to the same place. A block has at most 2^15 pixels and 512 columns and rows, so
+// that three sums fit in 64 bits: the pixels, and their columns and rows counted from the block's corner. They and the
+// homes (at most 2^15 blocks: 16 bits) are kept small and apart from the rest, because with many cells the time goes into
+// waiting for memory.
+#define HOME_X_SHIFT 16
+#define HOME_Y_SHIFT 40
+#define HOME_AREA(sums) ((uint)(sums) & 0xffffu)
+#define HOME_X(sums) ((uint)((sums) >> HOME_X_SHIFT) & 0xffffffu)
+#define HOME_Y(sums) ((uint)((sums) >> HOME_Y_SHIFT))
+
+kernel void clear_sums(global const uint* restrict positions, uint count, int width, int wide, int high,
+                       global uint* restrict area, global uint2* restrict sum_x, global uint2* restrict sum_y,
+                       global ushort* restrict home, global ulong* restrict home_sums) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  area[id] = 0;
+  sum_x[id] = (uint2)(0, 0);
+  sum_y[id] = (uint2)(0, 0);
+  home_sums[id] = 0;
+  home[id] = (ushort)block_of(packed_x(positions[id]), packed_y(positions[id]), width, wide, high);
+}
+
+kernel void add_sums(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
+                     global uint* restrict area, global uint* restrict sum_x, global uint* restrict sum_y,
+                     global const ushort* restrict home, global ulong* restrict home_sums) {
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    const ulong of_row = (ulong)1 | (ulong)(uint)(y - block.top) << HOME_Y_SHIFT;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_stretch(&walk)) {
+      const uint label = stretch_label(&walk);
+      if (label >= count) continue;
+      const uint length = (uint)(walk.to - walk.from);
+      const uint steps = length * (length - 1) / 2;
+      if (home[label] == block.index) {
+        const ulong first_pixel = of_row + ((ulong)(uint)(walk.from - block.left) << HOME_X_SHIFT);
+        home_sums[label] += first_pixel * length + ((ulong)steps << HOME_X_SHIFT);
+      } else {
+        atomic_add(area + label, length);
+        add_to_pair(sum_x + 2 * label, length * (uint)walk.from + steps);
+        add_to_pair(sum_y + 2 * label, length * (uint)y);
+      }
+    }
+  }
+}
+
+// Adds the home sums to the others, and turns the pairs into 64-bit numbers.
+kernel void join_sums(uint count, int width, int wide, int high, global uint* restrict area,
+                      global uint2* restrict sum_x, global uint2* restrict sum_y, global const ushort* restrict home,
+                      global const ulong* restrict home_sums) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  const ulong sums = home_sums[id];
+  const uint pixels = HOME_AREA(sums);
+  const uint across = blocks_across(width, wide);
+  const uint left = home[id] % across << wide, top = home[id] / across << high;
+  area[id] += pixels;
+  sum_x[id] = as_uint2(upsample(sum_x[id].s1, sum_x[id].s0) + (ulong)pixels * left + HOME_X(sums));
+  sum_y[id] = as_uint2(upsample(sum_y[id].s1, sum_y[id].s0) + (ulong)pixels * top + HOME_Y(sums));
+}

@@ -1,0 +1,251 @@
+// Candidates: the seeds that can be the nearest one of some pixel of a box, searched from coarse cells to fine ones.
+//
+// DOMINANCE. Seed a dominates seed b in a box if a wins, by distance and tie rule, at the box's four corners; then it
+// wins at every pixel of the box, and b is no candidate. For the Euclidean metric the difference of the two squared
+// distances is affine in the pixel, for the Manhattan metric it is the sum of a monotone function of x and one of y:
+// both are greatest at a corner. A cell is dominated if already its point nearest to each corner is.
+
+#include "exact_cells.cl"
+
+// How many cells are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
+#ifndef MOST_PARENTS
+#define MOST_PARENTS 64
+#define MOST_CANDIDATES 1024
+#endif
+// The top of the pyramid has at most TOP_CELLS cells.
+#define TOP_CELLS 64
+#define MOST_CELLS (FAN * FAN * MOST_PARENTS + TOP_CELLS)
+// A cell's seeds are added to a list at once, and lists are read in whole runs.
+#define LIST_ROOM (MOST_CANDIDATES + CELL * CELL + VOROCL_WIDTH)
+
+DEFINE_DISTANCE_BETWEEN(distance_between_two, uint, short2, as_uint, as_short2, convert_int)
+
+// Pixels, both ends included.
+typedef struct {
+  int left, top, right, bottom;
+} Box;
+
+inline Box box_of(int x, int y, int size, int width, int height) {
+  const Box box = {x, y, min(x + size, width) - 1, min(y + size, height) - 1};
+  return box;
+}
+
+// The seeds that dominate: the nearest one known to the centre, and to each of the four corners.
+#define CORNERS 4
+#define DOMINATORS (1 + CORNERS)
+typedef struct {
+  uint place[DOMINATORS];              // the centre and the corners, packed
+  uint seed[DOMINATORS];               // packed
+  uint distance[DOMINATORS][CORNERS];  // from each seed to each corner
+} Dominators;
+
+inline void no_dominators(Dominators* dominators, Box box) {
+  dominators->place[0] = pack((box.left + box.right) / 2, (box.top + box.bottom) / 2);
+  dominators->place[1] = pack(box.left, box.top);
+  dominators->place[2] = pack(box.right, box.top);
+  dominators->place[3] = pack(box.left, box.bottom);
+  dominators->place[4] = pack(box.right, box.bottom);
+  for (int i = 0; i < DOMINATORS; ++i) dominators->seed[i] = EMPTY;
+}
+
+// Fills a list's last run with empty positions.
+inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count); }
+
+// Whether a seed wins against another one, by distance and tie rule.
+#define WINS(seed, distance, other_seed, other_distance) \
+  (((distance) < (other_distance)) | (((distance) == (other_distance)) & ((seed) < (other_seed))))
+
+// The seed that wins among a run's lanes.
+inline uint winning_lane_1(uint seed, uint distance) {
+  (void)distance;
+  return seed;
+}
+#define DEFINE_WINNING_LANE(name, uint_n, name_of_half)                                                         \
+  inline uint name(uint_n seed, uint_n distance) {                                                              \
+    return name_of_half(select(seed.hi, seed.lo, WINS(seed.lo, distance.lo, seed.hi, distance.hi)),             \
+                        min(distance.lo, distance.hi));                                                         \
+  }
+DEFINE_WINNING_LANE(winning_lane_2, uint2, winning_lane_1)
+DEFINE_WINNING_LANE(winning_lane_4, uint4, winning_lane_2)
+DEFINE_WINNING_LANE(winning_lane_8, uint8, winning_lane_4)
+DEFINE_WINNING_LANE(winning_lane_16, uint16, winning_lane_8)
+#define winning_lane JOIN(winning_lane_, VOROCL_WIDTH)
+
+// Takes the seed of a padded list that wins at a place, if it wins against the place's dominator.
+inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, int count) {
+  const uint_run place = dominators->place[i];
+  uint_run nearest = dominators->seed[i];
+  uint_run least = distance_to_label(nearest, place);
+  for (int first = 0; first < count; first += VOROCL_WIDTH) {
+    const uint_run seed = LOAD_RUN(seeds + first);
+    const uint_run distance = distance_to_label(seed, place);
+    nearest = select(nearest, seed, WINS(seed, distance, nearest, least));
+    least = min(least, distance);
+  }
+  dominators->seed[i] = winning_lane(nearest, least);
+  for (int corner = 0; corner < CORNERS; ++corner) {
+    dominators->distance[i][corner] = distance_between_two(dominators->seed[i], dominators->place[1 + corner]);
+  }
+}
+
+// Copies those entries of the run at `first` whose bit is set behind the `kept` ones at the front of the list.
+inline int keep_entries(uint* list, int first, uint bits, int kept) {
+  for (; bits != 0; bits &= bits - 1) list[kept++] = list[first + (int)lowest_bit(bits)];
+  return kept;
+}
+
+// By how much seeds at these distances from the corners are behind a dominator where they are least so: below 0 if
+// they win at a corner. At an equal distance the dominator wins if it comes first.
+inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, const uint_run* distance) {
+  int_run lag = AS_INT_RUN(distance[0] - dominators->distance[i][0]);
+#pragma unroll
+  for (int corner = 1; corner < CORNERS; ++corner) {
+    lag = min(lag, AS_INT_RUN(distance[corner] - dominators->distance[i][corner]));
+  }
+  return lag - AS_INT_RUN(select((uint_run)1, (uint_run)0, dominators->seed[i] < seed));
+}
+
+// Drops the seeds of a padded list that are dominated by one of the dominators from `begin` to `end`.
+inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end, uint* seeds, int count) {
+  int kept = 0;
+  for (int first = 0; first < count; first += VOROCL_WIDTH) {
+    const uint_run seed = LOAD_RUN(seeds + first);
+    uint_run distance[CORNERS];
+#pragma unroll
+    for (int corner = 0; corner < CORNERS; ++corner) {
+      distance[corner] = distance_to_label(seed, (uint_run)dominators->place[1 + corner]);
+    }
+    int_run lag = (int_run)INT_MIN;
+    for (int i = begin; i < end; ++i) lag = max(lag, least_lag(dominators, i, seed, distance));
+    lag = select(lag, (int_run)0, AS_INT_RUN(seed) < 0);  // empty
+    kept = keep_entries(seeds, first, lane_bits(lag < 0), kept);
+  }
+  pad(seeds, kept);
+  return kept;
+}
+
+// Finds dominators in a padded list and drops what they dominate. The one at the centre dominates most of it, so the
+// others are found among what is left: what is nearest to a corner is dominated by none. A few are let be: trying them
+// at the pixels costs less.
+#define FEW 8
+inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
+  improve_dominator(dominators, 0, seeds, count);
+  count = drop_dominated_seeds(dominators, 0, 1, seeds, count);
+  if (count <= FEW) return count;
+  for (int i = 1; i < DOMINATORS; ++i) improve_dominator(dominators, i, seeds, count);
+  return drop_dominated_seeds(dominators, 1, DOMINATORS, seeds, count);
+}
+
+// The part of the distance from a pixel to an interval of pixels that lies along one axis.
+#define TO_INTERVAL(from, first, last) ALONG(max(max((first) - (from), (from) - (last)), (int_run)0))
+
+// The search for the candidates of one box.
+typedef struct {
+  Box box;
+  Dominators dominators;
+  int level;                             // of the cells
+  int cell_count;                        // cells that may hold candidates:
+  uint cells[MOST_CELLS + VOROCL_WIDTH]; // their column and row in their level, packed
+  uint named[MOST_CELLS + VOROCL_WIDTH]; // a seed of each
+  int next_part;                         // of the parts of level 0 of all cells, the first one not looked at yet
+  int count;                             // candidates found and not yet taken:
+  uint seeds[LIST_ROOM];
+} Search;
+
+// No seed of a cell comes before the cell's first pixel.
+inline void drop_dominated_cells(Search* search) {
+  const Box box = search->box;
+  const int size = 1 << cell_bits(search->level);
+  int kept = 0;
+  for (int first = 0; first < search->cell_count; first += VOROCL_WIDTH) {
+    const uint_run cell = LOAD_RUN(search->cells + first);
+    const int_run left = AS_INT_RUN(cell & 0xffffu) * size, top = AS_INT_RUN(cell >> 16) * size;
+    const int_run to_left = TO_INTERVAL(box.left, left, left + size - 1);
+    const int_run to_right = TO_INTERVAL(box.right, left, left + size - 1);
+    const int_run to_top = TO_INTERVAL(box.top, top, top + size - 1);
+    const int_run to_bottom = TO_INTERVAL(box.bottom, top, top + size - 1);
+    const uint_run distance[CORNERS] = {AS_UINT_RUN(to_left + to_top), AS_UINT_RUN(to_right + to_top),
+                                        AS_UINT_RUN(to_left + to_bottom), AS_UINT_RUN(to_right + to_bottom)};
+    int_run lag = (int_run)INT_MIN;
+    const uint_run first_pixel = AS_UINT_RUN(top) << 16 | AS_UINT_RUN(left);
+    for (int i = 0; i < DOMINATORS; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
+    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_RUN(search->named + first)) < 0);  // empty
+    const uint bits = lane_bits(lag < 0);
+    keep_entries(search->cells, first, bits, kept);
+    kept = keep_entries(search->named, first, bits, kept);
+  }
+  search->cell_count = kept;
+}
+
+// Adds the cells of a rectangle of the search's level that are not empty.
+inline void add_cells(Search* search, global const uint* pyramid, int width, int height, int x, int y, int size) {
+  const int columns = cells_along(width, search->level), rows = cells_along(height, search->level);
+  global const uint* const level = pyramid + level_start(width, height, search->level);
+  for (int cell_y = y; cell_y < min(y + size, rows); ++cell_y) {
+    for (int cell_x = x; cell_x < min(x + size, columns); ++cell_x) {
+      const uint named = level[cell_y * columns + cell_x];
+      search->cells[search->cell_count] = pack(cell_x, cell_y);
+      search->named[search->cell_count] = named;
+      search->cell_count += named != EMPTY;
+    }
+  }
+}
+
+// Finds the cells that may hold candidates of the box, as fine as they can be listed.
+inline void begin_search(Search* search, Box box, global const uint* pyramid, int width, int height, int top_level) {
+  uint parents[MOST_PARENTS];
+  search->box = box;
+  search->level = top_level;
+  search->cell_count = 0;
+  search->next_part = 0;
+  no_dominators(&search->dominators, box);
+  add_cells(search, pyramid, width, height, 0, 0, TOP_CELLS);
+  while (true) {
+    pad(search->named, search->cell_count);
+    for (int i = 0; i < DOMINATORS; ++i) {
+      improve_dominator(&search->dominators, i, search->named, search->cell_count);
+    }
+    drop_dominated_cells(search);
+    if (search->level == 0 || search->cell_count > MOST_PARENTS) return;
+    const int parent_count = search->cell_count;
+    for (int i = 0; i < parent_count; ++i) parents[i] = search->cells[i];
+    search->cell_count = 0;
+    --search->level;
+    for (int i = 0; i < parent_count; ++i) {
+      add_cells(search, pyramid, width, height, packed_x(parents[i]) * FAN, packed_y(parents[i]) * FAN, FAN);
+    }
+  }
+}
+
+inline void add_seeds_of_cell(Search* search, global const uint* bits, int x, int y, int columns) {
+  for (int word = 0; word < WORDS; ++word) {
+    const uint first_pixel = pack(x * CELL, y * CELL + word * ROWS_OF_WORD);
+    for (uint seeds = bits[(y * columns + x) * WORDS + word]; seeds != 0; seeds &= seeds - 1) {
+      search->seeds[search->count++] = first_pixel + pixel_of_bit(lowest_bit(seeds));
+    }
+  }
+}
+
+// Lists candidates; false if there are more of them than fit, so that the caller takes these and comes again.
+inline bool find_candidates(Search* search, global const uint* pyramid, global const uint* bits, int width,
+                            int height) {
+  const int columns = cells_along(width, 0), rows = cells_along(height, 0);
+  const int side_bits = FAN_BITS * search->level, side = 1 << side_bits;  // parts of a cell along an axis
+  const int parts = search->cell_count << 2 * side_bits;
+  search->count = 0;
+  while (search->next_part < parts) {
+    const int part = search->next_part++;
+    const uint cell = search->cells[part >> 2 * side_bits];
+    const int x = packed_x(cell) * side + (part & (side - 1));
+    const int y = packed_y(cell) * side + (part >> side_bits & (side - 1));
+    if (x >= columns || y >= rows || pyramid[y * columns + x] == EMPTY) continue;
+    add_seeds_of_cell(search, bits, x, y, columns);
+    if (search->count <= MOST_CANDIDATES) continue;
+    pad(search->seeds, search->count);
+    search->count = drop_dominated(&search->dominators, search->seeds, search->count);
+    if (search->count > MOST_CANDIDATES / 2) return false;
+  }
+  pad(search->seeds, search->count);
+  search->count = drop_dominated(&search->dominators, search->seeds, search->count);
+  return true;
+}

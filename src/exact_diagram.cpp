@@ -1,0 +1,84 @@
+#include "vorocl/exact_diagram.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "buffer.hpp"
+#include "kernel.hpp"
+
+namespace vorocl {
+
+namespace {
+
+// As in the kernels.
+constexpr int cell_bits = 4;                   // a cell has 16 x 16 pixels, ...
+constexpr int fan_bits = 2;                    // ... a cell of the next level 4 x 4 of those
+constexpr std::size_t top_cells = 64;          // the search begins with a level of at most so many cells
+constexpr std::size_t most_candidates = 1024;  // of a tile, which is a cell of level 1
+constexpr std::size_t pixels_of_cell = 256;
+
+std::size_t cells_along(int pixels, int level) {
+  const int bits = cell_bits + fan_bits * level;
+  return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
+}
+
+std::size_t cells(const Grid& grid, int level) {
+  return cells_along(grid.width(), level) * cells_along(grid.height(), level);
+}
+
+int top_level(const Grid& grid) {
+  int level = 0;
+  while (cells(grid, level) > top_cells) ++level;
+  return level;
+}
+
+}  // namespace
+
+Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
+  const auto started = std::chrono::steady_clock::now();
+  diagram.begin(seeds);
+  const Device& device = diagram.device();
+  const Grid& grid = diagram.grid();
+  const int top = top_level(grid);
+  std::size_t all_cells = 0;
+  for (int level = 0; level <= top; ++level) all_cells += cells(grid, level);
+
+  using Scratch = Diagram::Scratch;
+  constexpr std::size_t word = sizeof(std::uint32_t);
+  const std::size_t bit_words = cells(grid, 0) * pixels_of_cell / 32;
+  const cl::Buffer ids = diagram.scratch(Scratch::packed_back, cells(grid, 0) * pixels_of_cell * word);
+  const cl::Buffer bits = diagram.scratch(Scratch::exact_bits, bit_words * word);
+  const cl::Buffer late = diagram.scratch(Scratch::exact_late, seeds.size() * word);
+  const cl::Buffer late_count = diagram.scratch(Scratch::flags, word);
+  const cl::Buffer pyramid = diagram.scratch(Scratch::exact_pyramid, all_cells * word);
+  const cl::Buffer lists = diagram.scratch(Scratch::exact_lists, cells(grid, 1) * most_candidates * word);
+  const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, cells(grid, 1) * word);
+
+  const std::string file = options.short_lists ? "exact_short_lists.cl" : "exact_diagram.cl";
+  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
+    // Smaller work-groups than the usual ones would make PoCL compile the kernel again.
+    const std::size_t least = device.tuning().group_width * device.tuning().group_height;
+    return Kernel(device, file, name, grid, {options.metric})
+        .over_items(std::max(items, least), arguments...);
+  };
+  const auto count = static_cast<cl_uint>(seeds.size());
+  const int width = grid.width(), height = grid.height();
+
+  const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
+  fill(device, late_count, cl_uint{0}, 1);
+  run("put_seeds", count, seeds.positions(), count, ids, bits, late, late_count, width);
+  run("keep_lowest_ids", count, seeds.positions(), late, late_count, ids, width);
+  run("name_seeds", cells(grid, 0), bits, pyramid, width, height);
+  for (int level = 1; level <= top; ++level) {
+    run("name_seeds_above", cells(grid, level), pyramid, width, height, level);
+  }
+  run("list_candidates", cells(grid, 1), pyramid, bits, lists, counts, width, height, top);
+  const cl::Event last = run("label_cells", cells(grid, 0), pyramid, bits, lists, counts, ids,
+                             diagram.labels(), width, height, top);
+  check(clFlush(device.queue()()), "starting the diagram");
+  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started;
+  return {0, first, last, host.count()};
+}
+
+}  // namespace vorocl

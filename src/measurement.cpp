@@ -1,0 +1,60 @@
+#include "measurement.hpp"
+
+#include "buffer.hpp"
+#include "opencl_info.hpp"
+
+namespace vorocl {
+
+namespace {
+
+std::string size_of(const Grid& grid) {
+  return std::to_string(grid.width()) + " x " + std::to_string(grid.height());
+}
+
+bool works_in_vectors(const Device& device) { return device.tuning().vector_width > 1; }
+
+/// A CPU, which works in vectors, gets large blocks: few cells then lie in several. Each is a work-group, for
+/// a group runs on one core. A GPU gets small blocks, for it needs thousands of work-items.
+Device with_groups_for_blocks(const Device& device) {
+  return works_in_vectors(device) ? device.with_tuning({device.tuning().vector_width, 1, 1}) : device;
+}
+int bits_of_width(const Device& device) { return works_in_vectors(device) ? 8 : 5; }
+int bits_of_height(const Device& device) { return works_in_vectors(device) ? 7 : 3; }
+
+std::size_t blocks_along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+
+}  // namespace
+
+void check_together(const Seeds& seeds, const Diagram& diagram) {
+  if (!seeds.device().same_as(diagram.device())) {
+    throw Error("the seeds and the diagram belong to different devices");
+  }
+  if (seeds.grid() != diagram.grid()) {
+    throw Error("the seeds' grid is " + size_of(seeds.grid()) + ", the diagram's " + size_of(diagram.grid()));
+  }
+}
+
+void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
+  if (buffer() != nullptr &&
+      info<cl_context>(clGetMemObjectInfo, buffer(), CL_MEM_CONTEXT) == device.context()() &&
+      size_of(buffer) >= bytes) {
+    return;
+  }
+  buffer = cl::Buffer();
+  buffer = allocate(device, bytes, "the measures of a diagram");
+}
+
+Blocks::Blocks(const Device& device, const Grid& grid)
+    : device_(with_groups_for_blocks(device)),
+      grid_(grid),
+      wide_(bits_of_width(device)),
+      high_(bits_of_height(device)),
+      count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
+
+Report Stopwatch::report(const Device& device, const cl::Event& first, const cl::Event& last) const {
+  check(clFlush(device.queue()()), "starting a measurement");
+  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
+  return {0, first, last, host.count()};
+}
+
+}  // namespace vorocl

@@ -1,0 +1,35 @@
+// Asks OpenCL about its objects.
+#pragma once
+
+#include <CL/opencl.hpp>
+#include <string>
+#include <type_traits>
+
+#include "opencl_error.hpp"
+
+namespace vorocl {
+
+/// What a clGet...Info function (`ask`) tells about an object: a number or handle of the type T that OpenCL
+/// documents, or a text. Throws Error if it tells nothing.
+template <typename T, typename Ask, typename Object, typename Name>
+T info(Ask ask, const Object& object, Name name) {
+  T value{};
+  if constexpr (std::is_same_v<T, std::string>) {
+    std::size_t size = 0;
+    check(ask(object, name, 0, nullptr, &size), "asking OpenCL for a text");
+    value.resize(size);
+    check(ask(object, name, size, value.data(), nullptr), "asking OpenCL for a text");
+    value.resize(value.find_last_not_of('\0') + 1);
+  } else {
+    check(ask(object, name, sizeof value, &value, nullptr), "asking OpenCL for a value");
+  }
+  return value;
+}
+
+/// A property of a device.
+template <typename T>
+T device_info(cl_device_id device, cl_device_info name) {
+  return info<T>(clGetDeviceInfo, device, name);
+}
+
+}  // namespace vorocl

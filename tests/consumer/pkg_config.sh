@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# Builds a C program against an installed copy as pkg-config says, and runs it: pkg_config.sh LIBDIR VERSION CC FILE.c
+# Exits with 77 where pkg-config is not installed.
+set -euo pipefail
+libdir=$1 version=$2 cc=$3 source=$4
+command -v pkg-config >/dev/null || { echo "pkg-config is not installed: skipped"; exit 77; }
+
+export PKG_CONFIG_PATH=$libdir/pkgconfig
+[ "$(pkg-config --modversion vorocl)" = "$version" ] || { echo "pkg-config knows another version"; exit 1; }
+if [ -f "$libdir/pkgconfig/vorocl-picture.pc" ]; then pkg-config --exists --print-errors vorocl-picture; fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+# shellcheck disable=SC2046
+"$cc" -std=c99 -DCL_TARGET_OPENCL_VERSION=120 "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program"
+LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$folder/program"

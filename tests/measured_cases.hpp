@@ -1,0 +1,99 @@
+// The diagrams whose measurements are tested, and straight host code to hold them against.
+#pragma once
+
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+
+namespace vorocl {
+
+/// The world's cities, from degrees (x in 0 to 360, y in 0 to 180) to the grid.
+inline std::vector<Pixel> cities(const Grid& grid) {
+  std::ifstream file(VOROCL_SAMPLES "/cities-5000.csv");
+  std::string line;
+  std::getline(file, line);
+  std::vector<Pixel> pixels;
+  for (double x = 0, y = 0; std::getline(file, line);) {
+    BOOST_TEST_REQUIRE(std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2);
+    pixels.push_back({std::min(static_cast<int>(x * grid.width() / 360), grid.width() - 1),
+                      std::min(static_cast<int>(y * grid.height() / 180), grid.height() - 1)});
+  }
+  BOOST_TEST_REQUIRE(pixels.size() == 5000);
+  return pixels;
+}
+
+/// Seeds in a few dense heaps, which leave most of the grid to cells on their rims.
+inline std::vector<Pixel> clusters(const Grid& grid, std::size_t count) {
+  std::mt19937 rng(3);
+  const std::vector<Pixel> middles = random_pixels(grid, 5, 4);
+  std::vector<Pixel> pixels;
+  while (pixels.size() < count) {
+    const Pixel& middle = middles[rng() % middles.size()];
+    int x = middle.x, y = middle.y;
+    for (int i = 0; i < 4; ++i) x += static_cast<int>(rng() % 13) - 6, y += static_cast<int>(rng() % 13) - 6;
+    if (x >= 0 && x < grid.width() && y >= 0 && y < grid.height()) pixels.push_back({x, y});
+  }
+  return pixels;
+}
+
+inline std::vector<Case> measured_cases() {
+  std::vector<Case> cases = edge_cases();
+  const Grid wide(700, 300), tall(130, 1000);
+  cases.push_back({"few seeds", wide, random_pixels(wide, 7, 5)});
+  cases.push_back({"random seeds", wide, random_pixels(wide, 1000, 6)});
+  cases.push_back({"dense seeds", wide, random_pixels(wide, 30000, 7)});
+  cases.push_back({"tall", tall, random_pixels(tall, 500, 8)});
+  cases.push_back({"clusters", wide, clusters(wide, 2000)});
+  cases.push_back({"cities", Grid(1440, 720), cities(Grid(1440, 720))});
+  return cases;
+}
+
+/// The device in the shapes that measurements differ for: large blocks with whole and cut vectors, small
+/// blocks.
+inline std::vector<Device> shapes() {
+  const Device& device = test_device();
+  return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
+}
+
+/// Gives a diagram labels that no engine would make.
+inline void write_labels(Diagram& diagram, const std::vector<std::uint32_t>& labels) {
+  BOOST_TEST_REQUIRE(labels.size() == diagram.grid().pixels());
+  BOOST_TEST_REQUIRE(diagram.device().queue().enqueueWriteBuffer(
+                         diagram.labels(), CL_TRUE, 0, labels.size() * 4, labels.data()) == CL_SUCCESS);
+}
+
+/// Labels at random, some of which name no seed: cells in many pieces.
+inline std::vector<std::uint32_t> random_labels(const Grid& grid, std::uint32_t cells, unsigned rng_seed) {
+  std::mt19937 rng(rng_seed);
+  std::vector<std::uint32_t> labels(grid.pixels());
+  for (std::uint32_t& label : labels) {
+    const std::uint32_t drawn = static_cast<std::uint32_t>(rng()) % (cells + cells / 8 + 1);
+    label = drawn < cells ? drawn : no_label;
+  }
+  return labels;
+}
+
+/// Calls visit(label, x, y) for each pixel that has a label.
+template <typename Visit>
+void each_pixel(const Grid& grid, const std::vector<std::uint32_t>& labels, Visit visit) {
+  std::size_t i = 0;
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x, ++i) {
+      if (labels[i] != no_label) visit(labels[i], x, y);
+    }
+  }
+}
+
+inline std::uint32_t label_at(const Grid& grid, const std::vector<std::uint32_t>& labels, int x, int y) {
+  return labels[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width()) +
+                static_cast<std::size_t>(x)];
+}
+
+}  // namespace vorocl

@@ -1,0 +1,108 @@
+// The caller's own buffers and events: used without a copy, and refused before any work where they do not
+// fit.
+#define BOOST_TEST_MODULE callers_objects
+#include "brute_force.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const Grid grid(50, 30);
+const std::size_t bytes = 50 * 30 * 4;
+
+cl::Buffer make_buffer(std::size_t size, cl_mem_flags flags = CL_MEM_READ_WRITE) {
+  return cl::Buffer(test_device().context(), flags, size);
+}
+
+std::vector<std::uint32_t> content_of(const cl::Buffer& buffer, std::size_t first, std::size_t count) {
+  std::vector<std::uint32_t> values(count);
+  test_device().queue().enqueueReadBuffer(buffer, CL_TRUE, first * 4, count * 4, values.data());
+  return values;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(labels_go_to_the_callers_buffer) {
+  const auto pixels = random_pixels(grid, 20, 3);
+  const cl::Buffer labels = make_buffer(bytes);
+  Diagram diagram(test_device(), grid, labels);
+  BOOST_TEST(diagram.labels()() == labels());
+  exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram);
+  const auto truth = brute_force(grid, pixels, Metric::euclidean);
+  BOOST_TEST((diagram.read() == truth));
+  BOOST_TEST((content_of(labels, 0, grid.pixels()) == truth));
+}
+
+BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {
+  const std::uint32_t mark = 0xabcd1234;
+  const std::size_t before = 4096;  // of the sub-buffer: a multiple of every device's alignment
+  const cl::Buffer whole = make_buffer(before + bytes + 400);
+  test_device().queue().enqueueFillBuffer(whole, mark, 0, before + bytes + 400);
+  const cl_buffer_region region = {before, bytes + 200};
+  cl::Buffer parent = whole;
+  const cl::Buffer part = parent.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
+
+  Diagram diagram(test_device(), grid, part);
+  BOOST_TEST(diagram.read().front() == mark);  // nothing is written before an engine runs
+  for (int frame = 0; frame < 2; ++frame) {
+    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram);
+    BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), 0)));
+  }
+  BOOST_TEST((content_of(whole, 0, before / 4) == std::vector<std::uint32_t>(before / 4, mark)));
+  BOOST_TEST((content_of(whole, (before + bytes) / 4, 100) == std::vector<std::uint32_t>(100, mark)));
+}
+
+BOOST_AUTO_TEST_CASE(unfit_label_buffers_are_refused) {
+  const auto over = [](const cl::Buffer& labels) { Diagram(test_device(), grid, labels); };
+  check_error([&] { over(cl::Buffer()); }, {"labels", "null"});
+  check_error([&] { over(make_buffer(bytes - 1)); }, {"5999 bytes", "6000 are needed"});
+  check_error([&] { over(make_buffer(bytes, CL_MEM_READ_ONLY)); }, {"labels", "read-only"});
+  check_error([&] { over(make_buffer(bytes, CL_MEM_WRITE_ONLY)); }, {"labels", "write-only"});
+  const Device other = Device::select();
+  check_error([&] { Diagram(other, grid, make_buffer(bytes)); }, {"another OpenCL context"});
+}
+
+BOOST_AUTO_TEST_CASE(an_image_is_no_buffer) {
+  const cl::ImageFormat format(CL_R, CL_UNSIGNED_INT32);
+  cl_int code = CL_SUCCESS;
+  const cl::Image2D image(test_device().context(), CL_MEM_READ_WRITE, format, 50, 30, 0, nullptr, &code);
+  if (code != CL_SUCCESS) return;  // the device has no such images
+  check_error([&] { Diagram(test_device(), grid, cl::Buffer(image(), true)); }, {"another kind"});
+}
+
+BOOST_AUTO_TEST_CASE(write_only_points_are_refused) {
+  check_error([] { Seeds(test_device(), grid, make_buffer(80, CL_MEM_WRITE_ONLY), 10); },
+              {"10 points", "write-only"});
+}
+
+BOOST_AUTO_TEST_CASE(the_device_waits_for_the_callers_events) {
+  // The points come when the user event is set, long after all is enqueued.
+  const Device& device = test_device();
+  const cl::CommandQueue other_queue(device.context(), device.cl_device());
+  const std::vector<cl_float2> values = {{{7, 8}}, {{40, 20}}};
+  const cl::Buffer points = make_buffer(sizeof(cl_float2) * 2);
+  device.queue().enqueueFillBuffer(points, cl_float{-1}, 0, sizeof(cl_float2) * 2);
+  device.finish();
+  cl::UserEvent go(device.context());
+  const std::vector<cl::Event> start = {go};
+  cl::Event uploaded;
+  other_queue.enqueueWriteBuffer(points, CL_FALSE, 0, sizeof(cl_float2) * 2, values.data(), &start,
+                                 &uploaded);
+  other_queue.flush();
+
+  device.wait_for({});
+  device.wait_for({uploaded});
+  const Seeds seeds(device, grid, points, 2);
+  Diagram diagram(device, grid);
+  const Report report = jump_flooding(seeds, diagram);
+  BOOST_TEST(report.event().getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE);
+  go.setStatus(CL_COMPLETE);
+  BOOST_TEST((diagram.read() == brute_force(grid, {{7, 8}, {40, 20}}, Metric::euclidean)));
+}
+
+BOOST_AUTO_TEST_CASE(unfit_events_are_refused) {
+  check_error([] { test_device().wait_for({cl::Event()}); }, {"event", "null"});
+  const cl::UserEvent foreign(Device::select().context());
+  check_error([&] { test_device().wait_for({foreign}); }, {"event", "another OpenCL context"});
+}

@@ -1,0 +1,173 @@
+// Sums, shapes and statistics of cells, against straight host code.
+#define BOOST_TEST_MODULE cells
+#include "measured_cases.hpp"
+#include "vorocl/cells.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+void check_sums(const std::string& name, const Seeds& seeds, const Diagram& diagram, CellSumsResult& result) {
+  cell_sums(seeds, diagram, result);
+  const std::vector<CellSums> sums = result.read();
+  std::vector<CellSums> expected(seeds.size());
+  std::uint64_t labelled = 0, all = 0;
+  each_pixel(diagram.grid(), diagram.read(), [&](std::uint32_t label, int x, int y) {
+    ++labelled;
+    ++expected[label].area;
+    expected[label].sum_x += static_cast<std::uint64_t>(x);
+    expected[label].sum_y += static_cast<std::uint64_t>(y);
+  });
+  BOOST_TEST_REQUIRE(sums.size() == expected.size());
+  std::size_t wrong = 0;
+  for (std::size_t id = 0; id < sums.size(); ++id) {
+    all += sums[id].area;
+    wrong += sums[id].area != expected[id].area || sums[id].sum_x != expected[id].sum_x ||
+                     sums[id].sum_y != expected[id].sum_y
+                 ? 1
+                 : 0;
+  }
+  BOOST_TEST(wrong == 0u, name << ": " << wrong << " of " << sums.size() << " sums are wrong");
+  BOOST_TEST(all == labelled, name);
+}
+
+void check_shapes(const std::string& name, const Seeds& seeds, const std::vector<Pixel>& pixels,
+                  const Diagram& diagram, Metric metric) {
+  CellShapesResult result;
+  cell_shapes(seeds, diagram, result, metric);
+  const std::vector<CellShape> shapes = result.read();
+  const Grid& grid = diagram.grid();
+  std::vector<CellShape> expected(seeds.size(), {INT32_MAX, INT32_MAX, -1, -1, -1, false});
+  each_pixel(grid, diagram.read(), [&](std::uint32_t label, int x, int y) {
+    CellShape& cell = expected[label];
+    cell.left = std::min(cell.left, x);
+    cell.top = std::min(cell.top, y);
+    cell.right = std::max(cell.right, x);
+    cell.bottom = std::max(cell.bottom, y);
+    cell.largest_distance =
+        std::max(cell.largest_distance, static_cast<std::int32_t>(distance({x, y}, pixels[label], metric)));
+    cell.touches_border |= x == 0 || y == 0 || x == grid.width() - 1 || y == grid.height() - 1;
+  });
+  BOOST_TEST_REQUIRE(shapes.size() == expected.size());
+  std::size_t wrong_boxes = 0, wrong_distances = 0, wrong_borders = 0;
+  for (std::size_t id = 0; id < shapes.size(); ++id) {
+    const CellShape &a = shapes[id], &b = expected[id];
+    wrong_boxes += a.left != b.left || a.top != b.top || a.right != b.right || a.bottom != b.bottom ? 1 : 0;
+    wrong_distances += a.largest_distance != b.largest_distance ? 1 : 0;
+    wrong_borders += a.touches_border != b.touches_border ? 1 : 0;
+  }
+  BOOST_TEST(wrong_boxes == 0u, name << ": " << wrong_boxes << " boxes are wrong");
+  BOOST_TEST(wrong_distances == 0u, name << ": " << wrong_distances << " distances are wrong");
+  BOOST_TEST(wrong_borders == 0u, name << ": " << wrong_borders << " cells are wrong about the border");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(sums_and_shapes_are_those_of_the_host) {
+  for (const Device& device : shapes()) {
+    CellSumsResult result;  // one for all: its buffers grow, and hold what the last case left
+    for (const Case& test : measured_cases()) {
+      const Seeds seeds(device, test.grid, centres(test.seeds));
+      Diagram diagram(device, test.grid);
+      const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
+      jump_flooding(seeds, diagram, {metric});
+      check_sums(test.name, seeds, diagram, result);
+      check_shapes(test.name, seeds, test.seeds, diagram, metric);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(cells_in_many_pieces) {
+  const Grid grid(600, 290);
+  const std::vector<Pixel> pixels = random_pixels(grid, 300, 1);
+  for (const Device& device : shapes()) {
+    const Seeds seeds(device, grid, centres(pixels));
+    Diagram diagram(device, grid);
+    CellSumsResult result;
+    write_labels(diagram, random_labels(grid, 300, 2));
+    check_sums("pieces", seeds, diagram, result);
+    for (const Metric metric : both_metrics) check_shapes("pieces", seeds, pixels, diagram, metric);
+    write_labels(diagram, std::vector<std::uint32_t>(grid.pixels(), no_label));
+    check_sums("no labels", seeds, diagram, result);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
+  const Grid grid(4099, 2100);
+  for (const Device& device : shapes()) {
+    const Seeds seeds(device, grid, std::vector<Point>{{4000.5, 2000.5}});
+    Diagram diagram(device, grid);
+    jump_flooding(seeds, diagram);
+    CellSumsResult result;
+    cell_sums(seeds, diagram, result);
+    const CellSums cell = result.read().front();
+    BOOST_TEST(cell.area == 4099u * 2100u);
+    BOOST_TEST(cell.sum_x == 4098ull * 4099 / 2 * 2100);
+    BOOST_TEST(cell.sum_x > 0xffffffffull);
+    BOOST_TEST(cell.sum_y == 2099ull * 2100 / 2 * 4099);
+    BOOST_TEST(cell.centroid().x == 4099 / 2.0);
+    BOOST_TEST(cell.centroid().y == 2100 / 2.0);
+  }
+  BOOST_TEST(std::isnan(CellSums().centroid().x));
+}
+
+BOOST_AUTO_TEST_CASE(statistics_of_areas) {
+  const Grid grid(4, 3);
+  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}, {3.5, 0.5}, {2.5, 2.5}});
+  seeds.move_to({Point{0.5, 0.5}, Point{0.5, 0.5}, Point{3.5, 0.5}, std::nullopt});
+  Diagram diagram(test_device(), grid);
+  write_labels(diagram, {0, 0, 2, 2, 0, 0, 2, 2, no_label, 0, 2, 2});
+  const CellStatistics statistics = cell_statistics(seeds, diagram);
+  BOOST_TEST(statistics.cells == 3u);
+  BOOST_TEST(statistics.empty_cells == 1u);
+  BOOST_TEST(statistics.pixels == 11u);
+  BOOST_TEST(statistics.mean_area == 11 / 3.0);
+  BOOST_TEST(statistics.area_deviation == std::sqrt((25 + 36) / 3.0 - 121 / 9.0),
+             boost::test_tools::tolerance(1e-12));
+
+  const Seeds none(test_device(), grid, std::vector<Point>{});
+  jump_flooding(none, diagram);
+  const CellStatistics empty = cell_statistics(none, diagram);
+  BOOST_TEST(empty.cells == 0u);
+  BOOST_TEST(empty.pixels == 0u);
+  BOOST_TEST(empty.mean_area == 0);
+
+  const Grid large(700, 300);
+  const Seeds many(test_device(), large, centres(random_pixels(large, 30000, 9)));
+  Diagram dense(test_device(), large);
+  jump_flooding(many, dense);
+  std::map<std::uint32_t, double> areas;
+  each_pixel(large, dense.read(), [&](std::uint32_t label, int, int) { ++areas[label]; });
+  double variance = 0;
+  for (std::uint32_t id = 0; id < 30000; ++id) {
+    const double area = areas.count(id) > 0 ? areas[id] : 0;
+    variance += (area - 7) * (area - 7) / 30000;
+  }
+  const CellStatistics spread = cell_statistics(many, dense);
+  BOOST_TEST(spread.mean_area == 7);
+  BOOST_TEST(spread.empty_cells == 30000 - areas.size());
+  BOOST_TEST(spread.area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
+}
+
+BOOST_AUTO_TEST_CASE(pixels_that_changed) {
+  const Grid grid(700, 300);
+  Diagram a(test_device(), grid), b(test_device(), grid);
+  std::vector<std::uint32_t> labels = random_labels(grid, 100, 3);
+  write_labels(a, labels);
+  write_labels(b, labels);
+  BOOST_TEST(changed_pixels(a, b) == 0u);
+  for (std::size_t i = 0; i < 12345; ++i) labels[17 * i] ^= 1;
+  write_labels(b, labels);
+  BOOST_TEST(changed_pixels(a, b) == 12345u);
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_together_is_refused) {
+  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
+  const Diagram other_grid(test_device(), Grid(20, 10)), other_device(Device::select(), Grid(10, 20));
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  check_error([&] { cell_sums(seeds, other_grid, sums); }, {"10 x 20", "20 x 10"});
+  check_error([&] { cell_shapes(seeds, other_device, shapes); }, {"different devices"});
+  BOOST_TEST(sums.read().empty());
+  BOOST_TEST(shapes.size() == 0u);
+}

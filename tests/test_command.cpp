@@ -1,0 +1,157 @@
+// The vorocl command, run as its users run it: what it prints and writes.
+#define BOOST_TEST_MODULE command
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "brute_force.hpp"
+#include "label_file.hpp"
+#include "run_command.hpp"
+
+using namespace vorocl;
+using nlohmann::json;
+
+namespace {
+
+std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::string& name) {
+  return command::read_labels(folder / name).labels;
+}
+
+std::vector<Pixel> pixels_of(const Seeds& seeds) {
+  std::vector<Pixel> pixels;
+  for (const Point& seed : seeds.read())
+    pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
+  return pixels;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(every_level_has_help) {
+  const TemporaryFolder folder;
+  for (const char* subcommand : {"devices", "render", "compare", "bench"}) {
+    BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
+    BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
+  }
+  BOOST_TEST(succeeds(folder, "--version") == "vorocl " VOROCL_VERSION "\n");
+}
+
+BOOST_AUTO_TEST_CASE(devices_names_the_one_that_is_picked) {
+  const TemporaryFolder folder;
+  const json devices = json::parse(succeeds(folder, "devices --json")).at("devices");
+  const auto selected =
+      std::find_if(devices.begin(), devices.end(), [](const json& d) { return d["selected"]; });
+  BOOST_REQUIRE((selected != devices.end()));
+  BOOST_TEST((*selected)["name"].get<std::string>() == test_device().name());
+  BOOST_TEST((*selected)["reason"].get<std::string>() != "");
+  BOOST_TEST(succeeds(folder, "devices").find("selected: ") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(render_draws_the_cities) {
+  const TemporaryFolder folder;
+  const std::string out =
+      succeeds(folder, "render --points '" VOROCL_SAMPLES
+                       "/cities-5000.csv' --width 360 --bounds 0,0,360,180 --method jfa+1 -o a.png "
+                       "--labels a.npy --edges --points-overlay --color distance --palette turbo");
+  BOOST_TEST(out.substr(out.find_last_of(' ') + 1) == "a.png\n");
+  BOOST_TEST((folder.names() == std::set<std::string>{"a.png", "a.npy"}));
+  BOOST_TEST(cv::imread(folder / "a.png").size() == cv::Size(360, 180));
+  BOOST_TEST(labels_of(folder, "a.npy").size() == 360u * 180u);
+}
+
+BOOST_AUTO_TEST_CASE(render_labels_pixels_by_the_nearest_point_of_the_file) {
+  const TemporaryFolder folder;
+  // Data units of a tenth of a pixel, far from the origin, y up; the last seed is coincident with the first.
+  folder.file("p.csv", "y,x\n1000,100\n1000,103.9\n1002.95,102\n1000.05,100.05\n");
+  succeeds(
+      folder,
+      "render --points p.csv --bounds 100,1000,104,1003 --size 40x30 --y-up --method jfa+2 --labels a.tif");
+  const std::vector<Pixel> seeds = {{0, 29}, {39, 29}, {20, 0}, {0, 29}};
+  BOOST_TEST(labels_of(folder, "a.tif") == brute_force(Grid(40, 30), seeds, Metric::euclidean));
+}
+
+BOOST_AUTO_TEST_CASE(render_reads_masks_and_makes_its_own_points) {
+  const TemporaryFolder folder;
+  const Grid grid(50, 40);
+  cv::Mat mask(40, 50, CV_8U, cv::Scalar(0));
+  mask.at<std::uint8_t>(30, 5) = 1;
+  mask.at<std::uint8_t>(2, 40) = 255;
+  cv::imwrite(folder / "m.png", mask);
+  succeeds(folder, "render --mask m.png --method standard-flooding --metric manhattan --labels a.npy");
+  BOOST_TEST(labels_of(folder, "a.npy") == brute_force(grid, {{40, 2}, {5, 30}}, Metric::manhattan));
+
+  succeeds(folder, "render --random 9 --rng-seed 4 --size 50x40 --method 1+jfa --labels b.npy");
+  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 9, 4));
+  const auto exact = brute_force(grid, seeds, Metric::euclidean);
+  const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels_of(folder, "b.npy"), exact);
+  BOOST_TEST(verdict.invalid + verdict.unlabelled == 0u);
+  BOOST_TEST(verdict.wrong < 20u);
+}
+
+BOOST_AUTO_TEST_CASE(render_json_is_one_object) {
+  const TemporaryFolder folder;
+  const json result = json::parse(succeeds(
+      folder,
+      "render --random 7 --size 64x32 --method jfa+1 --neighbourhood von-neumann --labels a.npy --json"));
+  BOOST_TEST(result.at("method") == "jfa+1");
+  BOOST_TEST(result.at("metric") == "euclidean");
+  BOOST_TEST(result.at("device") == test_device().name());
+  BOOST_TEST(result.at("width") == 64);
+  BOOST_TEST(result.at("height") == 32);
+  BOOST_TEST(result.at("seeds") == 7);
+  BOOST_TEST(result.at("frames") == 1);
+  BOOST_TEST(result.at("waves") == 7);
+  BOOST_TEST(result.at("milliseconds").get<double>() > 0);
+  BOOST_TEST(result.at("host_milliseconds").get<double>() > 0);
+}
+
+BOOST_AUTO_TEST_CASE(different_scales_of_the_axes_are_warned_of) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "0,0\n4,2\n");
+  const Result warned = run(folder, "render --points p.csv --size 40x40 --method jfa -o a.png");
+  BOOST_TEST(warned.exit_code == 0);
+  BOOST_TEST(warned.error.rfind("vorocl: warning: ", 0) == 0u);
+  BOOST_TEST(warned.error.find("--width") != std::string::npos);
+  succeeds(folder, "render --points p.csv --size 40x20 --method jfa -o a.png");  // and prints no warning
+}
+
+BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
+  const TemporaryFolder folder;
+  command::write_labels(folder / "a.npy", {Grid(4, 2), {1, 2, 3, 4, 5, 6, 7, 8}});
+  command::write_labels(folder / "b.tif", {Grid(4, 2), {1, 2, 3, 4, 5, 6, 9, 16777216}});
+  command::write_labels(folder / "c.npy", {Grid(2, 4), {1, 2, 3, 4, 5, 6, 7, 8}});
+  const json result = json::parse(succeeds(folder, "compare a.npy b.tif --json"));
+  BOOST_TEST(result.at("similarity") == 75);
+  BOOST_TEST(result.at("different_pixels") == 2);
+  BOOST_TEST(result.at("pixels") == 8);
+  BOOST_TEST(succeeds(folder, "compare a.npy a.npy").find("100.0") != std::string::npos);
+  refuses(folder, "compare a.npy c.npy", failure, {"4 x 2", "2 x 4"});
+  refuses(folder, "compare a.npy missing.npy", failure, {"missing.npy", "No such file"});
+  refuses(folder, "compare a.npy", usage, {"b is required"});
+}
+
+BOOST_AUTO_TEST_CASE(bench_judges_every_method) {
+  const TemporaryFolder folder;
+  const std::string arguments =
+      "bench --size 300x200 --random 500 --methods jfa,jfa+2,standard-flooding,opencv --repeat 3";
+  const json result = json::parse(succeeds(folder, arguments + " --json"));
+  BOOST_TEST(result.at("seeds") == 500);
+  BOOST_TEST(result.at("repeat") == 3);
+  const json& results = result.at("results");
+  BOOST_REQUIRE(results.size() == 4u);
+  const char* const names[] = {"jfa", "jfa+2", "standard-flooding", "opencv"};
+  const Grid grid(300, 200);
+  for (std::size_t i = 0; i < 4; ++i) {
+    BOOST_TEST(results[i].at("method") == names[i]);
+    BOOST_TEST(results[i].at("min_ms").get<double>() > 0);
+    BOOST_TEST(results[i].at("median_ms").get<double>() >= results[i].at("min_ms").get<double>());
+  }
+  // Against the labels that render writes, judged by brute force.
+  succeeds(folder, "render --size 300x200 --random 500 --method jfa --labels a.npy");
+  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 500, 1));
+  const auto exact = brute_force(grid, seeds, Metric::euclidean);
+  const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels_of(folder, "a.npy"), exact);
+  BOOST_TEST(results[0].at("wrong_pixels") == verdict.wrong);
+  BOOST_TEST(results[3].at("wrong_pixels").get<int>() > 0);  // OpenCV's 5 x 5 mask is approximate
+  const std::string table = succeeds(folder, arguments);
+  for (const char* name : names) BOOST_TEST(table.find(name) != std::string::npos);
+}

@@ -1,0 +1,294 @@
+// The exact engine: no wrong pixel, tie rule included, on any input; judged by brute force and a k-d tree.
+#define BOOST_TEST_MODULE exact_diagram
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <nanoflann.hpp>
+#include <numeric>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+#include "vorocl/exact_diagram.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+using Labels = std::vector<std::uint32_t>;
+
+/// Many more and larger cases, for minutes instead of seconds.
+const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
+
+Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
+                    const ExactOptions& options = {}) {
+  Diagram diagram(device, grid);
+  exact_diagram(Seeds(device, grid, centres(seeds)), diagram, options);
+  return diagram.read();
+}
+
+/// The seeds as nanoflann reads them, in the order of the tie rule.
+struct SeedCloud {
+  std::vector<Pixel> seeds;
+  std::size_t kdtree_get_point_count() const { return seeds.size(); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? seeds[i].x : seeds[i].y; }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+/// Keeps the first of the nearest seeds. Distances are integers, so that half of one lets ties in.
+struct FirstNearest {
+  double least = std::numeric_limits<double>::max();
+  std::size_t first = 0;
+  bool addPoint(double distance, std::size_t index) {
+    if (distance < least || (distance == least && index < first)) {
+      least = distance;
+      first = index;
+    }
+    return true;
+  }
+  double worstDist() const { return least + 0.5; }
+  bool full() const { return true; }
+  void init() {}
+  std::size_t size() const { return 1; }
+};
+
+template <typename Norm>
+Labels search_tree(const Grid& grid, const std::vector<Pixel>& seeds) {
+  std::vector<std::uint32_t> ids(seeds.size());
+  std::iota(ids.begin(), ids.end(), 0u);
+  std::stable_sort(ids.begin(), ids.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return seeds[a] < seeds[b]; });
+  // Without the seeds that share another one's pixel: thousands of equal points make the tree's leaves
+  // overflow.
+  const auto same = [&](std::uint32_t a, std::uint32_t b) {
+    return !(seeds[a] < seeds[b]) && !(seeds[b] < seeds[a]);
+  };
+  ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
+  SeedCloud cloud;
+  for (const std::uint32_t id : ids) cloud.seeds.push_back(seeds[id]);
+  nanoflann::KDTreeSingleIndexAdaptor<Norm, SeedCloud, 2> tree(2, cloud);
+  tree.buildIndex();
+  Labels labels;
+  labels.reserve(grid.pixels());
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      FirstNearest nearest;
+      const double pixel[] = {static_cast<double>(x), static_cast<double>(y)};
+      tree.findNeighbors(nearest, pixel, nanoflann::SearchParams());
+      labels.push_back(ids[nearest.first]);
+    }
+  }
+  return labels;
+}
+
+/// The exact labels by a k-d tree.
+Labels tree_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
+  return metric == Metric::euclidean
+             ? search_tree<nanoflann::L2_Simple_Adaptor<double, SeedCloud>>(grid, seeds)
+             : search_tree<nanoflann::L1_Adaptor<double, SeedCloud>>(grid, seeds);
+}
+
+std::size_t count_differences(const Labels& a, const Labels& b) {
+  std::size_t differences = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differences += a[i] != b[i] ? 1 : 0;
+  return differences;
+}
+
+/// Sets that starve some cells of seeds and flood others.
+std::vector<Case> hurtful_cases(const Grid& grid) {
+  const int w = grid.width(), h = grid.height();
+  std::vector<Pixel> clusters, corner, row, column, diagonal, ring, checkers, blocks, stacked, patches;
+  std::mt19937 rng(11);
+  std::normal_distribution<double> spread(0, w / 100.0);
+  const auto inside = [](double at, int side) {
+    return std::min(std::max(static_cast<int>(at), 0), side - 1);
+  };
+  const auto middles = random_pixels(grid, 5, 12);
+  for (std::size_t i = 0; i < grid.pixels() / 256; ++i) {
+    const Pixel& middle = middles[i % middles.size()];
+    clusters.push_back({inside(middle.x + spread(rng), w), inside(middle.y + spread(rng), h)});
+  }
+  corner = random_pixels({w / 16, h / 16}, grid.pixels() / 256, 13);
+  for (int x = 0; x < w; ++x) row.push_back({x, h / 3});
+  for (int y = 0; y < h; ++y) column.push_back({w - 1, y});
+  for (int i = 0; i < std::min(w, h); ++i) diagonal.push_back({i, i});
+  for (int i = 0; i < 8 * w; ++i) {
+    const double angle = i * 0.25 * 3.14159265358979 / w, radius = 0.49 * std::min(w, h);
+    ring.push_back(
+        {inside(w / 2.0 + radius * std::cos(angle), w), inside(h / 2.0 + radius * std::sin(angle), h)});
+  }
+  for (const Pixel& pixel : every_pixel(grid)) {
+    if ((pixel.x + pixel.y) % 2 == 0) checkers.push_back(pixel);
+    if ((pixel.x < w / 4 && pixel.y < h / 4) || (pixel.x >= w - w / 4 && pixel.y >= h - h / 4)) {
+      blocks.push_back(pixel);
+    }
+    if ((pixel.x / 32 + pixel.y / 32) % 2 == 0 && rng() % 2 == 0) patches.push_back(pixel);
+  }
+  for (int i = 0; i < 5000; ++i) stacked.push_back(middles[static_cast<std::size_t>(i) % 3]);
+  return {{"clusters", grid, clusters}, {"corner", grid, corner},     {"row", grid, row},
+          {"column", grid, column},     {"diagonal", grid, diagonal}, {"ring", grid, ring},
+          {"checkers", grid, checkers}, {"blocks", grid, blocks},     {"stacked", grid, stacked},
+          {"patches", grid, patches}};
+}
+
+void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, const ExactOptions& options) {
+  BOOST_TEST_CONTEXT(grid.width() << " x " << grid.height() << ", " << seeds.size() << " seeds, "
+                                  << name_of(options.metric)
+                                  << (options.short_lists ? ", short lists" : "")) {
+    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds, options),
+                                 tree_labels(grid, seeds, options.metric)) == 0);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
+  for (const Metric metric : both_metrics) {
+    for (const Case& c : edge_cases()) {
+      const Labels truth = brute_force(c.grid, c.seeds, metric);
+      for (const bool short_lists : {false, true}) {
+        BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric) << (short_lists ? ", short lists" : "")) {
+          const Labels labels = exact_labels(test_device(), c.grid, c.seeds, {metric, short_lists});
+          BOOST_TEST(count_differences(labels, truth) == 0);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
+  std::mt19937 rng(1);
+  const auto below = [&](std::size_t n) { return static_cast<int>(rng() % n); };
+  for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
+    const Grid grid(1 + below(64), 1 + below(64));
+    // All orders of magnitude alike, in a part of the grid, so that some of it is empty.
+    const Grid part(1 + below(static_cast<std::size_t>(grid.width())),
+                    1 + below(static_cast<std::size_t>(grid.height())));
+    const double most = std::log(static_cast<double>(grid.pixels()) + 1);
+    const auto count = static_cast<std::size_t>(std::exp(most * below(1001) / 1000.0) - 0.99);
+    auto seeds = random_pixels(part, count, static_cast<unsigned>(rng()));
+    const int right = below(static_cast<std::size_t>(grid.width() - part.width() + 1));
+    for (Pixel& seed : seeds) seed.x += right;
+    const ExactOptions options = {both_metrics[rng() % 2], rng() % 4 == 0};
+    const Labels labels = exact_labels(test_device(), grid, seeds, options);
+    const std::size_t wrong = count_differences(labels, brute_force(grid, seeds, options.metric));
+    BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
+                                   << grid.height() << " with " << count << " seeds, "
+                                   << name_of(options.metric)
+                                   << (options.short_lists ? ", short lists" : ""));
+    if (wrong > 0) return;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
+  const Grid grid = long_tests ? Grid(2048, 2048) : Grid(509, 384);
+  for (const Metric metric : both_metrics) {
+    for (const Case& c : hurtful_cases(grid)) {
+      BOOST_TEST_CONTEXT(c.name) {
+        check_against_tree(grid, c.seeds, {metric, false});
+        if (!long_tests) check_against_tree(grid, c.seeds, {metric, true});
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
+  const Grid square(2048, 2048);
+  check_against_tree(square, random_pixels(square, 16384, 21), {});
+  check_against_tree({32768, 64}, random_pixels({32768, 64}, 1, 22), {});
+  check_against_tree({64, 32768}, random_pixels({64, 32768}, 3000, 23), {Metric::manhattan});
+  // Seeds that are as far apart as they can be: distances just below 2^31.
+  check_against_tree({32768, 40}, {{0, 0}, {32767, 39}}, {});
+  if (!long_tests) return;
+  for (const Metric metric : both_metrics) {
+    for (const std::size_t count : {1u, 2u, 64u, 1024u, 16384u, 65536u, 262144u}) {
+      check_against_tree(square, random_pixels(square, count, 24), {metric});
+    }
+    check_against_tree(square, every_pixel(square), {metric});
+    check_against_tree({4096, 1000}, random_pixels({4096, 1000}, 5000, 25), {metric});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(same_labels_for_every_tuning) {
+  const Grid grid(301, 203);
+  std::vector<Case> cases = hurtful_cases(grid);
+  cases.push_back({"sparse and dense", grid, random_pixels(grid, 3000, 31)});
+  std::vector<Tuning> tunings(8, test_device().tuning());
+  for (std::size_t i = 0; i < 5; ++i) tunings[i].vector_width = 1 << i;
+  for (std::size_t i = 5; i < 8; ++i) {
+    tunings[i].group_width = std::size_t{1} << (2 * (i - 5));
+    tunings[i].group_height = 3;
+  }
+  for (const Case& c : cases) {
+    const Labels expected = exact_labels(test_device(), c.grid, c.seeds);
+    for (const Tuning& tuning : tunings) {
+      for (const bool short_lists : {false, true}) {
+        BOOST_TEST_CONTEXT(c.name << ", width " << tuning.vector_width << ", groups of " << tuning.group_width
+                                  << " x " << tuning.group_height << (short_lists ? ", short lists" : "")) {
+          const Labels labels = exact_labels(test_device().with_tuning(tuning), c.grid, c.seeds,
+                                             {Metric::euclidean, short_lists});
+          BOOST_TEST(count_differences(labels, expected) == 0);
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(order_of_the_seeds_does_not_matter) {
+  const Grid grid(200, 150);
+  std::vector<Pixel> seeds = every_pixel(grid);
+  std::mt19937 rng(41);
+  std::shuffle(seeds.begin(), seeds.end(), rng);
+  seeds.resize(700);
+  std::vector<std::uint32_t> old_id(seeds.size());
+  std::iota(old_id.begin(), old_id.end(), 0u);
+  const Labels labels = exact_labels(test_device(), grid, seeds);
+  std::shuffle(old_id.begin(), old_id.end(), rng);
+  std::vector<Pixel> shuffled;
+  for (const std::uint32_t id : old_id) shuffled.push_back(seeds[id]);
+  Labels again = exact_labels(test_device(), grid, shuffled);
+  for (std::uint32_t& label : again) label = old_id[label];
+  BOOST_TEST(count_differences(labels, again) == 0);
+}
+
+// Seeds that come in one order and again in the reverse one: where two parts of the list are placed at the
+// same time, some pixels meet the higher id first. Not at every try.
+BOOST_AUTO_TEST_CASE(lowest_id_of_a_shared_pixel) {
+  const Grid grid(300, 200);
+  std::vector<Pixel> seeds = random_pixels(grid, 60000, 51);
+  const std::vector<Pixel> reverse(seeds.rbegin(), seeds.rend());
+  seeds.insert(seeds.end(), reverse.begin(), reverse.end());
+  const Labels truth = tree_labels(grid, seeds, Metric::euclidean);
+  for (int attempt = 0; attempt < 50; ++attempt) {
+    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds), truth) == 0);
+  }
+}
+
+// What earlier frames left in the diagram's working memory must not show.
+BOOST_AUTO_TEST_CASE(frame_after_frame_in_one_diagram) {
+  const Grid grid(150, 120);
+  Diagram diagram(test_device(), grid);
+  for (unsigned frame = 0; frame < 40; ++frame) {
+    const auto seeds = random_pixels(grid, frame % 2 == 0 ? 12000 : frame, frame);
+    if (frame % 5 == 4) jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);
+    const Report report = exact_diagram(Seeds(test_device(), grid, centres(seeds)), diagram);
+    BOOST_TEST(count_differences(diagram.read(), tree_labels(grid, seeds, Metric::euclidean)) == 0);
+    BOOST_TEST(report.waves() == 0);
+    BOOST_TEST(report.milliseconds() > 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bad_input) {
+  Diagram diagram(test_device(), {20, 10});
+  const Seeds seeds(test_device(), {10, 20}, std::vector<Point>{{1, 1}});
+  check_error([&] { exact_diagram(seeds, diagram); }, {"10 x 20", "20 x 10"});
+  // A point in a device buffer that turns out bad leaves no seed, and is named at the next wait.
+  const std::vector<cl_float2> points = {{{3, 3}}, {{7, 70}}};
+  cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE, sizeof(cl_float2) * points.size());
+  test_device().queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, sizeof(cl_float2) * points.size(),
+                                           points.data());
+  exact_diagram(Seeds(test_device(), {20, 10}, buffer, points.size()), diagram);
+  check_error([&] { diagram.read(); }, {"point 1", "outside"});
+}

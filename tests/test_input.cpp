@@ -1,0 +1,240 @@
+// What seeds are read from: CSV, NPY and mask files, and the map from data units to pixels.
+#define BOOST_TEST_MODULE input
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <opencv2/imgcodecs.hpp>
+
+#include "csv.hpp"
+#include "fixture.hpp"
+#include "input.hpp"
+#include "mask.hpp"
+#include "npy.hpp"
+#include "temporary_folder.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+Pairs pairs_of(const std::vector<Point>& points) {
+  Pairs pairs;
+  for (const Point& point : points) pairs.emplace_back(point.x, point.y);
+  return pairs;
+}
+
+Pairs csv(const std::string& content, const std::optional<Columns>& columns = std::nullopt) {
+  const TemporaryFolder folder;
+  return pairs_of(read_csv(folder.file("p.csv", content), columns));
+}
+
+void refuses_csv(const std::string& content, std::initializer_list<std::string> parts,
+                 const std::optional<Columns>& columns = std::nullopt) {
+  check_error([&] { csv(content, columns); }, parts);
+}
+
+/// A .npy file of format version 1.
+template <typename T>
+std::string npy(const std::string& type, const std::string& shape, const std::vector<T>& values) {
+  std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }";
+  header.resize(117, ' ');
+  const std::string bytes(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  return std::string("\x93NUMPY\x01\x00v\x00", 10) + header + "\n" + bytes;
+}
+
+/// Column and row of one point.
+Pairs pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up = false) {
+  return pairs_of(to_pixels({point}, bounds, grid, y_up));
+}
+
+const Pairs two = {{1.5, -2}, {300, 0.25}};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(csv_files_come_in_many_clothes) {
+  BOOST_TEST((csv("x,y\n1.5,-2\n300,0.25\n") == two));
+  BOOST_TEST((csv("1.5,-2\n300,0.25") == two));  // no header, no last line end
+  BOOST_TEST((csv("\xef\xbb\xbfX , Y\r\n 1.5 ,\t-2\r\n\r\n+3e2,.25\r\n\r\n") == two));
+  BOOST_TEST((csv("id,y,name,x\n1,-2,\"a, \"\"b\"\"\",1.5\n2,\"0.25\",c,300\n") == two));
+  BOOST_TEST((csv("lon,lat\n1.5,-2\n300,0.25\n", Columns{"lon", "lat"}) == two));
+  BOOST_TEST((csv("LON,lat\n1.5,-2\n300,0.25\n", Columns{"lon", "lat"}) == two));
+  BOOST_TEST((csv("a,b,c\n-2,9,1.5\n0.25,9,300\n", Columns{"2", "0"}) == two));
+  BOOST_TEST((csv("-2,9,1.5\n0.25,9,300\n", Columns{"2", "0"}) == two));
+  BOOST_TEST((csv("1,0\n-2,1.5\n0.25,300\n", Columns{"1", "0"}) == Pairs{{0, 1}, {1.5, -2}, {300, 0.25}}));
+  const Pairs odd = csv("nan,inf\n");  // numbers, for those to refuse who know what the bounds are
+  BOOST_TEST((std::isnan(odd[0].first) && std::isinf(odd[0].second)));
+}
+
+BOOST_AUTO_TEST_CASE(the_world_s_cities_are_read) {
+  const std::vector<Point> cities = read_csv(VOROCL_SAMPLES "/cities-5000.csv", std::nullopt);
+  BOOST_REQUIRE(cities.size() == 5000u);
+  BOOST_TEST(cities[0].x == 181.5665);
+  BOOST_TEST(cities[0].y == 47.4682);
+}
+
+BOOST_AUTO_TEST_CASE(bad_csv_lines_are_named) {
+  refuses_csv("x,y\n1,2\n\n3,abc\n", {"p.csv:4", "\"abc\" is not a number", "3,abc"});
+  refuses_csv("1,2\n3,4 5\n", {"p.csv:2", "\"4 5\"", "3,4 5"});
+  refuses_csv("1,2\n3\n", {"p.csv:2", "no column 1", ": 3"});
+  refuses_csv("1,2\n3,\n", {"p.csv:2", "\"\" is not a number"});
+  refuses_csv("1,2\n3,\"4\n", {"p.csv:2", "quote"});
+  refuses_csv("1,2\n3,1e999\n", {"p.csv:2", "1e999"});
+  refuses_csv("lon,lat\n1,2\n", {"p.csv:1", "no column x", "lon,lat", "--columns"});
+  refuses_csv("x,y\n1,2\n", {"p.csv:1", "no column 2"}, Columns{"x", "2"});
+  refuses_csv("1,2\n", {"p.csv:1", "no column x"}, Columns{"x", "y"});
+  refuses_csv("1,2\n" + std::string(1000, '\x01') + "\n", {"p.csv:2", std::string(80, '?')});
+  refuses_csv("", {"p.csv", "no points"});
+  refuses_csv("x,y\n\n", {"p.csv", "no points"});
+  const TemporaryFolder folder;
+  check_error([&] { read_csv(folder / "missing.csv", std::nullopt); }, {"missing.csv", "No such file"});
+  check_error([&] { read_csv(folder / "", std::nullopt); }, {"it is a folder"});
+}
+
+BOOST_AUTO_TEST_CASE(columns_are_two) {
+  BOOST_TEST(parse_columns(" a , b c").x == "a");
+  BOOST_TEST(parse_columns(" a , b c").y == "b c");
+  for (const char* bad : {"", "x", "x,", ",y", "x,y,z"})
+    check_error([&] { parse_columns(bad); }, {"two columns"});
+}
+
+BOOST_AUTO_TEST_CASE(npy_files_of_many_types_are_read) {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& content) {
+    return pairs_of(read_npy_points(folder.file("p.npy", content)));
+  };
+  const Pairs whole = {{1, 2}, {100, 4}};
+  BOOST_TEST((read(npy<double>("<f8", "(2, 2)", {1.5, -2, 300, 0.25})) == two));
+  BOOST_TEST((read(npy<float>("<f4", "(2, 2)", {1.5f, -2, 300, 0.25f})) == two));
+  BOOST_TEST((read(npy<std::int8_t>("|i1", "(2, 2)", {1, 2, 100, 4})) == whole));
+  BOOST_TEST((read(npy<std::uint8_t>("|u1", "(2, 2)", {1, 2, 100, 4})) == whole));
+  BOOST_TEST((read(npy<std::int16_t>("<i2", "(2, 2)", {1, 2, 100, 4})) == whole));
+  BOOST_TEST((read(npy<std::uint16_t>("<u2", "(2, 2)", {1, 2, 100, 4})) == whole));
+  BOOST_TEST((read(npy<std::int32_t>("<i4", "(2, 2)", {1, 2, 100, 4})) == whole));
+  BOOST_TEST((read(npy<std::uint32_t>("<u4", "(1, 2)", {4294967295u, 0})) == Pairs{{4294967295.0, 0}}));
+  BOOST_TEST((read(npy<std::int64_t>("<i8", "(1, 2)", {-1, 1ll << 40})) == Pairs{{-1, 1099511627776.0}}));
+  BOOST_TEST((read(npy<std::uint64_t>("<u8", "(2, 2)", {1, 2, 100, 4})) == whole));
+  std::string second = npy<double>("<f8", "(2, 2)", {1.5, -2, 300, 0.25});
+  second.replace(6, 4, std::string("\x02\x00v\x00\x00\x00", 6));  // format version 2: four bytes of length
+  BOOST_TEST((read(second) == two));
+}
+
+BOOST_AUTO_TEST_CASE(bad_npy_files_are_refused) {
+  const TemporaryFolder folder;
+  const auto refuses = [&](const std::string& content, std::initializer_list<std::string> parts) {
+    folder.file("p.npy", content);
+    check_error([&] { read_npy_points(folder / "p.npy"); }, parts);
+  };
+  const std::vector<double> values = {1, 2, 3, 4};
+  refuses("", {"p.npy", "no .npy array"});
+  refuses("x,y\n1,2\n3,4\n", {"p.npy", "no .npy array"});
+  refuses(npy("<f8", "(3, 2)", values), {"p.npy", "ends early", "(3, 2)"});
+  refuses(npy("<f8", "(4, 1)", values), {"p.npy", "(4, 1)", "(N, 2)"});
+  refuses(npy("<f8", "(4,)", values), {"p.npy", "(4)", "(N, 2)"});
+  refuses(npy("<f8", "(2, x)", values), {"p.npy", "shape"});
+  refuses(npy("<f8", "(0, 2)", values), {"p.npy", "no points"});
+  refuses(npy("<f8", "(4000000000, 2)", values), {"p.npy", "ends early"});
+  refuses(npy("<f8", "(5000000000, 2)", values), {"p.npy", "more points"});
+  refuses(npy(">f8", "(2, 2)", values), {"p.npy", ">f8", "little-endian"});
+  refuses(npy("<c16", "(1, 2)", values), {"p.npy", "<c16"});
+  check_error([&] { read_npy_points(folder / "missing.npy"); }, {"missing.npy", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(bounds_map_to_pixels) {
+  const Bounds world = {0, 0, 360, 180};
+  const Grid grid(1440, 720);
+  BOOST_TEST((pixel({0, 0}, world, grid) == Pairs{{0.5, 0.5}}));
+  BOOST_TEST((pixel({0.2499, 0.25}, world, grid) == Pairs{{0.5, 1.5}}));
+  BOOST_TEST(
+      (pixel({360, 180}, world, grid) == Pairs{{1439.5, 719.5}}));  // the far side belongs to the bounds
+  BOOST_TEST((pixel({std::nextafter(360.0, 0.0), 90}, world, grid) == Pairs{{1439.5, 360.5}}));
+  BOOST_TEST((pixel({0, 0}, world, grid, true) == Pairs{{0.5, 719.5}}));
+  BOOST_TEST((pixel({90, 180}, world, grid, true) == Pairs{{360.5, 0.5}}));
+  BOOST_TEST((pixel({-1.5, 2}, {-2, 2, -1, 2}, Grid(10, 5)) == Pairs{{5.5, 2.5}}));  // no height: the middle
+  // 5.1 * 100 is a little less than 510, and 5.1 / 10 * 100 is 51: the order of operations matters.
+  BOOST_TEST((pixel({5.1, 0}, {0, 0, 10, 1}, Grid(100, 1)) == Pairs{{50.5, 0.5}}));
+}
+
+BOOST_AUTO_TEST_CASE(points_outside_are_named) {
+  const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
+  const auto map = [](const Point& bad) {
+    to_pixels({{0, 0}, {1, 1}, bad}, {0, 0, 2, 1}, Grid(4, 2), false);
+  };
+  check_error([&] { map({2.5, 1}); }, {"point 2", "(2.5, 1)", "outside the bounds 0,0,2,1"});
+  check_error([&] { map({1, -0.001}); }, {"point 2", "(1, -0.001)", "outside"});
+  check_error([&] { map({none, 1}); }, {"point 2", "(nan, 1)", "not finite"});
+  check_error([&] { map({1, -far}); }, {"point 2", "(1, -inf)", "not finite"});
+  check_error([&] { bounding_box({{0, 0}, {far, 0}}); }, {"point 1", "(inf, 0)", "not finite"});
+}
+
+BOOST_AUTO_TEST_CASE(the_bounding_box_holds_all_points) {
+  const Bounds box = bounding_box({{3, 4}, {-1, 7}, {2, -5}});
+  BOOST_TEST(to_string(box) == "-1,-5,3,7");
+}
+
+BOOST_AUTO_TEST_CASE(bounds_are_four_numbers) {
+  BOOST_TEST(to_string(parse_bounds("-180,-90, 180,9e1")) == "-180,-90,180,90");
+  for (const char* bad :
+       {"", "1,2,3", "1,2,3,4,5", "1,2,3,", "a,2,3,4", "3,0,2,1", "0,3,1,2", "0,0,nan,1", "0,0,inf,1"}) {
+    check_error([&] { parse_bounds(bad); }, {bad, "X0,Y0,X1,Y1"});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
+  BOOST_TEST((grid_of_width({0, 0, 360, 180}, 1440) == Grid(1440, 720)));
+  BOOST_TEST((grid_of_width({0, 0, 3, 2}, 100) == Grid(100, 67)));
+  BOOST_TEST((grid_of_width({0, 0, 3, 0}, 100) == Grid(100, 1)));
+  check_error([] { grid_of_width({0, 0, 0, 1}, 100); }, {"no width", "--size"});
+  check_error([] { grid_of_width({0, 0, 1, 1000}, 100); }, {"100000", "32768"});
+  for (const int width : {1, 7, 100, 101}) {
+    for (const double height : {0.1, 1.0, 1.7, 33.3}) {
+      const Bounds bounds = {0, 0, 3, height};
+      BOOST_TEST(has_square_pixels(bounds, grid_of_width(bounds, width)), width << " " << height);
+    }
+  }
+  BOOST_TEST(!has_square_pixels({0, 0, 360, 180}, Grid(1440, 721)));
+  BOOST_TEST(!has_square_pixels({0, 0, 1, 1}, Grid(100, 50)));
+  BOOST_TEST(has_square_pixels({0, 0, 0, 1}, Grid(100, 50)));
+}
+
+BOOST_AUTO_TEST_CASE(sizes_are_width_x_height) {
+  BOOST_TEST((parse_size("1440x720") == Grid(1440, 720)));
+  for (const char* bad : {"", "10", "x", "10x", "x10", "10x10x10", "10X10", "1e3x10", "10.5x10", "ax10"}) {
+    check_error([&] { parse_size(bad); }, {"WxH"});
+  }
+  check_error([] { parse_size("0x10"); }, {"width is 0"});
+  check_error([] { parse_size("10x-1"); }, {"height is -1"});
+  check_error([] { parse_size("32769x10"); }, {"32769", "32768"});
+}
+
+BOOST_AUTO_TEST_CASE(masks_count_every_colour_but_not_alpha) {
+  const TemporaryFolder folder;
+  cv::Mat image(2, 3, CV_8UC4, cv::Scalar(0, 0, 0, 255));
+  image.at<cv::Vec4b>(0, 2) = {1, 0, 0, 255};  // faint blue: grey 0.1
+  image.at<cv::Vec4b>(1, 0) = {0, 0, 200, 0};
+  cv::imwrite(folder / "m.png", image);
+  const Mask mask = read_mask(folder / "m.png");
+  BOOST_TEST((mask.grid == Grid(3, 2)));
+  std::vector<bool> set;
+  for (const std::uint8_t value : mask.pixels) set.push_back(value != 0);
+  BOOST_TEST((set == std::vector<bool>{false, false, true, true, false, false}));
+
+  cv::Mat deep(1, 2, CV_16U, cv::Scalar(0));
+  deep.at<std::uint16_t>(0, 1) = 1;
+  cv::imwrite(folder / "deep.png", deep);
+  BOOST_TEST(read_mask(folder / "deep.png").pixels[1] != 0);
+  BOOST_TEST(read_mask(folder / "deep.png").pixels[0] == 0);
+}
+
+BOOST_AUTO_TEST_CASE(bad_masks_are_refused) {
+  const TemporaryFolder folder;
+  cv::imwrite(folder / "black.png", cv::Mat(3, 3, CV_8U, cv::Scalar(0)));
+  check_error([&] { read_mask(folder / "black.png"); }, {"black.png", "no seed"});
+  const std::string png = content_of(folder / "black.png");
+  folder.file("cut.png", png.substr(0, png.size() / 2));
+  check_error([&] { read_mask(folder / "cut.png"); }, {"cut.png", "no image"});
+  folder.file("text.png", "x,y\n1,2\n");
+  check_error([&] { read_mask(folder / "text.png"); }, {"text.png", "no image"});
+  check_error([&] { read_mask(folder / "missing.png"); }, {"missing.png", "No such file"});
+}

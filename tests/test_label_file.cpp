@@ -1,0 +1,131 @@
+// Label files: NPY and TIFF keep every value, are what other readers expect, and bad ones are refused.
+#define BOOST_TEST_MODULE label_file
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+
+#include "files.hpp"
+#include "fixture.hpp"
+#include "label_file.hpp"
+#include "temporary_folder.hpp"
+#include "usage_error.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+/// 5 x 3 labels, among them all that a float or a signed integer would change.
+const LabelImage example = {Grid(5, 3),
+                            {0, 1, 255, 256, 65535,                          //
+                             65536, 16777215, 16777216, 16777217, 16777219,  //
+                             2147483647u, 2147483648u, 2147483649u, 4294967294u, 4294967295u}};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(files_keep_every_label) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.npy", "a.tif", "a.TIFF"}) {
+    write_labels(folder / name, example);
+    const LabelImage read = read_labels(folder / name);
+    BOOST_TEST((read.grid == example.grid), name);
+    BOOST_TEST(read.labels == example.labels, name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
+  const TemporaryFolder folder;
+  write_labels(folder / "a.npy", example);
+  const std::string content = content_of(folder / "a.npy");
+  // As numpy.save() of version 1.24 makes it, to the byte.
+  std::string expected("\x93NUMPY\x01\x00v\x00", 10);
+  expected += "{'descr': '<u4', 'fortran_order': False, 'shape': (3, 5), }";
+  expected.resize(127, ' ');
+  expected += '\n';
+  BOOST_REQUIRE(content.size() == 128u + 60u);
+  BOOST_TEST(content.substr(0, 128) == expected);
+  BOOST_TEST(std::memcmp(content.data() + 128, example.labels.data(), 60) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(opencv_reads_the_tiff_files) {
+  const TemporaryFolder folder;
+  write_labels(folder / "a.tif", example);
+  const cv::Mat image = cv::imread(folder / "a.tif", cv::IMREAD_UNCHANGED);
+  BOOST_REQUIRE(image.type() == CV_32S);  // it has no unsigned type: the bits are the same
+  BOOST_REQUIRE(image.size() == cv::Size(5, 3));
+  BOOST_TEST(std::memcmp(image.data, example.labels.data(), 60) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(tiff_files_of_others_are_read) {
+  const TemporaryFolder folder;
+  const cv::Mat image = (cv::Mat_<int>(2, 2) << 1, -1, 16777217, 7);
+  cv::imwrite(folder / "a.tif", image, {cv::IMWRITE_TIFF_COMPRESSION, 5});  // LZW
+  const std::vector<std::uint32_t> expected = {1, no_label, 16777217, 7};
+  BOOST_TEST(read_labels(folder / "a.tif").labels == expected);
+
+  // Unsigned samples: of our own file, with another value of the tag 339 (little-endian: tag, type, count,
+  // value).
+  write_labels(folder / "a.tif", example);
+  std::string content = content_of(folder / "a.tif");
+  const auto tag = content.find(std::string("\x53\x01\x03\x00\x01\x00\x00\x00\x02\x00", 10));
+  BOOST_REQUIRE(tag != std::string::npos);
+  content[tag + 8] = 1;
+  BOOST_TEST(read_labels(folder.file("a.tif", content)).labels == example.labels);
+}
+
+BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
+  const TemporaryFolder folder;
+  write_labels(folder / "a.npy", example);
+  write_labels(folder / "a.tif", example);
+  const std::string npy = content_of(folder / "a.npy"), tiff = content_of(folder / "a.tif");
+  const auto refuses = [&](const std::string& name, const std::string& content,
+                           std::initializer_list<std::string> parts) {
+    folder.file(name, content);
+    check_error([&] { read_labels(folder / name); }, parts);
+  };
+  const auto replaced = [&](const std::string& what, const std::string& by) {
+    std::string changed = npy;
+    return changed.replace(npy.find(what), what.size(), by);
+  };
+  refuses("empty.npy", "", {"empty.npy", "no .npy array"});
+  refuses("text.npy", "1,2,3,4,5,6,7,8,9,10,11,12", {"text.npy", "no .npy array"});
+  refuses("header.npy", npy.substr(0, 50), {"header.npy", "header ends early"});
+  refuses("short.npy", npy.substr(0, npy.size() - 1), {"short.npy", "ends early", "(3, 5)"});
+  refuses("float.npy", replaced("<u4", "<f4"), {"float.npy", "<f4", "uint32"});
+  refuses("big.npy", replaced("<u4", ">u4"), {"big.npy", ">u4"});
+  refuses("line.npy", replaced("(3, 5)", "(15,) "), {"line.npy", "(15)", "(height, width)"});
+  refuses("order.npy", replaced("False", "True "), {"order.npy", "Fortran"});
+  refuses("none.npy", replaced("(3, 5)", "(0, 5)"), {"none.npy", "(0, 5)"});
+  refuses("huge.npy", replaced("(3, 5), }      ", "(30000, 30000)}"), {"huge.npy", "ends early"});
+  refuses("text.tif", "labels", {"text.tif", "no TIFF file"});
+  refuses("short.tif", tiff.substr(0, 40), {"short.tif", "no TIFF file"});
+  cv::imwrite(folder / "grey.tif", cv::Mat(3, 3, CV_8U, cv::Scalar(1)));
+  check_error([&] { read_labels(folder / "grey.tif"); }, {"grey.tif", "32-bit"});
+  check_error([&] { read_labels(folder / "missing.npy"); }, {"missing.npy", "No such file"});
+  check_error([&] { read_labels(folder / "missing.tif"); }, {"missing.tif", "No such file"});
+  BOOST_CHECK_THROW(check_label_path("labels.png"), UsageError);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {
+  const TemporaryFolder folder;
+  folder.file("a.txt", "old");
+  const OutputFile output(folder / "a.txt");
+  BOOST_TEST((folder.names() == std::set<std::string>{"a.txt"}));  // the check leaves nothing behind
+  const auto write_half = [&](const std::string& path) {
+    std::ofstream(path) << "half";
+    BOOST_TEST(content_of(folder / "a.txt") == "old");
+    throw Error("the disk is full");
+  };
+  check_error([&] { output.write(write_half); }, {"the disk is full"});
+  BOOST_TEST((folder.names() == std::set<std::string>{"a.txt"}));
+  BOOST_TEST(content_of(folder / "a.txt") == "old");
+  output.write([](const std::string& path) { std::ofstream(path) << "new"; });
+  BOOST_TEST((folder.names() == std::set<std::string>{"a.txt"}));
+  BOOST_TEST(content_of(folder / "a.txt") == "new");
+}
+
+BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written_are_refused_at_once) {
+  const TemporaryFolder folder;
+  check_error([&] { OutputFile(folder / "missing/a.png"); }, {"missing/a.png", "does not exist"});
+  check_error([&] { OutputFile(folder / ""); }, {"it is a folder"});
+  check_error([&] { OutputFile("/proc/a.png"); }, {"/proc/a.png", "no file can be made"});
+}

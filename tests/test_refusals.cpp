@@ -1,0 +1,134 @@
+// What the vorocl command refuses: each with its exit code, one line that says why, and no file left.
+#define BOOST_TEST_MODULE refusals
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "run_command.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const std::string square = " --size 10x10 --method jfa -o a.png";
+
+const std::string pocl = "Portable Computing Language";
+
+bool has_pocl() {
+  const std::vector<DeviceDescription> devices = Device::list();
+  return std::any_of(devices.begin(), devices.end(),
+                     [](const auto& device) { return device.platform == pocl; });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(files_that_cannot_be_read_are_refused) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder.csv");
+  folder.file("empty.csv", "");
+  folder.file("header.csv", "x,y\n");
+  folder.file("line.csv", "x,y\n1,2\n3,four\n");
+  folder.file("text.npy", "1,2\n");
+  folder.file("points.txt", "1,2\n");
+  cv::imwrite(folder / "black.png", cv::Mat(3, 3, CV_8U, cv::Scalar(0)));
+  cv::imwrite(folder / "white.png", cv::Mat(3, 3, CV_8U, cv::Scalar(255)));
+  folder.file("cut.png", content_of(folder / "black.png").substr(0, 50));
+  refuses(folder, "render --points missing.csv" + square, failure, {"missing.csv", "No such file"});
+  refuses(folder, "render --points missing.npy" + square, failure, {"missing.npy", "No such file"});
+  refuses(folder, "render --mask missing.png" + square, failure, {"missing.png", "No such file"});
+  refuses(folder, "render --points folder.csv" + square, failure, {"folder.csv", "folder"});
+  refuses(folder, "render --points empty.csv" + square, failure, {"empty.csv", "no points"});
+  refuses(folder, "render --points header.csv" + square, failure, {"header.csv", "no points"});
+  refuses(folder, "render --points line.csv" + square, failure, {"line.csv:3", "\"four\"", "3,four"});
+  refuses(folder, "render --points text.npy" + square, failure, {"text.npy", "no .npy array"});
+  refuses(folder, "render --points text.npy --columns x,y" + square, usage, {"--columns", ".csv"});
+  refuses(folder, "render --points points.txt" + square, usage, {"points.txt", ".csv, .npy"});
+  refuses(folder, "render --mask black.png --method jfa -o a.png", failure, {"black.png", "no seed"});
+  refuses(folder, "render --mask cut.png --method jfa -o a.png", failure, {"cut.png", "no image"});
+  refuses(folder, "render --mask white.png --size 4x4 --method jfa -o a.png", failure,
+          {"white.png", "3 x 3", "4 x 4"});
+}
+
+BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
+  const TemporaryFolder folder;
+  folder.file("nan.csv", "x,y\n1,2\nnan,3\n");
+  folder.file("inf.csv", "x,y\n1,2\n1,2\n3,-inf\n");
+  folder.file("far.csv", "1,2\n3,4\n");
+  refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv", "point 1", "nan"});
+  refuses(folder, "render --points inf.csv --bounds 0,0,9,9" + square, failure,
+          {"inf.csv", "point 2", "-inf"});
+  refuses(folder, "render --points far.csv --bounds 0,0,3,3" + square, failure,
+          {"far.csv", "point 1", "(3, 4)", "0,0,3,3"});
+}
+
+BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "1,2\n3,4\n");
+  const std::string render = "render --random 5 --method jfa -o a.png ",
+                    points = "render --points p.csv --method jfa -o a.png ";
+  refuses(folder, "", usage, {"no subcommand", "--help"});
+  refuses(folder, "rendre", usage, {"rendre"});
+  refuses(folder, render + "--size 10x10 --sise", usage, {"--sise"});
+  refuses(folder, "render --random 0" + square, usage, {"--random", "0"});
+  refuses(folder, "render --random -3" + square, usage, {"--random", "-3"});
+  refuses(folder, "render --random few" + square, usage, {"--random", "few"});
+  for (const char* size :
+       {"0x10", "10x0", "32769x10", "10", "10x", "10x10x10", "axb", "99999999999999999999x1"}) {
+    refuses(folder, render + "--size " + size, usage, {"--size"});
+  }
+  refuses(folder, render, usage, {"--size"});
+  refuses(folder, points, usage, {"--size", "--width"});
+  refuses(folder, points + "--size 10x10 --width 10", usage, {"--width", "--size"});
+  refuses(folder, points + "--width 32769", usage, {"--width", "32768"});
+  refuses(folder, points + "--size 10x10 --bounds 0,0,1", usage, {"--bounds", "X0,Y0,X1,Y1"});
+  refuses(folder, points + "--size 10x10 --columns x", usage, {"--columns"});
+  refuses(folder, render + "--size 10x10 --bounds 0,0,1,1", usage, {"--bounds", "--points"});
+  refuses(folder, "render --method jfa --size 10x10 -o a.png", usage, {"--random", "--points", "--mask"});
+  refuses(folder, points + "--random 5 --size 10x10", usage, {"--random", "--points"});
+  refuses(folder, "render --random 5 --size 10x10 --method jfb -o a.png", usage,
+          {"jfb", "standard-flooding", "1+jfa"});
+  refuses(folder, "render --random 5 --size 10x10 -o a.png", usage, {"--method"});
+  refuses(folder, render + "--size 10x10 --metric chess", usage, {"chess", "manhattan"});
+  refuses(folder, render + "--size 10x10 --neighbourhood hex", usage, {"hex", "von-neumann"});
+  refuses(folder, render + "--size 10x10 --color red", usage, {"red", "distance"});
+  refuses(folder, render + "--size 10x10 --color distance --palette jet", usage, {"jet", "viridis"});
+  refuses(folder, render + "--size 10x10 --palette turbo", usage, {"--palette", "--color distance"});
+  refuses(folder, "bench --random 5 --size 10x10 --methods jfa,jfb", usage, {"jfb", "opencv"});
+  refuses(folder, "bench --random 5 --size 10x10 --methods jfa --repeat 0", usage, {"--repeat"});
+}
+
+BOOST_AUTO_TEST_CASE(outputs_are_checked_before_the_work) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "folder.png");
+  // A device that does not exist would be the next error: it is not reached.
+  const std::string render = "render --random 5 --size 10x10 --method jfa --device none ";
+  refuses(folder, render + "-o missing/a.png", failure, {"missing/a.png", "does not exist"});
+  refuses(folder, render + "-o a.png --labels missing/a.npy", failure, {"missing/a.npy", "does not exist"});
+  refuses(folder, render + "-o /proc/a.png", failure, {"/proc/a.png", "cannot write"});
+  refuses(folder, render + "-o folder.png", failure, {"folder.png", "folder"});
+  refuses(folder, render + "-o a.xyz", usage, {"a.xyz", ".png"});
+  refuses(folder, render + "-o a", usage, {".png"});
+  refuses(folder, render + "--labels a.png", usage, {"a.png", ".npy, .tif"});
+  refuses(folder, render, usage, {"-o", "--labels"});
+  refuses(folder, render + "--labels a.npy --edges", usage, {"--edges", "-o"});
+}
+
+BOOST_AUTO_TEST_CASE(devices_that_cannot_do_it_are_named) {
+  const TemporaryFolder folder, no_drivers;
+  const std::string no_platform = "OCL_ICD_VENDORS='" + no_drivers / "" + "'";
+  for (const char* subcommand : {"devices", "render --random 5 --size 9x9 --method jfa -o a.png"}) {
+    refuses(folder, subcommand, failure, {"no OpenCL platform", "pocl-opencl-icd"}, no_platform);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(too_little_device_memory_is_said_in_figures,
+                     *boost::unit_test::precondition([](boost::unit_test::test_unit_id) {
+                       return has_pocl();
+                     })) {
+  // PoCL takes this limit, in GiB, for the memory of its device. Without a cache of kernels it is still
+  // building one when the command ends, which must not end in PoCL's crash.
+  const TemporaryFolder folder, cache;
+  const std::string small =
+      "VOROCL_DEVICE='" + pocl + "' POCL_MEMORY_LIMIT=1 POCL_CACHE_DIR='" + cache / "" + "'";
+  refuses(folder, "render --random 5 --size 30000x30000 --method jfa -o a.png", failure,
+          {"too little device memory", "3433.2 MiB", "1024.0 MiB"}, small);
+}

@@ -1,0 +1,161 @@
+// Lloyd relaxation: energies, motions and where it ends.
+#define BOOST_TEST_MODULE relaxation
+#include "measured_cases.hpp"
+#include "vorocl/cells.hpp"
+#include "vorocl/relaxation.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+Report exactly(const Seeds& seeds, Diagram& diagram, double) { return exact_diagram(seeds, diagram); }
+
+std::uint64_t energy_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                             const std::vector<Pixel>& seeds) {
+  std::uint64_t sum = 0;
+  each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
+    sum += static_cast<std::uint64_t>(distance({x, y}, seeds[label], Metric::euclidean));
+  });
+  return sum;
+}
+
+std::vector<Pixel> pixels_of(const Seeds& seeds) {
+  std::vector<Pixel> pixels;
+  for (const Point& point : seeds.read())
+    pixels.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
+  return pixels;
+}
+
+/// A round as its definition says it: of all pixels the one nearest to the centroid, the seed's own first.
+std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                                 std::vector<Pixel> seeds) {
+  struct Sums {
+    std::int64_t area = 0, x = 0, y = 0;
+  };
+  std::vector<Sums> sums(seeds.size());
+  each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
+    ++sums[label].area;
+    sums[label].x += x;
+    sums[label].y += y;
+  });
+  const auto nearest = [](std::int64_t area, std::int64_t sum, int present, int size) {
+    int best = present;
+    for (int at = 0; at < size; ++at) {
+      if (std::abs(at * area - sum) < std::abs(best * area - sum)) best = at;
+    }
+    return best;
+  };
+  for (std::size_t id = 0; id < seeds.size(); ++id) {
+    if (sums[id].area == 0) continue;
+    seeds[id] = {nearest(sums[id].area, sums[id].x, seeds[id].x, grid.width()),
+                 nearest(sums[id].area, sums[id].y, seeds[id].y, grid.height())};
+  }
+  return seeds;
+}
+
+bool same(const std::vector<Pixel>& a, const std::vector<Pixel>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Pixel& p, const Pixel& q) { return p.x == q.x && p.y == q.y; });
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
+  for (const Device& device : shapes()) {
+    for (const Case& test : measured_cases()) {
+      if (test.grid.pixels() > 300000) continue;
+      std::vector<Pixel> pixels = test.seeds;
+      Seeds seeds(device, test.grid, centres(pixels));
+      Diagram diagram(device, test.grid);
+      exact_diagram(seeds, diagram);
+      for (int round = 0; round < 2; ++round) {
+        const std::uint64_t expected = energy_on_host(test.grid, diagram.read(), pixels);
+        const std::vector<Pixel> next = round_on_host(test.grid, diagram.read(), pixels);
+        BOOST_TEST(energy(seeds, diagram) == expected, test.name);
+        const Relaxation relaxation = relax(seeds, diagram, exactly, 1);
+        BOOST_TEST(relaxation.energies.front() == expected, test.name);
+        BOOST_TEST(relaxation.converged == same(next, pixels), test.name);
+        BOOST_TEST(same(pixels_of(seeds), next), test.name << ": seeds moved elsewhere than on the host");
+        pixels = next;
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(with_the_exact_engine_the_energy_falls_until_no_seed_moves) {
+  const Grid grid(240, 160);
+  const Case cases[] = {{"random", grid, random_pixels(grid, 60, 1)},
+                        {"dense", grid, random_pixels(grid, 4000, 2)},
+                        {"clusters", grid, clusters(grid, 300)},
+                        {"corner", grid, {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}}}};
+  for (const Case& test : cases) {
+    Seeds seeds(test_device(), grid, centres(test.seeds));
+    Diagram diagram(test_device(), grid);
+    const Relaxation relaxation = relax(seeds, diagram, exactly, 1000);
+    BOOST_TEST_MESSAGE(test.name << ": " << relaxation.rounds() << " rounds, energy "
+                                 << relaxation.energies.front() << " to " << relaxation.energies.back());
+    BOOST_TEST(relaxation.converged, test.name);
+    BOOST_TEST(relaxation.rounds() > 2, test.name);
+    for (std::size_t round = 1; round < relaxation.energies.size(); ++round) {
+      BOOST_TEST(relaxation.energies[round] < relaxation.energies[round - 1],
+                 test.name << ", round " << round);
+    }
+    const std::vector<Pixel> pixels = pixels_of(seeds);
+    BOOST_TEST(relaxation.energies.back() == energy_on_host(grid, diagram.read(), pixels), test.name);
+    BOOST_TEST(same(round_on_host(grid, diagram.read(), pixels), pixels), test.name << ": not centroidal");
+    Diagram fresh(test_device(), grid);
+    exact_diagram(seeds, fresh);
+    BOOST_TEST(changed_pixels(diagram, fresh) == 0u, test.name << ": the diagram is not that of the seeds");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_hears_how_far_seeds_moved) {
+  const Grid grid(300, 200);
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 200, 1)));
+  Diagram diagram(test_device(), grid);
+  std::vector<Pixel> before = pixels_of(seeds);
+  const auto engine = [&](const Seeds& moved, Diagram& filled, double d_max) {
+    const std::vector<Pixel> now = pixels_of(moved);
+    int longest = 0;
+    for (std::size_t id = 0; id < now.size(); ++id) {
+      longest = std::max({longest, std::abs(now[id].x - before[id].x), std::abs(now[id].y - before[id].y)});
+    }
+    BOOST_TEST(d_max == longest);
+    before = now;
+    DynamicJumpFloodingOptions options;
+    options.plan.max_step = d_max;
+    return dynamic_jump_flooding(moved, filled, options);
+  };
+  const Relaxation relaxation = relax(seeds, diagram, engine, 10);
+  BOOST_TEST(relaxation.rounds() == 10);
+  BOOST_TEST(!relaxation.converged);
+  BOOST_TEST(10 * relaxation.energies.back() < 9 * relaxation.energies.front());
+}
+
+BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {
+  const Grid grid(9, 9);
+  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}});
+  seeds.move_to({Point{0.5, 0.5}, Point{0.5, 0.5}, std::nullopt});
+  Diagram diagram(test_device(), grid);
+  const Relaxation relaxation = relax(seeds, diagram, exactly, 1);
+  BOOST_TEST(!relaxation.converged);
+  const std::vector<Point> points = seeds.read();
+  BOOST_TEST((points[0].x == 4.5 && points[0].y == 4.5));
+  BOOST_TEST((points[1].x == 0.5 && points[1].y == 0.5));
+  BOOST_TEST(std::isnan(points[2].x));
+}
+
+BOOST_AUTO_TEST_CASE(bad_calls_and_nothing_to_do) {
+  const Grid grid(10, 20);
+  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}});
+  Diagram diagram(test_device(), grid), other(test_device(), Grid(20, 10));
+  check_error([&] { relax(seeds, diagram, exactly, -1); }, {"-1 rounds"});
+  check_error([&] { relax(seeds, other, exactly, 1); }, {"10 x 20", "20 x 10"});
+  check_error([&] { relax(seeds, diagram, {}, 1); }, {"engine"});
+  BOOST_TEST(relax(seeds, diagram, exactly, 0).rounds() == 0);
+  BOOST_TEST(seeds.read().front().x == 5.5);
+  Seeds none(test_device(), grid, std::vector<Point>{});
+  const Relaxation nothing = relax(none, diagram, exactly, 5);
+  BOOST_TEST(nothing.converged);
+  BOOST_TEST(nothing.energies == std::vector<std::uint64_t>{0}, boost::test_tools::per_element());
+}

@@ -1,0 +1,253 @@
+// vorocl simulate and render on trajectories: ids, boxes, bounds, particles that come and go, and bad files.
+#define BOOST_TEST_MODULE simulate_trajectory
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <opencv2/videoio.hpp>
+#include <random>
+
+#include "brute_force.hpp"
+#include "label_file.hpp"
+#include "particle_slots.hpp"
+#include "periodic_step.hpp"
+#include "run_command.hpp"
+#include "trajectory_text.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+using nlohmann::json;
+
+namespace {
+
+std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::string& name) {
+  return read_labels(folder / name).labels;
+}
+
+using Particles = std::map<std::uint32_t, Point>;  // by id, in a box of 10 x 10
+
+std::string frame_text(const Particles& particles, const std::string& box = periodic_box) {
+  std::vector<std::string> rows;
+  for (const auto& [id, at] : particles) rows.insert(rows.begin(), fmt::format("{} {} {}", at.x, id, at.y));
+  return dump(box, "x id y", rows);
+}
+
+/// The exact labels of a box of 10 x 10, as ids of particles.
+std::vector<std::uint32_t> exact_labels(const Particles& particles, const Grid& grid) {
+  std::vector<Pixel> pixels;
+  std::vector<std::uint32_t> ids;
+  for (const auto& [id, at] : particles) {
+    pixels.push_back({static_cast<int>(std::floor(at.x * grid.width() / 10)),
+                      static_cast<int>(std::floor(at.y * grid.height() / 10))});
+    ids.push_back(id);
+  }
+  std::vector<std::uint32_t> labels = brute_force(grid, pixels, Metric::euclidean);
+  for (std::uint32_t& label : labels) label = label == no_label ? no_label : ids[label];
+  return labels;
+}
+
+/// Particles that drift through a periodic box; some vanish, some come back, new ones appear.
+std::vector<Particles> drifting(int frames) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> anywhere(0, 10), step(-0.4, 0.4);
+  std::vector<Particles> all(1);
+  for (std::uint32_t id = 0; id < 40; ++id)
+    all[0][4000000000u - 1000 * id] = {anywhere(random), anywhere(random)};
+  std::map<std::uint32_t, Point> away;
+  for (int frame = 1; frame < frames; ++frame) {
+    Particles now = all.back();
+    for (auto& [id, at] : now) {
+      at = {std::fmod(at.x + step(random) + 10, 10), std::fmod(at.y + step(random) + 10, 10)};
+    }
+    if (frame % 3 == 0) {
+      now.insert(away.begin(), away.end());
+      away.clear();
+    }
+    for (int i = 0; i < 3; ++i) {
+      away.insert(*now.begin());
+      now.erase(now.begin());
+    }
+    now[static_cast<std::uint32_t>(frame)] = {anywhere(random), anywhere(random)};
+    all.push_back(now);
+  }
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(labels_are_the_ids_of_particles_that_come_and_go) {
+  const TemporaryFolder folder;
+  const Grid grid(120, 120);
+  const std::vector<Particles> frames = drifting(12);
+  std::string text;
+  for (const Particles& particles : frames) text += frame_text(particles);
+  folder.file("t.lammpstrj", text);
+  const json result = json::parse(succeeds(
+      folder,
+      "simulate --trajectory t.lammpstrj --width 120 --method djfa --labels l%d.npy --json -o f.mp4"));
+  BOOST_TEST(result.at("frames") == 11);
+  BOOST_TEST(result.at("seeds") == frames.back().size());
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto labels = labels_of(folder, fmt::format("l{}.npy", i));
+    for (const std::uint32_t label : labels) BOOST_REQUIRE(frames[i].count(label) == 1u);
+    // Holes where particles vanished may be filled wrongly in part.
+    BOOST_TEST(similarity(labels, exact_labels(frames[i], grid)) > 98.5, "frame " << i);
+  }
+  BOOST_TEST(cv::VideoCapture(folder / "f.mp4").get(cv::CAP_PROP_FRAME_COUNT) == 12);
+}
+
+BOOST_AUTO_TEST_CASE(of_particles_on_one_pixel_the_lowest_id_has_the_cell) {
+  const TemporaryFolder folder;
+  // In frame 1 particle 3 is new, so that its seed is not the first one.
+  const std::vector<Particles> frames = {{{5, {1, 1}}, {9, {8, 1}}}, {{3, {1, 1}}, {5, {1, 1}}, {9, {8, 1}}}};
+  folder.file("t.lammpstrj", frame_text(frames[0]) + frame_text(frames[1]));
+  succeeds(folder, "simulate --trajectory t.lammpstrj --size 20x20 --method djfa --labels l%d.npy");
+  for (std::size_t i = 0; i < 2; ++i) {
+    BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) == exact_labels(frames[i], Grid(20, 20)));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(each_frame_is_seen_in_its_own_box_and_one_frame_can_be_rendered) {
+  const TemporaryFolder folder;
+  const std::string twice = "pp pp pp\n-10 10\n-10 10\n-1 1";
+  folder.file("t.lammpstrj",
+              dump(periodic_box, "id x y", {"7 1 1", "8 9 6"}) + dump(twice, "id x y", {"8 8 2", "7 -8 -8"}));
+  succeeds(folder, "simulate --trajectory t.lammpstrj --size 50x50 --method jfa --labels l%d.npy");
+  BOOST_TEST(labels_of(folder, "l0.npy") == labels_of(folder, "l1.npy"));
+  succeeds(folder,
+           "render --trajectory t.lammpstrj --frame 1 --size 50x50 --method jfa --labels a.npy -o a.png");
+  BOOST_TEST(labels_of(folder, "a.npy") == labels_of(folder, "l1.npy"));
+  succeeds(folder,
+           "render --trajectory t.lammpstrj --size 50x50 --method jfa --bounds -10,-10,10,10 --y-up --labels "
+           "b.npy");
+  const auto labels = labels_of(folder, "b.npy");
+  BOOST_TEST(labels[22 * 50 + 27] == 7u);  // (1, 1) is column floor(11 * 50 / 20), row 49 - 27
+  BOOST_TEST(labels[10 * 50 + 47] == 8u);
+  refuses(folder, "render --trajectory t.lammpstrj --frame 2 --size 9x9 --method jfa -o b.png", failure,
+          {"t.lammpstrj", "no frame 2", "is 1"});
+}
+
+BOOST_AUTO_TEST_CASE(without_a_box_the_first_frame_gives_the_bounds) {
+  const TemporaryFolder folder;
+  folder.file("t.xyz", "2\n\nA 0 0 0\nA 4 2 0\n1\n\nA 1 1 0\n");
+  succeeds(folder, "simulate --trajectory t.xyz --width 8 --method jfa --labels l%d.npy");
+  BOOST_TEST(read_labels(folder / "l0.npy").grid.height() == 4);
+  folder.file("far.xyz", "2\n\nA 0 0 0\nA 4 2 0\n2\n\nA 1 1 0\nA 5 1 0\n");
+  const Result result =
+      run(folder, "simulate --trajectory far.xyz --width 8 --method jfa --labels far%d.npy");
+  BOOST_TEST(result.exit_code == failure);
+  for (const char* part : {"far.xyz", "particle 1 of frame 1", "(5, 1)", "--bounds"}) {
+    BOOST_TEST(result.error.find(part) != std::string::npos, part);
+  }
+  BOOST_TEST((folder.names().count("far0.npy") == 1 && folder.names().count("far1.npy") == 0));
+  succeeds(folder, "simulate --trajectory far.xyz --width 10 --bounds 0,0,5,2 --method jfa");
+  folder.file("none.xyz", "0\n\n1\n\nA 1 1 0\n");
+  succeeds(folder, "simulate --trajectory none.xyz --size 9x9 --method djfa --labels none%d.npy");
+  BOOST_TEST(labels_of(folder, "none0.npy") == std::vector<std::uint32_t>(81, no_label));
+  BOOST_TEST(labels_of(folder, "none1.npy") == std::vector<std::uint32_t>(81, 0));
+  refuses(folder, "simulate --trajectory none.xyz --width 9 --method djfa", failure, {"none.xyz", "--size"});
+}
+
+BOOST_AUTO_TEST_CASE(different_scales_are_warned_of_once) {
+  const TemporaryFolder folder;
+  const std::string frame = dump(periodic_box, "x y", {"1 2"});
+  folder.file("t.lammpstrj", frame + frame + frame);
+  const std::string error = run(folder, "simulate --trajectory t.lammpstrj --size 20x10 --method jfa").error;
+  BOOST_TEST(std::count(error.begin(), error.end(), '\n') == 1);
+  BOOST_TEST(error.find("--width 20") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(a_bad_frame_keeps_those_before_it) {
+  const std::string good = dump(periodic_box, "id x y", {"1 1 1", "2 5 5"});
+  const struct {
+    std::string bad;
+    int line;  // of the file
+    std::string part;
+  } cases[] = {
+      {dump(periodic_box, "id x y", {"1 1 1", "2 5 nan"}), 33, "nan"},
+      {dump(periodic_box, "id x y", {"1 1 1", "2 5 five"}), 33, "five"},
+      {dump(periodic_box, "id x y", {"1 1 1", "1 5 5"}), 33, "id 1 comes twice"},
+      {dump(periodic_box, "id x y", {"1 1 1", "2 5"}), 33, "2 fields"},
+      {dump(walled_box, "id x y", {"1 1 1", "2 5 11"}), 33, "outside the fixed wall"},
+      {good.substr(0, good.size() - 5), 33, "fields"},
+      {good.substr(0, good.size() - 7), 32, "cut off"},
+      {good + "3 7 7\n", 34, "more atoms"},
+      {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n4000000000\nITEM: BOX BOUNDS " + periodic_box +
+           "\nITEM: ATOMS id x y\n1 1 1\n",
+       26, "4000000000 particles"},
+  };
+  for (const auto& bad : cases) {
+    BOOST_TEST_CONTEXT(bad.bad) {
+      const TemporaryFolder folder;
+      folder.file("t.lammpstrj", good + good + bad.bad);
+      const Result result =
+          run(folder,
+              "simulate --trajectory t.lammpstrj --width 20 --method djfa --labels l%d.npy -o f.mp4 "
+              "--compare-with jfa --similarity s.csv");
+      BOOST_TEST(result.exit_code == failure);
+      BOOST_TEST(result.out == "");
+      BOOST_TEST(result.error.find(fmt::format("vorocl: error: t.lammpstrj:{}: ", bad.line)) == 0u,
+                 result.error);
+      BOOST_TEST(result.error.find(bad.part) != std::string::npos, result.error);
+      const bool extra = bad.part == "more atoms";  // the frame itself is whole
+      BOOST_TEST(result.error.find(extra ? "that: 3, written of them: 3\n"
+                                         : "that: 2, written of them: 2\n") != std::string::npos);
+      BOOST_TEST(cv::VideoCapture(folder / "f.mp4").get(cv::CAP_PROP_FRAME_COUNT) == (extra ? 3 : 2));
+      BOOST_TEST(folder.names().size() == (extra ? 6u : 5u));
+    }
+    const TemporaryFolder folder;
+    folder.file("first.lammpstrj", bad.bad);
+    if (bad.part == "more atoms") continue;
+    refuses(folder,
+            "simulate --trajectory first.lammpstrj --width 20 --method djfa --labels l/%d.npy -o f.mp4",
+            failure, {fmt::format("first.lammpstrj:{}: ", bad.line - 22), bad.part});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(options_of_random_motion_are_refused) {
+  const TemporaryFolder folder;
+  folder.file("t.xyz", "1\n\nA 0 0 0\n");
+  const std::string simulate = "simulate --trajectory t.xyz --size 9x9 --method djfa ";
+  refuses(folder, simulate + "--step-length 3", usage, {"--step-length", "--trajectory"});
+  refuses(folder, simulate + "--border periodic", usage, {"--border", "--trajectory"});
+  refuses(folder, simulate + "--rng-seed 3", usage, {"--rng-seed", "--trajectory"});
+  refuses(folder, simulate + "--random 5", usage, {"--random", "--trajectory"});
+  refuses(folder, "simulate --trajectory t.xyz --method djfa", usage, {"--size", "--width"});
+  refuses(folder, "simulate --trajectory none.xyz --size 9x9 --method djfa", failure,
+          {"none.xyz", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(slots_stay_and_are_given_away_after_a_frame) {
+  ParticleSlots slots;
+  const auto update = [&](const std::vector<std::uint32_t>& ids) {
+    slots.update(ids);
+    return slots.of_ids();
+  };
+  using Slots = std::vector<std::uint32_t>;
+  BOOST_TEST(update({10, 20, 30}) == (Slots{0, 1, 2}));
+  BOOST_TEST(update({10, 30, 40}) == (Slots{0, 2, 3}));  // slot 1 is still in the labels
+  BOOST_TEST(update({10, 30, 40, 50}) == (Slots{0, 2, 3, 1}));
+  BOOST_TEST(update({20, 40}) == (Slots{4, 3}));
+  BOOST_TEST(update({20, 30, 40, 60}) == (Slots{4, 0, 3, 1}));
+  for (std::uint32_t id = 100; id < 1000; id += 2) update({id, id + 1});
+  BOOST_TEST(slots.size() <= 6u);
+}
+
+BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
+  const Grid grid(100, 50);
+  const Bounds bounds{0, 0, 10, 5};
+  const auto step = [&](const Box& box, Point from, Point to, bool y_up = false) {
+    return chebyshev_step(from, to, periods_in_pixels(box, bounds, grid, y_up));
+  };
+  const Box walls{0, 0, 10, 5, false, false, 0}, x_periodic{0, 0, 10, 5, true, false, 0},
+      periodic{0, 0, 10, 5, true, true, 0}, tilted{0, 0, 10, 5, true, true, 3};
+  BOOST_TEST(step(walls, {1.5, 2.5}, {98.5, 47.5}) == 97);
+  BOOST_TEST(step(x_periodic, {1.5, 2.5}, {98.5, 47.5}) == 45);
+  BOOST_TEST(step(periodic, {1.5, 2.5}, {98.5, 47.5}) == 5);
+  BOOST_TEST(step(periodic, {98.5, 20.5}, {4.5, 21.5}) == 6);
+  // Through the top of the box: the particle comes in at the bottom, 30 pixels to the left.
+  BOOST_TEST(step(tilted, {60.5, 48.5}, {30.5, 1.5}) == 3);
+  BOOST_TEST(step(tilted, {60.5, 1.5}, {30.5, 48.5}, true) == 3);
+  BOOST_TEST(step(periodic, {60.5, 48.5}, {30.5, 1.5}) == 30);
+}

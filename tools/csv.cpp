@@ -1,0 +1,139 @@
+#include "csv.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "files.hpp"
+#include "numbers.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+using Fields = std::vector<std::string>;
+
+struct Indices {
+  std::size_t x = 0;
+  std::size_t y = 1;
+};
+
+/// A line of the file, for what is wrong with it.
+struct Line {
+  const std::string& path;
+  std::size_t number = 0;
+  std::string text;
+  Fields fields;
+
+  Error error(const std::string& what) const {
+    std::string shown = text.substr(0, 80);
+    std::replace_if(
+        shown.begin(), shown.end(), [](unsigned char c) { return c < ' '; }, '?');
+    return Error(path + ":" + std::to_string(number) + ": " + what + ": " + shown);
+  }
+};
+
+Fields split(const Line& line) {
+  const std::string& text = line.text;
+  Fields fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
+      fields.back() += text[++i];
+    } else if (text[i] == '"') {
+      quoted = !quoted;
+    } else if (text[i] == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += text[i];
+    }
+  }
+  if (quoted) throw line.error("a quote is not closed");
+  for (std::string& field : fields) field = std::string(trimmed(field));
+  return fields;
+}
+
+bool is_header(const Fields& fields) {
+  return std::none_of(fields.begin(), fields.end(),
+                      [](const std::string& field) { return parse_number<double>(field).has_value(); });
+}
+
+std::string lower(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+std::optional<std::size_t> index_of(const Fields& header, const std::string& name) {
+  const auto exact = std::find(header.begin(), header.end(), name);
+  if (exact != header.end()) return static_cast<std::size_t>(exact - header.begin());
+  const auto found = std::find_if(header.begin(), header.end(),
+                                  [&](const std::string& field) { return lower(field) == lower(name); });
+  if (found != header.end()) return static_cast<std::size_t>(found - header.begin());
+  return std::nullopt;
+}
+
+/// Where a column is, by its name in the header or by its index.
+std::size_t locate(const std::string& column, const Line& first, bool has_header) {
+  if (const auto index = has_header ? index_of(first.fields, column) : std::nullopt) return *index;
+  if (const auto index = parse_number<std::size_t>(column); index && *index < first.fields.size())
+    return *index;
+  throw first.error("there is no column " + column +
+                    " (choose two with --columns, by name or by index from 0)");
+}
+
+Indices locate(const std::optional<Columns>& columns, const Line& first, bool has_header) {
+  if (!columns && !has_header) return {};
+  const Columns wanted = columns.value_or(Columns{"x", "y"});
+  return {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header)};
+}
+
+double value(const Line& line, std::size_t index) {
+  if (index >= line.fields.size()) throw line.error("there is no column " + std::to_string(index));
+  const auto number = parse_number<double>(line.fields[index]);
+  if (!number) throw line.error("\"" + line.fields[index] + "\" is not a number");
+  return *number;
+}
+
+void strip_byte_order_mark(std::string& line) {
+  if (line.compare(0, 3, "\xef\xbb\xbf") == 0) line.erase(0, 3);
+}
+
+}  // namespace
+
+Columns parse_columns(const std::string& text) {
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
+    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
+  }
+  const Columns columns{std::string(trimmed(text.substr(0, comma))),
+                        std::string(trimmed(text.substr(comma + 1)))};
+  if (columns.x.empty() || columns.y.empty()) {
+    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
+  }
+  return columns;
+}
+
+std::vector<Point> read_csv(const std::string& path, const std::optional<Columns>& columns) {
+  std::ifstream file = open_to_read(path);
+  std::vector<Point> points;
+  std::optional<Indices> indices;
+  Line line{path, 0, "", {}};
+  while (std::getline(file, line.text)) {
+    if (++line.number == 1) strip_byte_order_mark(line.text);
+    line.text = std::string(trimmed(line.text));
+    if (line.text.empty()) continue;
+    line.fields = split(line);
+    if (!indices) {
+      const bool has_header = is_header(line.fields);
+      indices = locate(columns, line, has_header);
+      if (has_header) continue;
+    }
+    points.push_back({value(line, indices->x), value(line, indices->y)});
+  }
+  if (points.empty()) throw Error(path + " holds no points");
+  return points;
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,105 @@
+#include "files.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "usage_error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string reason(int code) { return std::generic_category().message(code); }
+
+/// Removes a file at the end of a scope, if it is still there.
+struct Remover {
+  const std::string& path;
+  ~Remover() {
+    std::error_code ignored;
+    fs::remove(path, ignored);
+  }
+};
+
+}  // namespace
+
+std::string extension_of(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void check_extension(const std::string& path, const std::vector<std::string>& extensions) {
+  if (std::find(extensions.begin(), extensions.end(), extension_of(path)) != extensions.end()) return;
+  std::string list;
+  for (const std::string& extension : extensions) list += (list.empty() ? "" : ", ") + extension;
+  throw UsageError(path + ": the name must end in one of " + list);
+}
+
+std::ifstream open_to_read(const std::string& path) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) throw Error("cannot read " + path + ": it is a folder");
+  errno = 0;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error("cannot read " + path + ": " + reason(errno));
+  return stream;
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  const fs::path target(path);
+  const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+  std::error_code ignored;
+  if (!target.has_filename() || fs::is_directory(target, ignored))
+    throw Error("cannot write " + path + ": it is a folder");
+  if (!fs::is_directory(folder, ignored)) {
+    throw Error("cannot write " + path + ": the folder " + folder.string() + " does not exist");
+  }
+  temporary_path_ =
+      (folder / (".vorocl-" + std::to_string(getpid()) + "-" + target.filename().string())).string();
+  // Permissions alone do not tell: the file system may be read-only, or full.
+  const Remover remover{temporary_path_};
+  errno = 0;
+  if (!std::ofstream(temporary_path_)) {
+    throw Error("cannot write " + path + ": no file can be made in its folder: " + reason(errno));
+  }
+}
+
+void OutputFile::write(const std::function<void(const std::string&)>& write) const {
+  const Remover remover{temporary_path_};
+  write(temporary_path_);
+  commit();
+}
+
+void OutputFile::commit() const {
+  std::error_code code;
+  fs::rename(temporary_path_, path_, code);
+  if (code) throw Error("cannot write " + path_ + ": " + code.message());
+}
+
+void OutputFile::discard() const {
+  std::error_code ignored;
+  fs::remove(temporary_path_, ignored);
+}
+
+std::ofstream open_to_write(const std::string& path) {
+  errno = 0;
+  std::ofstream stream(path, std::ios::binary);
+  if (!stream) throw Error("cannot write " + path + ": " + reason(errno));
+  return stream;
+}
+
+void check_written(std::ofstream& stream, const std::string& path) {
+  errno = 0;
+  stream.close();
+  if (!stream)
+    throw Error("writing " + path + " failed: " + (errno != 0 ? reason(errno) : "is the disk full?"));
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,48 @@
+// Files: reading with clear errors, and writing that leaves the whole file or none.
+#pragma once
+
+#include <fstream>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace vorocl::command {
+
+/// The path's extension in lower case, with its dot: ".npy".
+std::string extension_of(const std::string& path);
+
+/// Throws UsageError unless the path's extension is one of these (with their dots).
+void check_extension(const std::string& path, const std::vector<std::string>& extensions);
+
+/// Throws Error, with the reason, if the file is missing, a folder or not readable.
+std::ifstream open_to_read(const std::string& path);
+
+/// A file that is to be written later.
+class OutputFile {
+ public:
+  /// Throws Error if the folder does not exist or cannot be written: construct it before the work whose
+  /// result it is to hold.
+  explicit OutputFile(const std::string& path);
+
+  const std::string& path() const { return path_; }
+
+  /// Lets `write` make a file under a temporary name in the same folder, with the same extension, and renames
+  /// that to the path. If `write` throws, nothing stays.
+  void write(const std::function<void(const std::string& temporary_path)>& write) const;
+
+  /// For a file that grows while the work goes on: the name that it has until commit() gives it its own, or
+  /// discard() removes it.
+  const std::string& temporary_path() const { return temporary_path_; }
+  void commit() const;
+  void discard() const;
+
+ private:
+  std::string path_;
+  std::string temporary_path_;
+};
+
+/// A stream to a file that throws Error when it cannot be opened, and check_written() where writing failed.
+std::ofstream open_to_write(const std::string& path);
+void check_written(std::ofstream& stream, const std::string& path);
+
+}  // namespace vorocl::command

@@ -1,0 +1,93 @@
+#include "methods.hpp"
+
+#include "usage_error.hpp"
+#include "vorocl/dynamic_jump_flooding.hpp"
+#include "vorocl/exact_diagram.hpp"
+#include "vorocl/jump_flooding.hpp"
+#include "vorocl/standard_flooding.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// For methods all of whose waves are alike; a mix is what djfa makes of them.
+Neighbourhood neighbourhood(const MethodOptions& options) {
+  return options.neighbourhood == NeighbourhoodMix::von_neumann ? Neighbourhood::von_neumann
+                                                                : Neighbourhood::moore;
+}
+
+Report run_standard_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return standard_flooding(seeds, diagram, {options.metric, neighbourhood(options)});
+}
+
+template <JumpFloodingVariant variant>
+Report run_jump_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return jump_flooding(seeds, diagram, {options.metric, neighbourhood(options), variant});
+}
+
+Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double d_max,
+                                 const MethodOptions& options) {
+  const DynamicPlanOptions plan = {d_max, options.neighbourhood.value_or(NeighbourhoodMix::mixed),
+                                   options.von_neumann_waves, options.extra_waves};
+  return dynamic_jump_flooding(seeds, diagram, {options.metric, plan, options.refresh_interval});
+}
+
+Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return exact_diagram(seeds, diagram, {options.metric});
+}
+
+}  // namespace
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = {
+      {"standard-flooding", false, run_standard_flooding},
+      {"jfa", false, run_jump_flooding<JumpFloodingVariant::jfa>},
+      {"jfa+1", false, run_jump_flooding<JumpFloodingVariant::jfa_plus_1>},
+      {"jfa+2", false, run_jump_flooding<JumpFloodingVariant::jfa_plus_2>},
+      {"1+jfa", false, run_jump_flooding<JumpFloodingVariant::one_plus_jfa>},
+      {"djfa", true, run_dynamic_jump_flooding},
+      {"exact", false, run_exact},
+  };
+  return all;
+}
+
+Choices<Method> method_choices() {
+  Choices<Method> choices;
+  for (const Method& method : methods()) choices.emplace_back(method.name, method);
+  return choices;
+}
+
+void add_method_options(CLI::App& app, MethodOptions& options) {
+  add_metric_option(app, options.metric);
+  const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {
+      {"moore", NeighbourhoodMix::moore},
+      {"von-neumann", NeighbourhoodMix::von_neumann},
+      {"mixed", NeighbourhoodMix::mixed}};
+  add_choice(app, "--neighbourhood", options.neighbourhood, neighbourhoods, "Neighbours that a wave looks at")
+      ->default_str("mixed for djfa, moore for the others");
+  app.add_option("--von-neumann-waves", options.von_neumann_waves, "Of djfa, mixed: the first waves so")
+      ->type_name("0|1|2")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
+  app.add_option("--extra-waves", options.extra_waves, "Of djfa: waves of step 1, or 2 and 1, at the end")
+      ->type_name("0|1|2")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
+  app.add_option("--refresh-interval", options.refresh_interval,
+                 "Of djfa: a full JFA every R frames; 0: in frame 0 alone")
+      ->type_name("R")
+      ->check(CLI::Range(0, 1000000000))
+      ->capture_default_str();
+}
+
+void check_method_options(const CLI::App& app, const MethodOptions& options, bool has_dynamic) {
+  if (has_dynamic) return;
+  if (options.neighbourhood == NeighbourhoodMix::mixed) {
+    throw UsageError("--neighbourhood mixed is for the method djfa");
+  }
+  for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval"}) {
+    if (app.count(name) > 0) throw UsageError(std::string(name) + " is for the method djfa");
+  }
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,44 @@
+// The methods that make a diagram, by the names they have on the command line: the one place to add another.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "options.hpp"
+#include "vorocl/diagram.hpp"
+#include "vorocl/plan.hpp"
+#include "vorocl/report.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl::command {
+
+/// What a method may be told. One that has no use for an option does not look at it.
+struct MethodOptions {
+  Metric metric = Metric::euclidean;
+  std::optional<NeighbourhoodMix> neighbourhood;  ///< none: mixed for djfa, Moore for the others
+  int von_neumann_waves = 2;
+  int extra_waves = 0;
+  int refresh_interval = 0;
+};
+
+/// Adds --metric, --neighbourhood and the waves of djfa.
+void add_method_options(CLI::App& app, MethodOptions& options);
+
+struct Method {
+  std::string name;
+  bool dynamic = false;  ///< whether it goes on from the labels that the diagram holds
+  /// d_max is the longest motion of a seed along an axis since the diagram was last filled, in pixels.
+  std::function<Report(const Seeds&, Diagram&, double d_max, const MethodOptions&)> run;
+};
+
+const std::vector<Method>& methods();
+
+/// The methods as choices of an option.
+Choices<Method> method_choices();
+
+/// Throws UsageError for options that only djfa has, if none of the methods is djfa.
+void check_method_options(const CLI::App& app, const MethodOptions& options, bool has_dynamic);
+
+}  // namespace vorocl::command

@@ -1,0 +1,54 @@
+#include "progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace vorocl::command {
+
+namespace {
+
+constexpr int bar_width = 24;
+constexpr auto redraw_interval = std::chrono::milliseconds(100);
+const char* const erase_line = "\r\x1b[K";
+
+std::string duration(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
+}  // namespace
+
+std::string progress_line(int frames, std::optional<double> done, double seconds) {
+  std::string line;
+  if (done) {
+    const auto filled = static_cast<std::size_t>(std::clamp(*done, 0.0, 1.0) * bar_width);
+    line = fmt::format("[{}{}] {:3.0f} %  ", std::string(filled, '#'), std::string(bar_width - filled, '-'),
+                       100 * *done);
+  }
+  line += fmt::format("{} frames  {:.1f} frames/s", frames, seconds > 0 ? frames / seconds : 0);
+  if (done && *done > 0) line += fmt::format("  {} left", duration(seconds * (1 - *done) / *done));
+  return line;
+}
+
+Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+
+Progress::~Progress() {
+  if (on_terminal_) std::fputs(erase_line, stderr);
+}
+
+void Progress::show(int frames, std::optional<double> done) {
+  const Clock::time_point now = Clock::now();
+  if (!on_terminal_ || now - shown_ < redraw_interval) return;
+  shown_ = now;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  fmt::print(stderr, "{}{}", erase_line, progress_line(frames, done, seconds));
+  std::fflush(stderr);
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,120 @@
+// vorocl render: one diagram, as a picture, as labels, or both.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.hpp"
+#include "files.hpp"
+#include "finish_at_end.hpp"
+#include "input.hpp"
+#include "label_file.hpp"
+#include "methods.hpp"
+#include "picture_options.hpp"
+#include "usage_error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+struct RenderOptions {
+  SeedOptions seeds;
+  Method method;
+  MethodOptions method_options;
+  std::string device;
+  std::string picture_path;
+  std::string labels_path;
+  PictureOptions picture;
+  bool json = false;
+};
+
+struct Outputs {
+  std::optional<OutputFile> picture;
+  std::optional<OutputFile> labels;
+};
+
+/// All that can be said about the outputs before there is anything to put in.
+Outputs check_outputs(const RenderOptions& options) {
+  if (options.picture_path.empty() && options.labels_path.empty()) {
+    throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both");
+  }
+  Outputs outputs;
+  if (!options.picture_path.empty()) {
+    check_picture_options(options.picture);
+    check_extension(options.picture_path, picture_extensions());
+    outputs.picture.emplace(options.picture_path);
+  }
+  if (!options.labels_path.empty()) {
+    check_label_path(options.labels_path);
+    outputs.labels.emplace(options.labels_path);
+  }
+  return outputs;
+}
+
+void print_json(const RenderOptions& options, const Seeds& seeds, const Report& report) {
+  const nlohmann::ordered_json result = {{"method", options.method.name},
+                                         {"metric", to_string(options.method_options.metric)},
+                                         {"device", seeds.device().name()},
+                                         {"width", seeds.grid().width()},
+                                         {"height", seeds.grid().height()},
+                                         {"seeds", seeds.alive()},
+                                         {"frames", 1},
+                                         {"waves", report.waves()},
+                                         {"milliseconds", report.milliseconds()},
+                                         {"host_milliseconds", report.host_milliseconds()}};
+  fmt::print("{}\n", result.dump());
+}
+
+void print_text(const RenderOptions& options, const Seeds& seeds, const Report& report) {
+  fmt::print("{}: {} seeds on {} x {} pixels in {:.1f} ms, {} waves, on {}\n", options.method.name,
+             seeds.alive(), seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
+             report.waves(), seeds.device().name());
+  for (const std::string& path : {options.labels_path, options.picture_path}) {
+    if (!path.empty()) fmt::print("wrote {}\n", path);
+  }
+}
+
+void run(const RenderOptions& options) {
+  const Outputs outputs = check_outputs(options);
+  const Input input = read_input(options.seeds);
+  const Device device = Device::select(options.device);
+  const FinishAtEnd finish(device);
+  const Seeds seeds = input.place(device);
+  Diagram diagram(device, input.grid);
+  const Report report = options.method.run(seeds, diagram, 0, options.method_options);
+  const LabelImage image{input.grid, diagram.read()};
+  const LabelImage named = with_ids(image, input.ids);
+
+  if (outputs.labels) outputs.labels->write([&](const std::string& path) { write_labels(path, named); });
+  if (outputs.picture) {
+    const cv::Mat picture = draw(image, named, seeds.read(), options.method_options.metric, options.picture);
+    outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
+  }
+  options.json ? print_json(options, seeds, report) : print_text(options, seeds, report);
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  const auto options = std::make_shared<RenderOptions>();
+  CLI::App* const command = app.add_subcommand("render", "Make one diagram: a picture, its labels or both");
+  add_seed_options(*command, options->seeds);
+  add_frame_option(*command, options->seeds);
+  add_choice(*command, "--method", options->method, method_choices(), "How to make the diagram")->required();
+  add_method_options(*command, options->method_options);
+  add_device_option(*command, options->device);
+  CLI::Option* const picture =
+      command->add_option("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif");
+  picture->type_name("PICTURE");
+  command->add_option("--labels", options->labels_path, "Labels to write: .npy (uint32) or .tif (32-bit)")
+      ->type_name("FILE");
+  add_picture_options(*command, options->picture, picture);
+  add_json_option(*command, options->json);
+  command->callback([command, options] {
+    check_method_options(*command, options->method_options, options->method.dynamic);
+    run(*options);
+  });
+}
+
+}  // namespace vorocl::command

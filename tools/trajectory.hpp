@@ -1,0 +1,57 @@
+// Trajectories of particles: LAMMPS text dumps and (extended) XYZ files, read frame by frame.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl::command {
+
+/// The rectangle that a frame fills, in data units.
+struct Box {
+  double x0 = 0;
+  double y0 = 0;
+  double x1 = 0;
+  double y1 = 0;
+  bool periodic_x = false;
+  bool periodic_y = false;
+  /// How far the copy of the box above it (at greater y) is shifted in x. Only where both axes are periodic:
+  /// a tilted cell is drawn as the rectangle that holds the same particles.
+  double tilt = 0;
+};
+
+/// One state of the particles, in canonical form: the order of rows and the kind of coordinates in the file
+/// leave no trace. A third dimension is left out: particles are seen along z.
+struct Frame {
+  std::optional<std::int64_t> timestep;  ///< none in XYZ
+  std::optional<Box> box;                ///< none in an XYZ without a lattice
+  std::vector<std::uint32_t> ids;        ///< ascending; the rows' numbers from 0 where the file has no ids
+  /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);
+  /// elsewhere the box holds it, grown where the file's box is no wall.
+  std::vector<Point> positions;
+};
+
+/// Reads one frame at a time: memory does not grow with the number of frames.
+class TrajectoryReader {
+ public:
+  virtual ~TrajectoryReader() = default;
+
+  /// The next frame; false after the last. Throws Error "FILE:LINE: what" for anything that cannot be
+  /// trusted, a last frame that is cut off too, after the frames before it were given; then there is no going
+  /// on. (A cut within the very last field is not seen: the last line of a whole file may lack its line
+  /// feed.)
+  virtual bool next(Frame& frame) = 0;
+
+  /// How much of the file is still to be read; none where that is not known (a pipe).
+  virtual std::optional<std::uintmax_t> bytes_left() const = 0;
+};
+
+/// A reader for the file, whose kind its first line tells. Throws Error if the file cannot be read or is of
+/// no kind that is known.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+
+}  // namespace vorocl::command
