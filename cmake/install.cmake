@@ -1,5 +1,5 @@
-# What is installed: the libraries, their headers, the CMake package and the pkg-config files. The kernels are inside the
-# library.
+# What is installed: the libraries, their headers, the CMake package and the pkg-config files, and the command's completion
+# (tools/ installs the command). The kernels are inside the library.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VoroCL)
 
 install(TARGETS vorocl EXPORT VoroCLTargets)
@@ -35,3 +35,7 @@ foreach(name IN LISTS pkgconfig_files)
   configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()
+
+if(VOROCL_BUILD_TOOLS)
+  install(FILES tools/vorocl.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vorocl)
+endif()

@@ -1,8 +1,8 @@
 // Stretches: pixels of one row with one label. What is summed over the pixels of a cell is added a stretch at a time,
 // in closed form, so that the cost follows the borders of the cells and few additions meet at one cell's sums.
 //
-// The grid is cut into blocks; a work-item walks through the rows of one block. The host chooses the blocks' shape: bands
-// of whole rows for a CPU, small ones for a GPU.
+// The grid is cut into blocks; a work-item walks through the rows of one block. The host chooses the blocks' shape:
+// large ones for a CPU, small ones for a GPU, which needs many work-items.
 
 #include "position.cl"
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "buffer.hpp"
+#include "exact_lists.hpp"
 #include "kernel.hpp"
 
 namespace vorocl {
@@ -36,6 +37,11 @@ int top_level(const Grid& grid) {
 }  // namespace
 
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
+  return exact_diagram_with_lists(seeds, diagram, options, ListLength::full);
+}
+
+Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
+                                ListLength length) {
   const auto started = std::chrono::steady_clock::now();
   diagram.begin(seeds);
   const Device& device = diagram.device();
@@ -55,7 +61,7 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   const cl::Buffer lists = diagram.scratch(Scratch::exact_lists, cells(grid, 1) * most_candidates * word);
   const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, cells(grid, 1) * word);
 
-  const std::string file = options.short_lists ? "exact_short_lists.cl" : "exact_diagram.cl";
+  const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
   const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
     // Smaller work-groups than the usual ones would make PoCL compile the kernel again.
     const std::size_t least = device.tuning().group_width * device.tuning().group_height;

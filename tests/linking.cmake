@@ -1,4 +1,5 @@
-# Tests of the library as others link it: from C, installed, shared, and torn down in any order.
+# Tests of the library as others link it (from C, installed, shared, torn down in any order), its documentation and the
+# command's completion.
 enable_language(C)
 
 add_executable(test_c_api test_c_api.c)
@@ -62,3 +63,5 @@ set_tests_properties(consumer_pkg_config PROPERTIES FIXTURES_REQUIRED installed_
 # --- documentation ---
 add_test(NAME doxygen COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_docs.sh ${CMAKE_CURRENT_BINARY_DIR}/docs)
 set_tests_properties(doxygen PROPERTIES SKIP_RETURN_CODE 77)
+
+add_test(NAME completion COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_completion.sh $<TARGET_FILE:vorocl_tool>)

@@ -1,6 +1,7 @@
 // Runs every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh). Prints
 // nothing.
 #include "brute_force.hpp"
+#include "exact_lists.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;
@@ -15,10 +16,24 @@ void run_all(const Device& device, const Grid& grid, Metric metric) {
     standard_flooding(seeds, other, {metric, neighbourhood});
   }
   similarity(diagram, other);
+  for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
+    exact_diagram_with_lists(seeds, diagram, {metric}, length);
+  }
   Seeds::random(device, grid, 5, 1).read();
   const std::vector<cl_float2> points = {{{1, 2}}, {{2, 4}}};
   const cl::Buffer buffer(device.queue(), points.begin(), points.end(), true);
   Seeds(device, grid, buffer, points.size()).check();
+}
+
+void move_all(const Device& device, const Grid& grid, Metric metric) {
+  Seeds seeds(device, grid, centres(random_pixels(grid, 9, 3)));
+  Diagram diagram(device, grid);
+  dynamic_jump_flooding(seeds, diagram, {metric});
+  random_step(seeds, 2, Border::reflect, 1, 1);
+  dynamic_jump_flooding(seeds, diagram, {metric, {2}, 0});
+  seeds.move_to({Point{1, 1}, std::nullopt, Point{2, 2}});
+  dynamic_jump_flooding(seeds, diagram, {metric, {40}, 0});
+  diagram.wait();
 }
 
 void measure_all(const Device& device, const Grid& grid, Metric metric) {
@@ -52,6 +67,7 @@ int main() {
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
       run_all(shaped, Grid(13, 9), metric);
       run_all(shaped, Grid(3, 11), metric);
+      move_all(shaped, Grid(13, 9), metric);
       measure_all(shaped, Grid(40, 19), metric);
       measure_all(shaped, Grid(3, 11), metric);
     }

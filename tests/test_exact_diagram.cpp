@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "brute_force.hpp"
+#include "exact_lists.hpp"
 #include "fixture.hpp"
-#include "vorocl/exact_diagram.hpp"
 
 using namespace vorocl;
 
@@ -19,10 +19,13 @@ using Labels = std::vector<std::uint32_t>;
 /// Many more and larger cases, for minutes instead of seconds.
 const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
+constexpr ListLength both_lengths[] = {ListLength::full, ListLength::two_entries};
+const char* name_of(ListLength lists) { return lists == ListLength::full ? "full lists" : "short lists"; }
+
 Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
-                    const ExactOptions& options = {}) {
+                    Metric metric = Metric::euclidean, ListLength lists = ListLength::full) {
   Diagram diagram(device, grid);
-  exact_diagram(Seeds(device, grid, centres(seeds)), diagram, options);
+  exact_diagram_with_lists(Seeds(device, grid, centres(seeds)), diagram, {metric}, lists);
   return diagram.read();
 }
 
@@ -133,12 +136,12 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
           {"patches", grid, patches}};
 }
 
-void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, const ExactOptions& options) {
+void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric = Metric::euclidean,
+                        ListLength lists = ListLength::full) {
   BOOST_TEST_CONTEXT(grid.width() << " x " << grid.height() << ", " << seeds.size() << " seeds, "
-                                  << name_of(options.metric)
-                                  << (options.short_lists ? ", short lists" : "")) {
-    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds, options),
-                                 tree_labels(grid, seeds, options.metric)) == 0);
+                                  << vorocl::name_of(metric) << ", " << name_of(lists)) {
+    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds, metric, lists),
+                                 tree_labels(grid, seeds, metric)) == 0);
   }
 }
 
@@ -148,9 +151,9 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : edge_cases()) {
       const Labels truth = brute_force(c.grid, c.seeds, metric);
-      for (const bool short_lists : {false, true}) {
-        BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric) << (short_lists ? ", short lists" : "")) {
-          const Labels labels = exact_labels(test_device(), c.grid, c.seeds, {metric, short_lists});
+      for (const ListLength lists : both_lengths) {
+        BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << name_of(lists)) {
+          const Labels labels = exact_labels(test_device(), c.grid, c.seeds, metric, lists);
           BOOST_TEST(count_differences(labels, truth) == 0);
         }
       }
@@ -171,13 +174,13 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
     auto seeds = random_pixels(part, count, static_cast<unsigned>(rng()));
     const int right = below(static_cast<std::size_t>(grid.width() - part.width() + 1));
     for (Pixel& seed : seeds) seed.x += right;
-    const ExactOptions options = {both_metrics[rng() % 2], rng() % 4 == 0};
-    const Labels labels = exact_labels(test_device(), grid, seeds, options);
-    const std::size_t wrong = count_differences(labels, brute_force(grid, seeds, options.metric));
+    const Metric metric = both_metrics[rng() % 2];
+    const ListLength lists = both_lengths[rng() % 4 == 0 ? 1 : 0];
+    const Labels labels = exact_labels(test_device(), grid, seeds, metric, lists);
+    const std::size_t wrong = count_differences(labels, brute_force(grid, seeds, metric));
     BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
                                    << grid.height() << " with " << count << " seeds, "
-                                   << name_of(options.metric)
-                                   << (options.short_lists ? ", short lists" : ""));
+                                   << vorocl::name_of(metric) << ", " << name_of(lists));
     if (wrong > 0) return;
   }
 }
@@ -187,8 +190,8 @@ BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : hurtful_cases(grid)) {
       BOOST_TEST_CONTEXT(c.name) {
-        check_against_tree(grid, c.seeds, {metric, false});
-        if (!long_tests) check_against_tree(grid, c.seeds, {metric, true});
+        check_against_tree(grid, c.seeds, metric);
+        if (!long_tests) check_against_tree(grid, c.seeds, metric, ListLength::two_entries);
       }
     }
   }
@@ -196,18 +199,18 @@ BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
 
 BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   const Grid square(2048, 2048);
-  check_against_tree(square, random_pixels(square, 16384, 21), {});
-  check_against_tree({32768, 64}, random_pixels({32768, 64}, 1, 22), {});
-  check_against_tree({64, 32768}, random_pixels({64, 32768}, 3000, 23), {Metric::manhattan});
+  check_against_tree(square, random_pixels(square, 16384, 21));
+  check_against_tree({32768, 64}, random_pixels({32768, 64}, 1, 22));
+  check_against_tree({64, 32768}, random_pixels({64, 32768}, 3000, 23), Metric::manhattan);
   // Seeds that are as far apart as they can be: distances just below 2^31.
-  check_against_tree({32768, 40}, {{0, 0}, {32767, 39}}, {});
+  check_against_tree({32768, 40}, {{0, 0}, {32767, 39}});
   if (!long_tests) return;
   for (const Metric metric : both_metrics) {
     for (const std::size_t count : {1u, 2u, 64u, 1024u, 16384u, 65536u, 262144u}) {
-      check_against_tree(square, random_pixels(square, count, 24), {metric});
+      check_against_tree(square, random_pixels(square, count, 24), metric);
     }
-    check_against_tree(square, every_pixel(square), {metric});
-    check_against_tree({4096, 1000}, random_pixels({4096, 1000}, 5000, 25), {metric});
+    check_against_tree(square, every_pixel(square), metric);
+    check_against_tree({4096, 1000}, random_pixels({4096, 1000}, 5000, 25), metric);
   }
 }
 
@@ -224,11 +227,11 @@ BOOST_AUTO_TEST_CASE(same_labels_for_every_tuning) {
   for (const Case& c : cases) {
     const Labels expected = exact_labels(test_device(), c.grid, c.seeds);
     for (const Tuning& tuning : tunings) {
-      for (const bool short_lists : {false, true}) {
+      for (const ListLength lists : both_lengths) {
         BOOST_TEST_CONTEXT(c.name << ", width " << tuning.vector_width << ", groups of " << tuning.group_width
-                                  << " x " << tuning.group_height << (short_lists ? ", short lists" : "")) {
-          const Labels labels = exact_labels(test_device().with_tuning(tuning), c.grid, c.seeds,
-                                             {Metric::euclidean, short_lists});
+                                  << " x " << tuning.group_height << ", " << name_of(lists)) {
+          const Labels labels =
+              exact_labels(test_device().with_tuning(tuning), c.grid, c.seeds, Metric::euclidean, lists);
           BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }

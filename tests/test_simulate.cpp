@@ -1,23 +1,13 @@
-// vorocl simulate on random seeds: films, pictures, labels, similarities, and how a run ends.
+// vorocl simulate on random seeds: labels, similarities, JSON, options; and dJFA in vorocl bench.
 #define BOOST_TEST_MODULE simulate
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <pty.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 #include <sstream>
-#include <thread>
 
 #include "brute_force.hpp"
 #include "label_file.hpp"
-#include "progress.hpp"
 #include "run_command.hpp"
-#include "vorocl/picture.hpp"
 
 using namespace vorocl;
 using nlohmann::json;
@@ -25,13 +15,6 @@ using nlohmann::json;
 namespace {
 
 std::vector<std::uint32_t> labels_of(const std::string& path) { return command::read_labels(path).labels; }
-
-std::vector<cv::Mat> pictures_of(const std::string& path) {
-  cv::VideoCapture film(path, cv::CAP_FFMPEG);
-  std::vector<cv::Mat> pictures;
-  for (cv::Mat picture; film.read(picture);) pictures.push_back(picture.clone());
-  return pictures;
-}
 
 struct Row {
   int frame;
@@ -59,21 +42,6 @@ std::vector<Pixel> pixels_of(const Seeds& seeds) {
 }
 
 std::string number(int frame) { return fmt::format("{:05}", frame); }
-
-/// Starts the command in the folder, with both streams in its file "streams"; returns its process.
-pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
-  const pid_t process = fork();
-  if (process != 0) return process;
-  std::vector<char*> pointers;
-  arguments.insert(arguments.begin(), VOROCL_COMMAND);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);
-  dup2(streams, STDOUT_FILENO);
-  dup2(streams, STDERR_FILENO);
-  if (chdir((folder / "").c_str()) == 0) execv(VOROCL_COMMAND, pointers.data());
-  _exit(99);
-}
 
 }  // namespace
 
@@ -114,51 +82,6 @@ BOOST_AUTO_TEST_CASE(labels_equal_those_of_the_library) {
                  run.arguments << " frame " << frame);
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(films_have_every_frame_and_even_sides) {
-  for (const cv::Size& size :
-       {cv::Size(64, 48), cv::Size(65, 48), cv::Size(64, 49), cv::Size(65, 49), cv::Size(1, 1)}) {
-    const TemporaryFolder folder;
-    const Result result =
-        run(folder,
-            fmt::format("simulate --random 9 --size {}x{} --frames 12 --step-length 1 --method jfa -o a.mp4 "
-                        "--labels l%d.npy --fps 12.5",
-                        size.width, size.height));
-    BOOST_TEST(result.exit_code == 0);
-    const cv::Size even(size.width + size.width % 2, size.height + size.height % 2);
-    BOOST_TEST((result.error.find("note: a.mp4") != std::string::npos) == (even != size));
-    cv::VideoCapture film(folder / "a.mp4");
-    BOOST_TEST(film.get(cv::CAP_PROP_FPS) == 12.5);
-    BOOST_TEST(film.get(cv::CAP_PROP_FOURCC) == cv::VideoWriter::fourcc('a', 'v', 'c', '1'));
-    BOOST_TEST(content_of(folder / "a.mp4").find("avcC") != std::string::npos);  // H.264
-    const std::vector<cv::Mat> pictures = pictures_of(folder / "a.mp4");
-    BOOST_REQUIRE(pictures.size() == 13u);
-    for (int frame = 0; frame <= 12; ++frame) {
-      const cv::Mat& picture = pictures[static_cast<std::size_t>(frame)];
-      BOOST_REQUIRE(picture.size() == even);
-      const auto labels = labels_of(folder / fmt::format("l{}.npy", frame));
-      const cv::Mat expected = color_by_id(labels, Grid(size.width, size.height));
-      // Compressed, and with a colour for four pixels: near on average.
-      BOOST_TEST(cv::norm(picture(cv::Rect({0, 0}, size)), expected, cv::NORM_L1) / size.area() < 3 * 16);
-    }
-    BOOST_TEST(folder.names().size() == 14u);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(every_kth_frame_is_written) {
-  const TemporaryFolder folder;
-  succeeds(folder,
-           "simulate --random 9 --size 40x30 --frames 7 --step-length 2 --method djfa -o p/%05d.png --labels "
-           "l_%03d.tif --every 3");
-  BOOST_TEST((folder.names() == std::set<std::string>{"p", "l_000.tif", "l_003.tif", "l_006.tif"}));
-  for (const int frame : {0, 3, 6}) {
-    const cv::Mat picture = cv::imread(folder / ("p/" + number(frame) + ".png"));
-    const cv::Mat expected = color_by_id(labels_of(folder / fmt::format("l_{:03}.tif", frame)), Grid(40, 30));
-    BOOST_REQUIRE(picture.size() == expected.size());
-    BOOST_TEST(cv::norm(picture, expected, cv::NORM_INF) == 0);
-  }
-  BOOST_TEST(!std::filesystem::exists(folder / "p/00001.png"));
 }
 
 BOOST_AUTO_TEST_CASE(similarities_are_those_of_the_label_files) {
@@ -243,75 +166,6 @@ BOOST_AUTO_TEST_CASE(json_is_one_object) {
   BOOST_TEST(result.at("host_milliseconds").get<double>() > 0);
   BOOST_TEST(!result.contains("similarity"));
   BOOST_TEST(folder.names().empty());
-}
-
-BOOST_AUTO_TEST_CASE(a_second_run_makes_the_same_bytes) {
-  const TemporaryFolder a, b;
-  const std::string arguments =
-      "simulate --random 200 --size 160x121 --frames 9 --step-length 3 --method djfa -o "
-      "f.mp4 --labels l%d.npy --compare-with jfa --similarity s.csv --points-overlay --edges";
-  run(a, arguments);
-  run(b, arguments);
-  BOOST_TEST(a.names().size() == 12u);
-  for (const std::string& name : a.names()) BOOST_TEST((content_of(a / name) == content_of(b / name)), name);
-}
-
-BOOST_AUTO_TEST_CASE(after_ctrl_c_the_frames_so_far_are_complete) {
-  for (const int signal : {SIGINT, SIGTERM}) {
-    const TemporaryFolder folder;
-    const pid_t process =
-        start(folder, {"simulate", "--random", "50", "--size", "200x150", "--frames", "1000000",
-                       "--step-length", "2", "--method", "djfa", "-o", "f.mp4", "--labels", "l/%05d.npy",
-                       "--compare-with", "jfa", "--similarity", "s.csv"});
-    for (int i = 0; i < 600 && !std::filesystem::exists(folder / "l/00005.npy"); ++i) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    }
-    kill(process, signal);
-    int status = 0;
-    waitpid(process, &status, 0);
-    BOOST_TEST(WIFEXITED(status));
-    BOOST_TEST(WEXITSTATUS(status) == failure);
-    BOOST_TEST((folder.names() == std::set<std::string>{"f.mp4", "l", "s.csv", "streams"}));
-    int frames = 0;
-    while (std::filesystem::exists(folder / ("l/" + number(frames) + ".npy"))) {
-      BOOST_TEST(labels_of(folder / ("l/" + number(frames++) + ".npy")).size() == 30000u);
-    }
-    BOOST_TEST(frames > 5);
-    BOOST_TEST(pictures_of(folder / "f.mp4").size() == static_cast<std::size_t>(frames));
-    BOOST_TEST(rows_of(folder / "s.csv").size() == static_cast<std::size_t>(frames - 1));
-    const std::string said = content_of(folder / "streams");
-    BOOST_TEST(said ==
-               fmt::format("vorocl: error: interrupted; frames complete before that: {0}, written of them: "
-                           "{0}\n",
-                           frames));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_terminal_gets_a_progress_bar) {
-  const TemporaryFolder folder;
-  int terminal = -1;
-  const pid_t process = forkpty(&terminal, nullptr, nullptr, nullptr);
-  if (process == 0) {
-    if (chdir((folder / "").c_str()) == 0) {
-      execl(VOROCL_COMMAND, VOROCL_COMMAND, "simulate", "--random", "5", "--size", "50x50", "--frames", "9",
-            "--step-length", "1", "--method", "jfa", nullptr);
-    }
-    _exit(99);
-  }
-  std::string text;
-  char part[512];
-  for (ssize_t count; (count = read(terminal, part, sizeof(part))) > 0;) {
-    text.append(part, static_cast<std::size_t>(count));
-  }
-  int status = 0;
-  waitpid(process, &status, 0);
-  close(terminal);
-  BOOST_TEST(WEXITSTATUS(status) == 0);
-  BOOST_TEST(text.find("frames/s") != std::string::npos);
-  BOOST_TEST(command::progress_line(30, 0.25, 10) ==
-             "[######------------------]  25 %  30 frames  3.0 frames/s  30 s left");
-  BOOST_TEST(command::progress_line(2, 0.001, 10).find("  2 h 46 min left") != std::string::npos);
-  BOOST_TEST(command::progress_line(30, std::nullopt, 10) == "30 frames  3.0 frames/s");
 }
 
 BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {

@@ -10,8 +10,6 @@
 
 #include "brute_force.hpp"
 #include "label_file.hpp"
-#include "particle_slots.hpp"
-#include "periodic_step.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"
 
@@ -216,38 +214,4 @@ BOOST_AUTO_TEST_CASE(options_of_random_motion_are_refused) {
   refuses(folder, "simulate --trajectory t.xyz --method djfa", usage, {"--size", "--width"});
   refuses(folder, "simulate --trajectory none.xyz --size 9x9 --method djfa", failure,
           {"none.xyz", "No such file"});
-}
-
-BOOST_AUTO_TEST_CASE(slots_stay_and_are_given_away_after_a_frame) {
-  ParticleSlots slots;
-  const auto update = [&](const std::vector<std::uint32_t>& ids) {
-    slots.update(ids);
-    return slots.of_ids();
-  };
-  using Slots = std::vector<std::uint32_t>;
-  BOOST_TEST(update({10, 20, 30}) == (Slots{0, 1, 2}));
-  BOOST_TEST(update({10, 30, 40}) == (Slots{0, 2, 3}));  // slot 1 is still in the labels
-  BOOST_TEST(update({10, 30, 40, 50}) == (Slots{0, 2, 3, 1}));
-  BOOST_TEST(update({20, 40}) == (Slots{4, 3}));
-  BOOST_TEST(update({20, 30, 40, 60}) == (Slots{4, 0, 3, 1}));
-  for (std::uint32_t id = 100; id < 1000; id += 2) update({id, id + 1});
-  BOOST_TEST(slots.size() <= 6u);
-}
-
-BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
-  const Grid grid(100, 50);
-  const Bounds bounds{0, 0, 10, 5};
-  const auto step = [&](const Box& box, Point from, Point to, bool y_up = false) {
-    return chebyshev_step(from, to, periods_in_pixels(box, bounds, grid, y_up));
-  };
-  const Box walls{0, 0, 10, 5, false, false, 0}, x_periodic{0, 0, 10, 5, true, false, 0},
-      periodic{0, 0, 10, 5, true, true, 0}, tilted{0, 0, 10, 5, true, true, 3};
-  BOOST_TEST(step(walls, {1.5, 2.5}, {98.5, 47.5}) == 97);
-  BOOST_TEST(step(x_periodic, {1.5, 2.5}, {98.5, 47.5}) == 45);
-  BOOST_TEST(step(periodic, {1.5, 2.5}, {98.5, 47.5}) == 5);
-  BOOST_TEST(step(periodic, {98.5, 20.5}, {4.5, 21.5}) == 6);
-  // Through the top of the box: the particle comes in at the bottom, 30 pixels to the left.
-  BOOST_TEST(step(tilted, {60.5, 48.5}, {30.5, 1.5}) == 3);
-  BOOST_TEST(step(tilted, {60.5, 1.5}, {30.5, 48.5}, true) == 3);
-  BOOST_TEST(step(periodic, {60.5, 48.5}, {30.5, 1.5}) == 30);
 }

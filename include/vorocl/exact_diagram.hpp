@@ -10,8 +10,6 @@ namespace vorocl {
 
 struct ExactOptions {
   Metric metric = Metric::euclidean;
-  /// For tests: lists inside the engine hold two entries, so that they overflow. The labels are the same.
-  bool short_lists = false;
 };
 
 /// Fills the diagram so that every pixel has the label of its nearest seed; of several at the least distance,
@@ -22,9 +20,9 @@ struct ExactOptions {
 /// tile are searched from coarse cells to fine ones and dropped when another seed beats them at all four
 /// corners of the tile; where they are dense, the nearest seed of each row and then the best row is taken (as
 /// in separable distance transforms). Cost: in proportion to the pixels, whatever the seeds' distribution,
-/// except for the few tiles that see very many seeds at almost one distance (the middle of a ring). 9.3 bytes
-/// of device memory a pixel, the labels included. Throws Error if seeds and diagram do not fit together or
-/// the device has too little memory.
+/// except for the few tiles that see very many seeds at almost one distance (the middle of a ring). 9.2 bytes
+/// of device memory a pixel, the labels included, and 4 a seed. Throws Error if seeds and diagram do not fit
+/// together or the device has too little memory.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# The completion of the command: test_completion.sh COMMAND
+set -euo pipefail
+command=$1
+# shellcheck disable=SC1091
+source "$(dirname "$0")/../tools/vorocl.bash"
+
+# Completes the last of the words, and compares: expect "WANTED ..." WORD...
+expect() {
+  COMP_WORDS=("$command" "${@:2}")
+  COMP_CWORD=$(($# - 1))
+  COMPREPLY=()
+  _vorocl
+  [ "${COMPREPLY[*]}" = "$1" ] && return
+  echo "\"${*:2}\" is completed by \"${COMPREPLY[*]}\", and \"$1\" was wanted"
+  exit 1
+}
+
+expect "render" re
+expect "devices" d
+expect "jfa jfa+1 jfa+2" render --method j
+expect "euclidean manhattan" render --metric ""
+expect "viridis" render --metric manhattan --palette v
+expect "--method --metric" render --me
+expect "" render --points cities

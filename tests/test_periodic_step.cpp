@@ -1,0 +1,26 @@
+// How far particles have moved, by the shorter way round a periodic box.
+#define BOOST_TEST_MODULE periodic_step
+#include <boost/test/unit_test.hpp>
+
+#include "periodic_step.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
+  const Grid grid(100, 50);
+  const Bounds bounds{0, 0, 10, 5};
+  const auto step = [&](const Box& box, Point from, Point to, bool y_up = false) {
+    return chebyshev_step(from, to, periods_in_pixels(box, bounds, grid, y_up));
+  };
+  const Box walls{0, 0, 10, 5, false, false, 0}, x_periodic{0, 0, 10, 5, true, false, 0},
+      periodic{0, 0, 10, 5, true, true, 0}, tilted{0, 0, 10, 5, true, true, 3};
+  BOOST_TEST(step(walls, {1.5, 2.5}, {98.5, 47.5}) == 97);
+  BOOST_TEST(step(x_periodic, {1.5, 2.5}, {98.5, 47.5}) == 45);
+  BOOST_TEST(step(periodic, {1.5, 2.5}, {98.5, 47.5}) == 5);
+  BOOST_TEST(step(periodic, {98.5, 20.5}, {4.5, 21.5}) == 6);
+  // Through the top of the box: the particle comes in at the bottom, 30 pixels to the left.
+  BOOST_TEST(step(tilted, {60.5, 48.5}, {30.5, 1.5}) == 3);
+  BOOST_TEST(step(tilted, {60.5, 1.5}, {30.5, 48.5}, true) == 3);
+  BOOST_TEST(step(periodic, {60.5, 48.5}, {30.5, 1.5}) == 30);
+}
