@@ -29,7 +29,7 @@ cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& 
                 " in one buffer; use a smaller grid or another device");
   }
   cl_int code = CL_SUCCESS;
-  const cl::Buffer buffer(
+  cl::Buffer buffer(
       clCreateBuffer(device.context()(), CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 4), nullptr, &code));
   check(code, "allocating " + readable(bytes) + " for " + purpose + " on " + device.name());
   return buffer;

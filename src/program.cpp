@@ -36,7 +36,7 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   const char* text = source.c_str();
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
-  const cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
+  cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
   check(code, "making the program " + file);
   if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
     const auto ask = [id](const cl::Program& of, cl_program_build_info name, std::size_t size, void* value,
