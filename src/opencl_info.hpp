@@ -21,7 +21,9 @@ T info(Ask ask, const Object& object, Name name) {
     check(ask(object, name, size, value.data(), nullptr), "asking OpenCL for a text");
     value.resize(value.find_last_not_of('\0') + 1);
   } else {
-    check(ask(object, name, sizeof(T), &value, nullptr), "asking OpenCL for a value");
+    // A handle is a pointer whose own size is meant.
+    check(ask(object, name, sizeof(T), &value, nullptr),  // NOLINT(bugprone-sizeof-expression)
+          "asking OpenCL for a value");
   }
   return value;
 }

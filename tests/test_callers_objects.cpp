@@ -9,7 +9,7 @@ using namespace vorocl;
 namespace {
 
 const Grid grid(50, 30);
-const std::size_t bytes = 50 * 30 * 4;
+const std::size_t bytes = grid.pixels() * sizeof(std::uint32_t);
 
 cl::Buffer make_buffer(std::size_t size, cl_mem_flags flags = CL_MEM_READ_WRITE) {
   return cl::Buffer(test_device().context(), flags, size);
