@@ -134,12 +134,13 @@ std::string effective_request(const std::string& request) {
   return request.empty() && variable != nullptr ? variable : request;
 }
 
+/// "0:0 Portable Computing Language: pthread-...; 1:0 ..."
 std::string listing(const std::vector<Candidate>& candidates) {
   std::string text;
   for (const Candidate& candidate : candidates) {
     const DeviceDescription& device = candidate.description;
-    text += "\n  " + std::to_string(device.platform_index) + ":" + std::to_string(device.device_index) +
-            "  " + device.platform + ": " + device.name;
+    text += (text.empty() ? "" : "; ") + std::to_string(device.platform_index) + ":" +
+            std::to_string(device.device_index) + " " + device.platform + ": " + device.name;
     if (!device.why_not.empty()) text += " (cannot be used: " + device.why_not + ")";
   }
   return text;
@@ -172,7 +173,7 @@ Device Device::select(const std::string& request) {
   if (!chosen) {
     throw Error((wanted.empty() ? "no OpenCL device can be used"
                                 : "no usable OpenCL device matches \"" + wanted + "\"") +
-                "; there are:" + listing(candidates));
+                "; there is " + listing(candidates));
   }
   cl_int code = CL_SUCCESS;
   const cl::Context context(clCreateContext(nullptr, 1, &chosen->device, nullptr, nullptr, &code));

@@ -140,6 +140,7 @@ BOOST_AUTO_TEST_CASE(a_terminal_gets_a_progress_bar) {
   const TemporaryFolder folder;
   int terminal = -1;
   const pid_t process = forkpty(&terminal, nullptr, nullptr, nullptr);
+  BOOST_REQUIRE_MESSAGE(process >= 0, "this machine has no pseudo-terminals (is /dev/pts mounted?)");
   if (process == 0) {
     if (chdir((folder / "").c_str()) == 0) {
       execl(VOROCL_COMMAND, VOROCL_COMMAND, "simulate", "--random", "5", "--size", "50x50", "--frames", "9",
