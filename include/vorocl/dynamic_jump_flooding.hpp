@@ -11,7 +11,8 @@ namespace vorocl {
 
 struct DynamicJumpFloodingOptions {
   Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
-  DynamicPlanOptions plan = {};   ///< the waves; plan.max_step must cover the seeds' motion since the last frame
+  DynamicPlanOptions plan =
+      {};                    ///< the waves; plan.max_step must cover the seeds' motion since the last frame
   int refresh_interval = 0;  ///< every how many frames a full JFA runs instead; 0: only for frame 0
 };
 
