@@ -155,6 +155,9 @@ Tuning default_tuning(cl_device_id device) {
     tuning.group_width = 64;
     tuning.group_height = 1;
   }
+  const auto most = device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
+  while (tuning.group_height > 1 && tuning.group_width * tuning.group_height > most) tuning.group_height /= 2;
+  while (tuning.group_width > 1 && tuning.group_width > most) tuning.group_width /= 2;
   return tuning;
 }
 

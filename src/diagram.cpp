@@ -49,7 +49,8 @@ void Diagram::begin(const Seeds& seeds) {
 }
 
 bool Diagram::holds_labels_of(const Seeds& seeds) const {
-  return seeds_ && seeds_->positions()() == seeds.positions()() && seeds_->vanishings() == seeds.vanishings();
+  return seeds_ && seeds_->alive() > 0 && seeds_->positions()() == seeds.positions()() &&
+         seeds_->vanishings() == seeds.vanishings();
 }
 
 }  // namespace vorocl

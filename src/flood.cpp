@@ -10,11 +10,11 @@ namespace vorocl {
 
 Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric)
     : seeds_(seeds), diagram_(diagram), metric_(metric) {
-  diagram.begin(seeds);
   const std::size_t pixels = diagram.grid().pixels() + 2 * guard;
   front_ = diagram.scratch(Diagram::Scratch::packed_front, pixels * sizeof(std::uint32_t));
   back_ = diagram.scratch(Diagram::Scratch::packed_back, pixels * sizeof(std::uint32_t));
   seeded_ = diagram.scratch(Diagram::Scratch::seeded, pixels);
+  diagram.begin(seeds);  // last: a diagram that there is no memory for keeps what it holds
 }
 
 void Flood::first_wave(const Wave& wave) {

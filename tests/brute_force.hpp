@@ -20,6 +20,7 @@ inline Point centre(const Pixel& pixel) { return {pixel.x + 0.5, pixel.y + 0.5};
 
 inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
   std::vector<Point> points;
+  points.reserve(pixels.size());
   for (const Pixel& pixel : pixels) points.push_back(centre(pixel));
   return points;
 }

@@ -124,8 +124,8 @@ BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_a_seed) {
 BOOST_AUTO_TEST_CASE(the_same_film_for_every_kernel_shape) {
   const Grid grid(143, 61);
   std::vector<std::vector<std::uint32_t>> expected;
-  for (const Tuning& shape :
-       {Tuning{1, 32, 8}, Tuning{1, 7, 3}, Tuning{4, 1, 16}, Tuning{8, 64, 1}, Tuning{16, 64, 1}}) {
+  for (const Tuning& shape : {Tuning{1, 32, 8}, Tuning{1, 7, 3}, Tuning{2, 64, 1}, Tuning{4, 1, 16},
+                              Tuning{8, 64, 1}, Tuning{16, 64, 1}}) {
     Seeds seeds = Seeds::random(test_device().with_tuning(shape), grid, 200, 3);
     Diagram diagram(test_device().with_tuning(shape), grid);
     for (std::size_t frame = 0; frame < 10; ++frame) {
@@ -181,6 +181,15 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   seeds.move_to(std::vector<std::optional<Point>>(pixels.size()));
   dynamic_jump_flooding(seeds, diagram);
   BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), no_label)));
+
+  // Out of nothing, and only in a corner: again farther than the first wave reaches.
+  std::vector<std::optional<Point>> corner(pixels.size());
+  for (std::size_t id = 0; id < 100; ++id)
+    corner[id] = Point{static_cast<double>(id % 10), static_cast<double>(id / 10)};
+  seeds.move_to(corner);
+  dynamic_jump_flooding(seeds, diagram);
+  const auto from_corner = diagram.read();
+  BOOST_TEST(std::count(from_corner.begin(), from_corner.end(), no_label) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {

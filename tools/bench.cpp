@@ -68,6 +68,7 @@ Contender engine(const Method& method, const Seeds& seeds, Diagram& diagram, con
 /// Points of Seeds::read() to move_to().
 std::vector<std::optional<Point>> present(const std::vector<Point>& points) {
   std::vector<std::optional<Point>> present;
+  present.reserve(points.size());
   for (const Point& point : points) {
     present.push_back(std::isnan(point.x) ? std::nullopt : std::optional<Point>(point));
   }

@@ -107,8 +107,7 @@ Columns parse_columns(const std::string& text) {
   if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
     throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
   }
-  const Columns columns{std::string(trimmed(text.substr(0, comma))),
-                        std::string(trimmed(text.substr(comma + 1)))};
+  Columns columns{std::string(trimmed(text.substr(0, comma))), std::string(trimmed(text.substr(comma + 1)))};
   if (columns.x.empty() || columns.y.empty()) {
     throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
   }
@@ -132,6 +131,7 @@ std::vector<Point> read_csv(const std::string& path, const std::optional<Columns
     }
     points.push_back({value(line, indices->x), value(line, indices->y)});
   }
+  if (file.bad()) throw Error("reading " + path + " failed after line " + std::to_string(line.number));
   if (points.empty()) throw Error(path + " holds no points");
   return points;
 }

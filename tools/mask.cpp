@@ -16,8 +16,7 @@ cv::Mat read_image(const std::string& path) {
   const QuietStandardError quiet;
   try {
     // Not as grey values: rounding makes a faint blue 0.
-    const cv::Mat image =
-        cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
+    cv::Mat image = cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
     if (!image.empty()) return image;
   } catch (const cv::Exception&) {  // a damaged or too large image; the text names OpenCV's own source lines
   }

@@ -77,7 +77,7 @@ std::string to_string(const std::vector<std::size_t>& shape) {
 std::string read_header_text(std::ifstream& file, const std::string& path) {
   char start[magic_size + 2] = {};
   file.read(start, sizeof start);
-  const int version = start[magic_size];
+  const auto version = static_cast<unsigned char>(start[magic_size]);
   if (!file || std::memcmp(start, magic, magic_size) != 0 || version < 1 || version > 3) {
     throw Error(path + " is no .npy array of format version 1 to 3");
   }
@@ -92,8 +92,8 @@ std::string read_header_text(std::ifstream& file, const std::string& path) {
 Header read_header(std::ifstream& file, const std::string& path) {
   const std::string text = read_header_text(file, path);
   const std::string type = header_value(text, "descr", path);  // a list where values are records
-  const Header header{type[0] == '\'' ? type.substr(1, type.find('\'', 1) - 1) : "record",
-                      parse_shape(header_value(text, "shape", path), path)};
+  Header header{type[0] == '\'' ? type.substr(1, type.find('\'', 1) - 1) : "record",
+                parse_shape(header_value(text, "shape", path), path)};
   if (types().count(header.type) == 0) {
     throw Error(path + " holds values of type " + header.type +
                 "; little-endian integers and floating-point numbers of 1 to 8 bytes can be read");

@@ -39,6 +39,9 @@ Outputs check_outputs(const RenderOptions& options) {
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both");
   }
+  if (options.picture_path == options.labels_path) {
+    throw UsageError(options.picture_path + ": -o and --labels cannot write one file");
+  }
   Outputs outputs;
   if (!options.picture_path.empty()) {
     check_picture_options(options.picture);

@@ -45,7 +45,7 @@ std::string take_value(std::string_view& text) {
     }
   }
   end = std::min(end, text.size());
-  const std::string value(text.substr(1, end - 1));
+  std::string value(text.substr(1, end - 1));
   text.remove_prefix(std::min(end + 1, text.size()));
   return value;
 }

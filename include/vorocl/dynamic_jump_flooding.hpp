@@ -23,8 +23,8 @@ struct DynamicJumpFloodingOptions {
 /// Approximate; close to JFA where seeds are spread evenly (the paper's assumption), worse where they are
 /// not. Seeds may appear and vanish: a label of a vanished seed counts as none, and if a pixel is left
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
-/// device memory a pixel. Enqueues and returns, except that after a seed has vanished it waits to see whether
-/// pixels are left. Throws as jump_flooding().
+/// device memory a pixel. Enqueues and returns, except that after a seed has vanished (or the seeds have a
+/// new buffer) it waits to see whether pixels are left. Throws as jump_flooding().
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
                                         const DynamicJumpFloodingOptions& options = {});
 

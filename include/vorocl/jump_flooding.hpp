@@ -24,7 +24,8 @@ struct JumpFloodingOptions {
 VOROCL_API Report jump_flooding(const Seeds& seeds, Diagram& diagram,
                                 const JumpFloodingOptions& options = {});
 
-/// Runs any plan of waves from the seeds, as jump_flooding() does. Throws Error if a step is below 1.
+/// Runs any plan of waves from the seeds, as jump_flooding() does. Throws Error unless steps are from 1 to
+/// 32,768.
 VOROCL_API Report flood(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric);
 
 }  // namespace vorocl

@@ -15,6 +15,8 @@ namespace vorocl {
 
 /// The seeds of a diagram. A seed's id is its index in the caller's list. Seeds that share a pixel are
 /// allowed: the lowest id owns the cell, the others have empty cells. Needs 4 bytes of device memory a seed.
+/// Copies share the positions: random_step() moves them all; move_to() leaves the others' counts behind, so
+/// call it for one of them alone.
 class VOROCL_API Seeds {
  public:
   /// From points in pixel units. Throws Error naming the first point that is NaN, infinite or outside the
@@ -23,7 +25,7 @@ class VOROCL_API Seeds {
 
   /// From `count` pairs (x, y) of float in pixel units in the caller's buffer, which is read when the queue
   /// gets there. Throws Error if the buffer is null, too small or of another context. The points are checked
-  /// on the device: the Error that names a bad one comes at the next wait (Diagram::read(), Report::wait()).
+  /// on the device: the Error that names a bad one comes at the next wait (Diagram::read(), Diagram::wait()).
   Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count);
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
@@ -58,7 +60,7 @@ class VOROCL_API Seeds {
   /// of the caller's buffer was bad.
   std::vector<Point> read() const;
 
-  /// Throws Error if a point of the caller's buffer was bad. Waits for it, the first time.
+  /// Throws Error if a point of the caller's buffer was bad. Waits for it.
   void check() const;
 
  private:
@@ -74,7 +76,7 @@ class VOROCL_API Seeds {
   std::size_t alive_ = 0;
   std::uint64_t vanishings_ = 0;
   cl::Buffer positions_;
-  std::vector<bool> present_;                // by id; empty while all seeds are
+  std::vector<bool> present_;                // by id
   std::shared_ptr<DeferredCheck> deferred_;  // null unless the points came in the caller's buffer
 };
 
