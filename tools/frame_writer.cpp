@@ -86,11 +86,12 @@ void FrameWriter::add_similarity(int frame, double percent) {
 }
 
 void FrameWriter::finish() {
-  if (film_) film_->finish();
+  // The film last: should it fail, the similarities are whole nevertheless.
   if (similarity_file_) {
     check_written(similarities_, similarity_file_->path());
     similarity_file_->commit();
   }
+  if (film_) film_->finish();
 }
 
 }  // namespace vorocl::command

@@ -136,7 +136,7 @@ Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulati
         break;
       }
     } while (source.next());
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
     course.trouble = error.what();
   }
   return course;
