@@ -27,7 +27,7 @@ std::size_t first_slots(std::size_t seeds) {
 }  // namespace
 
 void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result) {
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const std::size_t cells = seeds.size(), word = sizeof(cl_uint);

@@ -22,7 +22,7 @@ Point CellSums::centroid() const {
 
 Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result) {
   const Stopwatch stopwatch;
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
@@ -64,7 +64,7 @@ std::vector<CellSums> CellSumsResult::read() const {
 
 Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result, Metric metric) {
   const Stopwatch stopwatch;
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());

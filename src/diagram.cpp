@@ -37,13 +37,17 @@ const cl::Buffer& Diagram::scratch(Scratch use, std::size_t bytes) {
   return buffer;
 }
 
-void Diagram::begin(const Seeds& seeds) {
+void Diagram::check_fits(const Seeds& seeds) const {
   if (!seeds.device().same_as(device_)) throw Error("the seeds and the diagram belong to different devices");
   if (seeds.grid() != grid_) {
     throw Error("the seeds' grid is " + std::to_string(seeds.grid().width()) + " x " +
                 std::to_string(seeds.grid().height()) + ", the diagram's " + std::to_string(grid_.width()) +
                 " x " + std::to_string(grid_.height()));
   }
+}
+
+void Diagram::begin(const Seeds& seeds) {
+  check_fits(seeds);
   seeds_ = seeds;
   age_ = 0;
 }

@@ -11,7 +11,7 @@ template <typename T>
 Report fill_distances(const Seeds& seeds, const Diagram& diagram, Field<T>& field, Metric metric,
                       const char* kernel) {
   const Stopwatch stopwatch;
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   field.prepare(device, grid, seeds);

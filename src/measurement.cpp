@@ -7,10 +7,6 @@ namespace vorocl {
 
 namespace {
 
-std::string size_of(const Grid& grid) {
-  return std::to_string(grid.width()) + " x " + std::to_string(grid.height());
-}
-
 bool works_in_vectors(const Device& device) { return device.tuning().vector_width > 1; }
 
 /// A CPU, which works in vectors, gets large blocks: few cells then lie in several. Each is a work-group, for
@@ -24,15 +20,6 @@ int bits_of_height(const Device& device) { return works_in_vectors(device) ? 7 :
 std::size_t blocks_along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
 
 }  // namespace
-
-void check_together(const Seeds& seeds, const Diagram& diagram) {
-  if (!seeds.device().same_as(diagram.device())) {
-    throw Error("the seeds and the diagram belong to different devices");
-  }
-  if (seeds.grid() != diagram.grid()) {
-    throw Error("the seeds' grid is " + size_of(seeds.grid()) + ", the diagram's " + size_of(diagram.grid()));
-  }
-}
 
 void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   if (buffer() != nullptr &&

@@ -1,4 +1,4 @@
-// What the measurements of a diagram share: their checks, their buffers, and the blocks that their work-items
+// What the measurements of a diagram share: their buffers, and the blocks that their work-items
 // walk through (see runs.cl).
 #pragma once
 
@@ -12,9 +12,6 @@
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
-
-/// Throws Error unless seeds and diagram have one device and one grid.
-void check_together(const Seeds& seeds, const Diagram& diagram);
 
 /// Makes the buffer of a result, unless there is one of this device that is large enough.
 void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes);

@@ -31,7 +31,7 @@ Motion move_to_centroids(Seeds& seeds, const CellSumsResult& cells, const cl::Bu
 
 /// Each block's energy is summed on the device, in `partial`.
 std::uint64_t energy_of(const Seeds& seeds, const Diagram& diagram, cl::Buffer& partial) {
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const Blocks blocks(device, grid);
@@ -55,7 +55,7 @@ std::uint64_t energy(const Seeds& seeds, const Diagram& diagram) {
 Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds) {
   if (rounds < 0) throw Error("a relaxation of " + std::to_string(rounds) + " rounds; 0 is the least");
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
-  check_together(seeds, diagram);
+  diagram.check_fits(seeds);
   CellSumsResult cells;
   cl::Buffer partial;
   const cl::Buffer moved_and_longest = allocate(diagram.device(), 2 * sizeof(cl_uint), "the relaxation");

@@ -62,8 +62,11 @@ class VOROCL_API Diagram {
   /// it has. Throws Error, saying how much is needed and there is, if the device cannot hold it.
   const cl::Buffer& scratch(Scratch use, std::size_t bytes);
 
-  /// For engines, at their start: throws Error unless seeds and diagram have one device and one grid;
-  /// remembers the seeds, so that a bad point among them is reported at the next wait.
+  /// Throws Error unless seeds and diagram have one device and one grid.
+  void check_fits(const Seeds& seeds) const;
+
+  /// For engines, at their start: check_fits(), and remembers the seeds, so that a bad point among them is
+  /// reported at the next wait.
   void begin(const Seeds& seeds);
 
   /// For engines that go on from the labels of the last frame: whether there was one, and whether all of its
