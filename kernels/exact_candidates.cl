@@ -49,7 +49,7 @@ inline void no_dominators(Dominators* dominators, Box box) {
 }
 
 // Fills a list's last run with empty positions.
-inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count); }
+inline void pad(uint* list, int count) { STORE_PRIVATE_RUN((uint_run)EMPTY, list + count); }
 
 // Whether a seed wins against another one, by distance and tie rule.
 #define WINS(seed, distance, other_seed, other_distance) \
@@ -77,7 +77,7 @@ inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, 
   uint_run nearest = dominators->seed[i];
   uint_run least = distance_to_label(nearest, place);
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run seed = LOAD_RUN(seeds + first);
+    const uint_run seed = LOAD_PRIVATE_RUN(seeds + first);
     const uint_run distance = distance_to_label(seed, place);
     nearest = select(nearest, seed, WINS(seed, distance, nearest, least));
     least = min(least, distance);
@@ -109,7 +109,7 @@ inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, con
 inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end, uint* seeds, int count) {
   int kept = 0;
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run seed = LOAD_RUN(seeds + first);
+    const uint_run seed = LOAD_PRIVATE_RUN(seeds + first);
     uint_run distance[CORNERS];
 #pragma unroll
     for (int corner = 0; corner < CORNERS; ++corner) {
@@ -124,16 +124,29 @@ inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end
   return kept;
 }
 
-// Finds dominators in a padded list and drops what they dominate. The one at the centre dominates most of it, so the
-// others are found among what is left: what is nearest to a corner is dominated by none. A few are let be: trying them
-// at the pixels costs less.
+// Drops what is dominated from a padded list whose winner at the centre is known. That one dominates most of the list,
+// so the winners at the corners are found among what is left: what is nearest to a corner is dominated by none. A few
+// are let be: trying them at the pixels costs less.
 #define FEW 8
 inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
-  improve_dominator(dominators, 0, seeds, count);
   count = drop_dominated_seeds(dominators, 0, 1, seeds, count);
   if (count <= FEW) return count;
   for (int i = 1; i < DOMINATORS; ++i) improve_dominator(dominators, i, seeds, count);
   return drop_dominated_seeds(dominators, 1, DOMINATORS, seeds, count);
+}
+
+// Adds the listed seeds of the cells from (first_x, y) to (last_x, y), as far as they are in the grid. May write a run
+// behind them.
+inline int add_listed(global const uint* starts, global const uint* list, int first_x, int last_x, int y, int columns,
+                      int rows, uint* seeds, int count) {
+  first_x = max(first_x, 0);
+  last_x = min(last_x, columns - 1);
+  if (y < 0 || y >= rows || first_x > last_x) return count;
+  const uint begin = starts[start_of(first_x, y, columns)], end = starts[start_of(last_x + 1, y, columns)];
+  for (uint i = begin; i < end; i += VOROCL_WIDTH) {
+    STORE_PRIVATE_RUN(LOAD_RUN(list + i), seeds + count + (int)(i - begin));
+  }
+  return count + (int)(end - begin);
 }
 
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
@@ -145,21 +158,22 @@ typedef struct {
   Dominators dominators;
   int level;                             // of the cells
   int cell_count;                        // cells that may hold candidates:
-  uint cells[MOST_CELLS + VOROCL_WIDTH]; // their column and row in their level, packed
+  uint cells[MOST_CELLS + VOROCL_WIDTH]; // their column and row in their level, packed, and MORE
   uint named[MOST_CELLS + VOROCL_WIDTH]; // a seed of each
   int next_part;                         // of the parts of level 0 of all cells, the first one not looked at yet
   int count;                             // candidates found and not yet taken:
   uint seeds[LIST_ROOM];
 } Search;
 
-// No seed of a cell comes before the cell's first pixel.
-inline void drop_dominated_cells(Search* search) {
+// Drops the cells that are dominated by one of the dominators from `begin` to `end`. No seed of a cell comes before the
+// cell's first pixel.
+inline void drop_dominated_cells(Search* search, int begin, int end) {
   const Box box = search->box;
   const int size = 1 << cell_bits(search->level);
   int kept = 0;
   for (int first = 0; first < search->cell_count; first += VOROCL_WIDTH) {
-    const uint_run cell = LOAD_RUN(search->cells + first);
-    const int_run left = AS_INT_RUN(cell & 0xffffu) * size, top = AS_INT_RUN(cell >> 16) * size;
+    const uint_run cell = LOAD_PRIVATE_RUN(search->cells + first);
+    const int_run left = AS_INT_RUN(cell & 0x7fffu) * size, top = AS_INT_RUN(cell >> 16) * size;
     const int_run to_left = TO_INTERVAL(box.left, left, left + size - 1);
     const int_run to_right = TO_INTERVAL(box.right, left, left + size - 1);
     const int_run to_top = TO_INTERVAL(box.top, top, top + size - 1);
@@ -168,13 +182,14 @@ inline void drop_dominated_cells(Search* search) {
                                         AS_UINT_RUN(to_left + to_bottom), AS_UINT_RUN(to_right + to_bottom)};
     int_run lag = (int_run)INT_MIN;
     const uint_run first_pixel = AS_UINT_RUN(top) << 16 | AS_UINT_RUN(left);
-    for (int i = 0; i < DOMINATORS; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
-    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_RUN(search->named + first)) < 0);  // empty
+    for (int i = begin; i < end; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
+    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_PRIVATE_RUN(search->named + first)) < 0);  // empty
     const uint bits = lane_bits(lag < 0);
     keep_entries(search->cells, first, bits, kept);
     kept = keep_entries(search->named, first, bits, kept);
   }
   search->cell_count = kept;
+  pad(search->named, kept);
 }
 
 // Adds the cells of a rectangle of the search's level that are not empty.
@@ -184,28 +199,46 @@ inline void add_cells(Search* search, global const uint* pyramid, int width, int
   for (int cell_y = y; cell_y < min(y + size, rows); ++cell_y) {
     for (int cell_x = x; cell_x < min(x + size, columns); ++cell_x) {
       const uint named = level[cell_y * columns + cell_x];
-      search->cells[search->cell_count] = pack(cell_x, cell_y);
-      search->named[search->cell_count] = named;
+      search->cells[search->cell_count] = pack(cell_x, cell_y) | (named & MORE);
+      search->named[search->cell_count] = named & ~MORE;
       search->cell_count += named != EMPTY;
     }
   }
 }
 
-// Finds the cells that may hold candidates of the box, as fine as they can be listed.
+// Takes the seeds that are their cells' only ones as candidates, as long as there is room, so that these cells need not
+// be refined.
+inline void take_only_seeds(Search* search) {
+  int kept = 0;
+  for (int i = 0; i < search->cell_count; ++i) {
+    if (search->cells[i] & MORE || search->count >= MOST_CANDIDATES) {
+      search->cells[kept++] = search->cells[i] & ~MORE;
+    } else {
+      search->seeds[search->count++] = search->named[i];
+    }
+  }
+  search->cell_count = kept;
+}
+
+// Finds the cells that may hold candidates of the box, as fine as they can be listed, and candidates on the way.
 inline void begin_search(Search* search, Box box, global const uint* pyramid, int width, int height, int top_level) {
   uint parents[MOST_PARENTS];
   search->box = box;
   search->level = top_level;
   search->cell_count = 0;
+  search->count = 0;
   search->next_part = 0;
   no_dominators(&search->dominators, box);
   add_cells(search, pyramid, width, height, 0, 0, TOP_CELLS);
   while (true) {
     pad(search->named, search->cell_count);
-    for (int i = 0; i < DOMINATORS; ++i) {
+    improve_dominator(&search->dominators, 0, search->named, search->cell_count);
+    drop_dominated_cells(search, 0, 1);
+    for (int i = 1; i < DOMINATORS; ++i) {
       improve_dominator(&search->dominators, i, search->named, search->cell_count);
     }
-    drop_dominated_cells(search);
+    drop_dominated_cells(search, 1, DOMINATORS);
+    take_only_seeds(search);
     if (search->level == 0 || search->cell_count > MOST_PARENTS) return;
     const int parent_count = search->cell_count;
     for (int i = 0; i < parent_count; ++i) parents[i] = search->cells[i];
@@ -217,35 +250,27 @@ inline void begin_search(Search* search, Box box, global const uint* pyramid, in
   }
 }
 
-inline void add_seeds_of_cell(Search* search, global const uint* bits, int x, int y, int columns) {
-  for (int word = 0; word < WORDS; ++word) {
-    const uint first_pixel = pack(x * CELL, y * CELL + word * ROWS_OF_WORD);
-    for (uint seeds = bits[(y * columns + x) * WORDS + word]; seeds != 0; seeds &= seeds - 1) {
-      search->seeds[search->count++] = first_pixel + pixel_of_bit(lowest_bit(seeds));
-    }
-  }
-}
-
-// Lists candidates; false if there are more of them than fit, so that the caller takes these and comes again.
-inline bool find_candidates(Search* search, global const uint* pyramid, global const uint* bits, int width,
+// Lists candidates behind those that the search has already; false if there are more of them than fit, so that the
+// caller takes these and comes again.
+inline bool find_candidates(Search* search, global const uint* starts, global const uint* list, int width,
                             int height) {
   const int columns = cells_along(width, 0), rows = cells_along(height, 0);
   const int side_bits = FAN_BITS * search->level, side = 1 << side_bits;  // parts of a cell along an axis
   const int parts = search->cell_count << 2 * side_bits;
-  search->count = 0;
   while (search->next_part < parts) {
     const int part = search->next_part++;
     const uint cell = search->cells[part >> 2 * side_bits];
     const int x = packed_x(cell) * side + (part & (side - 1));
     const int y = packed_y(cell) * side + (part >> side_bits & (side - 1));
-    if (x >= columns || y >= rows || pyramid[y * columns + x] == EMPTY) continue;
-    add_seeds_of_cell(search, bits, x, y, columns);
+    search->count = add_listed(starts, list, x, x, y, columns, rows, search->seeds, search->count);
     if (search->count <= MOST_CANDIDATES) continue;
     pad(search->seeds, search->count);
+    improve_dominator(&search->dominators, 0, search->seeds, search->count);
     search->count = drop_dominated(&search->dominators, search->seeds, search->count);
     if (search->count > MOST_CANDIDATES / 2) return false;
   }
   pad(search->seeds, search->count);
+  improve_dominator(&search->dominators, 0, search->seeds, search->count);
   search->count = drop_dominated(&search->dominators, search->seeds, search->count);
   return true;
 }

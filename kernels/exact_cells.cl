@@ -1,5 +1,5 @@
-// What the exact engine knows about where seeds are: a grid of cells with one bit a pixel, and above it a pyramid that
-// names one seed of each cell, or none. Neither depends on the order in which work-items run.
+// What the exact engine knows about where seeds are: a grid of cells with one bit a pixel, a list of the seeds cell by
+// cell, and a pyramid of cells that names one seed of each, or none.
 
 #ifndef VOROCL_EXACT_CELLS
 #define VOROCL_EXACT_CELLS
@@ -42,27 +42,28 @@ inline int level_start(int width, int height, int level) {
   return start;
 }
 
-// The place of a seed's pixel where the pixels of a cell stand together, row-major, one cell after the other. Ids are
-// kept so, because the rows of a cell in a row-major image are too far apart for a CPU's nearest cache.
-#define SEED_PLACE(seed, columns)                                                                                \
-  (((((seed) >> (16 + CELL_BITS)) * (uint)(columns) + (((seed) & 0xffffu) >> CELL_BITS)) << 2 * CELL_BITS) + \
-   (((seed) >> 16 & (CELL - 1)) << CELL_BITS) + ((seed) & (CELL - 1)))
+// The place of a pixel's bit: the bits of a cell stand together, row-major, one cell after the other.
+inline uint bit_place(uint pixel, int columns) {
+  const uint cell = (pixel >> (16 + CELL_BITS)) * (uint)columns + ((pixel & 0xffffu) >> CELL_BITS);
+  return (cell << 2 * CELL_BITS) + ((pixel >> 16 & (CELL - 1)) << CELL_BITS) + (pixel & (CELL - 1));
+}
 
-// The seeds in a row of a cell, a bit each, the lowest bit at the left.
+// THE LIST OF SEEDS. The seeds of each cell stand in it together, row-major, without those that share a pixel; the
+// cells of a row of cells follow each other. `starts` says where a cell's seeds begin, `word_starts` where those of
+// each word of its bits do, so that a seed's place in the list follows from its position: a bit vector with rank.
+inline uint listed(global const uint* bits, global const uint* word_starts, uint place) {
+  const uint word = place / 32;
+  return word_starts[word] + popcount(bits[word] & ((1u << place % 32) - 1));
+}
+
+// A row of cells has one start more than cells: where its last cell ends.
+inline int start_of(int cell_x, int cell_y, int columns) { return cell_y * (columns + 1) + cell_x; }
+
 #define WORDS (CELL * CELL / 32)
 #define ROWS_OF_WORD (32 / CELL)
-inline uint row_bits(global const uint* bits, int cell, int row) {
-  return bits[cell * WORDS + row / 2] >> (row & 1) * 16 & 0xffffu;
-}
 inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 // The pixel of a word's bit, as an offset from the word's first pixel.
 inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / CELL)); }
-
-// The highest bit of each lane, none of which is 0, from a float's exponent: PoCL takes clz() of vectors lane by lane.
-// Without the bit below the highest one, rounding cannot reach the next power of two.
-inline int_run highest_bits(uint_run bits) {
-  return AS_INT_RUN(AS_UINT_RUN(CONVERT_FLOAT_RUN(bits & ~(bits >> 1))) >> 23) - 127;
-}
 
 // The length of an offset along one axis, as it enters the distance.
 #ifdef VOROCL_EUCLIDEAN
@@ -71,40 +72,45 @@ inline int_run highest_bits(uint_run bits) {
 #define ALONG(offset) max(offset, -(offset))
 #endif
 
-// Puts the seeds in their cells. The first one to reach its pixel leaves its id there, the others queue up ...
-kernel void put_seeds(global const uint* restrict positions, uint count, global uint* restrict ids,
-                      global uint* restrict bits, global uint* restrict late, global uint* restrict late_count,
-                      int width) {
+// Sets the seeds' bits, and notes their places. A seed that comes late to its pixel gets NO_PLACE and queues up.
+#define NO_PLACE 0xffffffffu
+kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
+                     global uint* restrict places, global uint* restrict late, global uint* restrict late_count,
+                     int width) {
   const uint id = (uint)get_global_id(0);
-  if (id >= count || positions[id] & EMPTY_BIT) return;
-  const uint place = SEED_PLACE(positions[id], cells_along(width, 0)), bit = 1u << place % 32;
+  if (id >= count) return;
+  places[id] = NO_PLACE;
+  if (positions[id] & EMPTY_BIT) return;
+  const uint place = bit_place(positions[id], cells_along(width, 0)), bit = 1u << place % 32;
   if (atomic_or(bits + place / 32, bit) & bit) {
     late[atomic_inc(late_count)] = id;
   } else {
-    ids[place] = id;
+    places[id] = place;
   }
 }
 
-// ... and then the lowest id stays. So the image of ids need never be cleared.
-kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict late,
-                            global const uint* restrict late_count, global uint* restrict ids, int width) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= *late_count) return;
-  atomic_min(ids + SEED_PLACE(positions[late[i]], cells_along(width, 0)), late[i]);
-}
+// Says of a named seed, in a bit that no position has, that it is not the only one of its cell.
+#define MORE 0x8000u
 
-// Level 0 of the pyramid: the first seed of each cell.
-kernel void name_seeds(global const uint* restrict bits, global uint* restrict pyramid, int width, int height) {
+// Level 0 of the pyramid: the first seed of each cell. And how many seeds the cell has.
+kernel void name_seeds(global const uint* restrict bits, global uint* restrict pyramid, global uint* restrict starts,
+                       int width, int height) {
   const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
   if (cell >= columns * cells_along(height, 0)) return;
-  const uint first_pixel = pack(cell % columns * CELL, cell / columns * CELL);
-  uint named = EMPTY;
-  for (int word = WORDS - 1; word >= 0; --word) {
-    const uint seeds = bits[cell * WORDS + word];
-    const uint first_seed = first_pixel + pack(0, word * ROWS_OF_WORD) + pixel_of_bit(lowest_bit(seeds));
-    named = seeds == 0 ? named : first_seed;
+  const int x = cell % columns, y = cell / columns;
+  uint named = EMPTY, count = 0, any = 0;
+  for (int word = 0; word < WORDS; ++word) any |= bits[cell * WORDS + word];
+  if (any != 0) {
+    for (int word = WORDS - 1; word >= 0; --word) {
+      const uint seeds = bits[cell * WORDS + word];
+      const uint first_pixel = pack(x * CELL, y * CELL + word * ROWS_OF_WORD);
+      named = seeds == 0 ? named : first_pixel + pixel_of_bit(lowest_bit(seeds));
+      count += popcount(seeds);
+    }
+    named |= count > 1 ? MORE : 0;
   }
   pyramid[cell] = named;
+  starts[start_of(x, y, columns)] = count;
 }
 
 // A level above 0: the first of the seeds that a cell's FAN x FAN parts name.
@@ -114,13 +120,65 @@ kernel void name_seeds_above(global uint* pyramid, int width, int height, int le
   const int x = cell % columns, y = cell / columns, start = level_start(width, height, level);
   const int parts_across = cells_along(width, level - 1), parts_down = cells_along(height, level - 1);
   const int below = level_start(width, height, level - 1);
-  uint named = EMPTY;
+  uint named = EMPTY, more = 0;
   for (int part_y = y * FAN; part_y < min((y + 1) * FAN, parts_down); ++part_y) {
     for (int part_x = x * FAN; part_x < min((x + 1) * FAN, parts_across); ++part_x) {
-      named = min(named, pyramid[below + part_y * parts_across + part_x]);
+      const uint of_part = pyramid[below + part_y * parts_across + part_x];
+      more |= named != EMPTY && of_part != EMPTY ? MORE : 0;
+      named = min(named, of_part);
     }
   }
-  pyramid[start + cell] = named;
+  pyramid[start + cell] = named | more;
+}
+
+// Gives each row of cells its part of the list, in the order in which the rows come, and each cell its start.
+kernel void share_out_list(global uint* restrict starts, global uint* restrict listed, int width, int height) {
+  const int y = (int)get_global_id(0), columns = cells_along(width, 0);
+  if (y >= cells_along(height, 0)) return;
+  global uint* const row = starts + start_of(0, y, columns);
+  uint seeds = 0;
+  for (int x = 0; x < columns; ++x) seeds += row[x];
+  uint start = atomic_add(listed, seeds);
+  for (int x = 0; x < columns; ++x) {
+    const uint count = row[x];
+    row[x] = start;
+    start += count;
+  }
+  row[columns] = start;
+}
+
+// Lists each cell's seeds.
+kernel void list_seeds(global const uint* restrict bits, global const uint* restrict starts,
+                       global uint* restrict word_starts, global uint* restrict list, int width, int height) {
+  const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
+  if (cell >= columns * cells_along(height, 0)) return;
+  const int x = cell % columns, y = cell / columns;
+  uint at = starts[start_of(x, y, columns)];
+  if (at == starts[start_of(x + 1, y, columns)]) return;
+  for (int word = 0; word < WORDS; ++word) {
+    const uint first_pixel = pack(x * CELL, y * CELL + word * ROWS_OF_WORD);
+    word_starts[cell * WORDS + word] = at;
+    for (uint seeds = bits[cell * WORDS + word]; seeds != 0; seeds &= seeds - 1) {
+      list[at++] = first_pixel + pixel_of_bit(lowest_bit(seeds));
+    }
+  }
+}
+
+// Lists the ids of the seeds, of those on one pixel the first one that came ...
+kernel void list_ids(global const uint* restrict places, uint count, global const uint* restrict bits,
+                     global const uint* restrict word_starts, global uint* restrict ids) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || places[id] == NO_PLACE) return;
+  ids[listed(bits, word_starts, places[id])] = id;
+}
+
+// ... and then the lowest one stays.
+kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict late,
+                            global const uint* restrict late_count, global const uint* restrict bits,
+                            global const uint* restrict word_starts, global uint* restrict ids, int width) {
+  const uint i = (uint)get_global_id(0);
+  if (i >= *late_count) return;
+  atomic_min(ids + listed(bits, word_starts, bit_place(positions[late[i]], cells_along(width, 0))), late[i]);
 }
 
 #endif

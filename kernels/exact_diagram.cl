@@ -1,4 +1,5 @@
-// The exact diagram: lists candidates for large tiles, then labels the cells of each tile.
+// The exact diagram. Most cells find their candidates among the seeds of the cells near them. For the others lists of
+// candidates are made, one for each large tile that has such cells.
 
 #include "exact_candidates.cl"
 #include "exact_rows.cl"
@@ -6,128 +7,302 @@
 // A tile is a cell of level 1. What its count says where it has more candidates than a list holds:
 #define TILE (CELL * FAN)
 #define TOO_MANY 0xffffffffu
-// From so many seeds on a cell is labelled by rows: measured, the two ways cost the same there.
-#ifndef DENSE
-#define DENSE 8
-#endif
-
-inline bool is_dense(global const uint* bits, int cell) {
-  uint seeds = 0;
-  for (int word = 0; word < WORDS; ++word) seeds += popcount(bits[cell * WORDS + word]);
-  return seeds >= DENSE;
-}
-
-inline bool all_dense(global const uint* bits, int tile_x, int tile_y, int columns, int rows) {
-  for (int y = tile_y * FAN; y < min((tile_y + 1) * FAN, rows); ++y) {
-    for (int x = tile_x * FAN; x < min((tile_x + 1) * FAN, columns); ++x) {
-      if (!is_dense(bits, y * columns + x)) return false;
-    }
-  }
-  return true;
-}
-
-kernel void list_candidates(global const uint* restrict pyramid, global const uint* restrict bits,
-                            global uint* restrict lists, global uint* restrict counts, int width, int height,
-                            int top_level) {
-  const int tile = (int)get_global_id(0), tiles_across = cells_along(width, 1);
-  if (tile >= tiles_across * cells_along(height, 1)) return;
-  const int tile_x = tile % tiles_across, tile_y = tile / tiles_across;
-  if (all_dense(bits, tile_x, tile_y, cells_along(width, 0), cells_along(height, 0))) return;
-  Search search;
-  begin_search(&search, box_of(tile_x * TILE, tile_y * TILE, TILE, width, height), pyramid, width, height, top_level);
-  const bool all = find_candidates(&search, pyramid, bits, width, height);
-  counts[tile] = all ? (uint)search.count : TOO_MANY;
-  if (!all) return;
-  global uint* const list = lists + (size_t)tile * MOST_CANDIDATES;
-  for (int i = 0; i < search.count; ++i) list[i] = search.seeds[i];
-}
+// By the number of seeds in a cell and those next to it: from so many on it is labelled by rows, and with less than so
+// many its candidates are seldom near. Measured: the ways cost the same there.
+#define DENSE 48
+#define SPARSE 4
 
 // Stores a run of labels, as far as it lies in the grid.
-inline void store_run(uint_run labels, global uint* image, int x, int y, int width, int height) {
-  if (y >= height) return;
+inline void store_run(uint_run labels, global uint* image, int x, int y, int width) {
   if (x + VOROCL_WIDTH <= width) {
     STORE_RUN(labels, image + y * width + x);
     return;
   }
   uint label[VOROCL_WIDTH];
-  STORE_RUN(labels, label);
+  STORE_PRIVATE_RUN(labels, label);
   for (int lane = 0; x + lane < width; ++lane) image[y * width + x + lane] = label[lane];
 }
 
-inline void store_ids(uint_run seeds, global const uint* ids, global uint* labels, int x, int y, int width,
-                      int height) {
+inline void fill_box(Box box, uint label, global uint* labels, int width) {
+  for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
+    for (int y = box.top; y <= box.bottom; ++y) store_run((uint_run)label, labels, x, y, width);
+  }
+}
+
+// What the seeds' ids are looked up in.
+typedef struct {
+  global const uint* bits;
+  global const uint* word_starts;
+  global const uint* ids;
+} Ids;
+
+inline uint id_of(Ids ids, uint seed, int columns) {
+  return ids.ids[listed(ids.bits, ids.word_starts, bit_place(seed, columns))];
+}
+
+inline void store_ids(uint_run seeds, Ids ids, global uint* labels, int x, int y, int width, int height) {
   if (y >= height) return;
-  const uint_run places = SEED_PLACE(seeds, cells_along(width, 0));
-  if (x + VOROCL_WIDTH <= width) {
-    store_looked_up(ids, places, labels, y * width + x);
-    return;
-  }
-  uint place[VOROCL_WIDTH];
-  STORE_RUN(places, place);
-  for (int lane = 0; x + lane < width; ++lane) labels[y * width + x + lane] = ids[place[lane]];
-}
-
-inline void fill_box(Box box, uint label, global uint* labels, int width, int height) {
-  for (int y = box.top; y <= box.bottom; ++y) {
-    for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
-      store_run((uint_run)label, labels, x, y, width, height);
-    }
+  uint seed[VOROCL_WIDTH];
+  STORE_PRIVATE_RUN(seeds, seed);
+  for (int lane = 0; lane < min(VOROCL_WIDTH, width - x); ++lane) {
+    labels[y * width + x + lane] = id_of(ids, seed[lane], cells_along(width, 0));
   }
 }
 
-// Puts the list in the order of the tie rule, so that a seed wins only where it is nearer than those before it.
-inline void sort_by_tie_rule(uint* seeds, int count, uint* sorted) {
+// Puts the list in the order of the tie rule.
+inline void sort_by_tie_rule(const uint* seeds, int count, uint* sorted) {
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run run = LOAD_RUN(seeds + first);
+    const uint_run run = LOAD_PRIVATE_RUN(seeds + first);
     uint_run rank = (uint_run)0;
     for (int i = 0; i < count; ++i) rank += select((uint_run)0, (uint_run)1, seeds[i] < run);
     uint to[VOROCL_WIDTH];
-    STORE_RUN(rank, to);
+    STORE_PRIVATE_RUN(rank, to);
     for (int lane = 0; lane < min(VOROCL_WIDTH, count - first); ++lane) sorted[to[lane]] = seeds[first + lane];
   }
 }
 
-// Rows whose distances and labels stay in registers together.
+// Rows whose least keys stay in registers together.
 #define ROWS 8
 
-inline void label_by_list(const uint* sorted, const uint* label_of, int count, Box box, global uint* labels,
-                          int width, int height) {
+// Labels a box by candidates in the order of the tie rule. A candidate's KEY at a pixel says by how much farther it is
+// than the base, a seed that dominates none of them, and in its lowest bits which one it is: the least key wins. As no
+// candidate is dominated, these differences fit in 22 bits, however large the distances are. A key is the sum of a
+// part for the pixel's column and one for its row.
+#define MOST_KEYS 256
+#define LABEL_ROWS(look_up)                                                               \
+  _Pragma("unroll") for (int row = 0; row < ROWS; ++row) {                                \
+    label[row] = look_up(label_of, AS_UINT_RUN(least[row]) & place);                      \
+  }
+
+inline void label_by_keys(const uint* sorted, const uint* label_of, int count, uint base, Box box,
+                          global uint* labels, int width) {
+  const int place_bits = 32 - (int)clz((uint)count - 1);
+  const uint_run place = (uint_run)((1u << place_bits) - 1);
+  uint of_row[MOST_KEYS * CELL];
+  uint_run of_column[MOST_KEYS];
+  for (int first = 0; first < CELL; first += VOROCL_WIDTH) {
+    const int_run y = box.top + first + AS_INT_RUN(LANES), offset_of_base = y - packed_y(base);
+    const int_run along_base = ALONG(offset_of_base);
+    for (int i = 0; i < count; ++i) {
+      const int_run offset = y - packed_y(sorted[i]);
+      STORE_PRIVATE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * CELL + first);
+    }
+  }
   for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
-    const int_run pixel_x = x + AS_INT_RUN(LANES);
+    const int_run pixel_x = x + AS_INT_RUN(LANES), offset_of_base = pixel_x - packed_x(base);
+    const int_run along_base = ALONG(offset_of_base);
+    for (int i = 0; i < count; ++i) {
+      const int_run offset = pixel_x - packed_x(sorted[i]);
+      of_column[i] = (AS_UINT_RUN(ALONG(offset) - along_base) << place_bits) + (uint)i;
+    }
     for (int y = box.top; y <= box.bottom; y += ROWS) {
       int_run least[ROWS];
       uint_run label[ROWS];
 #pragma unroll
-      for (int row = 0; row < ROWS; ++row) {
-        least[row] = (int_run)INT_MAX;
-        label[row] = (uint_run)NO_LABEL;
-      }
+      for (int row = 0; row < ROWS; ++row) least[row] = (int_run)INT_MAX;
       for (int i = 0; i < count; ++i) {
-        const int_run offset_x = pixel_x - packed_x(sorted[i]);
-        const int_run along_x = ALONG(offset_x);
-        const int offset_y = y - packed_y(sorted[i]);
+        const uint* const of_rows = of_row + i * CELL + (y - box.top);
+        const uint_run column = of_column[i];
 #pragma unroll
+        for (int row = 0; row < ROWS; ++row) least[row] = min(least[row], AS_INT_RUN(column + of_rows[row]));
+      }
+      const int tables = (count - 1) / VOROCL_WIDTH + 1;
+      if (tables == 1) {
+        LABEL_ROWS(look_up_in_1)
+      } else if (tables == 2) {
+        LABEL_ROWS(look_up_in_2)
+      } else if (tables == 3) {
+        LABEL_ROWS(look_up_in_3)
+      } else if (tables == 4) {
+        LABEL_ROWS(look_up_in_4)
+      } else {
+        uint at[VOROCL_WIDTH];
         for (int row = 0; row < ROWS; ++row) {
-          const int_run distance = along_x + ALONG(offset_y + row);
-          label[row] = select(label[row], (uint_run)label_of[i], distance < least[row]);
-          least[row] = min(least[row], distance);
+          STORE_PRIVATE_RUN(AS_UINT_RUN(least[row]) & place, at);
+          for (int lane = 0; lane < VOROCL_WIDTH; ++lane) at[lane] = label_of[at[lane]];
+          label[row] = LOAD_PRIVATE_RUN(at);
         }
       }
 #pragma unroll
-      for (int row = 0; row < ROWS; ++row) store_run(label[row], labels, x, y + row, width, height);
+      for (int row = 0; row < ROWS; ++row) {
+        if (y + row <= box.bottom) store_run(label[row], labels, x, y + row, width);
+      }
     }
   }
 }
 
-// As above for any number of candidates, list after list in any order.
-inline void label_by_search(Search* search, global const uint* pyramid, global const uint* bits,
-                            global const uint* ids, global uint* labels, int width, int height) {
+// Labels a box by a padded list that holds its candidates.
+inline void label_by_list(const Dominators* dominators, const uint* seeds, int count, Ids ids, Box box,
+                          global uint* labels, int width) {
+  uint sorted[MOST_KEYS], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
+  sort_by_tie_rule(seeds, count, sorted);
+  for (int i = 0; i < count; ++i) label_of[i] = id_of(ids, sorted[i], cells_along(width, 0));
+  if (count == 1) {
+    fill_box(box, label_of[0], labels, width);
+  } else {
+    label_by_keys(sorted, label_of, count, dominators->seed[0], box, labels, width);
+  }
+}
+
+// Labels a cell by the best of the rows' nearest seeds; false if there is a pixel that has none within reach.
+inline bool label_by_rows(Ids ids, int cell_x, int cell_y, global uint* labels, int width, int height) {
+  NearestInRows rows;
+  rows.bits = ids.bits;
+  rows.word_starts = ids.word_starts;
+  rows.ids = ids.ids;
+  rows.cell_x = cell_x;
+  rows.top = cell_y * CELL;
+  rows.columns = cells_along(width, 0);
+  rows.height = height;
+  ushort16 least[CELL];
+  const int columns = min(CELL, width - cell_x * CELL), count = min(CELL, height - rows.top);
+  if (!find_least_row_keys(&rows, count, least)) return false;
+  for (int y = 0; y < count; ++y) {
+    const uint* const nearest = rows.label + y * CELL;
+    least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
+    const ushort* const at = (const ushort*)(least + y);
+    global uint* const out = labels + (rows.top + y) * width + cell_x * CELL;
+    if (columns == CELL) {
+#pragma unroll
+      for (int x = 0; x < CELL; ++x) out[x] = nearest[at[x] + x];
+    } else {
+      for (int x = 0; x < columns; ++x) out[x] = nearest[at[x] + x];
+    }
+  }
+  return true;
+}
+
+// A cell's candidates and those of the cells next to it and next but one.
+#define MOST_NEAR MOST_CANDIDATES
+typedef struct {
+  Box box;
+  Dominators dominators;
+  int count;
+  uint seeds[MOST_NEAR + 5 * CELL * CELL + VOROCL_WIDTH];
+} Near;
+
+// Adds the seeds of some cells next to each other; false if that makes too many.
+inline bool add_near(Near* near, global const uint* starts, global const uint* list, int first_x, int last_x, int y,
+                     int columns, int rows) {
+  near->count = add_listed(starts, list, first_x, last_x, y, columns, rows, near->seeds, near->count);
+  if (near->count <= MOST_NEAR) return true;
+  pad(near->seeds, near->count);
+  improve_dominator(&near->dominators, 0, near->seeds, near->count);
+  near->count = drop_dominated(&near->dominators, near->seeds, near->count);
+  return near->count <= MOST_NEAR;
+}
+
+// Lists the candidates of a cell that has seeds near, if all of them are near; else false.
+inline bool find_near(Near* near, global const uint* starts, global const uint* list, int x, int y, int width,
+                      int height) {
+  const int columns = cells_along(width, 0), rows = cells_along(height, 0);
+  near->count = 0;
+  near->box = box_of(x * CELL, y * CELL, CELL, width, height);
+  no_dominators(&near->dominators, near->box);
+  for (int row = -1; row <= 1; ++row) {
+    if (!add_near(near, starts, list, x - 1, x + 1, y + row, columns, rows)) return false;
+  }
+  pad(near->seeds, near->count);
+  improve_dominator(&near->dominators, 0, near->seeds, near->count);
+  int reach = 0;
+  for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near->dominators.distance[0][corner]);
+  if (reach > ALONG(2 * CELL)) return false;
+  if (reach > ALONG(CELL)) {
+    for (int row = -2; row <= 2; row += 4) {
+      if (!add_near(near, starts, list, x - 2, x + 2, y + row, columns, rows)) return false;
+    }
+    for (int row = -1; row <= 1; ++row) {
+      if (!add_near(near, starts, list, x - 2, x - 2, y + row, columns, rows)) return false;
+      if (!add_near(near, starts, list, x + 2, x + 2, y + row, columns, rows)) return false;
+    }
+    pad(near->seeds, near->count);
+  }
+  near->count = drop_dominated(&near->dominators, near->seeds, near->count);
+  return near->count <= MOST_KEYS;
+}
+
+// The seeds of a cell and those next to it.
+inline uint count_near(global const uint* starts, int x, int y, int columns, int rows) {
+  uint count = 0;
+  for (int row = max(y - 1, 0); row <= min(y + 1, rows - 1); ++row) {
+    count += starts[start_of(min(x + 2, columns), row, columns)] - starts[start_of(max(x - 1, 0), row, columns)];
+  }
+  return count;
+}
+
+kernel void label_near(global const uint* restrict bits, global const uint* restrict starts,
+                       global const uint* restrict word_starts, global const uint* restrict list,
+                       global const uint* restrict ids, global uint* restrict labels, global uint* restrict labelled,
+                       int width, int height) {
+  const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
+  if (cell >= columns * cells_along(height, 0)) return;
+  const int x = cell % columns, y = cell / columns;
+  const Ids all_ids = {bits, word_starts, ids};
+  const uint seeds = count_near(starts, x, y, columns, cells_along(height, 0));
+  labelled[cell] = 1;
+  if (seeds >= DENSE && label_by_rows(all_ids, x, y, labels, width, height)) return;
+  Near near;
+  if (seeds >= SPARSE && find_near(&near, starts, list, x, y, width, height)) {
+    label_by_list(&near.dominators, near.seeds, near.count, all_ids, near.box, labels, width);
+  } else {
+    labelled[cell] = 0;
+  }
+}
+
+inline bool all_labelled(global const uint* labelled, int tile_x, int tile_y, int columns, int rows) {
+  for (int y = tile_y * FAN; y < min((tile_y + 1) * FAN, rows); ++y) {
+    for (int x = tile_x * FAN; x < min((tile_x + 1) * FAN, columns); ++x) {
+      if (!labelled[y * columns + x]) return false;
+    }
+  }
+  return true;
+}
+
+kernel void list_candidates(global const uint* restrict pyramid, global const uint* restrict starts,
+                            global const uint* restrict list, global const uint* restrict labelled,
+                            global uint* restrict lists, global uint* restrict counts, int width, int height,
+                            int top_level) {
+  const int tile = (int)get_global_id(0), tiles_across = cells_along(width, 1);
+  if (tile >= tiles_across * cells_along(height, 1)) return;
+  const int tile_x = tile % tiles_across, tile_y = tile / tiles_across;
+  if (all_labelled(labelled, tile_x, tile_y, cells_along(width, 0), cells_along(height, 0))) return;
+  Search search;
+  begin_search(&search, box_of(tile_x * TILE, tile_y * TILE, TILE, width, height), pyramid, width, height, top_level);
+  const bool all = find_candidates(&search, starts, list, width, height);
+  counts[tile] = all ? (uint)search.count : TOO_MANY;
+  if (!all) return;
+  global uint* const candidates = lists + (size_t)tile * MOST_CANDIDATES;
+  for (int i = 0; i < search.count; ++i) candidates[i] = search.seeds[i];
+}
+
+// Labels a cell by its tile's candidates, if only so many of them are left that this can be done.
+inline bool label_by_tile(global const uint* candidates, int count, Ids ids, Box box, global uint* labels,
+                          int width) {
+  if (count <= 1) {
+    fill_box(box, count == 0 ? NO_LABEL : id_of(ids, candidates[0], cells_along(width, 0)), labels, width);
+    return true;
+  }
+  uint seeds[MOST_CANDIDATES + VOROCL_WIDTH];
+  for (int i = 0; i < count; ++i) seeds[i] = candidates[i];
+  pad(seeds, count);
+  Dominators dominators;
+  no_dominators(&dominators, box);
+  improve_dominator(&dominators, 0, seeds, count);
+  count = drop_dominated(&dominators, seeds, count);
+  if (count > MOST_KEYS) return false;
+  label_by_list(&dominators, seeds, count, ids, box, labels, width);
+  return true;
+}
+
+// Labels a cell by any number of candidates, list after list in any order.
+inline void label_by_search(Search* search, global const uint* starts, global const uint* list, Ids ids,
+                            global uint* labels, int width, int height) {
   const Box box = search->box;
   uint_run least[CELL * CELL / VOROCL_WIDTH], nearest[CELL * CELL / VOROCL_WIDTH];
   for (int i = 0; i < CELL * CELL / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_run)0xffffffffu;
   bool all = false;
   while (!all) {
-    all = find_candidates(search, pyramid, bits, width, height);
+    all = find_candidates(search, starts, list, width, height);
     int i = 0;
     for (int y = box.top; y <= box.bottom; ++y) {
       for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) {
@@ -140,6 +315,7 @@ inline void label_by_search(Search* search, global const uint* pyramid, global c
         }
       }
     }
+    search->count = 0;
   }
   int i = 0;
   for (int y = box.top; y <= box.bottom; ++y) {
@@ -149,73 +325,23 @@ inline void label_by_search(Search* search, global const uint* pyramid, global c
   }
 }
 
-// Labels a cell by the best of the rows' nearest seeds. Of rows at equal distances the upper one wins.
-inline void label_by_rows(global const uint* bits, global const uint* ids, Box box, global uint* labels, int width,
-                          int height) {
-  for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
-    NearestInRows rows;
-    begin_rows(&rows, bits, x, box.top, width, height);
-    for (int y = box.top; y <= box.bottom; ++y) {
-      const int middle = y - box.top + REACH;
-      find_rows(&rows, middle, middle);
-      int_run least = rows.along_x[middle];
-      uint_run nearest = rows.seed[middle];
-      // Two offsets at a time, because asking all lanes whether they are done costs as much as an offset.
-      for (int offset = 1; offset <= REACH && lane_bits(least >= ALONG(offset)) != 0; offset += 2) {
-        find_rows(&rows, middle - offset - 1, middle + offset + 1);
-#pragma unroll
-        for (int i = 0; i < 2; ++i) {
-          const int above = middle - offset - i, below = middle + offset + i;
-          const int_run to_above = rows.along_x[above] + ALONG(offset + i);
-          nearest = select(nearest, rows.seed[above], to_above <= least);
-          least = min(least, to_above);
-          const int_run to_below = rows.along_x[below] + ALONG(offset + i);
-          nearest = select(nearest, rows.seed[below], to_below < least);
-          least = min(least, to_below);
-        }
-      }
-      store_ids(nearest, ids, labels, x, y, width, height);
-    }
-  }
-}
-
-inline void label_by_tile(global const uint* list, int count, global const uint* ids, Box box, global uint* labels,
-                          int width, int height) {
-  uint seeds[MOST_CANDIDATES + VOROCL_WIDTH], sorted[MOST_CANDIDATES], label_of[MOST_CANDIDATES];
-  for (int i = 0; i < count; ++i) seeds[i] = list[i];
-  pad(seeds, count);
-  if (count > 1) {
-    Dominators dominators;
-    no_dominators(&dominators, box);
-    count = drop_dominated(&dominators, seeds, count);
-  }
-  sort_by_tie_rule(seeds, count, sorted);
-  for (int i = 0; i < count; ++i) label_of[i] = ids[SEED_PLACE(sorted[i], cells_along(width, 0))];
-  if (count == 1) {
-    fill_box(box, label_of[0], labels, width, height);
-  } else {
-    label_by_list(sorted, label_of, count, box, labels, width, height);
-  }
-}
-
-kernel void label_cells(global const uint* restrict pyramid, global const uint* restrict bits,
-                        global const uint* restrict lists, global const uint* restrict counts,
-                        global const uint* restrict ids, global uint* restrict labels, int width, int height,
-                        int top_level) {
+kernel void label_far(global const uint* restrict pyramid, global const uint* restrict bits,
+                      global const uint* restrict starts, global const uint* restrict word_starts,
+                      global const uint* restrict list, global const uint* restrict ids,
+                      global const uint* restrict labelled, global const uint* restrict lists,
+                      global const uint* restrict counts, global uint* restrict labels, int width, int height,
+                      int top_level) {
   const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
-  if (cell >= columns * cells_along(height, 0)) return;
+  if (cell >= columns * cells_along(height, 0) || labelled[cell]) return;
   const int x = cell % columns, y = cell / columns;
   const Box box = box_of(x * CELL, y * CELL, CELL, width, height);
-  if (is_dense(bits, cell)) {
-    label_by_rows(bits, ids, box, labels, width, height);
-    return;
-  }
+  const Ids all_ids = {bits, word_starts, ids};
   const int tile = y / FAN * cells_along(width, 1) + x / FAN;
-  if (counts[tile] != TOO_MANY) {
-    label_by_tile(lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], ids, box, labels, width, height);
+  if (counts[tile] != TOO_MANY && label_by_tile(lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], all_ids,
+                                                box, labels, width)) {
     return;
   }
   Search search;
   begin_search(&search, box, pyramid, width, height, top_level);
-  label_by_search(&search, pyramid, bits, ids, labels, width, height);
+  label_by_search(&search, starts, list, all_ids, labels, width, height);
 }

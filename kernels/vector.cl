@@ -15,15 +15,22 @@ typedef uint uint_run;
 typedef int int_run;
 #define LANES 0u
 #define LOAD_RUN(pointer) (*(pointer))
-#define STORE_RUN(values, pointer) (*(pointer) = (values))
+#define STORE_RUN(run, pointer) (*(pointer) = (run))
+#define LOAD_PRIVATE_RUN LOAD_RUN
+#define STORE_PRIVATE_RUN STORE_RUN
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
 #else
 typedef JOIN(uint, VOROCL_WIDTH) uint_run;
 typedef JOIN(int, VOROCL_WIDTH) int_run;
-#define LOAD_RUN(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
-#define STORE_RUN(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
+typedef struct __attribute__((packed)) {
+  uint_run values;
+} unaligned_run;
+#define LOAD_RUN(pointer) (((global const unaligned_run*)(pointer))->values)
+#define STORE_RUN(run, pointer) (((global unaligned_run*)(pointer))->values = (run))
+#define LOAD_PRIVATE_RUN(pointer) (((private const unaligned_run*)(pointer))->values)
+#define STORE_PRIVATE_RUN(run, pointer) (((private unaligned_run*)(pointer))->values = (run))
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
 #define ANY(condition) any(condition)
 #endif
@@ -55,6 +62,38 @@ inline void store_looked_up_16(global const uint* table, uint16 at, global uint*
 }
 #undef LANE
 #define store_looked_up JOIN(store_looked_up_, VOROCL_WIDTH)
+
+// The values of a table, itself a run, at a run of indices modulo VOROCL_WIDTH. (PoCL's shuffle() works lane by lane;
+// its compiler makes a permutation of this.)
+inline uint permute_1(uint table, uint at) {
+  (void)at;
+  return table;
+}
+inline uint2 permute_2(uint2 table, uint2 at) { at &= 1u; return (uint2)(table[at.s0], table[at.s1]); }
+inline uint4 permute_4(uint4 table, uint4 at) { at &= 3u; return (uint4)(table[at.s0], table[at.s1], table[at.s2], table[at.s3]); }
+inline uint8 permute_8(uint8 table, uint8 at) {
+  at &= 7u;
+  return (uint8)(table[at.s0], table[at.s1], table[at.s2], table[at.s3], table[at.s4], table[at.s5], table[at.s6],
+                 table[at.s7]);
+}
+inline uint16 permute_16(uint16 table, uint16 at) {
+  at &= 15u;
+  return (uint16)(table[at.s0], table[at.s1], table[at.s2], table[at.s3], table[at.s4], table[at.s5], table[at.s6],
+                  table[at.s7], table[at.s8], table[at.s9], table[at.sa], table[at.sb], table[at.sc], table[at.sd],
+                  table[at.se], table[at.sf]);
+}
+#define permute JOIN(permute_, VOROCL_WIDTH)
+
+// The values at the indices in a table of 1, 2, 3 or 4 runs.
+inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_PRIVATE_RUN(table), at); }
+#define DEFINE_LOOK_UP(name, name_of_one_less, runs)                                        \
+  inline uint_run name(const uint* table, uint_run at) {                                    \
+    const uint_run last = permute(LOAD_PRIVATE_RUN(table + (runs - 1) * VOROCL_WIDTH), at); \
+    return select(name_of_one_less(table, at), last, at >= (uint)((runs - 1) * VOROCL_WIDTH)); \
+  }
+DEFINE_LOOK_UP(look_up_in_2, look_up_in_1, 2)
+DEFINE_LOOK_UP(look_up_in_3, look_up_in_2, 3)
+DEFINE_LOOK_UP(look_up_in_4, look_up_in_3, 4)
 
 // The sum of a run's lanes.
 inline uint lane_sum_1(uint values) { return values; }

@@ -18,6 +18,7 @@ constexpr int fan_bits = 2;                    // ... a cell of the next level 4
 constexpr std::size_t top_cells = 64;          // the search begins with a level of at most so many cells
 constexpr std::size_t most_candidates = 1024;  // of a tile, which is a cell of level 1
 constexpr std::size_t pixels_of_cell = 256;
+constexpr std::size_t most_lanes = 16;
 
 std::size_t cells_along(int pixels, int level) {
   const int bits = cell_bits + fan_bits * level;
@@ -53,12 +54,21 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   using Scratch = Diagram::Scratch;
   constexpr std::size_t word = sizeof(std::uint32_t);
   const std::size_t bit_words = cells(grid, 0) * pixels_of_cell / 32;
-  const cl::Buffer ids = diagram.scratch(Scratch::packed_back, cells(grid, 0) * pixels_of_cell * word);
+  const std::size_t starts_count = cells(grid, 0) + cells_along(grid.height(), 0);
+  // Lists are read in whole runs.
+  const std::size_t list_room = seeds.size() + most_lanes;
   const cl::Buffer bits = diagram.scratch(Scratch::exact_bits, bit_words * word);
+  const cl::Buffer word_starts = diagram.scratch(Scratch::exact_word_starts, bit_words * word);
+  const cl::Buffer starts = diagram.scratch(Scratch::exact_starts, starts_count * word);
+  const cl::Buffer list = diagram.scratch(Scratch::exact_list, list_room * word);
+  const cl::Buffer ids = diagram.scratch(Scratch::exact_ids, list_room * word);
+  const cl::Buffer places = diagram.scratch(Scratch::exact_places, seeds.size() * word);
   const cl::Buffer late = diagram.scratch(Scratch::exact_late, seeds.size() * word);
   const cl::Buffer late_count = diagram.scratch(Scratch::flags, word);
+  const cl::Buffer listed = diagram.scratch(Scratch::exact_listed, word);
   const cl::Buffer pyramid = diagram.scratch(Scratch::exact_pyramid, all_cells * word);
-  const cl::Buffer lists = diagram.scratch(Scratch::exact_lists, cells(grid, 1) * most_candidates * word);
+  const cl::Buffer labelled = diagram.scratch(Scratch::exact_labelled, cells(grid, 0) * word);
+  const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, cells(grid, 1) * most_candidates * word);
   const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, cells(grid, 1) * word);
 
   const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
@@ -73,15 +83,21 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
 
   const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
   fill(device, late_count, cl_uint{0}, 1);
-  run("put_seeds", count, seeds.positions(), count, ids, bits, late, late_count, width);
-  run("keep_lowest_ids", count, seeds.positions(), late, late_count, ids, width);
-  run("name_seeds", cells(grid, 0), bits, pyramid, width, height);
+  fill(device, listed, cl_uint{0}, 1);
+  run("set_bits", count, seeds.positions(), count, bits, places, late, late_count, width);
+  run("name_seeds", cells(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
     run("name_seeds_above", cells(grid, level), pyramid, width, height, level);
   }
-  run("list_candidates", cells(grid, 1), pyramid, bits, lists, counts, width, height, top);
-  const cl::Event last = run("label_cells", cells(grid, 0), pyramid, bits, lists, counts, ids,
-                             diagram.labels(), width, height, top);
+  run("share_out_list", cells_along(grid.height(), 0), starts, listed, width, height);
+  run("list_seeds", cells(grid, 0), bits, starts, word_starts, list, width, height);
+  run("list_ids", count, places, count, bits, word_starts, ids);
+  run("keep_lowest_ids", count, seeds.positions(), late, late_count, bits, word_starts, ids, width);
+  run("label_near", cells(grid, 0), bits, starts, word_starts, list, ids, diagram.labels(), labelled, width,
+      height);
+  run("list_candidates", cells(grid, 1), pyramid, starts, list, labelled, lists, counts, width, height, top);
+  const cl::Event last = run("label_far", cells(grid, 0), pyramid, bits, starts, word_starts, list, ids, labelled,
+                             lists, counts, diagram.labels(), width, height, top);
   check(clFlush(device.queue()()), "starting the diagram");
   const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started;
   return {0, first, last, host.count()};

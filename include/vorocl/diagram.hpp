@@ -51,10 +51,17 @@ class VOROCL_API Diagram {
     seeded,
     flags,
     exact_bits,
+    exact_word_starts,
+    exact_starts,
+    exact_list,
+    exact_ids,
     exact_pyramid,
-    exact_lists,
+    exact_labelled,
+    exact_candidates,
     exact_counts,
+    exact_places,
     exact_late,
+    exact_listed,
     count_
   };
 
