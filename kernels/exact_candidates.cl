@@ -49,7 +49,7 @@ inline void no_dominators(Dominators* dominators, Box box) {
 }
 
 // Fills a list's last run with empty positions.
-inline void pad(uint* list, int count) { STORE_PRIVATE_RUN((uint_run)EMPTY, list + count); }
+inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count); }
 
 // Whether a seed wins against another one, by distance and tie rule.
 #define WINS(seed, distance, other_seed, other_distance) \
@@ -77,7 +77,7 @@ inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, 
   uint_run nearest = dominators->seed[i];
   uint_run least = distance_to_label(nearest, place);
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run seed = LOAD_PRIVATE_RUN(seeds + first);
+    const uint_run seed = LOAD_RUN(seeds + first);
     const uint_run distance = distance_to_label(seed, place);
     nearest = select(nearest, seed, WINS(seed, distance, nearest, least));
     least = min(least, distance);
@@ -109,7 +109,7 @@ inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, con
 inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end, uint* seeds, int count) {
   int kept = 0;
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run seed = LOAD_PRIVATE_RUN(seeds + first);
+    const uint_run seed = LOAD_RUN(seeds + first);
     uint_run distance[CORNERS];
 #pragma unroll
     for (int corner = 0; corner < CORNERS; ++corner) {
@@ -144,7 +144,7 @@ inline int add_listed(global const uint* starts, global const uint* list, int fi
   if (y < 0 || y >= rows || first_x > last_x) return count;
   const uint begin = starts[start_of(first_x, y, columns)], end = starts[start_of(last_x + 1, y, columns)];
   for (uint i = begin; i < end; i += VOROCL_WIDTH) {
-    STORE_PRIVATE_RUN(LOAD_RUN(list + i), seeds + count + (int)(i - begin));
+    STORE_RUN(LOAD_RUN(list + i), seeds + count + (int)(i - begin));
   }
   return count + (int)(end - begin);
 }
@@ -172,7 +172,7 @@ inline void drop_dominated_cells(Search* search, int begin, int end) {
   const int size = 1 << cell_bits(search->level);
   int kept = 0;
   for (int first = 0; first < search->cell_count; first += VOROCL_WIDTH) {
-    const uint_run cell = LOAD_PRIVATE_RUN(search->cells + first);
+    const uint_run cell = LOAD_RUN(search->cells + first);
     const int_run left = AS_INT_RUN(cell & 0x7fffu) * size, top = AS_INT_RUN(cell >> 16) * size;
     const int_run to_left = TO_INTERVAL(box.left, left, left + size - 1);
     const int_run to_right = TO_INTERVAL(box.right, left, left + size - 1);
@@ -183,7 +183,7 @@ inline void drop_dominated_cells(Search* search, int begin, int end) {
     int_run lag = (int_run)INT_MIN;
     const uint_run first_pixel = AS_UINT_RUN(top) << 16 | AS_UINT_RUN(left);
     for (int i = begin; i < end; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
-    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_PRIVATE_RUN(search->named + first)) < 0);  // empty
+    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_RUN(search->named + first)) < 0);  // empty
     const uint bits = lane_bits(lag < 0);
     keep_entries(search->cells, first, bits, kept);
     kept = keep_entries(search->named, first, bits, kept);

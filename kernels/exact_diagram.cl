@@ -15,11 +15,11 @@
 // Stores a run of labels, as far as it lies in the grid.
 inline void store_run(uint_run labels, global uint* image, int x, int y, int width) {
   if (x + VOROCL_WIDTH <= width) {
-    STORE_RUN(labels, image + y * width + x);
+    STORE_WHOLE_RUN(labels, image + y * width + x);
     return;
   }
   uint label[VOROCL_WIDTH];
-  STORE_PRIVATE_RUN(labels, label);
+  STORE_RUN(labels, label);
   for (int lane = 0; x + lane < width; ++lane) image[y * width + x + lane] = label[lane];
 }
 
@@ -43,7 +43,7 @@ inline uint id_of(Ids ids, uint seed, int columns) {
 inline void store_ids(uint_run seeds, Ids ids, global uint* labels, int x, int y, int width, int height) {
   if (y >= height) return;
   uint seed[VOROCL_WIDTH];
-  STORE_PRIVATE_RUN(seeds, seed);
+  STORE_RUN(seeds, seed);
   for (int lane = 0; lane < min(VOROCL_WIDTH, width - x); ++lane) {
     labels[y * width + x + lane] = id_of(ids, seed[lane], cells_along(width, 0));
   }
@@ -52,11 +52,11 @@ inline void store_ids(uint_run seeds, Ids ids, global uint* labels, int x, int y
 // Puts the list in the order of the tie rule.
 inline void sort_by_tie_rule(const uint* seeds, int count, uint* sorted) {
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
-    const uint_run run = LOAD_PRIVATE_RUN(seeds + first);
+    const uint_run run = LOAD_RUN(seeds + first);
     uint_run rank = (uint_run)0;
     for (int i = 0; i < count; ++i) rank += select((uint_run)0, (uint_run)1, seeds[i] < run);
     uint to[VOROCL_WIDTH];
-    STORE_PRIVATE_RUN(rank, to);
+    STORE_RUN(rank, to);
     for (int lane = 0; lane < min(VOROCL_WIDTH, count - first); ++lane) sorted[to[lane]] = seeds[first + lane];
   }
 }
@@ -85,7 +85,7 @@ inline void label_by_keys(const uint* sorted, const uint* label_of, int count, u
     const int_run along_base = ALONG(offset_of_base);
     for (int i = 0; i < count; ++i) {
       const int_run offset = y - packed_y(sorted[i]);
-      STORE_PRIVATE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * CELL + first);
+      STORE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * CELL + first);
     }
   }
   for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
@@ -118,9 +118,9 @@ inline void label_by_keys(const uint* sorted, const uint* label_of, int count, u
       } else {
         uint at[VOROCL_WIDTH];
         for (int row = 0; row < ROWS; ++row) {
-          STORE_PRIVATE_RUN(AS_UINT_RUN(least[row]) & place, at);
+          STORE_RUN(AS_UINT_RUN(least[row]) & place, at);
           for (int lane = 0; lane < VOROCL_WIDTH; ++lane) at[lane] = label_of[at[lane]];
-          label[row] = LOAD_PRIVATE_RUN(at);
+          label[row] = LOAD_RUN(at);
         }
       }
 #pragma unroll

@@ -16,21 +16,20 @@ typedef int int_run;
 #define LANES 0u
 #define LOAD_RUN(pointer) (*(pointer))
 #define STORE_RUN(run, pointer) (*(pointer) = (run))
-#define LOAD_PRIVATE_RUN LOAD_RUN
-#define STORE_PRIVATE_RUN STORE_RUN
+#define STORE_WHOLE_RUN STORE_RUN
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
 #else
 typedef JOIN(uint, VOROCL_WIDTH) uint_run;
 typedef JOIN(int, VOROCL_WIDTH) int_run;
+#define LOAD_RUN(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
+#define STORE_RUN(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
+// To global memory, in one piece: PoCL's vstore() makes two, and its compiler then makes the values in two halves.
 typedef struct __attribute__((packed)) {
   uint_run values;
 } unaligned_run;
-#define LOAD_RUN(pointer) (((global const unaligned_run*)(pointer))->values)
-#define STORE_RUN(run, pointer) (((global unaligned_run*)(pointer))->values = (run))
-#define LOAD_PRIVATE_RUN(pointer) (((private const unaligned_run*)(pointer))->values)
-#define STORE_PRIVATE_RUN(run, pointer) (((private unaligned_run*)(pointer))->values = (run))
+#define STORE_WHOLE_RUN(run, pointer) (((global unaligned_run*)(pointer))->values = (run))
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
 #define ANY(condition) any(condition)
 #endif
@@ -85,10 +84,10 @@ inline uint16 permute_16(uint16 table, uint16 at) {
 #define permute JOIN(permute_, VOROCL_WIDTH)
 
 // The values at the indices in a table of 1, 2, 3 or 4 runs.
-inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_PRIVATE_RUN(table), at); }
+inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_RUN(table), at); }
 #define DEFINE_LOOK_UP(name, name_of_one_less, runs)                                        \
   inline uint_run name(const uint* table, uint_run at) {                                    \
-    const uint_run last = permute(LOAD_PRIVATE_RUN(table + (runs - 1) * VOROCL_WIDTH), at); \
+    const uint_run last = permute(LOAD_RUN(table + (runs - 1) * VOROCL_WIDTH), at); \
     return select(name_of_one_less(table, at), last, at >= (uint)((runs - 1) * VOROCL_WIDTH)); \
   }
 DEFINE_LOOK_UP(look_up_in_2, look_up_in_1, 2)
