@@ -112,7 +112,8 @@ void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simul
   }
   if (writer.wants(frame)) {
     const LabelImage image{source.grid(), simulation.diagram().read()};
-    writer.add(frame, image, simulation.seeds().read(), source.ids(), options.method_options.metric);
+    writer.add(frame, {simulation.seeds(), simulation.diagram(), image, with_ids(image, source.ids()),
+                       source.values()});
   }
   if (frame % most_frames_ahead == 0) {
     simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
@@ -192,7 +193,7 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Si
 }
 
 void run(const SimulateOptions& options) {
-  FrameWriter writer(options.output);
+  FrameWriter writer(options.output, options.method_options.metric);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
@@ -232,6 +233,7 @@ void add_simulate(CLI::App& app) {
   add_json_option(*command, options->json);
   command->callback([command, options] {
     check_method_options(*command, options->method_options, options->method.dynamic);
+    options->seeds.value_column = options->output.picture.color.column;
     run(*options);
   });
 }
