@@ -160,7 +160,8 @@ cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar) {
   drawn.draw(result);
   for (const Tick& tick : ticks) {
     const int y = drawn.row(tick.value);
-    cv::line(result, {place.br().x, y}, {place.br().x + unit / 2, y}, dark, text.thickness());
+    const cv::Rect mark(place.br().x, y - (text.thickness() - 1) / 2, unit / 2, text.thickness());
+    cv::rectangle(result, mark, dark, cv::FILLED);
     text.draw(result, tick.text, {numbers, y + unit / 2});
   }
   return result;
