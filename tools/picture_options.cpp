@@ -54,8 +54,9 @@ void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* fi
       ->needs(file);
   add_choice(
       app, "--palette", options.palette, palettes,
-      "Colours; okabe-ito has 8, for the colour-blind too, for ids (of which neighbours may share one) "
-      "and whole numbers. Else viridis, and ids have a colour each")
+      "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
+      "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
+      "have a colour each)")
       ->needs(file);
   add_parsed(app, "--scale", options.scale, parse_scale,
              "Values at the ends of the palette; those beyond get the colours of the ends. Else the range of "
