@@ -231,8 +231,10 @@ BOOST_AUTO_TEST_CASE(pictures_without_values_are_possible_and_bars_are_not) {
   options.color_bar = true;
   check_error([&] { Painter(options, Metric::euclidean).draw(unknown.scene()); }, {"no value", "--scale"});
   check_error([&] { Painter(options, Metric::euclidean).draw(empty.scene()); }, {"no value", "--scale"});
-  options.scale = {0, 1};
-  Painter(options, Metric::euclidean).draw(empty.scene());
+  options.scale = {0, 2};
+  Painter with_bar(options, Metric::euclidean, true);
+  const Drawn fractions({{1, 1}, {5, 5}}, {0.5, 1});
+  BOOST_TEST(with_bar.draw(empty.scene()).size() == with_bar.draw(fractions.scene()).size());
 }
 
 BOOST_AUTO_TEST_CASE(classes_must_be_whole_numbers) {

@@ -79,9 +79,8 @@ cv::Mat Painter::color_by_values(const Scene& scene, const std::vector<double>& 
                     options_.color.column, *fraction));
   }
   const std::vector<std::uint32_t>& labels = scene.image.labels;
-  const auto range = range_of(labels, values);
-  if (range && !whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(labels, scene.image.grid, values, scale(range), palette_);
+  if (!whole_values_) whole_values_ = fraction == values.end();
+  return color_by_value(labels, scene.image.grid, values, scale(range_of(labels, values)), palette_);
 }
 
 std::vector<double> Painter::areas(const Scene& scene) {

@@ -27,6 +27,7 @@ struct Scene {
 /// Makes one picture, or those of a film: then they share scale and contours, and have one size.
 class Painter {
  public:
+  /// Of many, later ones may have values beyond the scale of the first: the colour bar says so.
   Painter(const PictureOptions& options, Metric metric, bool many = false);
 
   /// Throws Error where the options ask for what the scene does not have.
@@ -46,7 +47,7 @@ class Painter {
   bool many_;
   Palette palette_;
   std::optional<Scale> scale_;
-  std::optional<bool> whole_values_;
+  std::optional<bool> whole_values_;  // whether those of the first picture are
   std::optional<double> contour_interval_;
   std::vector<float> distances_;  // of the present scene, where they are needed
   Field<float> distance_field_;

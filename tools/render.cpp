@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -86,8 +87,9 @@ void run(const RenderOptions& options) {
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
-  const LabelImage image{input.grid, diagram.read()};
-  const Scene scene{seeds, diagram, image, with_ids(image, input.ids), input.values};
+  LabelImage image{input.grid, diagram.read()};
+  LabelImage named = with_ids(image, input.ids);
+  const Scene scene{seeds, diagram, std::move(image), std::move(named), input.values};
 
   if (outputs.labels)
     outputs.labels->write([&](const std::string& path) { write_labels(path, scene.named); });

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "commands.hpp"
 #include "finish_at_end.hpp"
@@ -111,8 +112,9 @@ void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simul
     writer.add_similarity(frame, percent);
   }
   if (writer.wants(frame)) {
-    const LabelImage image{source.grid(), simulation.diagram().read()};
-    writer.add(frame, {simulation.seeds(), simulation.diagram(), image, with_ids(image, source.ids()),
+    LabelImage image{source.grid(), simulation.diagram().read()};
+    LabelImage named = with_ids(image, source.ids());
+    writer.add(frame, {simulation.seeds(), simulation.diagram(), std::move(image), std::move(named),
                        source.values()});
   }
   if (frame % most_frames_ahead == 0) {
