@@ -98,8 +98,8 @@ BOOST_AUTO_TEST_CASE(edges_and_contours_have_a_default) {
   BOOST_TEST(!same(edges, plain));
   BOOST_TEST(same(edges, render(folder, seeds + "--edges 1")));
   BOOST_TEST(!same(edges, render(folder, seeds + "--edges 3")));
-  // The largest distance is more than 20 and at most 50.
-  BOOST_TEST(same(render(folder, seeds + "--contours"), render(folder, seeds + "--contours 5")));
+  // The largest distance is more than 10 and at most 20.
+  BOOST_TEST(same(render(folder, seeds + "--contours"), render(folder, seeds + "--contours 2")));
 }
 
 BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_are_usage_errors) {
