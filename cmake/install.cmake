@@ -1,5 +1,5 @@
 # What is installed: the libraries, their headers, the CMake package and the pkg-config files, and the command's completion
-# (tools/ installs the command). The kernels are inside the library.
+# and manual page (tools/ installs the command). The kernels are inside the library.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VoroCL)
 
 install(TARGETS vorocl EXPORT VoroCLTargets)
@@ -38,4 +38,5 @@ endforeach()
 
 if(VOROCL_BUILD_TOOLS)
   install(FILES tools/vorocl.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vorocl)
+  install(FILES docs/vorocl.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()

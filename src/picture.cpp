@@ -6,30 +6,24 @@
 #include <string>
 #include <unordered_map>
 
+#include "palette.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl {
 
 namespace {
 
-const cv::Vec3b black(0, 0, 0);
-const cv::Vec3b dark(32, 28, 26);
-const cv::Vec3b light(250, 250, 250);
+constexpr int widest_edge = 100;
 
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-void check_count(const std::vector<std::uint32_t>& labels, int width, int height) {
-  if (labels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
-    throw Error("there are " + std::to_string(labels.size()) + " labels for " + size_text(width, height) +
+void check_count(std::size_t count, const char* of, int width, int height) {
+  if (count != static_cast<std::size_t>(width) * static_cast<std::size_t>(height)) {
+    throw Error("there are " + std::to_string(count) + " " + of + " for " + size_text(width, height) +
                 " pixels");
   }
-}
-
-void check_picture(const cv::Mat& picture) {
-  if (picture.type() != CV_8UC3)
-    throw Error("the picture to draw into must have 3 channels of 8 bits (CV_8UC3)");
 }
 
 std::uint8_t srgb_byte(double linear) {
@@ -61,68 +55,159 @@ cv::Vec3b color_of(std::uint32_t id) {
 
 bool is_present(const Point& seed) { return !std::isnan(seed.x); }
 
-double distance(const Point& seed, int x, int y, Metric metric) {
-  const double dx = std::floor(seed.x) - x, dy = std::floor(seed.y) - y;
-  return metric == Metric::euclidean ? std::hypot(dx, dy) : std::abs(dx) + std::abs(dy);
+/// Calls on_run(begin, end) for each run of pixels with one label: cells are made of few runs.
+template <typename OnRun>
+void for_each_run(const std::vector<std::uint32_t>& labels, OnRun on_run) {
+  for (std::size_t begin = 0, end = 0; begin < labels.size(); begin = end) {
+    while (end < labels.size() && labels[end] == labels[begin]) ++end;
+    on_run(begin, end);
+  }
+}
+
+/// A picture with color(label) in each pixel, and black where there is no label.
+template <typename Color>
+cv::Mat color_by_label(const std::vector<std::uint32_t>& labels, const Grid& grid, Color color) {
+  check_count(labels.size(), "labels", grid.width(), grid.height());
+  cv::Mat picture(grid.height(), grid.width(), CV_8UC3);
+  auto* const pixels = picture.ptr<cv::Vec3b>();
+  for_each_run(labels, [&](std::size_t begin, std::size_t end) {
+    const cv::Vec3b of_run = labels[begin] == no_label ? black : color(labels[begin]);
+    std::fill(pixels + begin, pixels + end, of_run);
+  });
+  return picture;
+}
+
+double value_of(std::uint32_t label, const std::vector<double>& values) {
+  if (label < values.size()) return values[label];
+  throw Error("the label " + std::to_string(label) + " has no value; there are " +
+              std::to_string(values.size()));
+}
+
+/// The range of the finite values that it is given.
+class Range {
+ public:
+  void add(double value) {
+    if (!std::isfinite(value)) return;
+    scale_ =
+        scale_ ? Scale{std::min(scale_->low, value), std::max(scale_->high, value)} : Scale{value, value};
+  }
+  const std::optional<Scale>& scale() const { return scale_; }
+
+ private:
+  std::optional<Scale> scale_;
+};
+
+/// 255 for the pixels whose right or lower neighbour has another label.
+cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& size) {
+  cv::Mat edges(size, CV_8U, cv::Scalar(0));
+  const std::uint32_t* label = labels.data();
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x, ++label) {
+      const bool right_differs = x + 1 < size.width && label[1] != label[0];
+      const bool lower_differs = y + 1 < size.height && label[size.width] != label[0];
+      if (right_differs || lower_differs) edges.at<std::uint8_t>(y, x) = 255;
+    }
+  }
+  return edges;
+}
+
+/// A filled circle in a square of this many pixels a side.
+cv::Mat disk(int diameter) {
+  cv::Mat result(diameter, diameter, CV_8U);
+  const double centre = (diameter - 1) / 2.0;
+  for (int y = 0; y < diameter; ++y) {
+    for (int x = 0; x < diameter; ++x) {
+      result.at<std::uint8_t>(y, x) = std::hypot(x - centre, y - centre) <= diameter / 2.0 ? 1 : 0;
+    }
+  }
+  return result;
+}
+
+/// The colour of a thin line on this one.
+cv::Vec3b line_on(const cv::Vec3b& color) {
+  const bool is_bright = 0.114 * color[0] + 0.587 * color[1] + 0.299 * color[2] > 110;
+  return is_bright ? dark : light;
 }
 
 }  // namespace
 
+std::optional<Scale> range_of(const std::vector<std::uint32_t>& labels, const std::vector<double>& values) {
+  Range range;
+  for_each_run(labels, [&](std::size_t begin, std::size_t) {
+    if (labels[begin] != no_label) range.add(value_of(labels[begin], values));
+  });
+  return range.scale();
+}
+
+std::optional<Scale> range_of(const std::vector<float>& distances) {
+  Range range;
+  for (const float distance : distances) range.add(static_cast<double>(distance));
+  return range.scale();
+}
+
 cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid) {
-  check_count(labels, grid.width(), grid.height());
+  std::unordered_map<std::uint32_t, cv::Vec3b> colors;  // making one takes long
+  return color_by_label(labels, grid, [&](std::uint32_t label) {
+    const auto found = colors.find(label);
+    return found != colors.end() ? found->second : colors.emplace(label, color_of(label)).first->second;
+  });
+}
+
+cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid, Palette palette) {
+  if (!is_categorical(palette)) throw Error("ids are coloured by a categorical palette, such as okabe_ito");
+  return color_by_label(labels, grid, categorical_color);
+}
+
+cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
+                       const std::vector<double>& values, const Scale& scale, Palette palette) {
+  const Colors colors(scale, palette);
+  return color_by_label(labels, grid, [&](std::uint32_t label) { return colors(value_of(label, values)); });
+}
+
+cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid, const Scale& scale,
+                          Palette palette) {
+  check_count(distances.size(), "distances", grid.width(), grid.height());
+  if (is_categorical(palette))
+    throw Error("distances are coloured by a palette of quantities, such as viridis");
+  const Colors colors(scale, palette);
   cv::Mat picture(grid.height(), grid.width(), CV_8UC3);
-  std::unordered_map<std::uint32_t, cv::Vec3b> colors = {{no_label, black}};
-  std::uint32_t last = no_label;
-  cv::Vec3b color = black;
-  auto label = labels.begin();
-  for (auto pixel = picture.begin<cv::Vec3b>(); pixel != picture.end<cv::Vec3b>(); ++pixel, ++label) {
-    if (*label != last) {  // cells are runs of one label: few pixels get here
-      last = *label;
-      const auto found = colors.find(last);
-      color = found != colors.end() ? found->second : colors.emplace(last, color_of(last)).first->second;
-    }
-    *pixel = color;
-  }
+  std::transform(distances.begin(), distances.end(), picture.begin<cv::Vec3b>(), [&](float distance) {
+    return std::isinf(distance) ? black : colors(static_cast<double>(distance));
+  });
   return picture;
 }
 
-cv::Mat color_by_distance(const std::vector<std::uint32_t>& labels, const Grid& grid,
-                          const std::vector<Point>& seeds, Metric metric, Palette palette) {
-  check_count(labels, grid.width(), grid.height());
-  cv::Mat distances(grid.height(), grid.width(), CV_32F, cv::Scalar(0));
-  cv::Mat unlabelled(grid.height(), grid.width(), CV_8U, cv::Scalar(0));
-  auto label = labels.begin();
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x, ++label) {
-      if (*label == no_label) {
-        unlabelled.at<std::uint8_t>(y, x) = 1;
-      } else if (*label < seeds.size() && is_present(seeds[*label])) {
-        distances.at<float>(y, x) = static_cast<float>(distance(seeds[*label], x, y, metric));
-      } else {
-        throw Error("the label " + std::to_string(*label) + " at (" + std::to_string(x) + ", " +
-                    std::to_string(y) + ") names no seed");
-      }
-    }
-  }
-  double largest = 0;
-  cv::minMaxLoc(distances, nullptr, &largest);
-  cv::Mat levels, picture;
-  distances.convertTo(levels, CV_8U, largest > 0 ? 255 / largest : 0);
-  cv::applyColorMap(levels, picture, palette == Palette::viridis ? cv::COLORMAP_VIRIDIS : cv::COLORMAP_TURBO);
-  picture.setTo(black, unlabelled);
-  return picture;
-}
-
-void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels) {
+void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width) {
   check_picture(picture);
-  check_count(labels, picture.cols, picture.rows);
-  const auto width = static_cast<std::size_t>(picture.cols);
-  const std::uint32_t* label = labels.data();
+  check_count(labels.size(), "labels", picture.cols, picture.rows);
+  if (width < 1 || width > widest_edge) {
+    throw Error("edges cannot be " + std::to_string(width) + " pixels wide; they are 1 to " +
+                std::to_string(widest_edge));
+  }
+  cv::Mat edges = thin_edges(labels, picture.size());
+  if (width > 1) cv::dilate(edges, edges, disk(width));
+  picture.setTo(dark, edges);
+}
+
+void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval) {
+  check_picture(picture);
+  check_count(distances.size(), "distances", picture.cols, picture.rows);
+  if (!(interval > 0 && std::isfinite(interval))) {
+    throw Error("contours cannot be " + std::to_string(interval) + " pixels apart");
+  }
+  const cv::Mat field(picture.rows, picture.cols, CV_32F, const_cast<float*>(distances.data()));
+  const auto band = [&](int y, int x) {
+    return std::floor(static_cast<double>(field.at<float>(y, x)) / interval);
+  };
   for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x, ++label) {
-      const bool right_differs = x + 1 < picture.cols && label[1] != label[0];
-      const bool lower_differs = y + 1 < picture.rows && label[width] != label[0];
-      if (right_differs || lower_differs) picture.at<cv::Vec3b>(y, x) = dark;
+    for (int x = 0; x < picture.cols; ++x) {
+      const double here = band(y, x);
+      if (!std::isfinite(here)) continue;
+      const bool is_on_line = (x > 0 && band(y, x - 1) < here) || (y > 0 && band(y - 1, x) < here) ||
+                              (x + 1 < picture.cols && band(y, x + 1) < here) ||
+                              (y + 1 < picture.rows && band(y + 1, x) < here);
+      auto& pixel = picture.at<cv::Vec3b>(y, x);
+      if (is_on_line) pixel = line_on(pixel);
     }
   }
 }

@@ -21,5 +21,9 @@ expect "devices" d
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis" render --metric manhattan --palette v
+expect "distance" render --color d
+expect "column:" render --color c
+expect "viridis turbo greys okabe-ito" simulate --palette ""
+expect "--color --color-bar" simulate --scale 0,1 --color
 expect "--method --metric" render --me
 expect "" render --points cities

@@ -27,7 +27,7 @@ Pairs pairs_of(const std::vector<Point>& points) {
 
 Pairs csv(const std::string& content, const std::optional<Columns>& columns = std::nullopt) {
   const TemporaryFolder folder;
-  return pairs_of(read_csv(folder.file("p.csv", content), columns));
+  return pairs_of(read_csv(folder.file("p.csv", content), columns).points);
 }
 
 void refuses_csv(const std::string& content, std::initializer_list<std::string> parts,
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(csv_files_come_in_many_clothes) {
 }
 
 BOOST_AUTO_TEST_CASE(the_world_s_cities_are_read) {
-  const std::vector<Point> cities = read_csv(VOROCL_SAMPLES "/cities-5000.csv", std::nullopt);
+  const std::vector<Point> cities = read_csv(VOROCL_SAMPLES "/cities-5000.csv", std::nullopt).points;
   BOOST_REQUIRE(cities.size() == 5000u);
   BOOST_TEST(cities[0].x == 181.5665);
   BOOST_TEST(cities[0].y == 47.4682);
@@ -90,6 +90,26 @@ BOOST_AUTO_TEST_CASE(bad_csv_lines_are_named) {
   const TemporaryFolder folder;
   check_error([&] { read_csv(folder / "missing.csv", std::nullopt); }, {"missing.csv", "No such file"});
   check_error([&] { read_csv(folder / "", std::nullopt); }, {"it is a folder"});
+}
+
+BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
+  const TemporaryFolder folder;
+  const auto values = [&](const std::string& content, const std::string& column) {
+    return read_csv(folder.file("p.csv", content), std::nullopt, column).values;
+  };
+  const std::string table = "x,name,y,Height\n1,a,2,-1.5\n3,b,4,\n5,c,6,nan\n7,d,8,+2e3\n";
+  for (const char* column : {"Height", "height", "3"}) {
+    const std::vector<double> found = values(table, column);
+    BOOST_REQUIRE(found.size() == 4u);
+    BOOST_TEST((found[0] == -1.5 && std::isnan(found[1]) && std::isnan(found[2]) && found[3] == 2000));
+  }
+  BOOST_TEST((values("1,2,3\n4,5,6\n", "2") == std::vector<double>{3, 6}));
+  BOOST_TEST((values("x,y\n4,5\n", "y") == std::vector<double>{5}));
+  BOOST_TEST(values(table, "").empty());
+  check_error([&] { values(table, "depth"); }, {"p.csv:1", "no column depth", "x, name, y, Height"});
+  check_error([&] { values("1,2,3\n", "depth"); }, {"p.csv:1", "no column depth", "0, 1, 2"});
+  check_error([&] { values(table, "name"); }, {"p.csv:2", "\"a\" is not a number"});
+  check_error([&] { values("x,y,z\n1,2,3\n4,5\n", "z"); }, {"p.csv:3", "no column 2"});
 }
 
 BOOST_AUTO_TEST_CASE(columns_are_two) {

@@ -89,9 +89,6 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, "render --random 5 --size 10x10 -o a.png", usage, {"--method"});
   refuses(folder, render + "--size 10x10 --metric chess", usage, {"chess", "manhattan"});
   refuses(folder, render + "--size 10x10 --neighbourhood hex", usage, {"hex", "von-neumann"});
-  refuses(folder, render + "--size 10x10 --color red", usage, {"red", "distance"});
-  refuses(folder, render + "--size 10x10 --color distance --palette jet", usage, {"jet", "viridis"});
-  refuses(folder, render + "--size 10x10 --palette turbo", usage, {"--palette", "--color distance"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa,jfb", usage, {"jfb", "opencv"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa --repeat 0", usage, {"--repeat"});
 }

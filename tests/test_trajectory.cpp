@@ -249,3 +249,19 @@ BOOST_AUTO_TEST_CASE(the_samples_are_read) {
   check_samples("lj-melt.lammpstrj", 15, 2000, 7000, {45.8917, 51.8435});
   check_samples("lj-clusters.lammpstrj", 10, 3000, 25000, {1.84021, 150.006});
 }
+
+BOOST_AUTO_TEST_CASE(a_column_of_values_follows_the_particles) {
+  const std::string text =
+      dump(periodic_box, "c_pe id x y f[2]", {"-1.5 7 1 1 10", "nan 3 2 2 20", "4e2 5 3 3 30"}) +
+      dump(periodic_box, "x y id c_pe f[2]", {"1 1 9 0.25 -1"});
+  const auto energies = frames_of(text, "c_pe");
+  BOOST_REQUIRE(energies.size() == 2u);
+  BOOST_TEST((energies[0].ids == std::vector<std::uint32_t>{3, 5, 7}));
+  BOOST_REQUIRE(energies[0].values.size() == 3u);
+  BOOST_TEST(
+      (std::isnan(energies[0].values[0]) && energies[0].values[1] == 400 && energies[0].values[2] == -1.5));
+  BOOST_TEST((energies[1].values == std::vector<double>{0.25}));
+  BOOST_TEST((frames_of(text, "f[2]")[0].values == std::vector<double>{20, 30, 10}));
+  BOOST_TEST((frames_of(text, "id")[0].values == std::vector<double>{3, 5, 7}));
+  BOOST_TEST(frames_of(text)[0].values.empty());
+}

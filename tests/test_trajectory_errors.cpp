@@ -158,3 +158,9 @@ BOOST_AUTO_TEST_CASE(a_pipe_is_read_though_its_size_is_not_known) {
   writer.join();
   BOOST_TEST((frames.size() == 1 && frames[0].ids.size() == 2));
 }
+
+BOOST_AUTO_TEST_CASE(columns_of_values_that_cannot_be_used_are_named) {
+  const std::string text = dump(periodic_box, "id type x y", {"1 1 2 2", "2 O 3 3"});
+  check_error([&] { frames_of(text, "c_pe"); }, {"trajectory:9", "\"c_pe\"", "id, type, x, y"});
+  check_error([&] { frames_of(text, "type"); }, {"trajectory:11", "\"O\"", "number"});
+}

@@ -10,16 +10,17 @@
 namespace vorocl::command {
 
 /// Adds the frames to the list one by one, so that those before an Error are there.
-inline void read_frames(const std::string& path, std::vector<Frame>& frames) {
-  const auto reader = open_trajectory(path);
+inline void read_frames(const std::string& path, std::vector<Frame>& frames,
+                        const std::string& value_column = "") {
+  const auto reader = open_trajectory(path, value_column);
   Frame frame;
   while (reader->next(frame)) frames.push_back(frame);
 }
 
-inline std::vector<Frame> frames_of(const std::string& text) {
+inline std::vector<Frame> frames_of(const std::string& text, const std::string& value_column = "") {
   const TemporaryFolder folder;
   std::vector<Frame> frames;
-  read_frames(folder.file("trajectory", text), frames);
+  read_frames(folder.file("trajectory", text), frames, value_column);
   return frames;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <limits>
 
 #include "files.hpp"
 #include "numbers.hpp"
@@ -17,6 +18,7 @@ using Fields = std::vector<std::string>;
 struct Indices {
   std::size_t x = 0;
   std::size_t y = 1;
+  std::optional<std::size_t> value;
 };
 
 /// A line of the file, for what is wrong with it.
@@ -74,26 +76,52 @@ std::optional<std::size_t> index_of(const Fields& header, const std::string& nam
   return std::nullopt;
 }
 
+/// The names of the columns, or their indices.
+std::string list_of(const Fields& fields, bool has_header) {
+  std::string list;
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    list += (i == 0 ? "" : ", ") + (has_header ? fields[i] : std::to_string(i));
+  }
+  return list;
+}
+
 /// Where a column is, by its name in the header or by its index.
 std::size_t locate(const std::string& column, const Line& first, bool has_header) {
   if (const auto index = has_header ? index_of(first.fields, column) : std::nullopt) return *index;
   if (const auto index = parse_number<std::size_t>(column); index && *index < first.fields.size())
     return *index;
-  throw first.error("there is no column " + column +
-                    " (choose two with --columns, by name or by index from 0)");
+  throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header));
 }
 
-Indices locate(const std::optional<Columns>& columns, const Line& first, bool has_header) {
-  if (!columns && !has_header) return {};
-  const Columns wanted = columns.value_or(Columns{"x", "y"});
-  return {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header)};
+Indices locate(const std::optional<Columns>& columns, const std::string& value_column, const Line& first,
+               bool has_header) {
+  Indices indices;
+  if (columns || has_header) {
+    const Columns wanted = columns.value_or(Columns{"x", "y"});
+    try {
+      indices.x = locate(wanted.x, first, has_header);
+      indices.y = locate(wanted.y, first, has_header);
+    } catch (const Error& error) {
+      throw Error(error.what() + std::string(" (choose two with --columns, by name or by index from 0)"));
+    }
+  }
+  if (!value_column.empty()) indices.value = locate(value_column, first, has_header);
+  return indices;
+}
+
+const std::string& field(const Line& line, std::size_t index) {
+  if (index >= line.fields.size()) throw line.error("there is no column " + std::to_string(index));
+  return line.fields[index];
+}
+
+double number(const Line& line, std::size_t index) {
+  const auto parsed = parse_number<double>(field(line, index));
+  if (!parsed) throw line.error("\"" + line.fields[index] + "\" is not a number");
+  return *parsed;
 }
 
 double value(const Line& line, std::size_t index) {
-  if (index >= line.fields.size()) throw line.error("there is no column " + std::to_string(index));
-  const auto number = parse_number<double>(line.fields[index]);
-  if (!number) throw line.error("\"" + line.fields[index] + "\" is not a number");
-  return *number;
+  return field(line, index).empty() ? std::numeric_limits<double>::quiet_NaN() : number(line, index);
 }
 
 void strip_byte_order_mark(std::string& line) {
@@ -114,9 +142,10 @@ Columns parse_columns(const std::string& text) {
   return columns;
 }
 
-std::vector<Point> read_csv(const std::string& path, const std::optional<Columns>& columns) {
+CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
+                   const std::string& value_column) {
   std::ifstream file = open_to_read(path);
-  std::vector<Point> points;
+  CsvPoints result;
   std::optional<Indices> indices;
   Line line{path, 0, "", {}};
   while (std::getline(file, line.text)) {
@@ -126,14 +155,15 @@ std::vector<Point> read_csv(const std::string& path, const std::optional<Columns
     line.fields = split(line);
     if (!indices) {
       const bool has_header = is_header(line.fields);
-      indices = locate(columns, line, has_header);
+      indices = locate(columns, value_column, line, has_header);
       if (has_header) continue;
     }
-    points.push_back({value(line, indices->x), value(line, indices->y)});
+    result.points.push_back({number(line, indices->x), number(line, indices->y)});
+    if (indices->value) result.values.push_back(value(line, *indices->value));
   }
   if (file.bad()) throw Error("reading " + path + " failed after line " + std::to_string(line.number));
-  if (points.empty()) throw Error(path + " holds no points");
-  return points;
+  if (result.points.empty()) throw Error(path + " holds no points");
+  return result;
 }
 
 }  // namespace vorocl::command

@@ -1,4 +1,4 @@
-// Points from CSV files.
+// Points from CSV files, and values that go with them.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,17 @@ struct Columns {
 /// "x,y" to columns. Throws Error unless these are two names.
 Columns parse_columns(const std::string& text);
 
+struct CsvPoints {
+  std::vector<Point> points;
+  std::vector<double> values;  ///< of the value column, a point each; empty without one
+};
+
 /// The points of a CSV file with commas, in its order. A first line without any number is a header. Without
 /// `columns` the header must name an x and a y (in any case); where there is no header the first two columns
-/// count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). Throws Error that names file, line
-/// and text for a line that cannot be read, and if there is no point at all.
-std::vector<Point> read_csv(const std::string& path, const std::optional<Columns>& columns);
+/// count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or an
+/// index too; there an empty field is an absent value (NaN). Throws Error that names file, line and text for
+/// a line that cannot be read and a column that is not there, and if there is no point at all.
+CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
+                   const std::string& value_column = "");
 
 }  // namespace vorocl::command

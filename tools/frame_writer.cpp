@@ -41,7 +41,8 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options) {
   add_picture_options(app, options.picture, picture);
 }
 
-FrameWriter::FrameWriter(const FrameWriterOptions& options) : options_(options) {
+FrameWriter::FrameWriter(const FrameWriterOptions& options, Metric metric)
+    : options_(options), painter_(options.picture, metric, true) {
   check_picture_options(options.picture);
   if (!options.picture_path.empty()) check_picture_path(options.picture_path);
   if (!options.labels_path.empty()) check_label_path(options.labels_path);
@@ -68,12 +69,10 @@ bool FrameWriter::wants(int frame) const {
   return frame % options_.every == 0 && (film_ || pictures_ || labels_);
 }
 
-void FrameWriter::add(int frame, const LabelImage& image, const std::vector<Point>& seeds,
-                      const std::vector<std::uint32_t>& ids, Metric metric) {
-  const LabelImage named = with_ids(image, ids);
-  if (labels_) labels_->file(frame).write([&](const std::string& path) { write_labels(path, named); });
+void FrameWriter::add(int frame, const Scene& scene) {
+  if (labels_) labels_->file(frame).write([&](const std::string& path) { write_labels(path, scene.named); });
   if (film_ || pictures_) {
-    const cv::Mat picture = draw(image, named, seeds, metric, options_.picture);
+    const cv::Mat picture = painter_.draw(scene);
     if (film_) film_->add(picture);
     if (pictures_)
       pictures_->file(frame).write([&](const std::string& path) { write_picture(path, picture); });

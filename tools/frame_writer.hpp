@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "film.hpp"
-#include "label_image.hpp"
 #include "numbered_files.hpp"
-#include "picture_options.hpp"
+#include "painter.hpp"
 
 namespace vorocl::command {
 
@@ -31,7 +30,7 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options);
 class FrameWriter {
  public:
   /// Throws UsageError for names that cannot be meant, Error if no files can be made there.
-  explicit FrameWriter(const FrameWriterOptions& options);
+  FrameWriter(const FrameWriterOptions& options, Metric metric);
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
@@ -39,9 +38,7 @@ class FrameWriter {
   /// Whether the images of this frame are to be written.
   bool wants(int frame) const;
 
-  /// `seeds` holds the points by label, `ids` what the files say for each label.
-  void add(int frame, const LabelImage& image, const std::vector<Point>& seeds,
-           const std::vector<std::uint32_t>& ids, Metric metric);
+  void add(int frame, const Scene& scene);
   void add_similarity(int frame, double percent);
 
   /// The frames whose images are written.
@@ -52,6 +49,7 @@ class FrameWriter {
 
  private:
   FrameWriterOptions options_;
+  Painter painter_;
   std::optional<Film> film_;
   std::optional<NumberedFiles> pictures_;
   std::optional<NumberedFiles> labels_;

@@ -18,23 +18,27 @@ namespace vorocl::command {
 
 namespace {
 
-std::vector<Point> read_points(const SeedOptions& options) {
+CsvPoints read_points(const SeedOptions& options) {
   check_extension(options.points, {".csv", ".npy"});
-  if (extension_of(options.points) == ".csv") return read_csv(options.points, options.columns);
+  if (extension_of(options.points) == ".csv") {
+    return read_csv(options.points, options.columns, options.value_column);
+  }
   if (options.columns) throw UsageError("--columns is for .csv files");
-  return read_npy_points(options.points);
+  if (!options.value_column.empty())
+    throw UsageError("--color column:NAME is for .csv files and trajectories");
+  return {read_npy_points(options.points), {}};
 }
 
 Input input_from_points(const SeedOptions& options) {
   if (!options.size && options.width == 0)
     throw UsageError("--size WxH or --width W is required with --points");
-  const std::vector<Point> points = read_points(options);
+  const auto [points, values] = read_points(options);
   try {
     const Bounds bounds = options.bounds ? *options.bounds : bounding_box(points);
     const Grid grid = options.size ? *options.size : grid_of_width(bounds, options.width);
     const std::vector<Point> pixels = to_pixels(points, bounds, grid, options.y_up);
     warn_of_scales(bounds, grid);
-    return {grid, [grid, pixels](const Device& device) { return Seeds(device, grid, pixels); }, {}};
+    return {grid, [grid, pixels](const Device& device) { return Seeds(device, grid, pixels); }, {}, values};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -48,8 +52,10 @@ Input input_from_mask(const SeedOptions& options) {
                             options.mask, grid.width(), grid.height(), options.size->width(),
                             options.size->height()));
   }
-  return {
-      grid, [mask](const Device& device) { return Seeds::from_mask(device, mask.grid, mask.pixels); }, {}};
+  return {grid,
+          [mask](const Device& device) { return Seeds::from_mask(device, mask.grid, mask.pixels); },
+          {},
+          {}};
 }
 
 Input input_at_random(const SeedOptions& options) {
@@ -58,6 +64,7 @@ Input input_at_random(const SeedOptions& options) {
           [options](const Device& device) {
             return Seeds::random(device, *options.size, options.random, options.rng_seed);
           },
+          {},
           {}};
 }
 
@@ -68,16 +75,17 @@ Input input_from_trajectory(const SeedOptions& options) {
           [grid, points = particles.points()](const Device& device) {
             return vorocl::command::place(device, grid, points);
           },
-          particles.ids()};
+          particles.ids(), particles.values()};
 }
 
 /// What no parser can say: an option that goes with either of two others.
 void check_needs(const SeedOptions& options) {
   if (!options.points.empty() || !options.trajectory.empty()) return;
-  const char* const given = options.bounds       ? "--bounds"
-                            : options.width != 0 ? "--width"
-                            : options.y_up       ? "--y-up"
-                                                 : nullptr;
+  const char* const given = options.bounds                  ? "--bounds"
+                            : options.width != 0            ? "--width"
+                            : options.y_up                  ? "--y-up"
+                            : !options.value_column.empty() ? "--color column:NAME"
+                                                            : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
 }
 

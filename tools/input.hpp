@@ -26,6 +26,7 @@ struct SeedOptions {
   std::optional<Bounds> bounds;
   bool y_up = false;
   std::optional<Columns> columns;
+  std::string value_column;  // whose values are read with the points
 };
 
 /// Adds --random, --points, --mask, --trajectory (one of which is required) and what goes with them.
@@ -40,6 +41,7 @@ struct Input {
   Grid grid;
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
+  std::vector<double> values;      // of the value column, by seed; NaN: absent
 };
 
 /// Reads and checks the files. Throws Error if one is bad, UsageError where no size is given; warns on

@@ -31,8 +31,9 @@ std::vector<std::string_view> split(std::string_view text) {
   return fields;
 }
 
-RowLayout parse_columns(const LineReader& lines, std::string_view text) {
+RowLayout parse_columns(const LineReader& lines, std::string_view text, const std::string& value_column) {
   const std::vector<std::string_view> columns = split(text);
+  const auto value = find_value_column(lines, {columns.begin(), columns.end()}, value_column);
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
     const auto found = std::find(columns.begin(), columns.end(), name);
     if (found == columns.end()) return std::nullopt;
@@ -43,7 +44,7 @@ RowLayout parse_columns(const LineReader& lines, std::string_view text) {
        {std::tuple("x", "y", false), {"xs", "ys", true}, {"xu", "yu", false}, {"xsu", "ysu", true}}) {
     const auto x = find(x_name);
     const auto y = find(y_name);
-    if (x && y) return {columns.size(), false, *x, *y, find("id"), scaled};
+    if (x && y) return {columns.size(), false, *x, *y, find("id"), scaled, value};
   }
   throw lines.error("the columns name no position; write the dump with x y, xs ys, xu yu or xsu ysu");
 }
@@ -80,12 +81,13 @@ std::array<Sides, 3> parse_boundary(const LineReader& lines, const std::vector<s
 
 }  // namespace
 
-LammpsDump::LammpsDump(LineReader lines) : lines_(std::move(lines)) {}
+LammpsDump::LammpsDump(LineReader lines, std::string value_column)
+    : lines_(std::move(lines)), value_column_(std::move(value_column)) {}
 
 bool LammpsDump::next(Frame& frame) {
   if (!lines_.next_filled()) return false;
   Header header;
-  const RowLayout layout = parse_columns(lines_, read_header(header));
+  const RowLayout layout = parse_columns(lines_, read_header(header), value_column_);
   frame.timestep = header.timestep;
   rows_.read(lines_, layout, *header.count, header.cell, frame);
   return true;

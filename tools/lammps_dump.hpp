@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "line_reader.hpp"
@@ -14,7 +15,7 @@ namespace vorocl::command {
 /// names follow in that line; positions are x y, scaled xs ys, unwrapped xu yu, or both, xsu ysu.
 class LammpsDump : public TrajectoryReader {
  public:
-  explicit LammpsDump(LineReader lines);
+  LammpsDump(LineReader lines, std::string value_column);
   bool next(Frame& frame) override;
   std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
 
@@ -32,6 +33,7 @@ class LammpsDump : public TrajectoryReader {
   void next_value(std::size_t frame_line);
 
   LineReader lines_;
+  std::string value_column_;
   ParticleRows rows_;
 };
 

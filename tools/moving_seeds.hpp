@@ -38,6 +38,9 @@ class MovingSeeds {
   /// The ids that labels carry, by seed; empty: the seeds' own.
   virtual const std::vector<std::uint32_t>& ids() const = 0;
 
+  /// The values of the value column, by seed; NaN: absent.
+  virtual const std::vector<double>& values() const = 0;
+
   /// How much of the whole is done, 0 ... 1, as far as that is known.
   virtual std::optional<double> done() const = 0;
 };

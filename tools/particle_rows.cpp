@@ -1,6 +1,6 @@
 #include "particle_rows.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,22 @@ std::uint32_t parse_id(const LineReader& lines, std::string_view field) {
   return static_cast<std::uint32_t>(*id);
 }
 
+double parse_value(const LineReader& lines, std::string_view field) {
+  const auto value = parse_number<double>(field);
+  if (!value) throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
+  return *value;
+}
+
 }  // namespace
+
+std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<std::string>& names,
+                                             const std::string& column) {
+  if (column.empty()) return std::nullopt;
+  const auto found = std::find(names.begin(), names.end(), column);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw lines.error(
+      fmt::format("there is no column {}; there are {}", shown(column), fmt::join(names, ", ")));
+}
 
 Error cut_off(const LineReader& lines, std::size_t frame_line) {
   return lines.error_at(lines.number(),
@@ -81,9 +96,11 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
   sort(lines, first_line);
   frame.ids.clear();
   frame.positions.clear();
+  frame.values.clear();
   for (const Row& row : rows_) {
     frame.ids.push_back(row.id);
     frame.positions.push_back(row.position);
+    if (layout.value) frame.values.push_back(row.value);
   }
   frame.box = cell ? std::optional<Box>(cell->box()) : std::nullopt;
 }
@@ -100,11 +117,13 @@ ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& 
   std::string_view x;
   std::string_view y;
   std::string_view id;
+  std::string_view value;
   std::size_t fields = 0;
   for (std::string_view field = take_field(rest); !field.empty(); field = take_field(rest)) {
     if (fields == layout.x) x = field;
     if (fields == layout.y) y = field;
     if (fields == layout.id) id = field;
+    if (fields == layout.value) value = field;
     ++fields;
   }
   if (fields < layout.fields || (fields > layout.fields && !layout.may_have_more)) {
@@ -113,7 +132,8 @@ ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& 
   const auto number = static_cast<std::uint32_t>(rows_.size());
   return {layout.id ? parse_id(lines, id) : number,
           number,
-          {take_real(lines, x, "a finite x"), take_real(lines, y, "a finite y")}};
+          {take_real(lines, x, "a finite x"), take_real(lines, y, "a finite y")},
+          layout.value ? parse_value(lines, value) : 0};
 }
 
 void ParticleRows::sort(const LineReader& lines, std::size_t first_line) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "cell.hpp"
@@ -28,15 +29,21 @@ struct RowLayout {
   std::size_t y = 0;
   std::optional<std::size_t> id;  ///< where there is none, the row's number from 0 is the id
   bool scaled = false;            ///< x and y are in lengths of the cell's edges
+  std::optional<std::size_t> value;
 };
+
+/// Where the column is among those of the file; none if its name is empty. Throws Error, which lists them, if
+/// it is not there.
+std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<std::string>& names,
+                                             const std::string& column);
 
 /// Reads the rows of one frame after another into the same memory.
 class ParticleRows {
  public:
-  /// Reads as many rows as the count says, from the next line on, and makes the frame's ids, positions and
-  /// box of them; without a cell the positions are taken as they are (and are not scaled). Throws Error for a
-  /// row that cannot be read, an id that comes twice, a particle outside a wall, and a file that ends too
-  /// early; before any reading if what is left of the file cannot hold the rows.
+  /// Reads as many rows as the count says, from the next line on, and makes the frame's ids, positions,
+  /// values and box of them; without a cell the positions are taken as they are (and are not scaled). Throws
+  /// Error for a row that cannot be read, an id that comes twice, a particle outside a wall, and a file that
+  /// ends too early; before any reading if what is left of the file cannot hold the rows.
   void read(LineReader& lines, const RowLayout& layout, const ParticleCount& count, std::optional<Cell>& cell,
             Frame& frame);
 
@@ -45,6 +52,7 @@ class ParticleRows {
     std::uint32_t id;
     std::uint32_t number;  // from 0
     Point position;
+    double value;
   };
 
   Row parse(const LineReader& lines, const RowLayout& layout, const ParticleCount& count) const;

@@ -1,24 +1,85 @@
 #include "picture_options.hpp"
 
+#include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
+#include "numbers.hpp"
 #include "options.hpp"
 #include "quiet_standard_error.hpp"
 #include "usage_error.hpp"
 
 namespace vorocl::command {
 
+namespace {
+
+constexpr int widest_edge = 100;
+
+const Choices<Quantity> quantities = {{"id", Quantity::id},
+                                      {"distance", Quantity::distance},
+                                      {"area", Quantity::area},
+                                      {"neighbours", Quantity::neighbours},
+                                      {"column:NAME", Quantity::column}};
+
+Coloring parse_coloring(const std::string& text) {
+  const std::string column = "column:";
+  if (text.compare(0, column.size(), column) != 0) return {choose(quantities, text), ""};
+  const std::string name(trimmed(text.substr(column.size())));
+  if (name.empty()) throw Error("\"" + text + "\" names no column; give column:NAME");
+  return {Quantity::column, name};
+}
+
+std::optional<double> parse_interval(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto interval = parse_number<double>(text);
+  if (!interval || !std::isfinite(*interval) || *interval <= 0) {
+    throw Error("\"" + text + "\" must be a number of pixels greater than 0");
+  }
+  return interval;
+}
+
+}  // namespace
+
 void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* file) {
-  const Choices<Coloring> colorings = {{"id", Coloring::id}, {"distance", Coloring::distance}};
-  const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis}, {"turbo", Palette::turbo}};
-  add_choice(app, "--color", options.color, colorings,
-             "What the colour of a pixel shows: its cell's seed or the distance to it")
+  const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis},
+                                                    {"turbo", Palette::turbo},
+                                                    {"greys", Palette::greys},
+                                                    {"okabe-ito", Palette::okabe_ito}};
+  add_parsed(app, "--color", options.color, parse_coloring,
+             "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
+             "number of neighbours, or a column of the CSV file or the trajectory (grey where a value is "
+             "absent): " +
+                 names_of(quantities))
+      ->type_name("NAME")
       ->default_str("id")
       ->needs(file);
-  add_choice(app, "--palette", options.palette, palettes, "Colours of distances")
-      ->default_str("viridis")
+  add_choice(
+      app, "--palette", options.palette, palettes,
+      "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
+      "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
+      "have a colour each)")
       ->needs(file);
-  app.add_flag("--edges", options.edges, "Draw the borders of the cells")->needs(file);
+  add_parsed(app, "--scale", options.scale, parse_scale,
+             "Values at the ends of the palette; those beyond get the colours of the ends. Else the range of "
+             "the picture, in a film or series of the first one drawn")
+      ->type_name("LOW,HIGH")
+      ->needs(file);
+  app.add_flag("--color-bar", options.color_bar, "Draw the scale at the right, with numbers")->needs(file);
+  app.add_option("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
+      ->type_name("[N]")
+      ->expected(0, 1)
+      ->default_str("1")
+      ->check(CLI::Range(1, widest_edge))
+      ->needs(file);
+  const auto set_contours = [&options](const std::string& text) {
+    options.contours = true;
+    return parse_interval(text);
+  };
+  add_parsed(app, "--contours", options.contour_interval, set_contours,
+             "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
+             "number that makes at most 10 lines in the first picture")
+      ->type_name("[D]")
+      ->expected(0, 1)
+      ->needs(file);
   app.add_flag("--points-overlay", options.points_overlay, "Draw the seeds")->needs(file);
 }
 
@@ -28,18 +89,35 @@ const std::vector<std::string>& picture_extensions() {
 }
 
 void check_picture_options(const PictureOptions& options) {
-  if (options.palette && options.color == Coloring::id) throw UsageError("--palette needs --color distance");
+  const bool by_id = options.color.quantity == Quantity::id;
+  const bool is_continuous =
+      options.color.quantity == Quantity::distance || options.color.quantity == Quantity::area;
+  if (by_id && options.palette && !is_categorical(*options.palette)) {
+    throw UsageError(
+        "this --palette is for quantities, such as --color distance; ids take okabe-ito, or none");
+  }
+  if (is_continuous && options.palette && is_categorical(*options.palette)) {
+    throw UsageError(
+        "--palette okabe-ito is for ids and whole numbers, and distances and areas are continuous "
+        "quantities; "
+        "take viridis, turbo or greys");
+  }
+  const char* const of_quantities = options.color_bar ? "--color-bar" : options.scale ? "--scale" : nullptr;
+  if (by_id && of_quantities != nullptr) {
+    throw UsageError(of_quantities + std::string(" needs a --color that is a quantity: distance, area, "
+                                                 "neighbours or column:NAME"));
+  }
 }
 
-cv::Mat draw(const LabelImage& image, const LabelImage& named, const std::vector<Point>& seeds, Metric metric,
-             const PictureOptions& options) {
-  cv::Mat picture = options.color == Coloring::id
-                        ? color_by_id(named.labels, named.grid)
-                        : color_by_distance(image.labels, image.grid, seeds, metric,
-                                            options.palette.value_or(Palette::viridis));
-  if (options.edges) draw_edges(picture, image.labels);
-  if (options.points_overlay) draw_points(picture, seeds);
-  return picture;
+Scale parse_scale(const std::string& text) {
+  const auto comma = text.find(',');
+  const auto low = parse_number<double>(text.substr(0, comma));
+  const auto high = comma == std::string::npos ? std::nullopt : parse_number<double>(text.substr(comma + 1));
+  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
+    throw Error("\"" + text +
+                "\" must be LOW,HIGH, two numbers of which the second is greater, such as 0,100");
+  }
+  return {*low, *high};
 }
 
 void write_picture(const std::string& path, const cv::Mat& picture) {

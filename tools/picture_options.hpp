@@ -1,4 +1,4 @@
-// How a diagram is drawn: the options, the picture they ask for, and its file.
+// How diagrams are drawn: the options, and a picture's file.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -7,21 +7,31 @@
 #include <string>
 #include <vector>
 
-#include "label_image.hpp"
 #include "vorocl/picture.hpp"
 
 namespace vorocl::command {
 
-enum class Coloring { id, distance };
+/// What the colour of a pixel shows.
+enum class Quantity { id, distance, area, neighbours, column };
+
+struct Coloring {
+  Quantity quantity = Quantity::id;
+  std::string column;  // its name; empty for the other quantities
+};
 
 struct PictureOptions {
-  Coloring color = Coloring::id;
+  Coloring color;
   std::optional<Palette> palette;
-  bool edges = false;
+  std::optional<Scale> scale;
+  bool color_bar = false;
+  int edge_width = 0;  // 0: no edges
+  bool contours = false;
+  std::optional<double> contour_interval;  // none: a round one
   bool points_overlay = false;
 };
 
-/// Adds --color, --palette, --edges and --points-overlay, which are of use only with the option for the file.
+/// Adds --color, --palette, --scale, --color-bar, --edges, --contours and --points-overlay, which are of use
+/// only with the option for the file.
 void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* file);
 
 /// The extensions of files that a picture can go into.
@@ -30,10 +40,8 @@ const std::vector<std::string>& picture_extensions();
 /// Throws UsageError for options that contradict each other.
 void check_picture_options(const PictureOptions& options);
 
-/// `seeds` holds the points by label, as Seeds::read() gives them; `named` is the image with the ids that
-/// colours go by.
-cv::Mat draw(const LabelImage& image, const LabelImage& named, const std::vector<Point>& seeds, Metric metric,
-             const PictureOptions& options);
+/// "LOW,HIGH" to a scale. Throws Error unless these are two finite numbers, LOW < HIGH.
+Scale parse_scale(const std::string& text);
 
 /// Throws Error if the file cannot be written.
 void write_picture(const std::string& path, const cv::Mat& picture);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "commands.hpp"
 #include "files.hpp"
@@ -11,7 +12,7 @@
 #include "input.hpp"
 #include "label_file.hpp"
 #include "methods.hpp"
-#include "picture_options.hpp"
+#include "painter.hpp"
 #include "usage_error.hpp"
 
 namespace vorocl::command {
@@ -86,12 +87,14 @@ void run(const RenderOptions& options) {
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
-  const LabelImage image{input.grid, diagram.read()};
-  const LabelImage named = with_ids(image, input.ids);
+  LabelImage image{input.grid, diagram.read()};
+  LabelImage named = with_ids(image, input.ids);
+  const Scene scene{seeds, diagram, std::move(image), std::move(named), input.values};
 
-  if (outputs.labels) outputs.labels->write([&](const std::string& path) { write_labels(path, named); });
+  if (outputs.labels)
+    outputs.labels->write([&](const std::string& path) { write_labels(path, scene.named); });
   if (outputs.picture) {
-    const cv::Mat picture = draw(image, named, seeds.read(), options.method_options.metric, options.picture);
+    const cv::Mat picture = Painter(options.picture, options.method_options.metric).draw(scene);
     outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
   }
   options.json ? print_json(options, seeds, report) : print_text(options, seeds, report);
@@ -116,6 +119,7 @@ void add_render(CLI::App& app) {
   add_json_option(*command, options->json);
   command->callback([command, options] {
     check_method_options(*command, options->method_options, options->method.dynamic);
+    options->seeds.value_column = options->picture.color.column;
     run(*options);
   });
 }

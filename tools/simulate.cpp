@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "commands.hpp"
 #include "finish_at_end.hpp"
@@ -111,8 +112,10 @@ void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simul
     writer.add_similarity(frame, percent);
   }
   if (writer.wants(frame)) {
-    const LabelImage image{source.grid(), simulation.diagram().read()};
-    writer.add(frame, image, simulation.seeds().read(), source.ids(), options.method_options.metric);
+    LabelImage image{source.grid(), simulation.diagram().read()};
+    LabelImage named = with_ids(image, source.ids());
+    writer.add(frame, {simulation.seeds(), simulation.diagram(), std::move(image), std::move(named),
+                       source.values()});
   }
   if (frame % most_frames_ahead == 0) {
     simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
@@ -192,7 +195,7 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Si
 }
 
 void run(const SimulateOptions& options) {
-  FrameWriter writer(options.output);
+  FrameWriter writer(options.output, options.method_options.metric);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
@@ -232,6 +235,7 @@ void add_simulate(CLI::App& app) {
   add_json_option(*command, options->json);
   command->callback([command, options] {
     check_method_options(*command, options->method_options, options->method.dynamic);
+    options->seeds.value_column = options->output.picture.color.column;
     run(*options);
   });
 }

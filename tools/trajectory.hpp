@@ -33,6 +33,7 @@ struct Frame {
   /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);
   /// elsewhere the box holds it, grown where the file's box is no wall.
   std::vector<Point> positions;
+  std::vector<double> values;  ///< of the value column, in the order of the ids; empty without one
 };
 
 /// Reads one frame at a time: memory does not grow with the number of frames.
@@ -50,8 +51,10 @@ class TrajectoryReader {
   virtual std::optional<std::uintmax_t> bytes_left() const = 0;
 };
 
-/// A reader for the file, whose kind its first line tells. Throws Error if the file cannot be read or is of
-/// no kind that is known.
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path);
+/// A reader for the file, whose kind its first line tells, and for the values of one of its columns: a name
+/// in a LAMMPS dump, a property in an extended XYZ, with [1], [2], ... behind it where it has several
+/// columns. Throws Error if the file cannot be read or is of no kind that is known.
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path,
+                                                  const std::string& value_column = "");
 
 }  // namespace vorocl::command

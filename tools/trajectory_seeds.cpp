@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 
 #include "input.hpp"
@@ -17,17 +18,27 @@ bool holds(const Bounds& bounds, const Point& point) {
   return point.x >= bounds.x0 && point.x <= bounds.x1 && point.y >= bounds.y0 && point.y <= bounds.y1;
 }
 
-/// By slot. Of particles on one pixel the one with the lowest id has the cell; they come in this order.
-std::vector<std::uint32_t> ids_of_labels(const std::vector<std::uint32_t>& ids,
-                                         const std::vector<Point>& pixels, const ParticleSlots& slots) {
-  std::vector<std::uint32_t> labels(slots.size(), no_label);
-  std::unordered_map<std::int64_t, std::uint32_t> owners;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
+/// By particle, the one that has its cell: of those on one pixel the first, which has the lowest id.
+std::vector<std::size_t> owners_of_cells(const std::vector<Point>& pixels) {
+  std::vector<std::size_t> owners;
+  std::unordered_map<std::int64_t, std::size_t> by_pixel;
+  for (const Point& point : pixels) {
     const auto pixel =
-        static_cast<std::int64_t>(pixels[i].y) * Grid::max_side + static_cast<std::int64_t>(pixels[i].x);
-    labels[slots.of_ids()[i]] = owners.emplace(pixel, ids[i]).first->second;
+        static_cast<std::int64_t>(point.y) * Grid::max_side + static_cast<std::int64_t>(point.x);
+    owners.push_back(by_pixel.emplace(pixel, owners.size()).first->second);
   }
-  return labels;
+  return owners;
+}
+
+/// What the particles' cells have, by slot; `absent` for slots without a particle. `of_particles` may be
+/// empty: then so is the result.
+template <typename T>
+std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std::size_t>& owners,
+                       const ParticleSlots& slots, T absent) {
+  if (of_particles.empty()) return {};
+  std::vector<T> result(slots.size(), absent);
+  for (std::size_t i = 0; i < owners.size(); ++i) result[slots.of_ids()[i]] = of_particles[owners[i]];
+  return result;
 }
 
 }  // namespace
@@ -37,7 +48,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
   if (!options.size && options.width == 0) {
     throw UsageError("--size WxH or --width W is required with --trajectory");
   }
-  reader_ = open_trajectory(path_);
+  reader_ = open_trajectory(path_, options.value_column);
   std::optional<Bounds> bounds;
   while (number_ < start) {
     if (!read()) {
@@ -104,7 +115,9 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
     }
   }
   points_ = std::move(points);
-  ids_ = ids_of_labels(frame_.ids, pixels, slots_);
+  const std::vector<std::size_t> owners = owners_of_cells(pixels);
+  ids_ = by_slot(frame_.ids, owners, slots_, no_label);
+  values_ = by_slot(frame_.values, owners, slots_, std::numeric_limits<double>::quiet_NaN());
 }
 
 void TrajectorySeeds::check_inside(const Bounds& bounds) const {

@@ -35,6 +35,9 @@ class TrajectorySeeds {
   /// The ids that labels carry, by slot: the particle's, or, of particles on one pixel, the lowest.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
 
+  /// The values of the value column, by slot, of the particle that the label stands for; empty without one.
+  const std::vector<double>& values() const { return values_; }
+
   /// The longest motion along an axis to this frame of a particle that was there before, in pixels; the
   /// shorter way round where the box is periodic.
   double longest_step() const { return longest_step_; }
@@ -63,6 +66,7 @@ class TrajectorySeeds {
   ParticleSlots slots_;
   std::vector<std::optional<Point>> points_;
   std::vector<std::uint32_t> ids_;
+  std::vector<double> values_;
   double longest_step_ = 0;
 };
 

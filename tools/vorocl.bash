@@ -4,7 +4,7 @@
 _vorocl_choices() {
   awk -v option="$1" '
     function take() {
-      if (entry ~ "^ +([^ ]*,)?" option "[ :=]+NAME") { sub(/.*: /, "", entry); gsub(/,/, "", entry); print entry }
+      if (entry ~ "^ +([^ ]*,)?" option "[ :=]+NAME") { sub(/.*: /, "", entry); gsub(/,/, "", entry); sub(/:NAME/, ":", entry); print entry }
     }
     /^ +-/ { take(); entry = $0; next }
     { entry = entry " " $0 }

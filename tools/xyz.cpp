@@ -123,11 +123,12 @@ std::optional<Cell> parse_cell(const LineReader& lines, const Pairs& pairs) {
 }
 
 /// The columns from "name:type:number of columns" for each property, with colons between them too.
-RowLayout parse_properties(const LineReader& lines, std::string_view text) {
+RowLayout parse_properties(const LineReader& lines, std::string_view text, const std::string& value_column) {
   const std::vector<std::string_view> parts = split(text, ":");
   if (parts.size() % 3 != 0) throw lines.error(shown(text) + " (Properties) is not made of name:type:count");
   RowLayout layout;
   bool has_position = false;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < parts.size(); i += 3) {
     const auto count = parse_number<std::uint16_t>(parts[i + 2]);
     if (!count) throw lines.error(shown(parts[i + 2]) + " (Properties) is no number of columns");
@@ -138,33 +139,40 @@ RowLayout parse_properties(const LineReader& lines, std::string_view text) {
     }
     if (parts[i] == "id" && *count == 1) layout.id = layout.fields;
     layout.fields += *count;
+    const std::string name(parts[i]);
+    for (int k = 1; k <= *count; ++k) {
+      names.push_back(*count == 1 ? name : name + "[" + std::to_string(k) + "]");
+    }
   }
   if (!has_position) throw lines.error("Properties name no position; there must be pos:R:3");
+  layout.value = find_value_column(lines, names, value_column);
   return layout;
 }
 
-RowLayout parse_layout(const LineReader& lines, const Pairs& pairs) {
+RowLayout parse_layout(const LineReader& lines, const Pairs& pairs, const std::string& value_column) {
   if (const auto found = pairs.find("properties"); found != pairs.end()) {
-    return parse_properties(lines, found->second);
+    return parse_properties(lines, found->second, value_column);
   }
   RowLayout layout;
   layout.fields = 4;
   layout.may_have_more = true;
   layout.x = 1;
   layout.y = 2;
+  layout.value = find_value_column(lines, {"species", "x", "y", "z"}, value_column);
   return layout;
 }
 
 }  // namespace
 
-Xyz::Xyz(LineReader lines) : lines_(std::move(lines)) {}
+Xyz::Xyz(LineReader lines, std::string value_column)
+    : lines_(std::move(lines)), value_column_(std::move(value_column)) {}
 
 bool Xyz::next(Frame& frame) {
   if (!lines_.next_filled()) return false;
   const ParticleCount count = parse_count(lines_);
   if (!lines_.next()) throw cut_off(lines_, count.line);
   const Pairs pairs = parse_comment(lines_.line());
-  const RowLayout layout = parse_layout(lines_, pairs);
+  const RowLayout layout = parse_layout(lines_, pairs, value_column_);
   std::optional<Cell> cell = parse_cell(lines_, pairs);
   frame.timestep.reset();
   rows_.read(lines_, layout, count, cell, frame);

@@ -1,6 +1,8 @@
 // XYZ files, plain and extended.
 #pragma once
 
+#include <string>
+
 #include "line_reader.hpp"
 #include "particle_rows.hpp"
 #include "trajectory.hpp"
@@ -13,12 +15,13 @@ namespace vorocl::command {
 /// the box grows on others) and Properties (what the columns are, among them pos and maybe id).
 class Xyz : public TrajectoryReader {
  public:
-  explicit Xyz(LineReader lines);
+  Xyz(LineReader lines, std::string value_column);
   bool next(Frame& frame) override;
   std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
 
  private:
   LineReader lines_;
+  std::string value_column_;
   ParticleRows rows_;
 };
 

@@ -1,8 +1,13 @@
 // Pictures of diagrams, with OpenCV: the only part of the library that needs it (target VoroCL::picture).
+//
+// Values come from the measurements (cells.hpp, adjacency.hpp, fields.hpp) or from the caller; pictures only
+// colour them. All pictures are CV_8UC3 (BGR).
 #pragma once
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "vorocl/export.hpp"
@@ -10,29 +15,82 @@
 
 namespace vorocl {
 
-/// Colour maps for quantities, from the least to the greatest: viridis (dark blue to yellow, perceptually
-/// uniform, also for the colour-blind) and turbo (dark blue by green to dark red, more contrast).
-enum class Palette { viridis, turbo };
+/// Colour maps. For quantities, from the least to the greatest: viridis (dark blue to yellow, perceptually
+/// uniform, also for the colour-blind), turbo (dark blue by green to dark red, more contrast) and greys
+/// (black to white). For classes: okabe_ito, eight colours that the colour-blind can tell apart too (Okabe
+/// and Ito 2008, with grey in the place of black, which means no_label here); a whole number gets the colour
+/// of its remainder by 8.
+enum class Palette { viridis, turbo, greys, okabe_ito };
 
-/// Colours each pixel by its label's id: CV_8UC3 (BGR), of the grid's size. An id has one colour, the same in
-/// every picture and frame; ids that are near each other get colours that are easily told apart. no_label is
-/// black, which is no id's colour. Throws Error unless there is one label a pixel.
+/// Whether a palette is one of classes, such as ids, and not one of quantities.
+VOROCL_API bool is_categorical(Palette palette);
+
+/// The values that the ends of a palette stand for, low <= high; values beyond get the colours of the ends.
+struct Scale {
+  double low = 0;
+  double high = 1;
+};
+
+/// The range of the values that a picture shows: of the cells that have a pixel, infinite and absent (NaN)
+/// values apart. None if there is no value. `values` holds one a seed, by id. Throws Error for a label
+/// without a value.
+VOROCL_API std::optional<Scale> range_of(const std::vector<std::uint32_t>& labels,
+                                         const std::vector<double>& values);
+
+/// The same of an image of distances.
+VOROCL_API std::optional<Scale> range_of(const std::vector<float>& distances);
+
+/// Colours each pixel by its label's id. An id has one colour, the same in every picture and frame; ids that
+/// are near each other get colours that are easily told apart. no_label is black, which is no id's colour.
+/// Throws Error unless there is one label a pixel.
 VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid);
 
-/// Colours each pixel by the distance to its label's seed, from 0 to the largest one in the picture: CV_8UC3
-/// (BGR). `seeds` holds the points by id, NaN for an absent one, as Seeds::read() gives them; distances are
-/// between pixel centres. no_label is black. Throws Error unless there is one label a pixel and a seed for
-/// every label.
-VOROCL_API cv::Mat color_by_distance(const std::vector<std::uint32_t>& labels, const Grid& grid,
-                                     const std::vector<Point>& seeds, Metric metric, Palette palette);
+/// As above, with the few colours of a categorical palette: neighbours may share one. Throws Error for
+/// another palette.
+VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid, Palette palette);
 
-/// Draws the borders of the cells into a CV_8UC3 picture, in dark: the pixels whose right or lower neighbour
-/// has another label. Throws Error unless the picture has the labels' size.
-VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels);
+/// Colours each pixel by the value of its label's seed. `values` holds one a seed, by id; an absent value
+/// (NaN) is light grey and no_label is black. With a categorical palette values are rounded to whole numbers.
+/// Throws Error unless there is one label a pixel and a value for every label, and for a bad scale.
+VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
+                                  const std::vector<double>& values, const Scale& scale, Palette palette);
 
-/// Draws a dot on each seed that is not absent (NaN) into a CV_8UC3 picture: dark with a light rim where
-/// there is room for it, down to one pixel where seeds are dense. Throws Error if a point is outside the
-/// picture.
+/// Colours each pixel by its distance, as distance_field() gives it; a pixel without a label (infinity) is
+/// black. Throws Error unless there is one distance a pixel, for a bad scale and for a categorical palette.
+VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid,
+                                     const Scale& scale, Palette palette);
+
+/// Draws the borders of the cells into a picture, in dark, `width` pixels wide. An even width has as many
+/// pixels on both sides of a border, an odd one one more on the left of it or above. Throws Error unless the
+/// picture has the labels' size and the width is 1 to 100.
+VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width = 1);
+
+/// Draws lines of equal distance to the nearest seed into a picture, one every `interval` pixels of distance:
+/// dark on bright colours and light on dark ones. A line's pixels are the nearest that are no nearer than its
+/// distance. Throws Error unless there is one distance a pixel and the interval is positive and finite.
+VOROCL_API void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval);
+
+/// Draws a dot on each seed that is not absent (NaN) into a picture: dark with a light rim where there is
+/// room for it, down to one pixel where seeds are dense. Throws Error if a point is outside the picture.
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<Point>& seeds);
+
+/// What a colour bar says.
+struct ColorBar {
+  Scale scale;
+  Palette palette = Palette::viridis;
+  std::string title;          ///< the quantity and its unit: "area (px)"; ASCII
+  bool whole_values = false;  ///< no ticks between whole numbers
+  bool open_ended = false;    ///< there may be values beyond the scale: its ends are pointed
+};
+
+/// The picture with a colour bar at its right: a white strip with the title, the bar with its least value at
+/// the bottom, and ticks with numbers at round values. The text grows with the picture's height; a picture of
+/// less than 96 rows gets white ones below. The result's width is even, for films, and bars that are alike
+/// make results of one size. Throws Error for a bad scale.
+VOROCL_API cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar);
+
+/// The least of 1, 2 and 5 times a power of ten that makes at most `most` steps (at least 1) within the
+/// scale; 0 if the scale has no extent. For ticks and contours. Throws Error for a bad scale.
+VOROCL_API double round_step(const Scale& scale, int most);
 
 }  // namespace vorocl

@@ -1,0 +1,39 @@
+// What all pictures share: their colours, those of values too, and their type.
+#pragma once
+
+#include <opencv2/core.hpp>
+
+#include "vorocl/picture.hpp"
+
+namespace vorocl {
+
+const cv::Vec3b black(0, 0, 0);  // no_label
+const cv::Vec3b dark(32, 28, 26);
+const cv::Vec3b light(250, 250, 250);
+const cv::Vec3b absent_grey(214, 214, 214);
+
+/// Throws Error unless low <= high and both are finite.
+void check_scale(const Scale& scale);
+
+/// Throws Error unless the picture is CV_8UC3.
+void check_picture(const cv::Mat& picture);
+
+/// A palette laid over a scale.
+class Colors {
+ public:
+  /// Throws Error for a bad scale.
+  Colors(const Scale& scale, Palette palette);
+
+  /// Values beyond the scale have the colours of its ends, NaN is light grey.
+  cv::Vec3b operator()(double value) const;
+
+ private:
+  Scale scale_;
+  bool categorical_;
+  cv::Mat_<cv::Vec3b> table_;
+};
+
+/// One of the palette's colours, by the remainder.
+cv::Vec3b categorical_color(std::uint32_t number);
+
+}  // namespace vorocl

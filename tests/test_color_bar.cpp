@@ -1,0 +1,169 @@
+// The colour bar beside a picture: its place, its colours and its ticks.
+#define BOOST_TEST_MODULE color_bar
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "fixture.hpp"
+#include "vorocl/picture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const cv::Vec3b white(255, 255, 255);
+
+cv::Mat grey_picture(int width, int height) { return {height, width, CV_8UC3, cv::Scalar::all(128)}; }
+
+cv::Vec3b color_of(double value, const ColorBar& bar) {
+  return color_by_value({0}, Grid(1, 1), {value}, bar.scale, bar.palette).at<cv::Vec3b>(0, 0);
+}
+
+/// The bar as it stands in the result: found by its outline, from the middle row.
+struct Found {
+  int left = 0, right = 0;  // first and last column
+  int top = 0, bottom = 0;  // first and last row within the outline
+  std::vector<int> ticks;   // rows
+};
+
+Found find(const cv::Mat& result, int picture_width) {
+  Found found;
+  const int middle = result.rows / 2;
+  const auto at = [&](int x, int y) { return result.at<cv::Vec3b>(y, x); };
+  int x = picture_width;
+  while (at(x, middle) == white) ++x;
+  const cv::Vec3b outline = at(x, middle);
+  found.left = x + 1;
+  do {
+    ++x;
+  } while (at(x, middle) != outline);
+  found.right = x - 1;
+  const int inside = (found.left + found.right) / 2;
+  found.top = found.bottom = middle;
+  while (at(inside, found.top - 1) != outline) --found.top;
+  while (at(inside, found.bottom + 1) != outline) ++found.bottom;
+  for (int y = found.top; y <= found.bottom; ++y) {
+    if (at(found.right + 2, y) == outline) found.ticks.push_back(y);
+  }
+  return found;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(the_picture_keeps_its_place_and_the_width_is_even) {
+  for (const cv::Size& size :
+       {cv::Size(1, 1), cv::Size(64, 48), cv::Size(333, 95), cv::Size(640, 481), cv::Size(3, 2000)}) {
+    const cv::Mat picture = grey_picture(size.width, size.height);
+    const cv::Mat result = with_color_bar(picture, {{0, 1}, Palette::turbo, "distance (px)", false, false});
+    BOOST_TEST(result.type() == CV_8UC3);
+    BOOST_TEST(result.cols % 2 == 0);
+    BOOST_TEST(result.rows == std::max(96, size.height));
+    BOOST_TEST(cv::norm(result(cv::Rect({0, 0}, size)), picture, cv::NORM_INF) == 0);
+    BOOST_TEST((result.at<cv::Vec3b>(result.rows - 1, size.width) == white));
+    // A margin: no letter is cut off.
+    BOOST_TEST(cv::norm(result.col(result.cols - 1), cv::Mat(result.rows, 1, CV_8UC3, cv::Scalar::all(255)),
+                        cv::NORM_INF) == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_colours_are_those_of_the_values) {
+  for (const Palette palette : {Palette::viridis, Palette::turbo}) {
+    for (const int height : {96, 300, 1000}) {
+      const ColorBar bar = {{-3, 17}, palette, "v", false, false};
+      const cv::Mat result = with_color_bar(grey_picture(50, height), bar);
+      const Found found = find(result, 50);
+      const double rows = found.bottom - found.top + 1;
+      BOOST_TEST(rows > height / 2);
+      BOOST_TEST(found.right - found.left + 1 >= 10);
+      for (int y = found.top; y <= found.bottom; ++y) {
+        const double value = 17 - 20 * (y - found.top + 0.5) / rows;
+        BOOST_TEST(cv::norm(result.at<cv::Vec3b>(y, found.left), color_of(value, bar), cv::NORM_INF) <= 4);
+        BOOST_TEST((result.at<cv::Vec3b>(y, found.left) == result.at<cv::Vec3b>(y, found.right)));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(ticks_are_at_round_values) {
+  const auto ticks = [](const ColorBar& bar) { return find(with_color_bar(grey_picture(50, 480), bar), 50); };
+  // 0, 20, ..., 100 from the lowest row to the highest
+  Found found = ticks({{0, 100}, Palette::viridis, "v", false, false});
+  BOOST_REQUIRE(found.ticks.size() == 6u);
+  BOOST_TEST(found.ticks.front() == found.top);
+  BOOST_TEST(found.ticks.back() == found.bottom);
+  for (std::size_t i = 0; i < 6; ++i) {
+    BOOST_TEST(std::abs(found.ticks[i] -
+                        (found.top + static_cast<double>(i) * (found.bottom - found.top) / 5)) <= 1);
+  }
+  // 4, 6, 8, 10, 12
+  found = ticks({{3, 12}, Palette::viridis, "v", false, false});
+  BOOST_REQUIRE(found.ticks.size() == 5u);
+  BOOST_TEST(found.ticks.front() == found.top);
+  BOOST_TEST(std::abs(found.bottom - found.ticks.back() - (found.bottom - found.top) / 9.0) <= 1);
+  BOOST_TEST(ticks({{2, 4}, Palette::viridis, "v", false, false}).ticks.size() > 3u);
+  BOOST_TEST(ticks({{2, 4}, Palette::viridis, "v", true, false}).ticks.size() == 3u);  // 2, 3, 4
+  BOOST_TEST(ticks({{7, 7}, Palette::viridis, "v", true, false}).ticks.size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(classes_are_blocks_with_a_tick_each) {
+  const ColorBar bar = {{2, 5}, Palette::okabe_ito, "type", true, false};
+  const cv::Mat result = with_color_bar(grey_picture(50, 480), bar);
+  const Found found = find(result, 50);
+  BOOST_REQUIRE(found.ticks.size() == 4u);
+  const int block = (found.bottom - found.top + 1) / 4;
+  for (int i = 0; i < 4; ++i) {
+    const int tick = found.ticks[static_cast<std::size_t>(i)];
+    BOOST_TEST(std::abs(tick - (found.top + i * block + block / 2)) <= 2);
+    for (const int y : {tick - block / 2 + 3, tick, tick + block / 2 - 3}) {
+      BOOST_TEST((result.at<cv::Vec3b>(y, found.left) == color_of(5 - i, bar)), "block " << i);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(open_ends_are_pointed) {
+  const ColorBar bar = {{0, 100}, Palette::viridis, "v", false, true};
+  const cv::Mat result = with_color_bar(grey_picture(50, 480), bar);
+  const Found found = find(result, 50);
+  const int middle = (found.left + found.right) / 2;
+  for (const auto& [y, value] : {std::pair(found.top + 2, 100.0), std::pair(found.bottom - 2, 0.0)}) {
+    BOOST_TEST((result.at<cv::Vec3b>(y, middle) == color_of(value, bar)));
+    BOOST_TEST((result.at<cv::Vec3b>(y, found.left) == white));
+    BOOST_TEST((result.at<cv::Vec3b>(y, found.right) == white));
+  }
+  BOOST_REQUIRE(found.ticks.size() == 6u);
+  BOOST_TEST(found.ticks.front() > found.top + 5);  // of 100, below the point
+  BOOST_TEST(found.ticks.back() < found.bottom - 5);
+}
+
+BOOST_AUTO_TEST_CASE(titles_are_shown_and_long_ones_shortened) {
+  const auto bar_with = [](const std::string& title) {
+    return with_color_bar(grey_picture(50, 480), {{0, 1}, Palette::viridis, title, false, false});
+  };
+  const cv::Mat untitled = bar_with(""), titled = bar_with("area (px)");
+  const cv::Rect head(50, 0, untitled.cols - 50, 25);
+  BOOST_TEST(cv::norm(untitled(head), cv::Mat(head.size(), CV_8UC3, cv::Scalar::all(255)), cv::NORM_INF) ==
+             0);
+  BOOST_TEST(cv::norm(untitled(head), titled(head), cv::NORM_INF) > 100);
+  BOOST_TEST(bar_with(std::string(1000, 'w')).cols < 800);
+}
+
+BOOST_AUTO_TEST_CASE(any_scale_has_a_bar) {
+  for (const Scale& scale : {Scale{-1e300, 1e300}, Scale{0, 1e-300}, Scale{1e15, 1e15 + 1},
+                             Scale{-5e-7, 3e-7}, Scale{0, 1073741824}, Scale{0, 0}}) {
+    for (const Palette palette : {Palette::viridis, Palette::okabe_ito}) {
+      for (const bool whole : {false, true}) {
+        const cv::Mat result = with_color_bar(grey_picture(10, 200), {scale, palette, "v", whole, true});
+        BOOST_TEST(result.cols < 300);
+      }
+    }
+  }
+  check_error(
+      [] {
+        with_color_bar(grey_picture(9, 9), {{1, 0}, Palette::viridis, "v", false, false});
+      },
+      {"scale"});
+  check_error(
+      [] {
+        with_color_bar(cv::Mat(9, 9, CV_8U), {{0, 1}, Palette::viridis, "v", false, false});
+      },
+      {"CV_8UC3"});
+}

@@ -1,0 +1,146 @@
+// The command's options for pictures, as its users give them: what they draw and what they refuse.
+#define BOOST_TEST_MODULE picture_options
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "brute_force.hpp"
+#include "picture_options.hpp"
+#include "run_command.hpp"
+#include "trajectory_text.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+const std::string random_render = "render --random 9 --size 60x40 --method exact -o a.png ";
+
+cv::Mat render(const TemporaryFolder& folder, const std::string& arguments) {
+  succeeds(folder, "render --method exact -o a.png " + arguments);
+  return cv::imread(folder / "a.png");
+}
+
+bool same(const cv::Mat& a, const cv::Mat& b) {
+  return a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_scale_is_two_rising_numbers) {
+  BOOST_TEST(parse_scale(" -1.5 , 2e3").low == -1.5);
+  BOOST_TEST(parse_scale("-1.5,2e3").high == 2000);
+  for (const char* bad : {"", "1", "1,", ",1", "2,1", "1,1", "1,2,3", "a,2", "0,inf", "nan,1"}) {
+    check_error([&] { parse_scale(bad); }, {bad, "LOW,HIGH"});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(cells_are_coloured_by_a_column_of_the_csv_file) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,height,y\n5,10,5\n25,,5\n5,30,25\n25,20,25\n");
+  const Grid grid(40, 30);
+  const std::vector<Pixel> pixels = {{5, 5}, {25, 5}, {5, 25}, {25, 25}};
+  const auto labels = brute_force(grid, pixels, Metric::euclidean);
+  const std::vector<double> values = {10, std::numeric_limits<double>::quiet_NaN(), 30, 20};
+  const std::string points = "--points p.csv --size 40x30 --bounds 0,0,40,30 --color column:height ";
+  BOOST_TEST(same(render(folder, points), color_by_value(labels, grid, values, {10, 30}, Palette::viridis)));
+  BOOST_TEST(same(render(folder, points + "--scale 0,20 --palette greys"),
+                  color_by_value(labels, grid, values, {0, 20}, Palette::greys)));
+  const cv::Mat bar = with_color_bar(color_by_value(labels, grid, values, {10, 30}, Palette::viridis),
+                                     {{10, 30}, Palette::viridis, "height", true, false});
+  BOOST_TEST(same(render(folder, points + "--color-bar"), bar));
+  // The same seeds in motion: each keeps its value.
+  succeeds(folder, "simulate --method exact -o s%d.png --frames 1 --step-length 0 " + points);
+  BOOST_TEST(
+      same(cv::imread(folder / "s1.png"), color_by_value(labels, grid, values, {10, 30}, Palette::viridis)));
+}
+
+BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
+  const TemporaryFolder folder;
+  const auto rows = [](const char* a, const char* b) {
+    return std::vector<std::string>{std::string("9 2.5 5 ") + a, std::string("4 7.5 5 ") + b, "5 7.5 5 100"};
+  };
+  // Particle 4 hides particle 5, which is on its pixel. In the second frame the values go beyond the first's.
+  folder.file("t.lammpstrj", dump(walled_box, "id x y c_pe", rows("1", "3")) +
+                                 dump(walled_box, "id x y c_pe", rows("9", "2")));
+  folder.file("t.xyz",
+              "2\nLattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:3:q:R:2\n"
+              "2.5 5 0 7 1\n7.5 5 0 7 3\n");
+  succeeds(folder,
+           "simulate --trajectory t.lammpstrj --size 20x20 --method exact -o %d.png --color column:c_pe");
+  const Grid grid(20, 20);
+  const auto labels = brute_force(grid, {{5, 10}, {15, 10}}, Metric::euclidean);
+  const auto expected = [&](double left, double right) {
+    return color_by_value(labels, grid, {left, right}, {1, 3}, Palette::viridis);
+  };
+  BOOST_TEST(same(cv::imread(folder / "0.png"), expected(1, 3)));
+  BOOST_TEST(same(cv::imread(folder / "1.png"), expected(3, 2)));  // 9 is drawn as 3
+  BOOST_TEST(same(render(folder, "--trajectory t.xyz --size 20x20 --color column:q[2]"), expected(1, 3)));
+}
+
+BOOST_AUTO_TEST_CASE(films_with_a_colour_bar_have_even_sides) {
+  const TemporaryFolder folder;
+  const Result result =
+      run(folder,
+          "simulate --random 9 --size 65x101 --frames 3 --step-length 5 --method djfa -o a.mp4 "
+          "--color area --color-bar");
+  BOOST_TEST(result.exit_code == 0);
+  cv::VideoCapture film(folder / "a.mp4");
+  BOOST_TEST(film.get(cv::CAP_PROP_FRAME_COUNT) == 4);
+  BOOST_TEST(static_cast<int>(film.get(cv::CAP_PROP_FRAME_WIDTH)) % 2 == 0);
+  BOOST_TEST(film.get(cv::CAP_PROP_FRAME_WIDTH) > 65 + 40);
+  BOOST_TEST(film.get(cv::CAP_PROP_FRAME_HEIGHT) == 102);
+}
+
+BOOST_AUTO_TEST_CASE(edges_and_contours_have_a_default) {
+  const TemporaryFolder folder;
+  const std::string seeds = "--random 9 --size 60x40 ";
+  const cv::Mat plain = render(folder, seeds), edges = render(folder, "--edges " + seeds);
+  BOOST_TEST(!same(edges, plain));
+  BOOST_TEST(same(edges, render(folder, seeds + "--edges 1")));
+  BOOST_TEST(!same(edges, render(folder, seeds + "--edges 3")));
+  // The largest distance is more than 10 and at most 20.
+  BOOST_TEST(same(render(folder, seeds + "--contours"), render(folder, seeds + "--contours 2")));
+}
+
+BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_are_usage_errors) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const std::string& options, std::initializer_list<std::string> parts) {
+    refuses(folder, random_render + options, usage, parts);
+  };
+  refuse("--color red", {"red", "id, distance, area, neighbours, column:NAME"});
+  refuse("--color column:", {"column:NAME"});
+  refuse("--palette jet", {"jet", "viridis, turbo, greys, okabe-ito"});
+  refuse("--palette turbo", {"--palette", "ids", "okabe-ito"});
+  refuse("--color distance --palette okabe-ito", {"okabe-ito", "distances", "continuous", "viridis"});
+  refuse("--color area --palette okabe-ito", {"okabe-ito", "areas", "continuous", "viridis"});
+  refuse("--color-bar", {"--color-bar", "--color", "area"});
+  refuse("--color id --scale 0,1", {"--scale", "--color", "area"});
+  refuse("--color area --scale 5,1", {"--scale", "5,1", "LOW,HIGH"});
+  refuse("--color area --scale 5", {"--scale", "LOW,HIGH"});
+  for (const char* width : {"0", "101", "1.5"}) refuse(std::string("--edges ") + width, {"--edges"});
+  for (const char* interval : {"0", "inf", "near"}) {
+    refuse(std::string("--contours ") + interval, {"--contours", interval});
+  }
+  refuses(folder, "render --random 9 --size 9x9 --method exact --labels a.npy --color-bar", usage,
+          {"--color-bar", "-o"});
+}
+
+BOOST_AUTO_TEST_CASE(columns_that_are_not_there_are_refused) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,height\n1,2,3\n3,4,tall\n");
+  folder.file("p.npy", "");
+  folder.file("t.lammpstrj", dump(walled_box, "id x y c_pe", {"1 2 3 4"}));
+  const std::string square = " --size 10x10 --method exact -o a.png --color column:";
+  refuses(folder, "render --random 9" + square + "q", usage,
+          {"--color column:NAME", "--points", "--trajectory"});
+  refuses(folder, "render --points p.npy" + square + "q", usage, {"--color column:NAME", ".csv"});
+  refuses(folder, "render --points p.csv" + square + "depth", failure, {"p.csv:1", "depth", "x, y, height"});
+  refuses(folder, "render --points p.csv" + square + "height", failure, {"p.csv:3", "\"tall\""});
+  refuses(folder, "render --trajectory t.lammpstrj" + square + "vx", failure,
+          {"t.lammpstrj:9", "\"vx\"", "id, x, y, c_pe"});
+  refuses(folder, "simulate --trajectory t.lammpstrj --size 9x9 --method exact -o %d.png --color column:vx",
+          failure, {"t.lammpstrj:9", "\"vx\""});
+  folder.file("f.csv", "x,y,q\n1,2,3\n3,4,0.5\n");
+  refuses(folder, "render --points f.csv" + square + "q --palette okabe-ito", failure,
+          {"q", "0.5", "okabe-ito"});
+}
