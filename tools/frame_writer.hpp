@@ -11,6 +11,7 @@
 #include "label_image.hpp"
 #include "numbered_files.hpp"
 #include "picture_options.hpp"
+#include "vorocl/distance_errors.hpp"
 
 namespace vorocl::command {
 
@@ -31,7 +32,8 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options);
 class FrameWriter {
  public:
   /// Throws UsageError for names that cannot be meant, Error if no files can be made there.
-  explicit FrameWriter(const FrameWriterOptions& options);
+  /// `with_errors`: errors are written beside the similarities.
+  explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false);
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
@@ -42,7 +44,7 @@ class FrameWriter {
   /// `seeds` holds the points by label, `ids` what the files say for each label.
   void add(int frame, const LabelImage& image, const std::vector<Point>& seeds,
            const std::vector<std::uint32_t>& ids, Metric metric);
-  void add_similarity(int frame, double percent);
+  void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
 
   /// The frames whose images are written.
   int frames() const { return frames_; }
