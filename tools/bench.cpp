@@ -168,17 +168,8 @@ void run(const BenchOptions& options) {
 void add_methods_option(CLI::App& app, std::vector<Method>& methods) {
   Choices<Method> choices = method_choices();
   choices.emplace_back(opencv_method.name, opencv_method);
-  const auto add = [&methods, choices](const std::vector<std::string>& names) {
-    try {
-      for (const std::string& name : names) methods.push_back(choose(choices, name));
-    } catch (const Error& error) {
-      throw CLI::ValidationError("--methods", error.what());
-    }
-  };
-  app.add_option_function<std::vector<std::string>>("--methods", add, "Some of " + names_of(choices))
-      ->type_name("M,...")
-      ->delimiter(',')
-      ->required();
+  const auto parse = [choices](const std::string& name) { return choose(choices, name); };
+  add_list(app, "--methods", methods, parse, "Some of " + names_of(choices))->type_name("M,...")->required();
 }
 
 }  // namespace
