@@ -1,5 +1,5 @@
-# Tests of the library as others link it (from C, installed, shared, torn down in any order), its documentation and the
-# command's completion.
+# Tests of the library as others link it (from C, installed, shared, torn down in any order), its documentation, and the
+# command's completion and plots.
 enable_language(C)
 
 add_executable(test_c_api test_c_api.c)
@@ -65,3 +65,6 @@ add_test(NAME doxygen COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_docs.sh ${CMAKE_
 set_tests_properties(doxygen PROPERTIES SKIP_RETURN_CODE 77)
 
 add_test(NAME completion COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_completion.sh $<TARGET_FILE:vorocl_tool>)
+
+add_test(NAME plot_evaluation COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_plot_evaluation.sh $<TARGET_FILE:vorocl_tool>)
+set_tests_properties(plot_evaluation PROPERTIES SKIP_RETURN_CODE 77)

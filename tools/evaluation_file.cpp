@@ -154,15 +154,14 @@ using Rows = std::vector<std::pair<Configuration, std::vector<std::string>>>;
 
 Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) {
   const std::string header = header_of(origin);
-  const std::string& first = lines.whole.empty() ? lines.cut_off : lines.whole.front();
-  const std::string version = origin.front().first + ",";
-  if (first.compare(0, version.size(), version, 0, first.size()) != 0) {
-    throw Error(path + " is no evaluation; give another file");
-  }
+  const bool is_evaluation = lines.whole.empty()
+                                 ? header.rfind(lines.cut_off, 0) == 0
+                                 : lines.whole.front().rfind(origin.front().first + ",", 0) == 0;
+  if (!is_evaluation) throw Error(path + " is no evaluation; give another file");
   Rows rows;
   for (std::size_t i = 1; i < lines.whole.size(); ++i) {
     const std::string place = fmt::format("{}:{}", path, i + 1);
-    Values values = values_of(place, first, lines.whole[i]);
+    Values values = values_of(place, lines.whole.front(), lines.whole[i]);
     check_origin(path, values, origin);
     const Configuration configuration = configuration_of(place, values);
     auto found = std::find_if(rows.begin(), rows.end(),
@@ -170,7 +169,7 @@ Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) 
     if (found == rows.end()) found = rows.insert(rows.end(), {configuration, {}});
     found->second.push_back(lines.whole[i]);
   }
-  if (!lines.whole.empty() && first != header) {
+  if (!lines.whole.empty() && lines.whole.front() != header) {
     throw Error(path + " has other columns than evaluations of this version; give another file");
   }
   return rows;
@@ -205,8 +204,9 @@ void EvaluationFile::begin(const Origin& origin) {
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored)) {
     const Lines lines = lines_of(path_);
+    const Rows all_rows = rows_of(path_, lines, origin);
     if (!lines.cut_off.empty()) print_note(path_ + ": the last line was cut off and is dropped");
-    for (const auto& [configuration, rows] : rows_of(path_, lines, origin)) {
+    for (const auto& [configuration, rows] : all_rows) {
       if (rows.size() == 2 * evaluated_methods().size()) {
         complete_.insert(configuration);
         for (const std::string& row : rows) kept += row + "\n";
