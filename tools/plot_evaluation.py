@@ -115,11 +115,9 @@ def asked_for_counts(rows):
 
 
 def by_density(rows):
-    """Rows of nearly one density, each group with its label."""
-    return [
-        (f"{statistics.median(group):,.0f} pixels a seed", [row for row in rows if row["pixels_per_seed"] in group])
-        for group in densities_of(rows)
-    ]
+    """Rows of nearly one density, each group with its label: that of its largest grid, which is rounded least."""
+    groups = [[row for row in rows if row["pixels_per_seed"] in group] for group in densities_of(rows)]
+    return [(f"{max(group, key=lambda row: row['n'])['pixels_per_seed']:,.0f} pixels a seed", group) for group in groups]
 
 
 def by_count(rows):
@@ -196,16 +194,10 @@ def new_figure(rows, title, shape, size, widths=None):
     return figure, panels
 
 
-def legend(panel, handles=None):
-    if handles is None:
-        handles = panel.get_legend_handles_labels()
-    panel.legend(*handles, fontsize=8, framealpha=0.9)
-
-
-def legend_instead(panel, of_panel):
+def legend_instead(panel, handles_and_labels):
     """Fills an empty panel with the legend of another one."""
     panel.axis("off")
-    panel.legend(*of_panel.get_legend_handles_labels(), loc="center", fontsize=9, frameon=False)
+    panel.legend(*handles_and_labels, loc="center left", fontsize=9, frameon=False)
 
 
 def similarity_figure(rows, axis):
@@ -227,7 +219,7 @@ def similarity_figure(rows, axis):
         low, high = panel.get_ylim()
         if high - low < 1e-3:
             panel.set_ylim(high - 1e-3, high + 5e-5)
-    legend_instead(panels[0][2], panels[0][0])
+    legend_instead(panels[0][2], panels[0][0].get_legend_handles_labels())
     return figure
 
 
@@ -258,12 +250,12 @@ def times_figure(rows, axis):
     limits = [panel.get_ylim() for panel in panels[0][:3]]
     for panel in panels[0][:3]:
         panel.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
-    legend_instead(panels[0][3], panels[0][0])
+    legend_instead(panels[0][3], panels[0][0].get_legend_handles_labels())
     return figure
 
 
 def speedup_figure(rows, axis):
-    figure, panels = new_figure(rows, "Speedup, and the waves it comes from", (2, 2), (11, 8))
+    figure, panels = new_figure(rows, "Speedup, and the waves it comes from", (2, 3), (13.5, 8), [1, 1, 0.5])
     drawn = [
         (panels[0][0], "djfa", "euclidean", "speedup_over_jfa", r"$T_{JFA}\,/\,T_{dJFAe}$"),
         (panels[0][1], "djfa", "manhattan", "speedup_over_jfa", r"$T_{JFA}\,/\,T_{dJFAm}$"),
@@ -284,7 +276,7 @@ def speedup_figure(rows, axis):
     for panel in (panels[0][0], panels[0][1]):
         draw_staircase(rows, axis, panel, lambda n, count: jfa_waves(n) / count if count else 1)
     if axis.name != "n":
-        for panel in panels.flat:
+        for panel in panels[:, :2].flat:
             for density in steps_of_staircase(rows):
                 panel.axvline(density, color="#d55e00", linestyle=":", linewidth=1)
     handles = list(waves.get_legend_handles_labels())
@@ -293,7 +285,8 @@ def speedup_figure(rows, axis):
     if axis.name != "n" and steps_of_staircase(rows):
         handles[0].append(plt.Line2D([], [], color="#d55e00", linestyle=":", linewidth=1))
         handles[1].append("where a step must fall")
-    legend(panels[0][0], handles)
+    legend_instead(panels[0][2], handles)
+    panels[1][2].axis("off")
     return figure
 
 
@@ -331,7 +324,7 @@ def errors_figure(rows, axis):
             panel.set_ylabel(label)
             shown = [row[column] for method in ("jfa", "djfa") for row in of(rows, method, metric)]
             show_from_zero(panel, shown, on_log_scale=column != "largest_excess")
-    legend(panels[0][0])
+    panels[0][0].legend(fontsize=8, framealpha=0.9)
     return figure
 
 
