@@ -373,7 +373,9 @@ def figures(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", help="what vorocl evaluate -o has written (.csv)")
-    parser.add_argument("-o", "--output", metavar="FOLDER", help="where the .png and .pdf files go (default: beside the table)")
+    parser.add_argument(
+        "-o", "--output", metavar="FOLDER", help="where the .png and .pdf files go (default: beside the table)"
+    )
     arguments = parser.parse_args()
     folder = arguments.output or os.path.dirname(arguments.table) or "."
     try:
