@@ -19,7 +19,7 @@ struct EvaluationSettings {
   std::uint64_t rng_seed = 1;
   int step_length = 5;    ///< seeds move by up to this many pixels along x and y in a frame
   int frames = 100;       ///< over which similarities and errors are measured, after frame 0
-  int timed_frames = 20;  ///< over which a timed run adds up the diagrams' times, after frame 0
+  int timed_frames = 10;  ///< over which a timed run adds up the diagrams' times, after frame 0
   int repeats = 3;        ///< timed runs of each method
 };
 

@@ -308,7 +308,7 @@ def draw_staircase(rows, axis, panel, value):
 def errors_figure(rows, axis):
     figure, panels = new_figure(
         rows, f"Errors against the exact diagram, over {int(rows[0]['frames'])} frames: JFA (dashed) and dJFA (solid)",
-        (2, 3), (13, 7.5),
+        (2, 4), (14.5, 7.5), [1, 1, 1, 0.45],
     )
     drawn = [
         ("wrong_percent_mean", "wrong pixels (% of all)"),
@@ -324,7 +324,8 @@ def errors_figure(rows, axis):
             panel.set_ylabel(label)
             shown = [row[column] for method in ("jfa", "djfa") for row in of(rows, method, metric)]
             show_from_zero(panel, shown, on_log_scale=column != "largest_excess")
-    panels[0][0].legend(fontsize=8, framealpha=0.9)
+    legend_instead(panels[0][3], panels[0][0].get_legend_handles_labels())
+    panels[1][3].axis("off")
     return figure
 
 
