@@ -19,7 +19,7 @@ expect() {
 expect "render" re
 expect "devices" d
 expect "evaluate" ev
-expect "--seeds --sizes" evaluate --s
+expect "--seeds" evaluate --se
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis" render --metric manhattan --palette v
