@@ -47,6 +47,7 @@ inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> argum
   if (process != 0) return process;
   std::vector<char*> pointers;
   arguments.insert(arguments.begin(), VOROCL_COMMAND);
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);
