@@ -1,5 +1,5 @@
 # Tests of the library as others link it (from C, installed, shared, torn down in any order), its documentation, and the
-# command's completion and manual page.
+# command's completion, manual page and plots.
 enable_language(C)
 
 add_executable(test_c_api test_c_api.c)
@@ -67,3 +67,6 @@ set_tests_properties(doxygen PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME completion COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_completion.sh $<TARGET_FILE:vorocl_tool>)
 add_test(NAME manual_page COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_man.sh $<TARGET_FILE:vorocl_tool>
                                   ${PROJECT_SOURCE_DIR}/docs/vorocl.1)
+
+add_test(NAME plot_evaluation COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_plot_evaluation.sh $<TARGET_FILE:vorocl_tool>)
+set_tests_properties(plot_evaluation PROPERTIES SKIP_RETURN_CODE 77)

@@ -1,11 +1,14 @@
 // Runs the vorocl command as its users do, and checks how it ends.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "fixture.hpp"
 #include "temporary_folder.hpp"
@@ -36,6 +39,22 @@ inline std::string succeeds(const TemporaryFolder& folder, const std::string& ar
   BOOST_TEST(result.exit_code == 0, arguments << "\n" << result.error);
   BOOST_TEST(result.error == "", arguments);
   return result.out;
+}
+
+/// Starts the command in the folder, with both streams in its file "streams"; returns its process.
+inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  const pid_t process = fork();
+  if (process != 0) return process;
+  std::vector<char*> pointers;
+  arguments.insert(arguments.begin(), VOROCL_COMMAND);
+  pointers.reserve(arguments.size() + 1);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);
+  dup2(streams, STDOUT_FILENO);
+  dup2(streams, STDERR_FILENO);
+  if (chdir((folder / "").c_str()) == 0) execv(VOROCL_COMMAND, pointers.data());
+  _exit(99);
 }
 
 /// Runs, and checks the exit code, that standard error holds one line with all of the parts, that standard

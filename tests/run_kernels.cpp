@@ -19,6 +19,7 @@ void run_all(const Device& device, const Grid& grid, Metric metric) {
   for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
     exact_diagram_with_lists(seeds, diagram, {metric}, length);
   }
+  distance_errors(seeds, other, diagram, metric);
   Seeds::random(device, grid, 5, 1).read();
   const std::vector<cl_float2> points = {{{1, 2}}, {{2, 4}}};
   const cl::Buffer buffer(device.queue(), points.begin(), points.end(), true);

@@ -1,5 +1,7 @@
 // The vorocl command, run as its users run it: what it prints and writes.
 #define BOOST_TEST_MODULE command
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -28,7 +30,7 @@ std::vector<Pixel> pixels_of(const Seeds& seeds) {
 
 BOOST_AUTO_TEST_CASE(every_level_has_help) {
   const TemporaryFolder folder;
-  for (const char* subcommand : {"devices", "render", "simulate", "compare", "bench"}) {
+  for (const char* subcommand : {"devices", "render", "simulate", "compare", "bench", "evaluate"}) {
     BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
     BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
   }
@@ -126,7 +128,37 @@ BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
   BOOST_TEST(succeeds(folder, "compare a.npy a.npy").find("100.0") != std::string::npos);
   refuses(folder, "compare a.npy c.npy", failure, {"4 x 2", "2 x 4"});
   refuses(folder, "compare a.npy missing.npy", failure, {"missing.npy", "No such file"});
-  refuses(folder, "compare a.npy", usage, {"b is required"});
+  refuses(folder, "compare a.npy", usage, {"another label file"});
+  refuses(folder, "compare a.npy b.tif --random 3", usage, {"another label file"});
+}
+
+BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {
+  const TemporaryFolder folder;
+  const Grid grid(70, 50);
+  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 90, 4));
+  for (const Metric metric : both_metrics) {
+    const std::string arguments =
+        fmt::format("--random 90 --rng-seed 4 --size 70x50 --metric {} ", name_of(metric));
+    succeeds(folder, "render --method jfa --neighbourhood von-neumann --labels a.npy " + arguments);
+    const auto labels = labels_of(folder, "a.npy"), exact = brute_force(grid, seeds, metric);
+    const json result = json::parse(succeeds(folder, "compare a.npy --json " + arguments));
+    BOOST_TEST(result.at("similarity") == similarity(labels, exact));
+    BOOST_TEST(result.at("errors").at("wrong_pixels") == judge(grid, seeds, metric, labels, exact).wrong);
+    BOOST_TEST(result.at("errors").at("unlabelled_pixels") == 0);
+    succeeds(folder, "render --method exact --labels e.tif " + arguments);
+    const std::string out = succeeds(folder, "compare e.tif " + arguments);
+    BOOST_TEST(out.find("similarity 100.000000 %") != std::string::npos, out);
+    BOOST_TEST(out.find("0 pixels are wrong") != std::string::npos, out);
+  }
+  refuses(folder, "compare a.npy --random 9 --size 50x70", failure, {"70 x 50", "50 x 70"});
+  refuses(folder, "compare a.npy --random 9 --points p.csv", usage, {});
+
+  // Labels of a trajectory carry the particles' ids.
+  const std::string trajectory = "--trajectory '" VOROCL_SAMPLES "/lj-clusters.lammpstrj' --frame 3 ";
+  succeeds(folder, "render --width 160 --method exact --labels t.npy " + trajectory);
+  const json result = json::parse(succeeds(folder, "compare t.npy --width 160 --json " + trajectory));
+  BOOST_TEST(result.at("similarity") == 100);
+  BOOST_TEST(result.at("errors").at("wrong_pixels") == 0);
 }
 
 BOOST_AUTO_TEST_CASE(bench_judges_every_method) {

@@ -18,6 +18,8 @@ expect() {
 
 expect "render" re
 expect "devices" d
+expect "evaluate" ev
+expect "--seeds" evaluate --se
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis" render --metric manhattan --palette v

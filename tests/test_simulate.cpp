@@ -110,6 +110,56 @@ BOOST_AUTO_TEST_CASE(similarities_are_those_of_the_label_files) {
   BOOST_TEST(result.at("similarity").at("least") == least);
 }
 
+BOOST_AUTO_TEST_CASE(errors_are_told_where_the_other_method_is_the_truth) {
+  const TemporaryFolder folder;
+  const Grid grid(120, 90);
+  const std::string arguments =
+      "simulate --random 300 --size 120x90 --frames 6 --step-length 5 --method djfa --neighbourhood "
+      "von-neumann "
+      "--compare-with exact --similarity s.csv --labels l%d.npy ";
+  const json errors = json::parse(succeeds(folder, arguments + "--json")).at("errors");
+  std::istringstream text(content_of(folder / "s.csv"));
+  std::string line;
+  std::getline(text, line);
+  BOOST_TEST(line == "frame,similarity,wrong_percent,largest_excess,mean_excess");
+
+  Seeds seeds = Seeds::random(test_device(), grid, 300, 1);
+  double wrong_sum = 0, wrong_greatest = 0, largest = 0, mean_sum = 0;
+  for (int frame = 1; frame <= 6; ++frame) {
+    random_step(seeds, 5, Border::reflect, 1, static_cast<std::uint32_t>(frame));
+    const std::vector<Pixel> pixels = pixels_of(seeds);
+    const Verdict verdict =
+        judge(grid, pixels, Metric::euclidean, labels_of(folder / fmt::format("l{}.npy", frame)),
+              brute_force(grid, pixels, Metric::euclidean));
+    const double wrong = 100.0 * static_cast<double>(verdict.wrong) / static_cast<double>(grid.pixels());
+    double row[5] = {};
+    std::getline(text, line);
+    BOOST_TEST_REQUIRE(
+        std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", row, row + 1, row + 2, row + 3, row + 4) == 5);
+    BOOST_TEST(row[0] == frame);
+    BOOST_TEST(row[2] == wrong, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(row[2] <= 100 - row[1] + 1e-9);  // a wrong pixel has another label
+    BOOST_TEST((row[2] > 0 && row[3] > 0 && row[4] > 0 && row[4] < row[3]));
+    wrong_sum += wrong;
+    wrong_greatest = std::max(wrong_greatest, wrong);
+    largest = std::max(largest, row[3]);
+    mean_sum += row[4];
+  }
+  const auto close = boost::test_tools::tolerance(1e-12);
+  BOOST_TEST(errors.at("wrong_percent_mean").get<double>() == wrong_sum / 6, close);
+  BOOST_TEST(errors.at("wrong_percent_greatest").get<double>() == wrong_greatest, close);
+  BOOST_TEST(errors.at("largest_excess").get<double>() == largest, close);
+  BOOST_TEST(errors.at("mean_excess").get<double>() == mean_sum / 6, close);
+  BOOST_TEST(succeeds(folder, arguments).find("wrong pixels: mean") != std::string::npos);
+  for (const char* other : {"--compare-with jfa", "--compare-with exact --compare-metric manhattan"}) {
+    const std::string out = succeeds(
+        folder,
+        std::string("simulate --random 9 --size 20x20 --frames 2 --step-length 1 --method djfa --json ") +
+            other);
+    BOOST_TEST(!json::parse(out).contains("errors"));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(the_exact_method_is_the_truth) {
   const TemporaryFolder folder;
   const Grid grid(70, 50);

@@ -13,6 +13,7 @@
 #include "input.hpp"
 #include "methods.hpp"
 #include "opencv_peer.hpp"
+#include "samples.hpp"
 #include "trajectory_seeds.hpp"
 #include "truth.hpp"
 #include "vorocl/jump_flooding.hpp"
@@ -44,16 +45,8 @@ struct Contender {
   std::function<void()> prepare;
   std::function<void()> run;
   std::function<std::vector<std::uint32_t>()> labels;
-  std::vector<double> milliseconds;
+  Samples milliseconds;
   std::size_t wrong_pixels = 0;
-
-  double least() const { return *std::min_element(milliseconds.begin(), milliseconds.end()); }
-  double median() const {
-    std::vector<double> sorted = milliseconds;
-    std::sort(sorted.begin(), sorted.end());
-    const std::size_t half = sorted.size() / 2;
-    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
-  }
 };
 
 /// From seeds on the device to labels on the device, finished. All methods share the diagram and its buffers.
@@ -116,7 +109,7 @@ void race(std::vector<Contender>& contenders, int repeat, const Truth& truth) {
     contender.wrong_pixels = truth.wrong_pixels(contender.labels());
   }
   for (int round = 0; round < repeat; ++round) {
-    for (Contender& contender : contenders) contender.milliseconds.push_back(milliseconds_of(contender));
+    for (Contender& contender : contenders) contender.milliseconds.add(milliseconds_of(contender));
   }
 }
 
@@ -124,8 +117,8 @@ void print_json(const BenchOptions& options, const Seeds& seeds, const std::vect
   auto results = nlohmann::ordered_json::array();
   for (const Contender& contender : contenders) {
     results.push_back({{"method", contender.name},
-                       {"median_ms", contender.median()},
-                       {"min_ms", contender.least()},
+                       {"median_ms", contender.milliseconds.median()},
+                       {"min_ms", contender.milliseconds.least()},
                        {"wrong_pixels", contender.wrong_pixels}});
   }
   const nlohmann::ordered_json result = {{"metric", to_string(options.method_options.metric)},
@@ -143,9 +136,11 @@ void print_table(const BenchOptions& options, const Seeds& seeds, const std::vec
              seeds.grid().height(), to_string(options.method_options.metric), options.repeat,
              seeds.device().name());
   fmt::print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
+  const double first_median = contenders.front().milliseconds.median();
   for (const Contender& contender : contenders) {
-    fmt::print("{:<20}{:>12.3f}{:>12.3f}{:>10.3f}{:>16}\n", contender.name, contender.median(),
-               contender.least(), contender.median() / contenders.front().median(), contender.wrong_pixels);
+    const double median = contender.milliseconds.median();
+    fmt::print("{:<20}{:>12.3f}{:>12.3f}{:>10.3f}{:>16}\n", contender.name, median,
+               contender.milliseconds.least(), median / first_median, contender.wrong_pixels);
   }
 }
 
@@ -173,17 +168,8 @@ void run(const BenchOptions& options) {
 void add_methods_option(CLI::App& app, std::vector<Method>& methods) {
   Choices<Method> choices = method_choices();
   choices.emplace_back(opencv_method.name, opencv_method);
-  const auto add = [&methods, choices](const std::vector<std::string>& names) {
-    try {
-      for (const std::string& name : names) methods.push_back(choose(choices, name));
-    } catch (const Error& error) {
-      throw CLI::ValidationError("--methods", error.what());
-    }
-  };
-  app.add_option_function<std::vector<std::string>>("--methods", add, "Some of " + names_of(choices))
-      ->type_name("M,...")
-      ->delimiter(',')
-      ->required();
+  const auto parse = [choices](const std::string& name) { return choose(choices, name); };
+  add_list(app, "--methods", methods, parse, "Some of " + names_of(choices))->type_name("M,...")->required();
 }
 
 }  // namespace

@@ -11,5 +11,6 @@ void add_render(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_bench(CLI::App& app);
+void add_evaluate(CLI::App& app);
 
 }  // namespace vorocl::command

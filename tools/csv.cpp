@@ -13,7 +13,7 @@ namespace vorocl::command {
 
 namespace {
 
-using Fields = std::vector<std::string>;
+using Fields = CsvFields;
 
 struct Indices {
   std::size_t x = 0;
@@ -35,26 +35,6 @@ struct Line {
     return Error(path + ":" + std::to_string(number) + ": " + what + ": " + shown);
   }
 };
-
-Fields split(const Line& line) {
-  const std::string& text = line.text;
-  Fields fields(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '"' && quoted && i + 1 < text.size() && text[i + 1] == '"') {
-      fields.back() += text[++i];
-    } else if (text[i] == '"') {
-      quoted = !quoted;
-    } else if (text[i] == ',' && !quoted) {
-      fields.emplace_back();
-    } else {
-      fields.back() += text[i];
-    }
-  }
-  if (quoted) throw line.error("a quote is not closed");
-  for (std::string& field : fields) field = std::string(trimmed(field));
-  return fields;
-}
 
 bool is_header(const Fields& fields) {
   return std::none_of(fields.begin(), fields.end(),
@@ -130,6 +110,40 @@ void strip_byte_order_mark(std::string& line) {
 
 }  // namespace
 
+std::optional<CsvFields> csv_fields(const std::string& line) {
+  CsvFields fields(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
+      fields.back() += line[++i];
+    } else if (line[i] == '"') {
+      quoted = !quoted;
+    } else if (line[i] == ',' && !quoted) {
+      fields.emplace_back();
+    } else {
+      fields.back() += line[i];
+    }
+  }
+  if (quoted) return std::nullopt;
+  for (std::string& field : fields) field = std::string(trimmed(field));
+  return fields;
+}
+
+std::string to_csv(const CsvFields& fields) {
+  std::string line;
+  for (const std::string& field : fields) {
+    if (&field != &fields.front()) line += ',';
+    if (field.find_first_of(",\"") == std::string::npos) {
+      line += field;
+      continue;
+    }
+    line += '"';
+    for (const char c : field) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+    line += '"';
+  }
+  return line;
+}
+
 Columns parse_columns(const std::string& text) {
   const auto comma = text.find(',');
   if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
@@ -152,7 +166,9 @@ CsvPoints read_csv(const std::string& path, const std::optional<Columns>& column
     if (++line.number == 1) strip_byte_order_mark(line.text);
     line.text = std::string(trimmed(line.text));
     if (line.text.empty()) continue;
-    line.fields = split(line);
+    const auto fields = csv_fields(line.text);
+    if (!fields) throw line.error("a quote is not closed");
+    line.fields = *fields;
     if (!indices) {
       const bool has_header = is_header(line.fields);
       indices = locate(columns, value_column, line, has_header);

@@ -1,4 +1,4 @@
-// Points from CSV files, and values that go with them.
+// CSV files: their lines, points from them, and values that go with those.
 #pragma once
 
 #include <optional>
@@ -8,6 +8,15 @@
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
+
+using CsvFields = std::vector<std::string>;
+
+/// The fields of a line, without the blanks around them; fields may be quoted ("a ""b"", c"). None if a quote
+/// is not closed.
+std::optional<CsvFields> csv_fields(const std::string& line);
+
+/// The line, without its end, of these fields; those that need it are quoted.
+std::string to_csv(const CsvFields& fields);
 
 /// The two columns that hold the points: names from the header, or indices from 0.
 struct Columns {

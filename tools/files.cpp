@@ -18,6 +18,13 @@ namespace fs = std::filesystem;
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
+std::ofstream open(const std::string& path, std::ios::openmode mode) {
+  errno = 0;
+  std::ofstream stream(path, std::ios::binary | mode);
+  if (!stream) throw Error("cannot write " + path + ": " + reason(errno));
+  return stream;
+}
+
 /// Removes a file at the end of a scope, if it is still there.
 struct Remover {
   const std::string& path;
@@ -88,12 +95,9 @@ void OutputFile::discard() const {
   fs::remove(temporary_path_, ignored);
 }
 
-std::ofstream open_to_write(const std::string& path) {
-  errno = 0;
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) throw Error("cannot write " + path + ": " + reason(errno));
-  return stream;
-}
+std::ofstream open_to_write(const std::string& path) { return open(path, std::ios::trunc); }
+
+std::ofstream open_to_append(const std::string& path) { return open(path, std::ios::app); }
 
 void check_written(std::ofstream& stream, const std::string& path) {
   errno = 0;

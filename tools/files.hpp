@@ -41,8 +41,10 @@ class OutputFile {
   std::string temporary_path_;
 };
 
-/// A stream to a file that throws Error when it cannot be opened, and check_written() where writing failed.
+/// A stream to a file, new or to go on with, that throws Error when it cannot be opened, and check_written()
+/// where writing failed.
 std::ofstream open_to_write(const std::string& path);
+std::ofstream open_to_append(const std::string& path);
 void check_written(std::ofstream& stream, const std::string& path);
 
 }  // namespace vorocl::command

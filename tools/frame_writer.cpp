@@ -25,8 +25,10 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options) {
   picture->type_name("FILM|PICTURES");
   app.add_option("--labels", options.labels_path, "Labels to write of each frame, such as frames/%05d.npy")
       ->type_name("FILES");
-  app.add_option("--similarity", options.similarity_path,
-                 "Similarities to write, frame by frame: a .csv file with the columns frame and similarity")
+  app.add_option(
+         "--similarity", options.similarity_path,
+         "Similarities to write, frame by frame: a .csv file with the columns frame and similarity and, "
+         "with --compare-with exact in the same metric, wrong_percent, largest_excess and mean_excess")
       ->type_name("FILE")
       ->needs("--compare-with");
   app.add_option("--every", options.every, "Write pictures and labels of frames 0, K, 2 K, ... alone")
@@ -41,7 +43,7 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options) {
   add_picture_options(app, options.picture, picture);
 }
 
-FrameWriter::FrameWriter(const FrameWriterOptions& options, Metric metric)
+FrameWriter::FrameWriter(const FrameWriterOptions& options, Metric metric, bool with_errors)
     : options_(options), painter_(options.picture, metric, true) {
   check_picture_options(options.picture);
   if (!options.picture_path.empty()) check_picture_path(options.picture_path);
@@ -57,7 +59,8 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options, Metric metric)
   if (!options.similarity_path.empty()) {
     similarity_file_.emplace(options.similarity_path);
     similarities_ = open_to_write(similarity_file_->temporary_path());
-    similarities_ << "frame,similarity\n";
+    similarities_ << "frame,similarity" << (with_errors ? ",wrong_percent,largest_excess,mean_excess" : "")
+                  << '\n';
   }
 }
 
@@ -80,8 +83,14 @@ void FrameWriter::add(int frame, const Scene& scene) {
   ++frames_;
 }
 
-void FrameWriter::add_similarity(int frame, double percent) {
-  if (similarity_file_) similarities_ << fmt::format("{},{}\n", frame, percent);
+void FrameWriter::add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors) {
+  if (!similarity_file_) return;
+  similarities_ << fmt::format("{},{}", frame, percent);
+  if (errors) {
+    similarities_ << fmt::format(",{},{},{}", errors->wrong_percent(), errors->largest_excess,
+                                 errors->mean_excess);
+  }
+  similarities_ << '\n';
 }
 
 void FrameWriter::finish() {

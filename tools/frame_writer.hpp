@@ -10,6 +10,7 @@
 #include "film.hpp"
 #include "numbered_files.hpp"
 #include "painter.hpp"
+#include "vorocl/distance_errors.hpp"
 
 namespace vorocl::command {
 
@@ -30,7 +31,8 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options);
 class FrameWriter {
  public:
   /// Throws UsageError for names that cannot be meant, Error if no files can be made there.
-  FrameWriter(const FrameWriterOptions& options, Metric metric);
+  /// `with_errors`: errors are written beside the similarities.
+  FrameWriter(const FrameWriterOptions& options, Metric metric, bool with_errors = false);
   ~FrameWriter();
   FrameWriter(const FrameWriter&) = delete;
   FrameWriter& operator=(const FrameWriter&) = delete;
@@ -39,7 +41,7 @@ class FrameWriter {
   bool wants(int frame) const;
 
   void add(int frame, const Scene& scene);
-  void add_similarity(int frame, double percent);
+  void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
 
   /// The frames whose images are written.
   int frames() const { return frames_; }

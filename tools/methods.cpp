@@ -46,9 +46,15 @@ const std::vector<Method>& methods() {
       {"jfa+2", false, run_jump_flooding<JumpFloodingVariant::jfa_plus_2>},
       {"1+jfa", false, run_jump_flooding<JumpFloodingVariant::one_plus_jfa>},
       {"djfa", true, run_dynamic_jump_flooding},
-      {"exact", false, run_exact},
+      {"exact", false, run_exact, true},
   };
   return all;
+}
+
+Simulation::Engine engine(const Method& method, const MethodOptions& options) {
+  return [run = method.run, options](const Seeds& seeds, Diagram& diagram, double d_max) {
+    return run(seeds, diagram, d_max, options);
+  };
 }
 
 Choices<Method> method_choices() {

@@ -11,6 +11,7 @@
 #include "vorocl/plan.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
+#include "vorocl/simulation.hpp"
 
 namespace vorocl::command {
 
@@ -31,7 +32,11 @@ struct Method {
   bool dynamic = false;  ///< whether it goes on from the labels that the diagram holds
   /// d_max is the longest motion of a seed along an axis since the diagram was last filled, in pixels.
   std::function<Report(const Seeds&, Diagram&, double d_max, const MethodOptions&)> run;
+  bool exact = false;  ///< whether its diagrams are the truth that others are judged by
 };
+
+/// The method with its options as an engine of a simulation.
+Simulation::Engine engine(const Method& method, const MethodOptions& options);
 
 const std::vector<Method>& methods();
 

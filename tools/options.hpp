@@ -25,6 +25,20 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& name, T& value, Parse 
   return app.add_option_function<std::string>(name, set, description);
 }
 
+/// An option with a list of texts, each of which `parse` turns into a value.
+template <typename T, typename Parse>
+CLI::Option* add_list(CLI::App& app, const std::string& name, std::vector<T>& values, Parse parse,
+                      const std::string& description) {
+  const auto set = [&values, parse, name](const std::vector<std::string>& texts) {
+    try {
+      for (const std::string& text : texts) values.push_back(parse(text));
+    } catch (const Error& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  return app.add_option_function<std::vector<std::string>>(name, set, description)->delimiter(',');
+}
+
 /// The names that a word on the command line may have, with what they stand for.
 template <typename T>
 using Choices = std::vector<std::pair<std::string, T>>;

@@ -38,8 +38,13 @@ std::string progress_line(int frames, std::optional<double> done, double seconds
 
 Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
 
-Progress::~Progress() {
-  if (on_terminal_) std::fputs(erase_line, stderr);
+Progress::~Progress() { erase(); }
+
+void Progress::erase() {
+  if (!on_terminal_) return;
+  std::fputs(erase_line, stderr);
+  std::fflush(stderr);
+  shown_ = {};
 }
 
 void Progress::show(int frames, std::optional<double> done) {

@@ -19,6 +19,9 @@ class Progress {
   /// nothing if the line has just been drawn.
   void show(int frames, std::optional<double> done);
 
+  /// Erases the line until it is next shown, so that something else can be printed.
+  void erase();
+
  private:
   using Clock = std::chrono::steady_clock;
 

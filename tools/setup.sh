@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs what VoroCL needs on Debian or Ubuntu: the OpenCL loader, PoCL, OpenCV, Boost.Test and the command's
-# libraries. Does nothing where all is there.
+# Installs what VoroCL needs on Debian or Ubuntu: the OpenCL loader, PoCL, OpenCV, Boost.Test, the command's libraries
+# and Matplotlib for its plots. Does nothing where all is there.
 set -euo pipefail
 
 packages=(
@@ -9,6 +9,7 @@ packages=(
   libopencv-dev libtiff-dev
   libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
   libboost-test-dev
+  python3-matplotlib
 )
 
 missing=()

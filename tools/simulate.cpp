@@ -1,14 +1,13 @@
 // vorocl simulate: the diagrams of moving seeds, frame by frame, as a film, pictures, labels or times alone.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "commands.hpp"
+#include "error_samples.hpp"
 #include "finish_at_end.hpp"
 #include "frame_writer.hpp"
 #include "interruption.hpp"
@@ -39,38 +38,18 @@ struct SimulateOptions {
   bool json = false;
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
-};
-
-/// Over the frames after frame 0, where all methods start from nothing.
-class SimilarityCount {
- public:
-  void add(double percent) {
-    sum_ += percent;
-    least_ = std::min(least_, percent);
-    ++frames_;
+  bool other_is_truth() const {
+    return compare_with && compare_with->exact && other_metric() == method_options.metric;
   }
-  bool empty() const { return frames_ == 0; }
-  double mean() const { return sum_ / frames_; }
-  double least() const { return least_; }
-
- private:
-  double sum_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();
-  int frames_ = 0;
 };
 
 /// How far a run has come.
 struct Course {
-  int frames = 0;  // that are complete, with all that is written of them
-  SimilarityCount similarities;
-  std::string trouble;  // what ended it too early; empty: nothing
+  int frames = 0;        // that are complete, with all that is written of them
+  Samples similarities;  // of the frames after frame 0, where all methods start from nothing
+  ErrorSamples errors;   // the same, where the other method is the truth
+  std::string trouble;   // what ended it too early; empty: nothing
 };
-
-Simulation::Engine engine(const Method& method, const MethodOptions& options) {
-  return [&method, options](const Seeds& seeds, Diagram& diagram, double d_max) {
-    return method.run(seeds, diagram, d_max, options);
-  };
-}
 
 /// The other method is the reference: it runs with its own waves, whatever those of the first are.
 std::vector<Simulation::Engine> make_engines(const SimulateOptions& options) {
@@ -102,15 +81,25 @@ Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& so
   return simulation;
 }
 
+void compare(const SimulateOptions& options, const Simulation& simulation, Course& course,
+             FrameWriter& writer) {
+  const Diagram& diagram = simulation.diagram(main_engine);
+  const Diagram& other = simulation.diagram(other_engine);
+  const double percent = similarity(diagram, other);
+  std::optional<DistanceErrors> errors;
+  if (options.other_is_truth()) {
+    errors = distance_errors(simulation.seeds(), diagram, other, options.method_options.metric);
+    course.errors.add(*errors);
+  }
+  course.similarities.add(percent);
+  writer.add_similarity(simulation.frame(), percent, errors);
+}
+
 void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                 Course& course, FrameWriter& writer) {
   simulation.step();
   const int frame = simulation.frame();
-  if (options.compare_with && frame > 0) {
-    const double percent = similarity(simulation.diagram(main_engine), simulation.diagram(other_engine));
-    course.similarities.add(percent);
-    writer.add_similarity(frame, percent);
-  }
+  if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
   if (writer.wants(frame)) {
     LabelImage image{source.grid(), simulation.diagram().read()};
     LabelImage named = with_ids(image, source.ids());
@@ -154,7 +143,12 @@ nlohmann::ordered_json times(const std::string& method, Metric metric, Simulatio
           {"host_milliseconds", simulation.host_milliseconds(engine)}};
 }
 
-void print_json(const SimulateOptions& options, Simulation& simulation, const SimilarityCount& similarities) {
+/// A value of the frames after frame 0: null if there are none.
+nlohmann::ordered_json value(const Samples& samples, double (Samples::*of)() const) {
+  return samples.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json((samples.*of)());
+}
+
+void print_json(const SimulateOptions& options, Simulation& simulation, const Course& course) {
   const Seeds& seeds = simulation.seeds();
   nlohmann::ordered_json result = {
       {"method", options.method.name},   {"metric", to_string(options.method_options.metric)},
@@ -163,9 +157,14 @@ void print_json(const SimulateOptions& options, Simulation& simulation, const Si
       {"frames", simulation.frame()}};
   result.update(times(options.method.name, options.method_options.metric, simulation, main_engine));
   if (options.compare_with) {
-    result["similarity"] = {{"mean", nullptr}, {"least", nullptr}};
-    if (!similarities.empty()) {
-      result["similarity"] = {{"mean", similarities.mean()}, {"least", similarities.least()}};
+    result["similarity"] = {{"mean", value(course.similarities, &Samples::mean)},
+                            {"least", value(course.similarities, &Samples::least)}};
+    if (options.other_is_truth()) {
+      const ErrorSamples& errors = course.errors;
+      result["errors"] = {{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
+                          {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
+                          {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
+                          {"mean_excess", value(errors.mean_excess, &Samples::mean)}};
     }
     result["compare_with"] =
         times(options.compare_with->name, options.other_metric(), simulation, other_engine);
@@ -179,14 +178,21 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
              frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
 }
 
-void print_text(const SimulateOptions& options, Simulation& simulation, const SimilarityCount& similarities) {
+void print_text(const SimulateOptions& options, Simulation& simulation, const Course& course) {
   const Seeds& seeds = simulation.seeds();
   fmt::print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(),
              seeds.alive(), seeds.grid().width(), seeds.grid().height(), seeds.device().name());
   print_times(options.method.name, simulation, main_engine);
   if (options.compare_with) print_times(options.compare_with->name, simulation, other_engine);
-  if (!similarities.empty()) {
+  if (const Samples& similarities = course.similarities; !similarities.empty()) {
     fmt::print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
+  }
+  if (const ErrorSamples& errors = course.errors; !errors.wrong_percent.empty()) {
+    fmt::print(
+        "wrong pixels: mean {:.4f} %, greatest {:.4f} %; excess distance: mean {:.3g} pixels, largest "
+        "{:.3f}\n",
+        errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),
+        errors.largest_excess.greatest());
   }
   for (const std::string& path :
        {options.output.labels_path, options.output.similarity_path, options.output.picture_path}) {
@@ -195,7 +201,7 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Si
 }
 
 void run(const SimulateOptions& options) {
-  FrameWriter writer(options.output, options.method_options.metric);
+  FrameWriter writer(options.output, options.method_options.metric, options.other_is_truth());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
@@ -206,8 +212,7 @@ void run(const SimulateOptions& options) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
                             course.frames, writer.frames()));
   }
-  options.json ? print_json(options, simulation, course.similarities)
-               : print_text(options, simulation, course.similarities);
+  options.json ? print_json(options, simulation, course) : print_text(options, simulation, course);
 }
 
 }  // namespace

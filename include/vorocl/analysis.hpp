@@ -3,4 +3,5 @@
 
 #include "vorocl/adjacency.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/distance_errors.hpp"
 #include "vorocl/fields.hpp"

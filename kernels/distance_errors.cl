@@ -1,0 +1,53 @@
+// Errors of labels: how much farther a pixel's seed is than the nearest one.
+
+#include "position.cl"
+
+#define NO_DISTANCE 0x7fffffffu
+
+// The distance between two packed positions, as distance_between() has it for runs; NO_DISTANCE without a seed.
+inline uint distance_to(uint position, int x, int y) {
+  const int dx = packed_x(position) - x, dy = packed_y(position) - y;
+  if (position & EMPTY_BIT) return NO_DISTANCE;
+#ifdef VOROCL_EUCLIDEAN
+  return (uint)(dx * dx + dy * dy);
+#else
+  return abs(dx) + abs(dy);
+#endif
+}
+
+// By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
+inline float excess(uint distance, uint least) {
+#ifdef VOROCL_EUCLIDEAN
+  return (float)(distance - least) / (sqrt((float)distance) + sqrt((float)least));
+#else
+  return (float)(distance - least);
+#endif
+}
+
+// Each work-item judges a stretch of pixels: how many are wrong, and how many of those have no seed; the sum and the
+// greatest of the others' excess distances. Where labels are equal, nothing is looked up.
+kernel void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
+                         global const uint* restrict positions, uint count, uint pixels, int width, uint stretch,
+                         global uint2* restrict wrong, global float2* restrict excesses) {
+  const uint item = (uint)get_global_id(0);
+  if (item >= (pixels + stretch - 1) / stretch) return;
+  const uint end = min((item + 1) * stretch, pixels);
+  uint2 found = (uint2)0;
+  float2 sum_and_greatest = (float2)0;
+  for (uint run = item * stretch; run < end; run += VOROCL_WIDTH) {
+    const uint run_end = min(run + VOROCL_WIDTH, end);
+    if (run_end == run + VOROCL_WIDTH && !ANY(LOAD_RUN(labels + run) != LOAD_RUN(exact + run))) continue;
+    for (uint i = run; i < run_end; ++i) {
+      const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
+      const uint distance = distance_to(positions[min(labels[i], count)], x, y);
+      const uint least = distance_to(positions[min(exact[i], count)], x, y);
+      if (distance <= least) continue;
+      found += (uint2)(1, distance == NO_DISTANCE);
+      if (distance == NO_DISTANCE) continue;
+      const float by = excess(distance, least);
+      sum_and_greatest = (float2)(sum_and_greatest.s0 + by, fmax(sum_and_greatest.s1, by));
+    }
+  }
+  wrong[item] = found;
+  excesses[item] = sum_and_greatest;
+}

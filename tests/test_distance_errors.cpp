@@ -1,0 +1,122 @@
+// Errors of diagrams against straight host code.
+#define BOOST_TEST_MODULE distance_errors
+#include <cmath>
+
+#include "measured_cases.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+DistanceErrors on_the_host(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric,
+                           const std::vector<std::uint32_t>& labels,
+                           const std::vector<std::uint32_t>& exact) {
+  const auto in_pixels = [&](std::int64_t d) {
+    return metric == Metric::euclidean ? std::sqrt(static_cast<double>(d)) : static_cast<double>(d);
+  };
+  DistanceErrors errors;
+  errors.pixels = grid.pixels();
+  std::size_t i = 0;
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x, ++i) {
+      if (exact[i] == no_label) continue;
+      const std::int64_t least = distance({x, y}, seeds.at(exact[i]), metric);
+      if (labels[i] >= seeds.size()) {
+        ++errors.wrong_pixels;
+        ++errors.unlabelled_pixels;
+      } else if (const std::int64_t d = distance({x, y}, seeds[labels[i]], metric); d > least) {
+        ++errors.wrong_pixels;
+        const double excess = in_pixels(d) - in_pixels(least);
+        errors.largest_excess = std::max(errors.largest_excess, excess);
+        errors.mean_excess += excess / static_cast<double>(errors.pixels);
+      }
+    }
+  }
+  return errors;
+}
+
+void check(const std::string& name, const Device& device, const Case& example, Metric metric,
+           const std::vector<std::uint32_t>& labels) {
+  const Seeds seeds(device, example.grid, centres(example.seeds));
+  Diagram exact(device, example.grid), diagram(device, example.grid);
+  const std::vector<std::uint32_t> truth = brute_force(example.grid, example.seeds, metric);
+  write_labels(exact, truth);
+  write_labels(diagram, labels);
+  const DistanceErrors found = distance_errors(seeds, diagram, exact, metric);
+  const DistanceErrors expected = on_the_host(example.grid, example.seeds, metric, labels, truth);
+  BOOST_TEST_CONTEXT(example.name << ", " << name << ", " << name_of(metric)) {
+    BOOST_TEST(found.pixels == example.grid.pixels());
+    BOOST_TEST(found.wrong_pixels == expected.wrong_pixels);
+    BOOST_TEST(found.unlabelled_pixels == expected.unlabelled_pixels);
+    BOOST_TEST(found.largest_excess == expected.largest_excess, boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(found.mean_excess == expected.mean_excess, boost::test_tools::tolerance(1e-4));
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(errors_are_those_of_the_host) {
+  for (const Device& device : shapes()) {
+    for (const Case& example : edge_cases()) {
+      for (const Metric metric : both_metrics) {
+        const auto cells = static_cast<std::uint32_t>(example.seeds.size());
+        check("random labels", device, example, metric, random_labels(example.grid, cells, 4));
+        check("exact labels", device, example, metric, brute_force(example.grid, example.seeds, metric));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_flooding_are_few_and_small) {
+  const Grid grid(700, 300);
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 2000, 6)));
+  Diagram exact(test_device(), grid), diagram(test_device(), grid);
+  exact_diagram(seeds, exact);
+  jump_flooding(seeds, diagram);
+  const DistanceErrors errors = distance_errors(seeds, diagram, exact);
+  const DistanceErrors expected =
+      on_the_host(grid, random_pixels(grid, 2000, 6), Metric::euclidean, diagram.read(), exact.read());
+  BOOST_TEST(errors.wrong_pixels == expected.wrong_pixels);
+  BOOST_TEST(errors.wrong_pixels > 0u);
+  BOOST_TEST(errors.wrong_percent() < 0.1);
+  BOOST_TEST(errors.largest_excess < 2);
+  BOOST_TEST(errors.mean_excess > 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
+  const Grid grid(5, 1);
+  const Seeds seeds(test_device(), grid, centres({{0, 0}, {4, 0}, {0, 0}}));
+  Diagram exact(test_device(), grid), diagram(test_device(), grid);
+  exact_diagram(seeds, exact);
+  BOOST_REQUIRE((exact.read() == std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
+  write_labels(diagram, {2, 0, 1, 1, 1});
+  BOOST_TEST(distance_errors(seeds, diagram, exact).wrong_pixels == 0u);
+  write_labels(diagram, {2, 1, 1, 7, no_label});
+  const DistanceErrors errors = distance_errors(seeds, diagram, exact);
+  BOOST_TEST(errors.wrong_pixels == 3u);
+  BOOST_TEST(errors.unlabelled_pixels == 2u);
+  BOOST_TEST(errors.wrong_percent() == 60);
+  BOOST_TEST(errors.largest_excess == 2);
+  BOOST_TEST(errors.mean_excess == 2.0 / 5, boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(the_longest_distances_there_are) {
+  const Grid grid(Grid::max_side, 2);
+  const Seeds seeds(test_device(), grid, centres({{0, 0}, {32767, 1}}));
+  for (const Metric metric : both_metrics) {
+    Diagram exact(test_device(), grid), diagram(test_device(), grid);
+    exact_diagram(seeds, exact, {metric});
+    write_labels(diagram, std::vector<std::uint32_t>(grid.pixels(), 0));
+    const DistanceErrors errors = distance_errors(seeds, diagram, exact, metric);
+    const double farthest = metric == Metric::euclidean ? std::sqrt(32767.0 * 32767.0 + 1) : 32768;
+    BOOST_TEST(errors.largest_excess == farthest, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(errors.unlabelled_pixels == 0u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(diagrams_that_do_not_fit_are_refused) {
+  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
+  const Diagram fits(test_device(), Grid(10, 20)), other(test_device(), Grid(20, 10));
+  check_error([&] { distance_errors(seeds, other, fits); }, {"10 x 20", "20 x 10"});
+  check_error([&] { distance_errors(seeds, fits, other); }, {"10 x 20", "20 x 10"});
+}
