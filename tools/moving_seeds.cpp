@@ -34,6 +34,7 @@ class RandomWalk : public MovingSeeds {
     return step_length_;
   }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
+  std::optional<std::int64_t> timestep() const override { return std::nullopt; }
   std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
 
  private:
@@ -64,6 +65,7 @@ class Trajectory : public MovingSeeds {
     return particles_.longest_step();
   }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
+  std::optional<std::int64_t> timestep() const override { return particles_.timestep(); }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
     const auto left = particles_.bytes_left();

@@ -38,6 +38,9 @@ class MovingSeeds {
   /// The ids that labels carry, by seed; empty: the seeds' own.
   virtual const std::vector<std::uint32_t>& ids() const = 0;
 
+  /// What the file calls the time of the frame; none where it has no name for it.
+  virtual std::optional<std::int64_t> timestep() const = 0;
+
   /// How much of the whole is done, 0 ... 1, as far as that is known.
   virtual std::optional<double> done() const = 0;
 };

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "diagram_files.hpp"
 #include "files.hpp"
 #include "finish_at_end.hpp"
 #include "input.hpp"
@@ -39,9 +40,7 @@ Outputs check_outputs(const RenderOptions& options) {
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both");
   }
-  if (options.picture_path == options.labels_path) {
-    throw UsageError(options.picture_path + ": -o and --labels cannot write one file");
-  }
+  check_distinct({{"-o", options.picture_path}, {"--labels", options.labels_path}});
   Outputs outputs;
   if (!options.picture_path.empty()) {
     check_picture_options(options.picture);
@@ -110,8 +109,7 @@ void add_render(CLI::App& app) {
   CLI::Option* const picture =
       command->add_option("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif");
   picture->type_name("PICTURE");
-  command->add_option("--labels", options->labels_path, "Labels to write: .npy (uint32) or .tif (32-bit)")
-      ->type_name("FILE");
+  command->add_option("--labels", options->labels_path, labels_kind().about)->type_name("FILE");
   add_picture_options(*command, options->picture, picture);
   add_json_option(*command, options->json);
   command->callback([command, options] {

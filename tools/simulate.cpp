@@ -111,8 +111,10 @@ void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simul
     writer.add_similarity(frame, percent);
   }
   if (writer.wants(frame)) {
-    const LabelImage image{source.grid(), simulation.diagram().read()};
-    writer.add(frame, image, simulation.seeds().read(), source.ids(), options.method_options.metric);
+    const FrameFacts facts = {frame, source.timestep().value_or(frame),
+                              simulation.report(main_engine).milliseconds()};
+    writer.add(facts, simulation.seeds(), simulation.diagram(main_engine), source.ids(),
+               options.method_options.metric);
   }
   if (frame % most_frames_ahead == 0) {
     simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
@@ -185,9 +187,8 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Si
   if (!similarities.empty()) {
     fmt::print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
   }
-  for (const std::string& path :
-       {options.output.labels_path, options.output.similarity_path, options.output.picture_path}) {
-    if (!path.empty()) fmt::print("wrote {}\n", path);
+  for (const NamedOutput& output : outputs_of(options.output)) {
+    if (!output.path.empty()) fmt::print("wrote {}\n", output.path);
   }
 }
 

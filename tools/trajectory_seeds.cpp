@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "input.hpp"
 #include "periodic_step.hpp"
@@ -17,17 +18,24 @@ bool holds(const Bounds& bounds, const Point& point) {
   return point.x >= bounds.x0 && point.x <= bounds.x1 && point.y >= bounds.y0 && point.y <= bounds.y1;
 }
 
-/// By slot. Of particles on one pixel the one with the lowest id has the cell; they come in this order.
-std::vector<std::uint32_t> ids_of_labels(const std::vector<std::uint32_t>& ids,
-                                         const std::vector<Point>& pixels, const ParticleSlots& slots) {
-  std::vector<std::uint32_t> labels(slots.size(), no_label);
-  std::unordered_map<std::int64_t, std::uint32_t> owners;
+/// By slot. Of particles on one pixel the one with the lowest id has the cell, and the diagram gives it to
+/// the lowest slot: these two exchange their names. Ids come in ascending order.
+std::vector<std::uint32_t> ids_by_slot(const std::vector<std::uint32_t>& ids,
+                                       const std::vector<Point>& pixels, const ParticleSlots& slots) {
+  std::vector<std::uint32_t> names(slots.size(), no_label);
+  std::unordered_map<std::int64_t, std::uint32_t> owners;  // the lowest slot of each pixel
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto pixel =
         static_cast<std::int64_t>(pixels[i].y) * Grid::max_side + static_cast<std::int64_t>(pixels[i].x);
-    labels[slots.of_ids()[i]] = owners.emplace(pixel, ids[i]).first->second;
+    const std::uint32_t slot = slots.of_ids()[i];
+    names[slot] = ids[i];
+    std::uint32_t& owner = owners.emplace(pixel, slot).first->second;
+    if (slot < owner) {
+      std::swap(names[slot], names[owner]);
+      owner = slot;
+    }
   }
-  return labels;
+  return names;
 }
 
 }  // namespace
@@ -104,7 +112,7 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
     }
   }
   points_ = std::move(points);
-  ids_ = ids_of_labels(frame_.ids, pixels, slots_);
+  ids_ = ids_by_slot(frame_.ids, pixels, slots_);
 }
 
 void TrajectorySeeds::check_inside(const Bounds& bounds) const {
