@@ -16,10 +16,15 @@ expect() {
   exit 1
 }
 
-expect "render" re
+expect "render" ren
+expect "render relax" re
+expect "cells compare" c
 expect "devices" d
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis" render --metric manhattan --palette v
 expect "--method --metric" render --me
+expect "--labels" cells --lab
+expect "exact" cells --method e
+expect "--relaxed-points" relax --rel
 expect "" render --points cities

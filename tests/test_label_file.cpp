@@ -123,6 +123,19 @@ BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {
   BOOST_TEST(content_of(folder / "a.txt") == "new");
 }
 
+BOOST_AUTO_TEST_CASE(two_outputs_cannot_be_one_file) {
+  const TemporaryFolder folder;
+  const std::string a = folder / "a%d.npy";
+  check_distinct({{"--labels", a}, {"--distance", folder / "b%d.npy"}, {"-o", ""}, {"--cells", ""}});
+  for (const char* other : {"a%d.npy", "./a%d.npy", "a%05d.npy"}) {
+    check_error(
+        [&] {
+          check_distinct({{"--labels", a}, {"--distance", folder / other}});
+        },
+        {other, "--labels and --distance"});
+  }
+}
+
 BOOST_AUTO_TEST_CASE(outputs_that_cannot_be_written_are_refused_at_once) {
   const TemporaryFolder folder;
   check_error([&] { OutputFile(folder / "missing/a.png"); }, {"missing/a.png", "does not exist"});

@@ -77,7 +77,7 @@ void write_border_file(const std::string& path, Analysis& analysis) {
 
 const FileKind& labels_kind() {
   static const FileKind kind = {
-      "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards, the first row on top)",
+      "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards from the lower left corner)",
       label_extensions(), write_label_file};
   return kind;
 }
@@ -103,8 +103,8 @@ const FileKind& adjacency_kind() {
 const FileKind& distance_kind() {
   static const FileKind kind = {
       "--distance",
-      "Distances to the nearest seed, in pixels: .npy (float32), .tif (32-bit float) or .vti (y upwards, the "
-      "first row on top)",
+      "Distances to the nearest seed, in pixels: .npy (float32), .tif (32-bit float) or .vti (y upwards "
+      "from the lower left corner)",
       {".npy", ".tif", ".tiff", ".vti"},
       write_distance_file};
   return kind;
@@ -122,8 +122,9 @@ const FileKind& border_kind() {
 void add_file_options(CLI::App& app, std::vector<FileRequest>& requests, bool numbered) {
   for (FileRequest& request : requests) {
     const FileKind& kind = request.kind;
-    const std::string example =
-        numbered ? fmt::format("; a file a frame, such as frames/%05d{}", kind.extensions.front()) : "";
+    std::string example;
+    if (numbered) example = fmt::format("; a file a frame, such as frames/%05d{}", kind.extensions.front());
+    if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
     app.add_option(kind.option, request.path, kind.about + example)->type_name(numbered ? "FILES" : "FILE");
   }
 }

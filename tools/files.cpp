@@ -108,7 +108,7 @@ void check_distinct(const std::vector<NamedOutput>& outputs) {
     // Patterns that differ in the number's width alone meet at some number.
     const std::string pattern = std::regex_replace(output.path, std::regex("%0[1-9]d"), "%d");
     const auto [other, is_new] =
-        options.emplace(fs::weakly_canonical(pattern, ignored).string(), output.option);
+        options.emplace(fs::weakly_canonical(fs::absolute(pattern), ignored).string(), output.option);
     if (!is_new) {
       throw UsageError(output.path + ": " + other->second + " and " + output.option +
                        " cannot write one file");

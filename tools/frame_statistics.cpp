@@ -21,7 +21,7 @@ void FrameStatistics::add(int frame, double milliseconds, Analysis& analysis) {
                                                    std::size_t{0}, std::plus<>(), std::not_equal_to<>()));
   }
   last_labels_ = labels;
-  file_.stream() << fmt::format("{},{},{},{},{},{},{}\n", frame, statistics.cells, statistics.empty_cells,
+  file_.stream() << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
                                 statistics.mean_area, statistics.area_deviation, changed, milliseconds);
 }
 

@@ -191,6 +191,7 @@ void add_relax(CLI::App& app) {
       *command, options->pictures,
       "Picture of the end, such as a.png; or of all rounds from the start: a film, .mp4 (H.264), "
       "or numbered pictures, such as rounds/%05d.png");
+  command->get_option("-o")->type_name("PICTURE|FILM|PICTURES");
   add_file_options(*command, options->files);
   command
       ->add_option("--relaxed-points", options->points_path,
