@@ -1,11 +1,14 @@
 // Runs the vorocl command as its users do, and checks how it ends.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "fixture.hpp"
 #include "temporary_folder.hpp"
@@ -29,6 +32,21 @@ inline Result run(const TemporaryFolder& folder, const std::string& arguments,
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(streams / "out"),
           content_of(streams / "error")};
+}
+
+/// Starts the command in the folder, with both streams in its file "streams"; returns its process.
+inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  const pid_t process = fork();
+  if (process != 0) return process;
+  std::vector<char*> pointers;
+  arguments.insert(arguments.begin(), VOROCL_COMMAND);
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);
+  dup2(streams, STDOUT_FILENO);
+  dup2(streams, STDERR_FILENO);
+  if (chdir((folder / "").c_str()) == 0) execv(VOROCL_COMMAND, pointers.data());
+  _exit(99);
 }
 
 inline std::string succeeds(const TemporaryFolder& folder, const std::string& arguments) {

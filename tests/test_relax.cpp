@@ -2,9 +2,12 @@
 #define BOOST_TEST_MODULE relax
 #include <fmt/format.h>
 
+#include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
+#include <thread>
 
 #include "host_measures.hpp"
 #include "label_file.hpp"
@@ -133,6 +136,31 @@ BOOST_AUTO_TEST_CASE(the_end_or_all_rounds_are_drawn) {
   BOOST_TEST(is_picture_of("r/3.png", "l.npy"));
   BOOST_TEST(!std::filesystem::exists(folder / "r/4.png"));
   BOOST_TEST(cv::VideoCapture(folder / "f.mp4").get(cv::CAP_PROP_FRAME_COUNT) == 4);
+}
+
+BOOST_AUTO_TEST_CASE(after_ctrl_c_the_files_show_the_last_round) {
+  const TemporaryFolder folder;
+  const pid_t process = start(folder, {"relax", "--random", "9000", "--size", "900x800", "--rounds", "100000",
+                                       "-o", "r/%d.png", "--relaxed-points", "p.csv", "--energy", "e.csv"});
+  for (int i = 0; i < 600 && !std::filesystem::exists(folder / "r/2.png"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  kill(process, SIGINT);
+  int status = 0;
+  waitpid(process, &status, 0);
+  BOOST_TEST(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == failure);
+  BOOST_TEST((folder.names() == std::set<std::string>{"r", "p.csv", "e.csv", "streams"}));
+  const std::size_t rounds = read_table(folder / "e.csv").rows.size() - 1;
+  BOOST_TEST(rounds >= 2u);
+  BOOST_TEST(std::filesystem::exists(folder / fmt::format("r/{}.png", rounds)));
+  BOOST_TEST(!std::filesystem::exists(folder / fmt::format("r/{}.png", rounds + 1)));
+  BOOST_TEST(
+      content_of(folder / "streams") ==
+      fmt::format("vorocl: error: interrupted after {} rounds; the files show the last of them\n", rounds));
+  succeeds(folder, "cells --points p.csv --bounds 0,0,900,800 --size 900x800 --labels l.npy");
+  BOOST_TEST(cv::norm(cv::imread(folder / fmt::format("r/{}.png", rounds)),
+                      color_by_id(labels_of(folder, "l.npy").labels, Grid(900, 800)), cv::NORM_INF) == 0);
 }
 
 BOOST_AUTO_TEST_CASE(bad_options_are_refused_before_the_work) {

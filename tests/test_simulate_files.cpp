@@ -1,6 +1,5 @@
 // What vorocl simulate writes while it runs, and how a run ends: films, numbered pictures, Ctrl-C, progress.
 #define BOOST_TEST_MODULE simulate_files
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <pty.h>
 #include <unistd.h>
@@ -30,21 +29,6 @@ std::vector<cv::Mat> pictures_of(const std::string& path) {
 }
 
 std::string number(int frame) { return fmt::format("{:05}", frame); }
-
-/// Starts the command in the folder, with both streams in its file "streams"; returns its process.
-pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
-  const pid_t process = fork();
-  if (process != 0) return process;
-  std::vector<char*> pointers;
-  arguments.insert(arguments.begin(), VOROCL_COMMAND);
-  for (std::string& argument : arguments) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);
-  dup2(streams, STDOUT_FILENO);
-  dup2(streams, STDERR_FILENO);
-  if (chdir((folder / "").c_str()) == 0) execv(VOROCL_COMMAND, pointers.data());
-  _exit(99);
-}
 
 }  // namespace
 
