@@ -92,12 +92,15 @@ bool FrameWriter::wants_images(int frame) const {
 void FrameWriter::add(const FrameFacts& facts, const Seeds& seeds, const Diagram& diagram,
                       const std::vector<std::uint32_t>& ids, Metric metric) {
   Analysis analysis(seeds, diagram, ids, metric, buffers_);
+  if (wants_images(facts.frame)) write_images(facts, analysis);
   if (statistics_) statistics_->add(facts.frame, facts.milliseconds, analysis);
-  if (!wants_images(facts.frame)) return;
+}
+
+void FrameWriter::write_images(const FrameFacts& facts, Analysis& analysis) {
   for (const auto& files : files_) files->add(facts.frame, facts.time, analysis);
   if (film_ || pictures_) {
     const cv::Mat picture =
-        draw(analysis.image(), analysis.named(), analysis.seeds(), metric, options_.picture);
+        draw(analysis.image(), analysis.named(), analysis.seeds(), analysis.metric(), options_.picture);
     if (film_) film_->add(picture);
     if (pictures_)
       pictures_->file(facts.frame).write([&](const std::string& path) { write_picture(path, picture); });

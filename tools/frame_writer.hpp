@@ -39,7 +39,7 @@ std::vector<NamedOutput> outputs_of(const FrameWriterOptions& options);
 /// What a frame is apart from its diagram.
 struct FrameFacts {
   int frame = 0;
-  std::int64_t time = 0;
+  std::int64_t time = 0;    ///< what collections say: the time step of the trajectory, else the frame
   double milliseconds = 0;  ///< of the device, for the diagram
 };
 
@@ -67,6 +67,7 @@ class FrameWriter {
 
  private:
   bool wants_images(int frame) const;
+  void write_images(const FrameFacts& facts, Analysis& analysis);
 
   FrameWriterOptions options_;
   AnalysisBuffers buffers_;
