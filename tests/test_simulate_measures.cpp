@@ -155,6 +155,8 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
     check_statistics(table.rows[i], statistics_on_host(static_cast<int>(i), image, before, frames[i]));
     before = image;
   }
+  const std::vector<std::uint32_t> labels = labels_of(folder, "l1.npy").labels;
+  BOOST_TEST(labels[2 * 20 + 2] == 3u);
 }
 
 BOOST_AUTO_TEST_CASE(bad_outputs_are_refused_before_the_work) {
