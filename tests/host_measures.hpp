@@ -110,6 +110,7 @@ inline std::vector<TableRow> pairs_on_host(const command::LabelImage& image) {
     }
   });
   std::vector<TableRow> rows;
+  rows.reserve(lengths.size());
   for (const auto& [ids, length] : lengths) rows.push_back({ids.first, ids.second, length});
   return rows;
 }

@@ -38,8 +38,9 @@ inline Result run(const TemporaryFolder& folder, const std::string& arguments,
 inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   const pid_t process = fork();
   if (process != 0) return process;
-  std::vector<char*> pointers;
   arguments.insert(arguments.begin(), VOROCL_COMMAND);
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
   const int streams = open((folder / "streams").c_str(), O_CREAT | O_WRONLY, 0600);

@@ -136,6 +136,7 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
   std::string text;
   for (const SeedsById& seeds : frames) {
     std::vector<std::string> rows;
+    rows.reserve(seeds.size());
     for (const auto& [id, pixel] : seeds) {
       rows.push_back(fmt::format("{} {} {}", id, (pixel.x + 0.5) / 2, (pixel.y + 0.5) / 2));
     }
