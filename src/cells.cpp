@@ -100,17 +100,24 @@ std::vector<CellShape> CellShapesResult::read() const {
 CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram) {
   CellSumsResult sums;
   cell_sums(seeds, diagram, sums);
-  const Device& device = diagram.device();
-  const std::size_t items = (seeds.size() + cells_per_item - 1) / cells_per_item;
-  const cl::Buffer partial = allocate(device, items * sizeof(cl_ulong4), "the statistics");
-  Kernel(device, "statistics.cl", "sum_areas", diagram.grid())
-      .over_items(items, sums.area(), seeds.positions(), static_cast<cl_uint>(seeds.size()),
-                  static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items), partial);
   diagram.wait();
-  seeds.check();
+  return cell_statistics(sums);
+}
+
+CellStatistics cell_statistics(CellSumsResult& sums) {
   CellStatistics statistics;
+  if (!sums.seeds_) return statistics;
+  const Seeds& seeds = *sums.seeds_;
+  const Device& device = seeds.device();
+  const std::size_t items = (seeds.size() + cells_per_item - 1) / cells_per_item;
+  make_room(sums.partial_, device, items * sizeof(cl_ulong4));
+  Kernel(device, "statistics.cl", "sum_areas", seeds.grid())
+      .over_items(items, sums.area(), seeds.positions(), static_cast<cl_uint>(seeds.size()),
+                  static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items), sums.partial_);
+  device.finish();
+  seeds.check();
   std::uint64_t squares = 0;
-  for (const cl_ulong4& some : download<cl_ulong4>(device, partial, items)) {
+  for (const cl_ulong4& some : download<cl_ulong4>(device, sums.partial_, items)) {
     statistics.cells += some.s[0];
     statistics.empty_cells += some.s[1];
     statistics.pixels += some.s[2];

@@ -52,7 +52,8 @@ std::uint64_t energy(const Seeds& seeds, const Diagram& diagram) {
   return energy_of(seeds, diagram, partial);
 }
 
-Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds) {
+Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
+                 const RelaxationObserver& observer) {
   if (rounds < 0) throw Error("a relaxation of " + std::to_string(rounds) + " rounds; 0 is the least");
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
   diagram.check_fits(seeds);
@@ -65,13 +66,15 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
   while (true) {
     engine(seeds, diagram, longest);
     relaxation.energies.push_back(energy_of(seeds, diagram, partial));
-    if (relaxation.rounds() == rounds) return relaxation;
+    const bool goes_on = !observer || observer(seeds, diagram, relaxation);
+    if (!goes_on || relaxation.rounds() == rounds) return relaxation;
     cell_sums(seeds, diagram, cells);
     const Motion motion = move_to_centroids(seeds, cells, moved_and_longest);
     if (motion.moved == 0) {
       relaxation.converged = true;
       return relaxation;
     }
+    relaxation.moved.push_back(motion.moved);
     longest = motion.longest;
   }
 }

@@ -34,19 +34,12 @@ inline Result run(const TemporaryFolder& folder, const std::string& arguments,
           content_of(streams / "error")};
 }
 
-inline std::string succeeds(const TemporaryFolder& folder, const std::string& arguments) {
-  const Result result = run(folder, arguments);
-  BOOST_TEST(result.exit_code == 0, arguments << "\n" << result.error);
-  BOOST_TEST(result.error == "", arguments);
-  return result.out;
-}
-
 /// Starts the command in the folder, with both streams in its file "streams"; returns its process.
 inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> arguments) {
   const pid_t process = fork();
   if (process != 0) return process;
-  std::vector<char*> pointers;
   arguments.insert(arguments.begin(), VOROCL_COMMAND);
+  std::vector<char*> pointers;
   pointers.reserve(arguments.size() + 1);
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   pointers.push_back(nullptr);
@@ -55,6 +48,13 @@ inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> argum
   dup2(streams, STDERR_FILENO);
   if (chdir((folder / "").c_str()) == 0) execv(VOROCL_COMMAND, pointers.data());
   _exit(99);
+}
+
+inline std::string succeeds(const TemporaryFolder& folder, const std::string& arguments) {
+  const Result result = run(folder, arguments);
+  BOOST_TEST(result.exit_code == 0, arguments << "\n" << result.error);
+  BOOST_TEST(result.error == "", arguments);
+  return result.out;
 }
 
 /// Runs, and checks the exit code, that standard error holds one line with all of the parts, that standard

@@ -143,6 +143,12 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
     const double area = areas.count(id) > 0 ? areas[id] : 0;
     variance += (area - 7) * (area - 7) / 30000;
   }
+  CellSumsResult sums;
+  BOOST_TEST(cell_statistics(sums).cells == 0u);
+  cell_sums(many, dense, sums);
+  BOOST_TEST(cell_statistics(sums).area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
+  cell_sums(seeds, diagram, sums);  // fewer, into the same buffers
+  BOOST_TEST(cell_statistics(sums).cells == 3u);
   const CellStatistics spread = cell_statistics(many, dense);
   BOOST_TEST(spread.mean_area == 7);
   BOOST_TEST(spread.empty_cells == 30000 - areas.size());

@@ -16,7 +16,9 @@ expect() {
   exit 1
 }
 
-expect "render" re
+expect "render" ren
+expect "render relax" re
+expect "cells compare" c
 expect "devices" d
 expect "evaluate" ev
 expect "--seeds" evaluate --se
@@ -28,4 +30,7 @@ expect "column:" render --color c
 expect "viridis turbo greys okabe-ito" simulate --palette ""
 expect "--color --color-bar" simulate --scale 0,1 --color
 expect "--method --metric" render --me
+expect "--labels" cells --lab
+expect "exact" cells --method e
+expect "--relaxed-points" relax --rel
 expect "" render --points cities

@@ -21,15 +21,30 @@ const double absent = std::numeric_limits<double>::quiet_NaN();
 /// A diagram with everything that its pictures need, kept for as long as they are drawn.
 struct Drawn {
   explicit Drawn(const std::vector<Point>& points, std::vector<double> column = {},
-                 Metric metric = Metric::euclidean)
-      : seeds(test_device(), grid, points), diagram(test_device(), grid), values(std::move(column)) {
+                 Metric distance = Metric::euclidean)
+      : metric(distance),
+        seeds(test_device(), grid, points),
+        diagram(test_device(), grid),
+        values(std::move(column)) {
     ExactOptions options;
     options.metric = metric;
     exact_diagram(seeds, diagram, options);
     labels = diagram.read();
   }
-  Scene scene() const { return {seeds, diagram, {grid, labels}, {grid, labels}, values}; }
 
+  /// The next picture of a film, or the only one.
+  cv::Mat by(Painter& painter) const {
+    AnalysisBuffers buffers;
+    const std::vector<std::uint32_t> no_ids;
+    Analysis analysis(seeds, diagram, no_ids, metric, buffers);
+    return painter.draw(analysis, values);
+  }
+  cv::Mat with(const PictureOptions& options) const {
+    Painter painter(options);
+    return by(painter);
+  }
+
+  Metric metric;
   Seeds seeds;
   Diagram diagram;
   std::vector<double> values;
@@ -107,7 +122,7 @@ BOOST_AUTO_TEST_CASE(areas_are_counted) {
   const std::vector<Pixel> pixels = some_pixels(60, 1);
   const Drawn drawn(centres(pixels));
   const std::vector<double> areas = counted_areas(drawn.labels, pixels.size());
-  BOOST_TEST(same(Painter(options_for(Quantity::area), Metric::euclidean).draw(drawn.scene()),
+  BOOST_TEST(same(drawn.with(options_for(Quantity::area)),
                   color_by_value(drawn.labels, grid, areas, range_of_cells(areas), Palette::viridis)));
 }
 
@@ -118,7 +133,7 @@ BOOST_AUTO_TEST_CASE(neighbours_are_counted) {
   for (const Palette palette : {Palette::greys, Palette::okabe_ito}) {
     PictureOptions options = options_for(Quantity::neighbours);
     options.palette = palette;
-    BOOST_TEST(same(Painter(options, Metric::euclidean).draw(drawn.scene()),
+    BOOST_TEST(same(drawn.with(options),
                     color_by_value(drawn.labels, grid, counts, range_of_cells(counts), palette)));
   }
 }
@@ -129,7 +144,7 @@ BOOST_AUTO_TEST_CASE(distances_are_those_of_the_metric) {
     const Drawn drawn(centres(pixels), {}, metric);
     const std::vector<float> distances = counted_distances(pixels, drawn.labels, metric);
     const Scale scale = {0, *std::max_element(distances.begin(), distances.end())};
-    const cv::Mat picture = Painter(options_for(Quantity::distance), metric).draw(drawn.scene());
+    const cv::Mat picture = drawn.with(options_for(Quantity::distance));
     const cv::Mat expected = color_by_distance(distances, grid, scale, Palette::viridis);
     BOOST_TEST(cv::norm(picture, expected, cv::NORM_INF) <= 4, name_of(metric));  // a level, of rounding
 
@@ -139,14 +154,14 @@ BOOST_AUTO_TEST_CASE(distances_are_those_of_the_metric) {
     cv::Mat lines = color_by_id(drawn.labels, grid);
     draw_contours(lines, distances, round_step(scale, 10));
     draw_edges(lines, drawn.labels, 2);
-    BOOST_TEST(same(Painter(options, metric).draw(drawn.scene()), lines), name_of(metric));
+    BOOST_TEST(same(drawn.with(options), lines), name_of(metric));
   }
 }
 
 BOOST_AUTO_TEST_CASE(columns_colour_the_cells_of_their_seeds) {
   const std::vector<Pixel> pixels = random_pixels(grid, 5, 4);
   const Drawn drawn(centres(pixels), {-1, 0.5, absent, 3, 2});
-  const cv::Mat picture = Painter(options_for(Quantity::column, "c"), Metric::euclidean).draw(drawn.scene());
+  const cv::Mat picture = drawn.with(options_for(Quantity::column, "c"));
   const std::uint8_t levels[] = {0, 96, 0, 255, 191};  // of viridis, from -1 to 3
   for (std::size_t id = 0; id < pixels.size(); ++id) {
     const cv::Vec3b color = picture.at<cv::Vec3b>(pixels[id].y, pixels[id].x);
@@ -164,10 +179,10 @@ BOOST_AUTO_TEST_CASE(a_film_keeps_its_scale_and_size) {
   const Drawn few(centres(random_pixels(grid, 9, 5))), many(centres(random_pixels(grid, 200, 6)));
   for (const Quantity quantity : {Quantity::area, Quantity::distance, Quantity::neighbours}) {
     PictureOptions options = options_for(quantity);
-    Painter film(options, Metric::euclidean, true);
-    const cv::Mat first = film.draw(few.scene()), second = film.draw(many.scene());
-    BOOST_TEST(same(first, Painter(options, Metric::euclidean).draw(few.scene())));
-    BOOST_TEST(!same(second, Painter(options, Metric::euclidean).draw(many.scene())));
+    Painter film(options, true);
+    const cv::Mat first = few.by(film), second = many.by(film);
+    BOOST_TEST(same(first, few.with(options)));
+    BOOST_TEST(!same(second, many.with(options)));
     // An area that cells of both frames have has one colour.
     std::map<double, std::set<int>> colors;
     for (const auto& [drawn, picture] : {std::pair(&few, first), std::pair(&many, second)}) {
@@ -181,8 +196,8 @@ BOOST_AUTO_TEST_CASE(a_film_keeps_its_scale_and_size) {
     for (const auto& [value, of_value] : colors) BOOST_TEST(of_value.size() == 1u, value);
 
     options.color_bar = true;
-    Painter with_bar(options, Metric::euclidean, true);
-    const cv::Mat bar = with_bar.draw(few.scene()), later = with_bar.draw(many.scene());
+    Painter with_bar(options, true);
+    const cv::Mat bar = few.by(with_bar), later = many.by(with_bar);
     const cv::Rect strip(grid.width(), 0, bar.cols - grid.width(), bar.rows);
     BOOST_TEST(bar.size() == later.size());
     BOOST_TEST(same(bar(strip), later(strip)));
@@ -194,24 +209,24 @@ BOOST_AUTO_TEST_CASE(a_film_keeps_its_contours) {
   const Drawn first(centres(few)), second(centres(many));
   PictureOptions options;
   options.contours = true;
-  Painter film(options, Metric::euclidean, true);
-  film.draw(first.scene());
+  Painter film(options, true);
+  first.by(film);
   options.contour_interval =
       round_step(*range_of(counted_distances(few, first.labels, Metric::euclidean)), 10);
-  const cv::Mat lines = film.draw(second.scene());
-  BOOST_TEST(same(lines, Painter(options, Metric::euclidean).draw(second.scene())));
+  const cv::Mat lines = second.by(film);
+  BOOST_TEST(same(lines, second.with(options)));
   options.contour_interval.reset();
-  BOOST_TEST(!same(lines, Painter(options, Metric::euclidean).draw(second.scene())));
+  BOOST_TEST(!same(lines, second.with(options)));
 }
 
 BOOST_AUTO_TEST_CASE(a_given_scale_holds_for_every_picture) {
   PictureOptions options = options_for(Quantity::column, "c");
   options.scale = {0, 10};
   const std::vector<Point> points = centres(random_pixels(grid, 2, 7));
-  Painter film(options, Metric::euclidean, true);
-  const cv::Mat a = film.draw(Drawn(points, {5, 10}).scene()), b = film.draw(Drawn(points, {5, 100}).scene());
+  Painter film(options, true);
+  const cv::Mat a = Drawn(points, {5, 10}).by(film), b = Drawn(points, {5, 100}).by(film);
   BOOST_TEST(same(a, b));  // 100 is drawn as 10
-  BOOST_TEST(!same(a, film.draw(Drawn(points, {6, 10}).scene())));
+  BOOST_TEST(!same(a, Drawn(points, {6, 10}).by(film)));
 }
 
 BOOST_AUTO_TEST_CASE(pictures_without_values_are_possible_and_bars_are_not) {
@@ -221,30 +236,30 @@ BOOST_AUTO_TEST_CASE(pictures_without_values_are_possible_and_bars_are_not) {
        {Quantity::id, Quantity::area, Quantity::neighbours, Quantity::distance, Quantity::column}) {
     PictureOptions options = options_for(quantity, "c");
     options.contours = true;
-    const cv::Mat picture = Painter(options, Metric::euclidean).draw(empty.scene());
+    const cv::Mat picture = empty.with(options);
     BOOST_TEST(same(picture, cv::Mat(grid.height(), grid.width(), CV_8UC3, cv::Scalar::all(0))));
   }
   PictureOptions options = options_for(Quantity::column, "c");
-  Painter film(options, Metric::euclidean, true);
-  film.draw(unknown.scene());
-  BOOST_TEST(same(film.draw(known.scene()), Painter(options, Metric::euclidean).draw(known.scene())));
+  Painter film(options, true);
+  unknown.by(film);
+  BOOST_TEST(same(known.by(film), known.with(options)));
   options.color_bar = true;
-  check_error([&] { Painter(options, Metric::euclidean).draw(unknown.scene()); }, {"no value", "--scale"});
-  check_error([&] { Painter(options, Metric::euclidean).draw(empty.scene()); }, {"no value", "--scale"});
+  check_error([&] { unknown.with(options); }, {"no value", "--scale"});
+  check_error([&] { empty.with(options); }, {"no value", "--scale"});
   options.scale = {0, 2};
-  Painter with_bar(options, Metric::euclidean, true);
+  Painter with_bar(options, true);
   const Drawn fractions({{1, 1}, {5, 5}}, {0.5, 1});
-  BOOST_TEST(with_bar.draw(empty.scene()).size() == with_bar.draw(fractions.scene()).size());
+  BOOST_TEST(empty.by(with_bar).size() == fractions.by(with_bar).size());
 }
 
 BOOST_AUTO_TEST_CASE(classes_must_be_whole_numbers) {
   PictureOptions options = options_for(Quantity::column, "c_pe");
   options.palette = Palette::okabe_ito;
   const std::vector<Point> points = {{1, 1}, {5, 5}, {9, 9}};
-  Painter(options, Metric::euclidean).draw(Drawn(points, {1, absent, 3}).scene());
+  Drawn(points, {1, absent, 3}).with(options);
   check_error(
       [&] {
-        Painter(options, Metric::euclidean).draw(Drawn(points, {1, absent, 2.5}).scene());
+        Drawn(points, {1, absent, 2.5}).with(options);
       },
       {"c_pe", "2.5", "okabe-ito", "viridis"});
 }

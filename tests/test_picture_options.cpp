@@ -75,6 +75,15 @@ BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
   BOOST_TEST(same(cv::imread(folder / "0.png"), expected(1, 3)));
   BOOST_TEST(same(cv::imread(folder / "1.png"), expected(3, 2)));  // 9 is drawn as 3
   BOOST_TEST(same(render(folder, "--trajectory t.xyz --size 20x20 --color column:q[2]"), expected(1, 3)));
+
+  // Particle 3 is new in the second frame, so that the pixel carries the label of 5, which it hides.
+  folder.file("new.lammpstrj",
+              dump(walled_box, "id x y c_pe", {"9 2.5 5 1", "5 7.5 5 3"}) +
+                  dump(walled_box, "id x y c_pe", {"9 2.5 5 1", "5 7.5 5 100", "3 7.5 5 2"}));
+  succeeds(folder,
+           "simulate --trajectory new.lammpstrj --size 20x20 --method djfa -o n%d.png --color column:c_pe");
+  BOOST_TEST(same(cv::imread(folder / "n0.png"), expected(1, 3)));
+  BOOST_TEST(same(cv::imread(folder / "n1.png"), expected(1, 2)));
 }
 
 BOOST_AUTO_TEST_CASE(films_with_a_colour_bar_have_even_sides) {

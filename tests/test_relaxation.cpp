@@ -132,6 +132,32 @@ BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_hears_how_far_seeds_moved) {
   BOOST_TEST(10 * relaxation.energies.back() < 9 * relaxation.energies.front());
 }
 
+BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
+  const Grid grid(120, 90);
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 60, 1)));
+  Diagram diagram(test_device(), grid);
+  std::vector<Pixel> before;
+  int calls = 0;
+  const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
+    const std::vector<Pixel> now = pixels_of(at);
+    BOOST_TEST(so_far.rounds() == calls++);
+    BOOST_TEST(so_far.energies.back() == energy_on_host(grid, filled.read(), now));
+    BOOST_TEST_REQUIRE(so_far.moved.size() == static_cast<std::size_t>(so_far.rounds()));
+    std::size_t moved = 0;
+    for (std::size_t id = 0; id < before.size(); ++id) {
+      moved += before[id].x != now[id].x || before[id].y != now[id].y ? 1 : 0;
+    }
+    if (!so_far.moved.empty()) BOOST_TEST(so_far.moved.back() == moved);
+    before = now;
+    return so_far.rounds() < 3;
+  };
+  const Relaxation relaxation = relax(seeds, diagram, exactly, 100, observer);
+  BOOST_TEST(relaxation.rounds() == 3);
+  BOOST_TEST(calls == 4);
+  BOOST_TEST(!relaxation.converged);
+  BOOST_TEST(same(pixels_of(seeds), before));
+}
+
 BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {
   const Grid grid(9, 9);
   Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}});

@@ -9,6 +9,8 @@ namespace vorocl::command {
 void add_devices(CLI::App& app);
 void add_render(CLI::App& app);
 void add_simulate(CLI::App& app);
+void add_cells(CLI::App& app);
+void add_relax(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_evaluate(CLI::App& app);

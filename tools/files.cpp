@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
+#include <map>
+#include <regex>
 #include <system_error>
 
 #include "usage_error.hpp"
@@ -93,6 +95,32 @@ void OutputFile::commit() const {
 void OutputFile::discard() const {
   std::error_code ignored;
   fs::remove(temporary_path_, ignored);
+}
+
+GrowingFile::GrowingFile(const std::string& path)
+    : file_(path), stream_(open_to_write(file_.temporary_path())) {}
+
+GrowingFile::~GrowingFile() { file_.discard(); }
+
+void GrowingFile::finish() {
+  check_written(stream_, file_.path());
+  file_.commit();
+}
+
+void check_distinct(const std::vector<NamedOutput>& outputs) {
+  std::map<std::string, std::string> options;  // by file
+  for (const NamedOutput& output : outputs) {
+    if (output.path.empty()) continue;
+    std::error_code ignored;
+    // Patterns that differ in the number's width alone meet at some number.
+    const std::string pattern = std::regex_replace(output.path, std::regex("%0[1-9]d"), "%d");
+    const auto [other, is_new] =
+        options.emplace(fs::weakly_canonical(fs::absolute(pattern), ignored).string(), output.option);
+    if (!is_new) {
+      throw UsageError(output.path + ": " + other->second + " and " + output.option +
+                       " cannot write one file");
+    }
+  }
 }
 
 std::ofstream open_to_write(const std::string& path) { return open(path, std::ios::trunc); }

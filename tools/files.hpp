@@ -41,6 +41,35 @@ class OutputFile {
   std::string temporary_path_;
 };
 
+/// A file that grows while the work goes on, under a temporary name until finish(); without it, nothing
+/// stays.
+class GrowingFile {
+ public:
+  /// Throws Error if it cannot be made there.
+  explicit GrowingFile(const std::string& path);
+  ~GrowingFile();
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  std::ofstream& stream() { return stream_; }
+
+  /// Gives the file its name. Throws Error if it was not written whole.
+  void finish();
+
+ private:
+  OutputFile file_;
+  std::ofstream stream_;
+};
+
+/// An option and the path or numbered pattern it was given; empty: none.
+struct NamedOutput {
+  std::string option;
+  std::string path;
+};
+
+/// Throws UsageError if two of the outputs would be one file.
+void check_distinct(const std::vector<NamedOutput>& outputs);
+
 /// A stream to a file, new or to go on with, that throws Error when it cannot be opened, and check_written()
 /// where writing failed.
 std::ofstream open_to_write(const std::string& path);

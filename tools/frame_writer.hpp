@@ -1,13 +1,17 @@
-// What a simulation writes of its frames: a film or numbered pictures, numbered labels, similarities.
+// What a simulation writes of its frames: a film or numbered pictures, numbered files, tables.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <fstream>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "diagram_files.hpp"
 #include "film.hpp"
+#include "frame_files.hpp"
+#include "frame_statistics.hpp"
 #include "numbered_files.hpp"
 #include "painter.hpp"
 #include "vorocl/distance_errors.hpp"
@@ -15,48 +19,64 @@
 namespace vorocl::command {
 
 struct FrameWriterOptions {
-  std::string picture_path;  // empty names: none
-  std::string labels_path;
+  std::string picture_path;        // empty names: none
+  std::vector<FileRequest> files;  // numbered
   std::string similarity_path;
+  std::string statistics_path;
   int every = 1;
   double frames_per_second = 25;
   PictureOptions picture;
 };
 
-/// Adds -o, --labels, --similarity, --every, --fps and how pictures are drawn.
+/// Adds -o, with a help text, --fps and how pictures are drawn.
+void add_film_options(CLI::App& app, FrameWriterOptions& options, const std::string& about);
+
+/// Adds all that, the numbered files, --similarity, --statistics and --every.
 void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options);
 
-/// Each numbered file is whole as soon as it is there. The film and the similarities grow under temporary
-/// names until finish(); without it, they do not stay.
+/// The paths that were asked for.
+std::vector<NamedOutput> outputs_of(const FrameWriterOptions& options);
+
+/// What a frame is apart from its diagram.
+struct FrameFacts {
+  int frame = 0;
+  std::int64_t time = 0;    ///< what collections say: the time step of the trajectory, else the frame
+  double milliseconds = 0;  ///< of the device, for the diagram
+};
+
+/// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names
+/// until finish(); without it, they do not stay.
 class FrameWriter {
  public:
   /// Throws UsageError for names that cannot be meant, Error if no files can be made there.
   /// `with_errors`: errors are written beside the similarities.
-  FrameWriter(const FrameWriterOptions& options, Metric metric, bool with_errors = false);
-  ~FrameWriter();
-  FrameWriter(const FrameWriter&) = delete;
-  FrameWriter& operator=(const FrameWriter&) = delete;
+  explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false);
 
-  /// Whether the images of this frame are to be written.
-  bool wants(int frame) const;
+  /// Whether anything of this frame's diagram is to be written.
+  bool wants(int frame) const { return statistics_ || wants_images(frame); }
 
-  void add(int frame, const Scene& scene);
+  /// `values` are those that pictures may show, as in Painter::draw().
+  void add(const FrameFacts& facts, Analysis& analysis, const std::vector<double>& values);
   void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
 
   /// The frames whose images are written.
   int frames() const { return frames_; }
 
-  /// Gives the film and the similarities their names. Throws Error if one was not written whole.
+  /// Gives the film and the tables their names, and lists the numbered files. Throws Error if one was not
+  /// written whole.
   void finish();
 
  private:
+  bool wants_images(int frame) const;
+  void write_images(const FrameFacts& facts, Analysis& analysis, const std::vector<double>& values);
+
   FrameWriterOptions options_;
   Painter painter_;
   std::optional<Film> film_;
   std::optional<NumberedFiles> pictures_;
-  std::optional<NumberedFiles> labels_;
-  std::optional<OutputFile> similarity_file_;
-  std::ofstream similarities_;
+  std::vector<std::unique_ptr<FrameFiles>> files_;
+  std::optional<GrowingFile> similarities_;
+  std::optional<FrameStatistics> statistics_;
   int frames_ = 0;
 };
 

@@ -1,19 +1,20 @@
-// Label files, by the extension of their name: .npy, .tif or .tiff.
+// Label files, by the extension of their name: .npy, .tif or .tiff, and .vti, which is only written.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "label_image.hpp"
 
 namespace vorocl::command {
 
-/// Throws UsageError if the name is none of a label file.
-void check_label_path(const std::string& path);
+/// The extensions of files that labels can be written to.
+const std::vector<std::string>& label_extensions();
 
 /// Throws Error if the file cannot be read or holds something else.
 LabelImage read_labels(const std::string& path);
 
-/// Throws Error if the file cannot be written.
+/// Throws UsageError if the name is none of those, Error if the file cannot be written.
 void write_labels(const std::string& path, const LabelImage& image);
 
 }  // namespace vorocl::command

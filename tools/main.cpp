@@ -18,6 +18,8 @@ int run(int argc, char** argv) {
   vorocl::command::add_devices(app);
   vorocl::command::add_render(app);
   vorocl::command::add_simulate(app);
+  vorocl::command::add_cells(app);
+  vorocl::command::add_relax(app);
   vorocl::command::add_compare(app);
   vorocl::command::add_bench(app);
   vorocl::command::add_evaluate(app);

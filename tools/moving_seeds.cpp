@@ -35,6 +35,7 @@ class RandomWalk : public MovingSeeds {
   }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
   const std::vector<double>& values() const override { return input_.values; }
+  std::optional<std::int64_t> timestep() const override { return std::nullopt; }
   std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
 
  private:
@@ -66,6 +67,7 @@ class Trajectory : public MovingSeeds {
   }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
   const std::vector<double>& values() const override { return particles_.values(); }
+  std::optional<std::int64_t> timestep() const override { return particles_.timestep(); }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
     const auto left = particles_.bytes_left();

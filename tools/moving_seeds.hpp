@@ -41,6 +41,9 @@ class MovingSeeds {
   /// The values of the value column, by seed; NaN: absent.
   virtual const std::vector<double>& values() const = 0;
 
+  /// What the file calls the time of the frame; none where it has no name for it.
+  virtual std::optional<std::int64_t> timestep() const = 0;
+
   /// How much of the whole is done, 0 ... 1, as far as that is known.
   virtual std::optional<double> done() const = 0;
 };

@@ -46,6 +46,17 @@ const std::map<std::string, Type>& types() {
   return all;
 }
 
+template <typename T>
+constexpr const char* type_name = nullptr;
+template <>
+constexpr const char* type_name<std::uint8_t> = "|u1";
+template <>
+constexpr const char* type_name<std::uint32_t> = "<u4";
+template <>
+constexpr const char* type_name<float> = "<f4";
+template <>
+constexpr const char* type_name<double> = "<f8";
+
 /// The text behind "'key':" in the header, a Python dictionary that NumPy writes in one line.
 std::string header_value(const std::string& header, const std::string& key, const std::string& path) {
   const auto found = header.find("'" + key + "':");
@@ -118,6 +129,25 @@ std::vector<char> read_values(std::ifstream& file, const Header& header, std::si
   return bytes;
 }
 
+template <typename T>
+void write_array(const std::string& path, const std::vector<std::size_t>& shape,
+                 const std::vector<T>& values) {
+  std::string header = std::string("{'descr': '") + type_name<T> +
+                       "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
+  // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
+  header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
+  header += '\n';
+  const auto length = static_cast<std::uint16_t>(header.size());
+  std::ofstream file = open_to_write(path);
+  file.write(magic, magic_size);
+  file.write("\x01\x00", 2);
+  file.write(reinterpret_cast<const char*>(&length), sizeof length);
+  file.write(header.data(), static_cast<std::streamsize>(header.size()));
+  file.write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * sizeof(T)));
+  check_written(file, path);
+}
+
 }  // namespace
 
 std::vector<Point> read_npy_points(const std::string& path) {
@@ -159,22 +189,21 @@ LabelImage read_npy_labels(const std::string& path) {
   return image;
 }
 
-void write_npy_labels(const std::string& path, const LabelImage& image) {
-  std::string header = "{'descr': '<u4', 'fortran_order': False, 'shape': (" +
-                       std::to_string(image.grid.height()) + ", " + std::to_string(image.grid.width()) +
-                       "), }";
-  // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
-  header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
-  header += '\n';
-  const auto length = static_cast<std::uint16_t>(header.size());
-  std::ofstream file = open_to_write(path);
-  file.write(magic, magic_size);
-  file.write("\x01\x00", 2);
-  file.write(reinterpret_cast<const char*>(&length), sizeof length);
-  file.write(header.data(), static_cast<std::streamsize>(header.size()));
-  file.write(reinterpret_cast<const char*>(image.labels.data()),
-             static_cast<std::streamsize>(image.labels.size() * sizeof(std::uint32_t)));
-  check_written(file, path);
+template <typename T>
+void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values) {
+  const auto height = static_cast<std::size_t>(grid.height()), width = static_cast<std::size_t>(grid.width());
+  write_array(path, {height, width}, values);
+}
+
+template void write_npy(const std::string&, const Grid&, const std::vector<std::uint8_t>&);
+template void write_npy(const std::string&, const Grid&, const std::vector<std::uint32_t>&);
+template void write_npy(const std::string&, const Grid&, const std::vector<float>&);
+
+void write_npy_points(const std::string& path, const std::vector<Point>& points) {
+  std::vector<double> values;
+  values.reserve(2 * points.size());
+  for (const Point& point : points) values.insert(values.end(), {point.x, point.y});
+  write_array(path, {points.size(), 2}, values);
 }
 
 }  // namespace vorocl::command

@@ -13,8 +13,15 @@ namespace vorocl::command {
 /// Error if the file is something else, ends early or holds no points.
 std::vector<Point> read_npy_points(const std::string& path);
 
-/// Labels: uint32, shape (height, width). Throws Error if the file is something else or cannot be written.
+/// Labels: uint32, shape (height, width). Throws Error if the file is something else.
 LabelImage read_npy_labels(const std::string& path);
-void write_npy_labels(const std::string& path, const LabelImage& image);
+
+/// One value a pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws Error
+/// if the file cannot be written.
+template <typename T>
+void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values);
+
+/// Points to an array of double of shape (N, 2). Throws Error if the file cannot be written.
+void write_npy_points(const std::string& path, const std::vector<Point>& points);
 
 }  // namespace vorocl::command

@@ -30,47 +30,44 @@ std::string title_of(const Coloring& color) {
 
 }  // namespace
 
-Painter::Painter(const PictureOptions& options, Metric metric, bool many)
+Painter::Painter(const PictureOptions& options, bool many)
     : options_(options),
-      metric_(metric),
       many_(many),
       palette_(options.palette.value_or(Palette::viridis)),
       scale_(options.scale),
       contour_interval_(options.contour_interval) {}
 
-cv::Mat Painter::draw(const Scene& scene) {
-  if (options_.contours || options_.color.quantity == Quantity::distance) {
-    distance_field(scene.seeds, scene.diagram, distance_field_, metric_);
-    distances_ = distance_field_.read();
-  }
-  cv::Mat picture = color(scene);
-  if (options_.contours) draw_contour_lines(picture);
-  if (options_.edge_width > 0) draw_edges(picture, scene.image.labels, options_.edge_width);
-  if (options_.points_overlay) draw_points(picture, scene.seeds.read());
+cv::Mat Painter::draw(Analysis& analysis, const std::vector<double>& values) {
+  cv::Mat picture = color(analysis, values);
+  if (options_.contours) draw_contour_lines(picture, analysis.distances());
+  if (options_.edge_width > 0) draw_edges(picture, analysis.image().labels, options_.edge_width);
+  if (options_.points_overlay) draw_points(picture, analysis.seeds());
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),
                                   many_ || options_.scale.has_value()});
 }
 
-cv::Mat Painter::color(const Scene& scene) {
-  const LabelImage& named = scene.named;
+cv::Mat Painter::color(Analysis& analysis, const std::vector<double>& values) {
   switch (options_.color.quantity) {
-    case Quantity::distance:
-      return color_by_distance(distances_, named.grid, scale(range_of(distances_)), palette_);
+    case Quantity::distance: {
+      const std::vector<float>& distances = analysis.distances();
+      return color_by_distance(distances, analysis.grid(), scale(range_of(distances)), palette_);
+    }
     case Quantity::area:
-      return color_by_values(scene, areas(scene));
+      return color_by_values(analysis.image(), analysis.areas());
     case Quantity::neighbours:
-      return color_by_values(scene, neighbours(scene));
+      return color_by_values(analysis.image(), analysis.neighbours());
     case Quantity::column:
-      return color_by_values(scene, scene.values);
+      return color_by_values(analysis.image(), values);
     default:
-      return options_.palette ? color_by_id(named.labels, named.grid, palette_)
-                              : color_by_id(named.labels, named.grid);
+      const std::vector<std::uint32_t>& ids = analysis.named().labels;
+      return options_.palette ? color_by_id(ids, analysis.grid(), palette_)
+                              : color_by_id(ids, analysis.grid());
   }
 }
 
-cv::Mat Painter::color_by_values(const Scene& scene, const std::vector<double>& values) {
+cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<double>& values) {
   const auto fraction = std::find_if_not(values.begin(), values.end(), is_whole_or_none);
   if (is_categorical(palette_) && fraction != values.end()) {
     throw Error(
@@ -78,22 +75,8 @@ cv::Mat Painter::color_by_values(const Scene& scene, const std::vector<double>& 
                     "turbo or greys",
                     options_.color.column, *fraction));
   }
-  const std::vector<std::uint32_t>& labels = scene.image.labels;
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(labels, scene.image.grid, values, scale(range_of(labels, values)), palette_);
-}
-
-std::vector<double> Painter::areas(const Scene& scene) {
-  cell_sums(scene.seeds, scene.diagram, cell_sums_);
-  std::vector<double> areas;
-  for (const CellSums& sums : cell_sums_.read()) areas.push_back(sums.area);
-  return areas;
-}
-
-std::vector<double> Painter::neighbours(const Scene& scene) {
-  adjacency(scene.seeds, scene.diagram, adjacency_);
-  const std::vector<std::uint32_t> counts = adjacency_.read_neighbours();
-  return {counts.begin(), counts.end()};
+  return color_by_value(image.labels, image.grid, values, scale(range_of(image.labels, values)), palette_);
 }
 
 Scale Painter::scale(const std::optional<Scale>& range) {
@@ -101,13 +84,13 @@ Scale Painter::scale(const std::optional<Scale>& range) {
   return scale_.value_or(Scale{});
 }
 
-void Painter::draw_contour_lines(cv::Mat& picture) {
+void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances) {
   if (!contour_interval_) {
-    const double step = round_step({0, range_of(distances_).value_or(Scale{0, 0}).high}, most_contours);
+    const double step = round_step({0, range_of(distances).value_or(Scale{0, 0}).high}, most_contours);
     if (step == 0) return;  // no pixel but the seeds'
     contour_interval_ = step;
   }
-  draw_contours(picture, distances_, *contour_interval_);
+  draw_contours(picture, distances, *contour_interval_);
 }
 
 }  // namespace vorocl::command

@@ -24,19 +24,20 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string progress_line(int frames, std::optional<double> done, double seconds) {
+std::string progress_line(int count, std::optional<double> done, double seconds, const std::string& unit) {
   std::string line;
   if (done) {
     const auto filled = static_cast<std::size_t>(std::clamp(*done, 0.0, 1.0) * bar_width);
     line = fmt::format("[{}{}] {:3.0f} %  ", std::string(filled, '#'), std::string(bar_width - filled, '-'),
                        100 * *done);
   }
-  line += fmt::format("{} frames  {:.1f} frames/s", frames, seconds > 0 ? frames / seconds : 0);
+  line += fmt::format("{0} {2}  {1:.1f} {2}/s", count, seconds > 0 ? count / seconds : 0, unit);
   if (done && *done > 0) line += fmt::format("  {} left", duration(seconds * (1 - *done) / *done));
   return line;
 }
 
-Progress::Progress() : on_terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+Progress::Progress(const std::string& unit)
+    : unit_(unit), on_terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
 
 Progress::~Progress() { erase(); }
 
@@ -47,12 +48,12 @@ void Progress::erase() {
   shown_ = {};
 }
 
-void Progress::show(int frames, std::optional<double> done) {
+void Progress::show(int count, std::optional<double> done) {
   const Clock::time_point now = Clock::now();
   if (!on_terminal_ || now - shown_ < redraw_interval) return;
   shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "{}{}", erase_line, progress_line(frames, done, seconds));
+  fmt::print(stderr, "{}{}", erase_line, progress_line(count, done, seconds, unit_));
   std::fflush(stderr);
 }
 

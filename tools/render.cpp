@@ -4,13 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "commands.hpp"
+#include "diagram_files.hpp"
 #include "files.hpp"
 #include "finish_at_end.hpp"
 #include "input.hpp"
-#include "label_file.hpp"
 #include "methods.hpp"
 #include "painter.hpp"
 #include "usage_error.hpp"
@@ -40,9 +39,7 @@ Outputs check_outputs(const RenderOptions& options) {
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both");
   }
-  if (options.picture_path == options.labels_path) {
-    throw UsageError(options.picture_path + ": -o and --labels cannot write one file");
-  }
+  check_distinct({{"-o", options.picture_path}, {"--labels", options.labels_path}});
   Outputs outputs;
   if (!options.picture_path.empty()) {
     check_picture_options(options.picture);
@@ -50,7 +47,7 @@ Outputs check_outputs(const RenderOptions& options) {
     outputs.picture.emplace(options.picture_path);
   }
   if (!options.labels_path.empty()) {
-    check_label_path(options.labels_path);
+    check_extension(options.labels_path, labels_kind().extensions);
     outputs.labels.emplace(options.labels_path);
   }
   return outputs;
@@ -87,14 +84,13 @@ void run(const RenderOptions& options) {
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
-  LabelImage image{input.grid, diagram.read()};
-  LabelImage named = with_ids(image, input.ids);
-  const Scene scene{seeds, diagram, std::move(image), std::move(named), input.values};
-
-  if (outputs.labels)
-    outputs.labels->write([&](const std::string& path) { write_labels(path, scene.named); });
+  AnalysisBuffers buffers;
+  Analysis analysis(seeds, diagram, input.ids, options.method_options.metric, buffers);
+  if (outputs.labels) {
+    outputs.labels->write([&](const std::string& path) { labels_kind().write(path, analysis); });
+  }
   if (outputs.picture) {
-    const cv::Mat picture = Painter(options.picture, options.method_options.metric).draw(scene);
+    const cv::Mat picture = Painter(options.picture).draw(analysis, input.values);
     outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
   }
   options.json ? print_json(options, seeds, report) : print_text(options, seeds, report);
@@ -113,8 +109,7 @@ void add_render(CLI::App& app) {
   CLI::Option* const picture =
       command->add_option("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif");
   picture->type_name("PICTURE");
-  command->add_option("--labels", options->labels_path, "Labels to write: .npy (uint32) or .tif (32-bit)")
-      ->type_name("FILE");
+  command->add_option("--labels", options->labels_path, labels_kind().about)->type_name("FILE");
   add_picture_options(*command, options->picture, picture);
   add_json_option(*command, options->json);
   command->callback([command, options] {

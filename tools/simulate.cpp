@@ -4,7 +4,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "commands.hpp"
 #include "error_samples.hpp"
@@ -95,22 +94,14 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
   writer.add_similarity(simulation.frame(), percent, errors);
 }
 
-void make_frame(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-                Course& course, FrameWriter& writer) {
-  simulation.step();
+void write(const SimulateOptions& options, const MovingSeeds& source, const Simulation& simulation,
+           AnalysisBuffers& buffers, FrameWriter& writer) {
   const int frame = simulation.frame();
-  if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
-  if (writer.wants(frame)) {
-    LabelImage image{source.grid(), simulation.diagram().read()};
-    LabelImage named = with_ids(image, source.ids());
-    writer.add(frame, {simulation.seeds(), simulation.diagram(), std::move(image), std::move(named),
-                       source.values()});
-  }
-  if (frame % most_frames_ahead == 0) {
-    simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
-    if (options.compare_with) simulation.milliseconds(other_engine);
-  }
-  ++course.frames;
+  Analysis analysis(simulation.seeds(), simulation.diagram(main_engine), source.ids(),
+                    options.method_options.metric, buffers);
+  const FrameFacts facts = {frame, source.timestep().value_or(frame),
+                            simulation.report(main_engine).milliseconds()};
+  writer.add(facts, analysis, source.values());
 }
 
 /// All frames, or those before a signal or an error.
@@ -118,10 +109,19 @@ Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulati
                    FrameWriter& writer) {
   const Interruption interruption;
   Progress progress;
+  AnalysisBuffers buffers;
   Course course;
   try {
     do {
-      make_frame(options, source, simulation, course, writer);
+      simulation.step();
+      const int frame = simulation.frame();
+      if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
+      if (writer.wants(frame)) write(options, source, simulation, buffers, writer);
+      if (frame % most_frames_ahead == 0) {
+        simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
+        if (options.compare_with) simulation.milliseconds(other_engine);
+      }
+      ++course.frames;
       progress.show(course.frames, source.done());
       if (interruption.came()) {
         course.trouble = "interrupted";
@@ -194,14 +194,13 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Co
         errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),
         errors.largest_excess.greatest());
   }
-  for (const std::string& path :
-       {options.output.labels_path, options.output.similarity_path, options.output.picture_path}) {
-    if (!path.empty()) fmt::print("wrote {}\n", path);
+  for (const NamedOutput& output : outputs_of(options.output)) {
+    if (!output.path.empty()) fmt::print("wrote {}\n", output.path);
   }
 }
 
 void run(const SimulateOptions& options) {
-  FrameWriter writer(options.output, options.method_options.metric, options.other_is_truth());
+  FrameWriter writer(options.output, options.other_is_truth());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 
 #include "files.hpp"
 #include "vorocl/error.hpp"
@@ -59,28 +60,34 @@ LabelImage read_tiff_labels(const std::string& path) {
   return image;
 }
 
-void write_tiff_labels(const std::string& path, const LabelImage& image) {
+template <typename T>
+void write_tiff(const std::string& path, const Grid& grid, const std::vector<T>& values) {
+  static_assert(sizeof(T) == 4, "one 32-bit sample a pixel");
   constexpr std::size_t room_for_tags = 1 << 20;
-  const bool big = image.labels.size() * sizeof(std::uint32_t) + room_for_tags > 0xffffffffu;
+  const bool big = values.size() * sizeof(T) + room_for_tags > 0xffffffffu;
   File file = open(path, big ? "w8" : "w");
   if (!file) throw Error("cannot write " + path);
-  const auto width = static_cast<std::uint32_t>(image.grid.width());
-  const auto height = static_cast<std::uint32_t>(image.grid.height());
+  const auto width = static_cast<std::uint32_t>(grid.width());
+  const auto height = static_cast<std::uint32_t>(grid.height());
   TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, width);
   TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, height);
   TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, 32);
   TIFFSetField(file.get(), TIFFTAG_SAMPLESPERPIXEL, 1);
-  TIFFSetField(file.get(), TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_INT);
+  TIFFSetField(file.get(), TIFFTAG_SAMPLEFORMAT,
+               std::is_floating_point_v<T> ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_INT);
   TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
   TIFFSetField(file.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   TIFFSetField(file.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(file.get(), 0));
-  std::vector<std::uint32_t> scanline(width);  // the library takes a pointer that it might write to
+  std::vector<T> scanline(width);  // the library takes a pointer that it might write to
   for (std::uint32_t row = 0; row < height; ++row) {
-    const auto begin = image.labels.begin() + static_cast<std::ptrdiff_t>(row) * image.grid.width();
-    scanline.assign(begin, begin + image.grid.width());
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * grid.width();
+    scanline.assign(begin, begin + grid.width());
     if (TIFFWriteScanline(file.get(), scanline.data(), row) != 1) throw Error("writing " + path + " failed");
   }
   if (TIFFFlush(file.get()) != 1) throw Error("writing " + path + " failed");
 }
+
+template void write_tiff(const std::string&, const Grid&, const std::vector<std::uint32_t>&);
+template void write_tiff(const std::string&, const Grid&, const std::vector<float>&);
 
 }  // namespace vorocl::command

@@ -1,7 +1,8 @@
-// Label images as TIFF files of one 32-bit integer a pixel.
+// Images of one 32-bit value a pixel as TIFF files.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "label_image.hpp"
 
@@ -11,9 +12,10 @@ namespace vorocl::command {
 /// damaged.
 LabelImage read_tiff_labels(const std::string& path);
 
-/// The labels' bits as signed integers, for some readers (OpenCV 4) refuse unsigned ones: labels from 2^31
-/// on, and no_label, look negative there. Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws
-/// Error if the file cannot be written.
-void write_tiff_labels(const std::string& path, const LabelImage& image);
+/// One value a pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
+/// some readers (OpenCV 4) refuse unsigned ones: labels from 2^31 on, and no_label, look negative there.
+/// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written.
+template <typename T>
+void write_tiff(const std::string& path, const Grid& grid, const std::vector<T>& values);
 
 }  // namespace vorocl::command

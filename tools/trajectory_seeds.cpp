@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 #include <unordered_map>
+#include <utility>
 
 #include "input.hpp"
 #include "periodic_step.hpp"
@@ -18,26 +19,27 @@ bool holds(const Bounds& bounds, const Point& point) {
   return point.x >= bounds.x0 && point.x <= bounds.x1 && point.y >= bounds.y0 && point.y <= bounds.y1;
 }
 
-/// By particle, the one that has its cell: of those on one pixel the first, which has the lowest id.
-std::vector<std::size_t> owners_of_cells(const std::vector<Point>& pixels) {
-  std::vector<std::size_t> owners;
-  std::unordered_map<std::int64_t, std::size_t> by_pixel;
-  for (const Point& point : pixels) {
+/// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
+/// pixel the first, which has the lowest id, exchanges with the one in the lowest slot, whose label the pixel
+/// carries.
+std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& pixels, const ParticleSlots& slots) {
+  std::vector<std::uint32_t> by_cell = slots.of_ids();
+  std::unordered_map<std::int64_t, std::size_t> first;  // of the particles on each pixel
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
     const auto pixel =
-        static_cast<std::int64_t>(point.y) * Grid::max_side + static_cast<std::int64_t>(point.x);
-    owners.push_back(by_pixel.emplace(pixel, owners.size()).first->second);
+        static_cast<std::int64_t>(pixels[i].y) * Grid::max_side + static_cast<std::int64_t>(pixels[i].x);
+    std::uint32_t& lowest = by_cell[first.emplace(pixel, i).first->second];
+    if (by_cell[i] < lowest) std::swap(by_cell[i], lowest);
   }
-  return owners;
+  return by_cell;
 }
 
-/// What the particles' cells have, by slot; `absent` for slots without a particle. `of_particles` may be
-/// empty: then so is the result.
+/// What the particles have, by slot; `absent` where there is none.
 template <typename T>
-std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std::size_t>& owners,
-                       const ParticleSlots& slots, T absent) {
-  if (of_particles.empty()) return {};
-  std::vector<T> result(slots.size(), absent);
-  for (std::size_t i = 0; i < owners.size(); ++i) result[slots.of_ids()[i]] = of_particles[owners[i]];
+std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std::uint32_t>& slots,
+                       std::size_t size, T absent) {
+  std::vector<T> result(size, absent);
+  for (std::size_t i = 0; i < of_particles.size(); ++i) result[slots[i]] = of_particles[i];
   return result;
 }
 
@@ -115,9 +117,9 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
     }
   }
   points_ = std::move(points);
-  const std::vector<std::size_t> owners = owners_of_cells(pixels);
-  ids_ = by_slot(frame_.ids, owners, slots_, no_label);
-  values_ = by_slot(frame_.values, owners, slots_, std::numeric_limits<double>::quiet_NaN());
+  const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
+  ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
+  values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());
 }
 
 void TrajectorySeeds::check_inside(const Bounds& bounds) const {

@@ -32,15 +32,19 @@ class TrajectorySeeds {
   /// The seeds of the frame, by slot, to move_to() from.
   const std::vector<std::optional<Point>>& points() const { return points_; }
 
-  /// The ids that labels carry, by slot: the particle's, or, of particles on one pixel, the lowest.
+  /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
+  /// whose label the pixels carry, has the lowest id.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
 
-  /// The values of the value column, by slot, of the particle that the label stands for; empty without one.
+  /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
   const std::vector<double>& values() const { return values_; }
 
   /// The longest motion along an axis to this frame of a particle that was there before, in pixels; the
   /// shorter way round where the box is periodic.
   double longest_step() const { return longest_step_; }
+
+  /// The frame's time step, where the file has one.
+  std::optional<std::int64_t> timestep() const { return frame_.timestep; }
 
   /// How much of the file is still to be read; none where that is not known.
   std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }

@@ -30,6 +30,8 @@ struct CellShape {
   bool touches_border = false;                   ///< it has a pixel in the first or last row or column
 };
 
+struct CellStatistics;
+
 /// The buffers of a measurement with one entry a seed, by id. Measuring into them again allocates nothing
 /// unless there are more seeds.
 class VOROCL_API CellSumsResult {
@@ -44,8 +46,9 @@ class VOROCL_API CellSumsResult {
 
  private:
   friend Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result);
+  friend CellStatistics cell_statistics(CellSumsResult& sums);
   std::optional<Seeds> seeds_;
-  cl::Buffer area_, sum_x_, sum_y_, home_, home_sums_;
+  cl::Buffer area_, sum_x_, sum_y_, home_, home_sums_, partial_;
 };
 
 class VOROCL_API CellShapesResult {
@@ -86,6 +89,10 @@ struct CellStatistics {
 
 /// Counts the cells and the spread of their areas, on the device. Waits. Throws as cell_sums().
 VOROCL_API CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram);
+
+/// As above, of sums that have been made; the seeds must not have moved since. Allocates nothing if it did
+/// for as many seeds before. Nothing but zeros if nothing has been summed.
+VOROCL_API CellStatistics cell_statistics(CellSumsResult& sums);
 
 /// The pixels whose labels differ between two diagrams. Waits. Throws as similarity().
 VOROCL_API std::size_t changed_pixels(const Diagram& a, const Diagram& b);

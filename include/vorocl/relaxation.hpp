@@ -1,7 +1,9 @@
 // Lloyd relaxation: seeds move to the centroids of their cells until the diagram is centroidal.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
@@ -16,10 +18,15 @@ struct Relaxation {
   /// Of the diagram at the start and after each round: the sum of the squared distances of all pixels to
   /// their seeds. Exact integers.
   std::vector<std::uint64_t> energies;
-  bool converged = false;  ///< no seed would move any more
+  std::vector<std::size_t> moved;  ///< the seeds that each round moved: one entry less than the energies
+  bool converged = false;          ///< no seed would move any more
 
   int rounds() const { return static_cast<int>(energies.size()) - 1; }
 };
+
+/// Is shown the diagram of the start (0 rounds so far) and of each round; says whether to go on.
+using RelaxationObserver =
+    std::function<bool(const Seeds& seeds, const Diagram& diagram, const Relaxation& so_far)>;
 
 /// The sum of the squared Euclidean distances of all pixels with a label to their seeds, in 64-bit integers.
 /// Waits. Throws Error if seeds and diagram do not fit together or the seeds had a bad point.
@@ -28,11 +35,13 @@ VOROCL_API std::uint64_t energy(const Seeds& seeds, const Diagram& diagram);
 /// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").
 /// A round moves every seed to the pixel nearest to its cell's centroid (if two are, and the seed is on one
 /// of them, it stays) and lets the engine fill the diagram again; seeds with empty cells stay. Ends after so
-/// many rounds, or when no seed moves. In the end the diagram is that of the seeds.
+/// many rounds, when no seed moves, or when the observer says so. In the end the diagram is that of the
+/// seeds.
 ///
 /// With an exact Euclidean engine the energy falls with every round, so the end is sure to come; an
 /// approximate engine may make it rise now and then. Seeds that come to share a pixel leave the higher id
 /// without a cell. Waits in every round. Throws Error if `rounds` is negative, and as the engine does.
-VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds);
+VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
+                            const RelaxationObserver& observer = {});
 
 }  // namespace vorocl

@@ -1,0 +1,65 @@
+"""Runs the command and compares what VTK reads of its .vti and .pvd files with what NumPy reads of its .npy files."""
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+
+WIDTH, HEIGHT = 61, 47
+
+
+def check(condition, what):
+    if not condition:
+        sys.exit("check_vtk.py: " + what)
+
+
+def read_vti(path):
+    """The name and the values of the cell data, the first row on top."""
+    reader = vtkXMLImageDataReader()
+    check(reader.CanReadFile(str(path)), f"{path} is no file that VTK can read")
+    reader.SetFileName(str(path))
+    reader.Update()
+    image = reader.GetOutput()
+    check(image.GetBounds() == (0, WIDTH, 0, HEIGHT, 0, 0), f"{path} has the bounds {image.GetBounds()}")
+    array = image.GetCellData().GetScalars()
+    values = vtk_to_numpy(array).reshape(HEIGHT, WIDTH)
+    check(image.GetCell(WIDTH + 2).GetBounds() == (2, 3, 1, 2, 0, 0), f"{path} has its cells elsewhere")
+    return array.GetName(), numpy.flipud(values)
+
+
+def check_same(vti, npy, name):
+    found, values = read_vti(vti)
+    expected = numpy.load(npy)
+    check(found == name, f"{vti} holds {found}")
+    check(values.dtype == expected.dtype, f"{vti} holds {values.dtype}, {npy} {expected.dtype}")
+    check(numpy.array_equal(values, expected), f"{vti} and {npy} differ")
+
+
+def main():
+    command = sys.argv[1]
+    seeds = ["--random", "40", "--size", f"{WIDTH}x{HEIGHT}"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for extension in ("vti", "npy"):
+            subprocess.run(
+                [command, "cells", *seeds] + [f"--{kind}={folder}/{kind}.{extension}"
+                                              for kind in ("labels", "distance", "border")],
+                check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(
+                [command, "simulate", *seeds, "--frames", "4", "--step-length", "3", "--method", "exact", "--every", "2",
+                 f"--labels={folder}/frame_%03d.{extension}"],
+                check=True, stdout=subprocess.DEVNULL)
+        for kind, array in (("labels", "label"), ("distance", "distance"), ("border", "border")):
+            check_same(folder / f"{kind}.vti", folder / f"{kind}.npy", array)
+        entries = ElementTree.parse(folder / "frame.pvd").getroot().findall("Collection/DataSet")
+        check([float(entry.get("timestep")) for entry in entries] == [0, 2, 4], "frame.pvd has other time steps")
+        for entry in entries:
+            path = folder / entry.get("file")
+            check_same(path, path.with_suffix(".npy"), "label")
+
+
+main()

@@ -1,0 +1,222 @@
+// vorocl relax: energies, the points it leaves, and what it writes.
+#define BOOST_TEST_MODULE relax
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+#include <thread>
+
+#include "host_measures.hpp"
+#include "label_file.hpp"
+#include "raw_images.hpp"
+#include "run_command.hpp"
+#include "trajectory_text.hpp"
+#include "vorocl/picture.hpp"
+
+using namespace vorocl;
+using nlohmann::json;
+
+namespace {
+
+command::LabelImage labels_of(const TemporaryFolder& folder, const std::string& name) {
+  return command::read_labels(folder / name);
+}
+
+/// Checks a table of energies against the JSON object, and that it falls.
+void check_energies(const Table& table, const json& result) {
+  BOOST_TEST(table.header == "round,energy,moved");
+  BOOST_TEST_REQUIRE(table.rows.size() == result.at("rounds").get<std::size_t>() + 1);
+  for (std::size_t round = 0; round < table.rows.size(); ++round) {
+    const TableRow& row = table.rows[round];
+    BOOST_TEST(row.at(0).value() == static_cast<double>(round));
+    if (round == 0) continue;
+    BOOST_TEST(row.at(1).value() < table.rows[round - 1].at(1).value());
+    BOOST_TEST(row.at(2).value() > 0);
+  }
+  BOOST_TEST(table.rows.front().at(1).value() == result.at("energy_at_start").get<double>());
+  BOOST_TEST(table.rows.back().at(1).value() == result.at("energy_at_end").get<double>());
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(seeds_settle_and_their_points_give_the_same_diagram) {
+  const TemporaryFolder folder;
+  const json result =
+      json::parse(succeeds(folder,
+                           "relax --random 150 --size 200x140 --rounds 500 --relaxed-points p.csv "
+                           "--energy e.csv --labels l.npy --json"));
+  BOOST_TEST(result.at("settled") == true);
+  BOOST_TEST(result.at("seeds") == 150);
+  BOOST_TEST(result.at("rounds").get<int>() > 3);
+  BOOST_TEST(result.at("rounds").get<int>() < 500);
+  check_energies(read_table(folder / "e.csv"), result);
+
+  const std::string again = " --size 200x140 --bounds 0,0,200,140 ";
+  succeeds(folder, "cells --points p.csv --labels back.npy --cells c.csv" + again);
+  BOOST_TEST(labels_of(folder, "back.npy").labels == labels_of(folder, "l.npy").labels);
+  // No seed is more than half a pixel from its cell's centroid on an axis; the energy is that of the labels.
+  const std::vector<TableRow> points = read_table(folder / "p.csv").rows;
+  SeedsById seeds;
+  for (const TableRow& row : read_table(folder / "c.csv").rows) {
+    BOOST_TEST(std::abs(*row[1] - *row[4]) <= 0.5);
+    BOOST_TEST(std::abs(*row[2] - *row[5]) <= 0.5);
+    const auto id = static_cast<std::uint32_t>(*row[0]);
+    seeds[id] = {static_cast<int>(*row[1]), static_cast<int>(*row[2])};
+    BOOST_TEST((points.at(id) == TableRow{row[0], row[1], row[2]}));
+  }
+  double energy = 0;
+  each_pixel(Grid(200, 140), labels_of(folder, "l.npy").labels, [&](std::uint32_t label, int x, int y) {
+    energy += static_cast<double>(distance({x, y}, seeds.at(label), Metric::euclidean));
+  });
+  BOOST_TEST(result.at("energy_at_end").get<double>() == energy);
+  const json nothing_left =
+      json::parse(succeeds(folder, "relax --points p.csv --rounds 5 --relaxed-points q.npy --json" + again));
+  BOOST_TEST(nothing_left.at("rounds") == 0);
+  BOOST_TEST(nothing_left.at("settled") == true);
+  succeeds(folder, "cells --points q.npy --labels q_back.npy" + again);
+  BOOST_TEST(labels_of(folder, "q_back.npy").labels == labels_of(folder, "l.npy").labels);
+  BOOST_TEST(read_raw_npy<double>(folder / "q.npy").type == "<f8");
+}
+
+BOOST_AUTO_TEST_CASE(rounds_are_limited) {
+  const TemporaryFolder folder;
+  const std::string relax = "relax --random 150 --size 200x140 --energy e.csv ";
+  const json one = json::parse(succeeds(folder, relax + "--rounds 1 --json"));
+  BOOST_TEST(one.at("rounds") == 1);
+  BOOST_TEST(one.at("settled") == false);
+  check_energies(read_table(folder / "e.csv"), one);
+  const json none = json::parse(succeeds(folder, relax + "--rounds 0 --json"));
+  BOOST_TEST(none.at("rounds") == 0);
+  BOOST_TEST(none.at("energy_at_end") == one.at("energy_at_start"));
+  const std::string out = succeeds(folder, relax + "--rounds 2");
+  BOOST_TEST(out.find("2 rounds, not settled yet") != std::string::npos);
+  BOOST_TEST(out.find(fmt::format("energy: {} at the start",
+                                  one.at("energy_at_start").get<std::uint64_t>())) != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay_and_particles_keep_their_ids) {
+  const TemporaryFolder folder;
+  folder.file("t.lammpstrj", command::dump(command::walled_box, "id x y",
+                                           {"70 1.5 1.5", "9 1.5 1.5", "8 8.5 8.5", "7 8.5 1.5"}));
+  const std::string relax =
+      "relax --trajectory t.lammpstrj --size 10x10 --relaxed-points p.csv --labels l.npy ";
+  const auto pixels_of_70 = [&] {
+    const auto labels = labels_of(folder, "l.npy").labels;
+    for (const std::uint32_t id : {7u, 8u, 9u}) BOOST_TEST(std::count(labels.begin(), labels.end(), id) > 0);
+    return std::count(labels.begin(), labels.end(), 70u);
+  };
+  succeeds(folder, relax + "--rounds 0");
+  BOOST_TEST(pixels_of_70() == 0);  // 9 has the cell
+  succeeds(folder, relax + "--rounds 1");
+  BOOST_TEST(pixels_of_70() > 0);  // 9 has gone to the middle of the cell
+  const Table table = read_table(folder / "p.csv");
+  BOOST_TEST(table.header == "id,x,y");
+  BOOST_TEST_REQUIRE(table.rows.size() == 4u);
+  BOOST_TEST(table.rows[0].front().value() == 7);
+  BOOST_TEST((table.rows[3] == TableRow{70, 1.5, 1.5}));
+}
+
+BOOST_AUTO_TEST_CASE(the_end_or_all_rounds_are_drawn) {
+  const TemporaryFolder folder;
+  const std::string relax = "relax --random 40 --size 64x48 --rounds 3 ";
+  succeeds(folder, relax + "-o a.png --labels l.npy");
+  succeeds(folder, relax + "-o r/%d.png");
+  succeeds(folder, relax + "-o f.mp4 --fps 5");
+  succeeds(folder, "cells --random 40 --size 64x48 --labels start.npy");
+  const Grid grid(64, 48);
+  const auto is_picture_of = [&](const std::string& picture, const std::string& labels) {
+    return cv::norm(cv::imread(folder / picture), color_by_id(labels_of(folder, labels).labels, grid),
+                    cv::NORM_INF) == 0;
+  };
+  BOOST_TEST(is_picture_of("a.png", "l.npy"));
+  BOOST_TEST(is_picture_of("r/0.png", "start.npy"));
+  BOOST_TEST(is_picture_of("r/3.png", "l.npy"));
+  BOOST_TEST(!std::filesystem::exists(folder / "r/4.png"));
+  BOOST_TEST(cv::VideoCapture(folder / "f.mp4").get(cv::CAP_PROP_FRAME_COUNT) == 4);
+}
+
+BOOST_AUTO_TEST_CASE(all_rounds_are_coloured_on_the_scale_of_the_first) {
+  const TemporaryFolder folder;
+  const std::string relax = "relax --random 40 --size 64x48 --rounds 3 --color area --color-bar ";
+  succeeds(folder, relax + "-o r/%d.png --labels end.npy");
+  succeeds(folder, relax + "-o end.png");
+  succeeds(folder, "cells --random 40 --size 64x48 --labels start.npy");
+  const Grid grid(64, 48);
+  const auto areas_of = [](const std::vector<std::uint32_t>& labels) {
+    std::vector<double> areas(40, 0);
+    for (const std::uint32_t label : labels) ++areas.at(label);
+    return areas;
+  };
+  const auto start = labels_of(folder, "start.npy").labels, end = labels_of(folder, "end.npy").labels;
+  const Scale scale = range_of(start, areas_of(start)).value(), own = range_of(end, areas_of(end)).value();
+  const auto is_picture_of = [&](const std::string& picture, const std::vector<std::uint32_t>& labels,
+                                 const Scale& shown, bool many) {
+    const cv::Mat cells = color_by_value(labels, grid, areas_of(labels), shown, Palette::viridis);
+    const cv::Mat expected = with_color_bar(cells, {shown, Palette::viridis, "area (px)", true, many});
+    return cv::norm(cv::imread(folder / picture), expected, cv::NORM_INF) == 0;
+  };
+  BOOST_TEST(is_picture_of("r/0.png", start, scale, true));
+  BOOST_TEST(is_picture_of("r/3.png", end, scale, true));
+  BOOST_TEST(is_picture_of("end.png", end, own, false));
+}
+
+BOOST_AUTO_TEST_CASE(seeds_take_the_values_of_their_column_along) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,mass\n5,5,10\n9,5,30\n5,9,20\n");
+  succeeds(folder,
+           "relax --points p.csv --bounds 0,0,40,30 --size 40x30 --rounds 5 --labels l.npy -o a.png "
+           "--color column:mass");
+  const cv::Mat expected = color_by_value(labels_of(folder, "l.npy").labels, Grid(40, 30), {10, 30, 20},
+                                          {10, 30}, Palette::viridis);
+  BOOST_TEST(cv::norm(cv::imread(folder / "a.png"), expected, cv::NORM_INF) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(after_ctrl_c_the_files_show_the_last_round) {
+  const TemporaryFolder folder;
+  const pid_t process = start(folder, {"relax", "--random", "9000", "--size", "900x800", "--rounds", "100000",
+                                       "-o", "r/%d.png", "--relaxed-points", "p.csv", "--energy", "e.csv"});
+  for (int i = 0; i < 600 && !std::filesystem::exists(folder / "r/2.png"); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  kill(process, SIGINT);
+  int status = 0;
+  waitpid(process, &status, 0);
+  BOOST_TEST(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == failure);
+  BOOST_TEST((folder.names() == std::set<std::string>{"r", "p.csv", "e.csv", "streams"}));
+  const std::size_t rounds = read_table(folder / "e.csv").rows.size() - 1;
+  BOOST_TEST(rounds >= 2u);
+  BOOST_TEST(std::filesystem::exists(folder / fmt::format("r/{}.png", rounds)));
+  BOOST_TEST(!std::filesystem::exists(folder / fmt::format("r/{}.png", rounds + 1)));
+  BOOST_TEST(
+      content_of(folder / "streams") ==
+      fmt::format("vorocl: error: interrupted after {} rounds; the files show the last of them\n", rounds));
+  succeeds(folder, "cells --points p.csv --bounds 0,0,900,800 --size 900x800 --labels l.npy");
+  BOOST_TEST(cv::norm(cv::imread(folder / fmt::format("r/{}.png", rounds)),
+                      color_by_id(labels_of(folder, "l.npy").labels, Grid(900, 800)), cv::NORM_INF) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(bad_options_are_refused_before_the_work) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "1,2\n3,4\n");
+  const std::string relax = "relax --random 5 --size 10x10 --rounds 3 --device none ";
+  refuses(folder, "relax --random 5 --size 10x10", usage, {"--rounds"});
+  refuses(folder, "relax --random 5 --size 10x10 --rounds -1", usage, {"--rounds"});
+  refuses(folder, "relax --size 10x10 --rounds 3", usage, {"--random", "--points"});
+  refuses(folder, relax + "-o a.gif", usage, {"a.gif", ".png"});
+  refuses(folder, relax + "-o a%d%d.png", usage, {"%05d.png"});
+  refuses(folder, relax + "-o r/%d.csv", usage, {"r/%d.csv", ".png"});
+  refuses(folder, relax + "--labels l.png", usage, {"l.png", ".npy"});
+  refuses(folder, relax + "--relaxed-points p.txt", usage, {"p.txt", ".csv, .npy"});
+  refuses(folder, relax + "--energy e.npy", usage, {"e.npy", ".csv"});
+  refuses(folder, relax + "--energy e.csv --relaxed-points e.csv", usage,
+          {"e.csv", "--relaxed-points and --energy"});
+  refuses(folder, relax + "--labels a.tif -o a.tif", usage, {"a.tif", "--labels and -o"});
+  refuses(folder, relax + "--energy missing/e.csv", failure, {"missing/e.csv", "does not exist"});
+  refuses(folder, relax + "--relaxed-points /proc/p.csv", failure, {"/proc/p.csv", "cannot write"});
+  refuses(folder, relax + "-o new/%d.png --edges", failure, {"none"});
+  refuses(folder, relax + "--edges", usage, {"--edges", "-o"});
+}

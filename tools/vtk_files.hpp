@@ -1,0 +1,29 @@
+// Files of VTK, which ParaView opens: image data (.vti) and collections of such files (.pvd).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl::command {
+
+/// One value a pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells are
+/// the pixels: spacing 1, the origin at the lower left corner of the picture and y upwards, so that the first
+/// row is on top as in a picture. What is at (x, y) in pixel units is at (x, height - y) there. The values
+/// are raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be written.
+template <typename T>
+void write_vti(const std::string& path, const std::string& name, const Grid& grid,
+               const std::vector<T>& values);
+
+/// A file of a collection and the time that it shows.
+struct TimedFile {
+  std::int64_t time;
+  std::string name;  // relative to the collection's folder
+};
+
+/// Throws Error if the file cannot be written.
+void write_pvd(const std::string& path, const std::vector<TimedFile>& files);
+
+}  // namespace vorocl::command
