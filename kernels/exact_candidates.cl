@@ -166,10 +166,11 @@ inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int
   return count + (int)(end - begin);
 }
 
-// Adds the candidates for the box among the seeds of the cells from (first_x, y) to (last_x, y), as far as they are in
-// the grid: of a crowded cell outside the box only the rim.
+// Adds those seeds of the cells from (first_x, y) to (last_x, y), as far as they are in the grid, that can be candidates
+// for other cells: of a crowded cell only the rim. Of a crowded cell itself no pixel is farther than CELL - 1 from its
+// seeds, so that it is labelled by rows, without candidates.
 #define CROWDED 160
-inline int add_seeds(const Listing* all, Box box, int first_x, int last_x, int y, uint* seeds, int count) {
+inline int add_seeds(const Listing* all, int first_x, int last_x, int y, uint* seeds, int count) {
   first_x = max(first_x, 0);
   last_x = min(last_x, all->columns - 1);
   if (y < 0 || y >= all->rows || first_x > last_x) return count;
@@ -178,10 +179,8 @@ inline int add_seeds(const Listing* all, Box box, int first_x, int last_x, int y
     return copy_seeds(all, starts[first_x], starts[last_x + 1], seeds, count);
   }
   for (int x = first_x; x <= last_x; ++x) {
-    const bool in_box = box.left >> CELL_BITS <= x && x <= box.right >> CELL_BITS && box.top >> CELL_BITS <= y &&
-                        y <= box.bottom >> CELL_BITS;
-    count = in_box || starts[x + 1] - starts[x] < CROWDED ? copy_seeds(all, starts[x], starts[x + 1], seeds, count)
-                                                          : add_rim(all, x, y, seeds, count);
+    count = starts[x + 1] - starts[x] < CROWDED ? copy_seeds(all, starts[x], starts[x + 1], seeds, count)
+                                                : add_rim(all, x, y, seeds, count);
   }
   return count;
 }
@@ -297,7 +296,7 @@ inline bool find_candidates(Search* search, const Listing* all) {
     const uint cell = search->cells[part >> 2 * side_bits];
     const int x = packed_x(cell) * side + (part & (side - 1));
     const int y = packed_y(cell) * side + (part >> side_bits & (side - 1));
-    search->count = add_seeds(all, search->box, x, x, y, search->seeds, search->count);
+    search->count = add_seeds(all, x, x, y, search->seeds, search->count);
     if (search->count <= MOST_CANDIDATES) continue;
     pad(search->seeds, search->count);
     improve_dominator(&search->dominators, 0, search->seeds, search->count);

@@ -169,7 +169,7 @@ typedef struct {
 inline bool take_near(Near* near, const Listing* all, int x, int y, int away) {
   near->count = 0;
   for (int row = -away; row <= away; ++row) {
-    near->count = add_seeds(all, near->box, x - away, x + away, y + row, near->seeds, near->count);
+    near->count = add_seeds(all, x - away, x + away, y + row, near->seeds, near->count);
     if (near->count <= MOST_NEAR) continue;
     pad(near->seeds, near->count);
     improve_dominator(&near->dominators, 0, near->seeds, near->count);
