@@ -135,18 +135,54 @@ inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
   return drop_dominated_seeds(dominators, 1, DOMINATORS, seeds, count);
 }
 
-// Adds the listed seeds of the cells from (first_x, y) to (last_x, y), as far as they are in the grid. May write a run
-// behind them.
-inline int add_listed(global const uint* starts, global const uint* list, int first_x, int last_x, int y, int columns,
-                      int rows, uint* seeds, int count) {
-  first_x = max(first_x, 0);
-  last_x = min(last_x, columns - 1);
-  if (y < 0 || y >= rows || first_x > last_x) return count;
-  const uint begin = starts[start_of(first_x, y, columns)], end = starts[start_of(last_x + 1, y, columns)];
+// The seeds of a row of the grid in one cell; outside the grid everything counts as a seed.
+inline uint seeds_in_row(const Listing* all, int cell_x, int y) {
+  if (cell_x < 0 || cell_x >= all->columns || y < 0 || y >= all->height) return ALL_BITS;
+  return row_bits(all->bits[((y >> CELL_BITS) * all->columns + cell_x) * WORDS + y % CELL / ROWS_OF_WORD], y);
+}
+
+// Adds the seeds of a cell but those whose four neighbours are seeds: these win at no pixel but their own.
+inline int add_rim(const Listing* all, int cell_x, int cell_y, uint* seeds, int count) {
+  const int top = cell_y * CELL;
+  uint above = seeds_in_row(all, cell_x, top - 1), own = seeds_in_row(all, cell_x, top);
+  for (int y = top; y < min(top + CELL, all->height); ++y) {
+    const uint below = seeds_in_row(all, cell_x, y + 1);
+    const uint left = own << 1 | seeds_in_row(all, cell_x - 1, y) >> (CELL - 1);
+    const uint right = own >> 1 | seeds_in_row(all, cell_x + 1, y) << (CELL - 1);
+    for (uint rim = own & ~(above & below & left & right); rim != 0; rim &= rim - 1) {
+      seeds[count++] = pack(cell_x * CELL + (int)lowest_bit(rim), y);
+    }
+    above = own;
+    own = below;
+  }
+  return count;
+}
+
+// Copies a part of the list, and may write a run behind it.
+inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int count) {
   for (uint i = begin; i < end; i += VOROCL_WIDTH) {
-    STORE_RUN(LOAD_RUN(list + i), seeds + count + (int)(i - begin));
+    STORE_RUN(LOAD_RUN(all->list + i), seeds + count + (int)(i - begin));
   }
   return count + (int)(end - begin);
+}
+
+// Adds those seeds of the cells from (first_x, y) to (last_x, y), as far as they are in the grid, that can be candidates
+// for other cells: of a crowded cell only the rim. Of a crowded cell itself no pixel is farther than CELL - 1 from its
+// seeds, so that it is labelled by rows, without candidates.
+#define CROWDED 160
+inline int add_seeds(const Listing* all, int first_x, int last_x, int y, uint* seeds, int count) {
+  first_x = max(first_x, 0);
+  last_x = min(last_x, all->columns - 1);
+  if (y < 0 || y >= all->rows || first_x > last_x) return count;
+  global const uint* const starts = all->starts + start_of(0, y, all->columns);
+  if (starts[last_x + 1] - starts[first_x] < CROWDED) {
+    return copy_seeds(all, starts[first_x], starts[last_x + 1], seeds, count);
+  }
+  for (int x = first_x; x <= last_x; ++x) {
+    count = starts[x + 1] - starts[x] < CROWDED ? copy_seeds(all, starts[x], starts[x + 1], seeds, count)
+                                                : add_rim(all, x, y, seeds, count);
+  }
+  return count;
 }
 
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
@@ -193,9 +229,9 @@ inline void drop_dominated_cells(Search* search, int begin, int end) {
 }
 
 // Adds the cells of a rectangle of the search's level that are not empty.
-inline void add_cells(Search* search, global const uint* pyramid, int width, int height, int x, int y, int size) {
-  const int columns = cells_along(width, search->level), rows = cells_along(height, search->level);
-  global const uint* const level = pyramid + level_start(width, height, search->level);
+inline void add_cells(Search* search, const Listing* all, global const uint* pyramid, int x, int y, int size) {
+  const int columns = cells_along(all->width, search->level), rows = cells_along(all->height, search->level);
+  global const uint* const level = pyramid + level_start(all->width, all->height, search->level);
   for (int cell_y = y; cell_y < min(y + size, rows); ++cell_y) {
     for (int cell_x = x; cell_x < min(x + size, columns); ++cell_x) {
       const uint named = level[cell_y * columns + cell_x];
@@ -221,7 +257,7 @@ inline void take_only_seeds(Search* search) {
 }
 
 // Finds the cells that may hold candidates of the box, as fine as they can be listed, and candidates on the way.
-inline void begin_search(Search* search, Box box, global const uint* pyramid, int width, int height, int top_level) {
+inline void begin_search(Search* search, Box box, const Listing* all, global const uint* pyramid, int top_level) {
   uint parents[MOST_PARENTS];
   search->box = box;
   search->level = top_level;
@@ -229,7 +265,7 @@ inline void begin_search(Search* search, Box box, global const uint* pyramid, in
   search->count = 0;
   search->next_part = 0;
   no_dominators(&search->dominators, box);
-  add_cells(search, pyramid, width, height, 0, 0, TOP_CELLS);
+  add_cells(search, all, pyramid, 0, 0, TOP_CELLS);
   while (true) {
     pad(search->named, search->cell_count);
     improve_dominator(&search->dominators, 0, search->named, search->cell_count);
@@ -245,16 +281,14 @@ inline void begin_search(Search* search, Box box, global const uint* pyramid, in
     search->cell_count = 0;
     --search->level;
     for (int i = 0; i < parent_count; ++i) {
-      add_cells(search, pyramid, width, height, packed_x(parents[i]) * FAN, packed_y(parents[i]) * FAN, FAN);
+      add_cells(search, all, pyramid, packed_x(parents[i]) * FAN, packed_y(parents[i]) * FAN, FAN);
     }
   }
 }
 
 // Lists candidates behind those that the search has already; false if there are more of them than fit, so that the
 // caller takes these and comes again.
-inline bool find_candidates(Search* search, global const uint* starts, global const uint* list, int width,
-                            int height) {
-  const int columns = cells_along(width, 0), rows = cells_along(height, 0);
+inline bool find_candidates(Search* search, const Listing* all) {
   const int side_bits = FAN_BITS * search->level, side = 1 << side_bits;  // parts of a cell along an axis
   const int parts = search->cell_count << 2 * side_bits;
   while (search->next_part < parts) {
@@ -262,7 +296,7 @@ inline bool find_candidates(Search* search, global const uint* starts, global co
     const uint cell = search->cells[part >> 2 * side_bits];
     const int x = packed_x(cell) * side + (part & (side - 1));
     const int y = packed_y(cell) * side + (part >> side_bits & (side - 1));
-    search->count = add_listed(starts, list, x, x, y, columns, rows, search->seeds, search->count);
+    search->count = add_seeds(all, x, x, y, search->seeds, search->count);
     if (search->count <= MOST_CANDIDATES) continue;
     pad(search->seeds, search->count);
     improve_dominator(&search->dominators, 0, search->seeds, search->count);

@@ -59,8 +59,36 @@ inline uint listed(global const uint* bits, global const uint* word_starts, uint
 // A row of cells has one start more than cells: where its last cell ends.
 inline int start_of(int cell_x, int cell_y, int columns) { return cell_y * (columns + 1) + cell_x; }
 
+// All of it, once it is made.
+typedef struct {
+  int width, height, columns, rows;  // of the grid in pixels, and in cells of level 0
+  global const uint *bits, *starts, *word_starts;
+  global const uint *list, *ids;  // the seeds' positions and ids
+} Listing;
+
+inline Listing listing(global const uint* bits, global const uint* starts, global const uint* word_starts,
+                       global const uint* list, global const uint* ids, int width, int height) {
+  const Listing all = {width, height, cells_along(width, 0), cells_along(height, 0), bits, starts, word_starts,
+                       list, ids};
+  return all;
+}
+
+inline uint id_of(const Listing* all, uint seed) {
+  return all->ids[listed(all->bits, all->word_starts, bit_place(seed, all->columns))];
+}
+
+// The seeds of the cells from (first_x, y) to (last_x, y), as far as these are in the grid.
+inline uint count_seeds(const Listing* all, int first_x, int last_x, int y) {
+  if (y < 0 || y >= all->rows) return 0;
+  const int end = start_of(min(last_x + 1, all->columns), y, all->columns);
+  return all->starts[end] - all->starts[start_of(max(first_x, 0), y, all->columns)];
+}
+
 #define WORDS (CELL * CELL / 32)
 #define ROWS_OF_WORD (32 / CELL)
+// The seeds in a row of a cell, given the word that holds it: a bit each, the lowest bit at the left.
+#define ALL_BITS ((1u << CELL) - 1)
+inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * CELL & ALL_BITS; }
 inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 // The pixel of a word's bit, as an offset from the word's first pixel.
 inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / CELL)); }

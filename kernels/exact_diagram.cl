@@ -29,23 +29,11 @@ inline void fill_box(Box box, uint label, global uint* labels, int width) {
   }
 }
 
-// What the seeds' ids are looked up in.
-typedef struct {
-  global const uint* bits;
-  global const uint* word_starts;
-  global const uint* ids;
-} Ids;
-
-inline uint id_of(Ids ids, uint seed, int columns) {
-  return ids.ids[listed(ids.bits, ids.word_starts, bit_place(seed, columns))];
-}
-
-inline void store_ids(uint_run seeds, Ids ids, global uint* labels, int x, int y, int width, int height) {
-  if (y >= height) return;
+inline void store_ids(uint_run seeds, const Listing* all, global uint* labels, int x, int y) {
   uint seed[VOROCL_WIDTH];
   STORE_RUN(seeds, seed);
-  for (int lane = 0; lane < min(VOROCL_WIDTH, width - x); ++lane) {
-    labels[y * width + x + lane] = id_of(ids, seed[lane], cells_along(width, 0));
+  for (int lane = 0; lane < min(VOROCL_WIDTH, all->width - x); ++lane) {
+    labels[y * all->width + x + lane] = id_of(all, seed[lane]);
   }
 }
 
@@ -132,36 +120,32 @@ inline void label_by_keys(const uint* sorted, const uint* label_of, int count, u
 }
 
 // Labels a box by a padded list that holds its candidates.
-inline void label_by_list(const Dominators* dominators, const uint* seeds, int count, Ids ids, Box box,
-                          global uint* labels, int width) {
+inline void label_by_list(const Listing* all, const Dominators* dominators, const uint* seeds, int count, Box box,
+                          global uint* labels) {
   uint sorted[MOST_KEYS], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
   sort_by_tie_rule(seeds, count, sorted);
-  for (int i = 0; i < count; ++i) label_of[i] = id_of(ids, sorted[i], cells_along(width, 0));
+  for (int i = 0; i < count; ++i) label_of[i] = id_of(all, sorted[i]);
   if (count == 1) {
-    fill_box(box, label_of[0], labels, width);
+    fill_box(box, label_of[0], labels, all->width);
   } else {
-    label_by_keys(sorted, label_of, count, dominators->seed[0], box, labels, width);
+    label_by_keys(sorted, label_of, count, dominators->seed[0], box, labels, all->width);
   }
 }
 
 // Labels a cell by the best of the rows' nearest seeds; false if there is a pixel that has none within reach.
-inline bool label_by_rows(Ids ids, int cell_x, int cell_y, global uint* labels, int width, int height) {
+inline bool label_by_rows(const Listing* all, int cell_x, int cell_y, global uint* labels) {
   NearestInRows rows;
-  rows.bits = ids.bits;
-  rows.word_starts = ids.word_starts;
-  rows.ids = ids.ids;
+  rows.all = all;
   rows.cell_x = cell_x;
   rows.top = cell_y * CELL;
-  rows.columns = cells_along(width, 0);
-  rows.height = height;
   ushort16 least[CELL];
-  const int columns = min(CELL, width - cell_x * CELL), count = min(CELL, height - rows.top);
+  const int columns = min(CELL, all->width - cell_x * CELL), count = min(CELL, all->height - rows.top);
   if (!find_least_row_keys(&rows, count, least)) return false;
   for (int y = 0; y < count; ++y) {
     const uint* const nearest = rows.label + y * CELL;
     least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
     const ushort* const at = (const ushort*)(least + y);
-    global uint* const out = labels + (rows.top + y) * width + cell_x * CELL;
+    global uint* const out = labels + (rows.top + y) * all->width + cell_x * CELL;
     if (columns == CELL) {
 #pragma unroll
       for (int x = 0; x < CELL; ++x) out[x] = nearest[at[x] + x];
@@ -181,105 +165,88 @@ typedef struct {
   uint seeds[MOST_NEAR + 5 * CELL * CELL + VOROCL_WIDTH];
 } Near;
 
-// Adds the seeds of some cells next to each other; false if that makes too many.
-inline bool add_near(Near* near, global const uint* starts, global const uint* list, int first_x, int last_x, int y,
-                     int columns, int rows) {
-  near->count = add_listed(starts, list, first_x, last_x, y, columns, rows, near->seeds, near->count);
-  if (near->count <= MOST_NEAR) return true;
+// Takes the seeds of a cell and of those up to so many cells away; false if that makes too many.
+inline bool take_near(Near* near, const Listing* all, int x, int y, int away) {
+  near->count = 0;
+  for (int row = -away; row <= away; ++row) {
+    near->count = add_seeds(all, x - away, x + away, y + row, near->seeds, near->count);
+    if (near->count <= MOST_NEAR) continue;
+    pad(near->seeds, near->count);
+    improve_dominator(&near->dominators, 0, near->seeds, near->count);
+    near->count = drop_dominated(&near->dominators, near->seeds, near->count);
+    if (near->count > MOST_NEAR) return false;
+  }
   pad(near->seeds, near->count);
-  improve_dominator(&near->dominators, 0, near->seeds, near->count);
-  near->count = drop_dominated(&near->dominators, near->seeds, near->count);
-  return near->count <= MOST_NEAR;
+  return true;
 }
 
 // Lists the candidates of a cell that has seeds near, if all of them are near; else false.
-inline bool find_near(Near* near, global const uint* starts, global const uint* list, int x, int y, int width,
-                      int height) {
-  const int columns = cells_along(width, 0), rows = cells_along(height, 0);
-  near->count = 0;
-  near->box = box_of(x * CELL, y * CELL, CELL, width, height);
+inline bool find_near(Near* near, const Listing* all, int x, int y) {
+  near->box = box_of(x * CELL, y * CELL, CELL, all->width, all->height);
   no_dominators(&near->dominators, near->box);
-  for (int row = -1; row <= 1; ++row) {
-    if (!add_near(near, starts, list, x - 1, x + 1, y + row, columns, rows)) return false;
-  }
-  pad(near->seeds, near->count);
+  if (!take_near(near, all, x, y, 1)) return false;
   improve_dominator(&near->dominators, 0, near->seeds, near->count);
   int reach = 0;
   for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near->dominators.distance[0][corner]);
   if (reach > ALONG(2 * CELL)) return false;
-  if (reach > ALONG(CELL)) {
-    for (int row = -2; row <= 2; row += 4) {
-      if (!add_near(near, starts, list, x - 2, x + 2, y + row, columns, rows)) return false;
-    }
-    for (int row = -1; row <= 1; ++row) {
-      if (!add_near(near, starts, list, x - 2, x - 2, y + row, columns, rows)) return false;
-      if (!add_near(near, starts, list, x + 2, x + 2, y + row, columns, rows)) return false;
-    }
-    pad(near->seeds, near->count);
-  }
+  if (reach > ALONG(CELL) && !take_near(near, all, x, y, 2)) return false;
   near->count = drop_dominated(&near->dominators, near->seeds, near->count);
   return near->count <= MOST_KEYS;
 }
 
-// The seeds of a cell and those next to it.
-inline uint count_near(global const uint* starts, int x, int y, int columns, int rows) {
-  uint count = 0;
-  for (int row = max(y - 1, 0); row <= min(y + 1, rows - 1); ++row) {
-    count += starts[start_of(min(x + 2, columns), row, columns)] - starts[start_of(max(x - 1, 0), row, columns)];
-  }
-  return count;
-}
-
 kernel void label_near(global const uint* restrict bits, global const uint* restrict starts,
                        global const uint* restrict word_starts, global const uint* restrict list,
-                       global const uint* restrict ids, global uint* restrict labels, global uint* restrict labelled,
-                       int width, int height) {
-  const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
-  if (cell >= columns * cells_along(height, 0)) return;
-  const int x = cell % columns, y = cell / columns;
-  const Ids all_ids = {bits, word_starts, ids};
-  const uint seeds = count_near(starts, x, y, columns, cells_along(height, 0));
+                       global const uint* restrict ids, int width, int height, global uint* restrict labels,
+                       global uint* restrict labelled) {
+  const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
+  const int cell = (int)get_global_id(0);
+  if (cell >= all.columns * all.rows) return;
+  const int x = cell % all.columns, y = cell / all.columns;
+  uint seeds = 0;
+  for (int row = -1; row <= 1; ++row) seeds += count_seeds(&all, x - 1, x + 1, y + row);
   labelled[cell] = 1;
-  if (seeds >= DENSE && label_by_rows(all_ids, x, y, labels, width, height)) return;
+  if (seeds >= DENSE && label_by_rows(&all, x, y, labels)) return;
   Near near;
-  if (seeds >= SPARSE && find_near(&near, starts, list, x, y, width, height)) {
-    label_by_list(&near.dominators, near.seeds, near.count, all_ids, near.box, labels, width);
+  if (seeds >= SPARSE && find_near(&near, &all, x, y)) {
+    label_by_list(&all, &near.dominators, near.seeds, near.count, near.box, labels);
   } else {
     labelled[cell] = 0;
   }
 }
 
-inline bool all_labelled(global const uint* labelled, int tile_x, int tile_y, int columns, int rows) {
-  for (int y = tile_y * FAN; y < min((tile_y + 1) * FAN, rows); ++y) {
-    for (int x = tile_x * FAN; x < min((tile_x + 1) * FAN, columns); ++x) {
-      if (!labelled[y * columns + x]) return false;
+inline bool all_labelled(const Listing* all, global const uint* labelled, int tile_x, int tile_y) {
+  for (int y = tile_y * FAN; y < min((tile_y + 1) * FAN, all->rows); ++y) {
+    for (int x = tile_x * FAN; x < min((tile_x + 1) * FAN, all->columns); ++x) {
+      if (!labelled[y * all->columns + x]) return false;
     }
   }
   return true;
 }
 
-kernel void list_candidates(global const uint* restrict pyramid, global const uint* restrict starts,
-                            global const uint* restrict list, global const uint* restrict labelled,
-                            global uint* restrict lists, global uint* restrict counts, int width, int height,
-                            int top_level) {
+kernel void list_candidates(global const uint* restrict bits, global const uint* restrict starts,
+                            global const uint* restrict word_starts, global const uint* restrict list,
+                            global const uint* restrict ids, int width, int height,
+                            global const uint* restrict labelled, global const uint* restrict pyramid, int top_level,
+                            global uint* restrict lists, global uint* restrict counts) {
+  const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
   const int tile = (int)get_global_id(0), tiles_across = cells_along(width, 1);
   if (tile >= tiles_across * cells_along(height, 1)) return;
   const int tile_x = tile % tiles_across, tile_y = tile / tiles_across;
-  if (all_labelled(labelled, tile_x, tile_y, cells_along(width, 0), cells_along(height, 0))) return;
+  if (all_labelled(&all, labelled, tile_x, tile_y)) return;
   Search search;
-  begin_search(&search, box_of(tile_x * TILE, tile_y * TILE, TILE, width, height), pyramid, width, height, top_level);
-  const bool all = find_candidates(&search, starts, list, width, height);
-  counts[tile] = all ? (uint)search.count : TOO_MANY;
-  if (!all) return;
+  begin_search(&search, box_of(tile_x * TILE, tile_y * TILE, TILE, width, height), &all, pyramid, top_level);
+  const bool complete = find_candidates(&search, &all);
+  counts[tile] = complete ? (uint)search.count : TOO_MANY;
+  if (!complete) return;
   global uint* const candidates = lists + (size_t)tile * MOST_CANDIDATES;
   for (int i = 0; i < search.count; ++i) candidates[i] = search.seeds[i];
 }
 
 // Labels a cell by its tile's candidates, if only so many of them are left that this can be done.
-inline bool label_by_tile(global const uint* candidates, int count, Ids ids, Box box, global uint* labels,
-                          int width) {
+inline bool label_by_tile(const Listing* all, global const uint* candidates, int count, Box box,
+                          global uint* labels) {
   if (count <= 1) {
-    fill_box(box, count == 0 ? NO_LABEL : id_of(ids, candidates[0], cells_along(width, 0)), labels, width);
+    fill_box(box, count == 0 ? NO_LABEL : id_of(all, candidates[0]), labels, all->width);
     return true;
   }
   uint seeds[MOST_CANDIDATES + VOROCL_WIDTH];
@@ -290,19 +257,18 @@ inline bool label_by_tile(global const uint* candidates, int count, Ids ids, Box
   improve_dominator(&dominators, 0, seeds, count);
   count = drop_dominated(&dominators, seeds, count);
   if (count > MOST_KEYS) return false;
-  label_by_list(&dominators, seeds, count, ids, box, labels, width);
+  label_by_list(all, &dominators, seeds, count, box, labels);
   return true;
 }
 
 // Labels a cell by any number of candidates, list after list in any order.
-inline void label_by_search(Search* search, global const uint* starts, global const uint* list, Ids ids,
-                            global uint* labels, int width, int height) {
+inline void label_by_search(Search* search, const Listing* all, global uint* labels) {
   const Box box = search->box;
   uint_run least[CELL * CELL / VOROCL_WIDTH], nearest[CELL * CELL / VOROCL_WIDTH];
   for (int i = 0; i < CELL * CELL / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_run)0xffffffffu;
-  bool all = false;
-  while (!all) {
-    all = find_candidates(search, starts, list, width, height);
+  bool complete = false;
+  while (!complete) {
+    complete = find_candidates(search, all);
     int i = 0;
     for (int y = box.top; y <= box.bottom; ++y) {
       for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) {
@@ -319,29 +285,26 @@ inline void label_by_search(Search* search, global const uint* starts, global co
   }
   int i = 0;
   for (int y = box.top; y <= box.bottom; ++y) {
-    for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) {
-      store_ids(nearest[i], ids, labels, x, y, width, height);
-    }
+    for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) store_ids(nearest[i], all, labels, x, y);
   }
 }
 
-kernel void label_far(global const uint* restrict pyramid, global const uint* restrict bits,
-                      global const uint* restrict starts, global const uint* restrict word_starts,
-                      global const uint* restrict list, global const uint* restrict ids,
-                      global const uint* restrict labelled, global const uint* restrict lists,
-                      global const uint* restrict counts, global uint* restrict labels, int width, int height,
-                      int top_level) {
-  const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
-  if (cell >= columns * cells_along(height, 0) || labelled[cell]) return;
-  const int x = cell % columns, y = cell / columns;
+kernel void label_far(global const uint* restrict bits, global const uint* restrict starts,
+                      global const uint* restrict word_starts, global const uint* restrict list,
+                      global const uint* restrict ids, int width, int height, global const uint* restrict labelled,
+                      global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
+                      global const uint* restrict counts, global uint* restrict labels) {
+  const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
+  const int cell = (int)get_global_id(0);
+  if (cell >= all.columns * all.rows || labelled[cell]) return;
+  const int x = cell % all.columns, y = cell / all.columns;
   const Box box = box_of(x * CELL, y * CELL, CELL, width, height);
-  const Ids all_ids = {bits, word_starts, ids};
   const int tile = y / FAN * cells_along(width, 1) + x / FAN;
-  if (counts[tile] != TOO_MANY && label_by_tile(lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], all_ids,
-                                                box, labels, width)) {
+  if (counts[tile] != TOO_MANY &&
+      label_by_tile(&all, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {
     return;
   }
   Search search;
-  begin_search(&search, box, pyramid, width, height, top_level);
-  label_by_search(&search, starts, list, all_ids, labels, width, height);
+  begin_search(&search, box, &all, pyramid, top_level);
+  label_by_search(&search, &all, labels);
 }

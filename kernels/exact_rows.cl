@@ -18,23 +18,15 @@
 
 // The nearest seeds in the rows around a cell. Row 0 is REACH above the cell.
 typedef struct {
-  global const uint* bits;
-  global const uint* word_starts;
-  global const uint* ids;
+  const Listing* all;
   int cell_x, top;                   // the cell's column of cells; its first row
-  int columns, height;               // of cells, of pixels
   ushort16 along_x[ROWS_IN_REACH];   // the part along x of a row key
   uint label[ROWS_IN_REACH * CELL];  // of the row's nearest seeds
 } NearestInRows;
 
-// The seeds in a row of a cell, a bit each, the lowest bit at the left.
-inline uint row_bits(const NearestInRows* rows, int word, int y) {
-  return rows->bits[word] >> (y % ROWS_OF_WORD) * CELL & ((1u << CELL) - 1);
-}
-
-// The place in the list of the first one of them.
-inline uint first_listed(const NearestInRows* rows, int word, int y) {
-  return rows->word_starts[word] + popcount(rows->bits[word] & ((1u << (y % ROWS_OF_WORD) * CELL) - 1));
+// The place in the list of the first seed in a row of a cell, given the word that holds the row.
+inline uint first_listed(const Listing* all, int word, int y) {
+  return listed(all->bits, all->word_starts, (uint)(word * 32 + y % ROWS_OF_WORD * CELL));
 }
 
 // The nearest seed of each lane, in the two halves of 32-bit lanes that a vector of 256 bits can hold.
@@ -57,25 +49,26 @@ inline void pass_over(NearestInRow* nearest, int x, uint label) {
 // and one far away if there is none: without a branch, which would be taken as often as not.
 #define FAR_AWAY 128
 inline void find_row(NearestInRows* rows, int row) {
+  const Listing* const all = rows->all;
   const int y = rows->top - REACH + row;
-  if (y < 0 || y >= rows->height) {
+  if (y < 0 || y >= all->height) {
     rows->along_x[row] = (ushort16)(NO_SEED_NEAR << OFFSET_BITS);
     return;
   }
-  const int word = ((y >> CELL_BITS) * rows->columns + rows->cell_x) * WORDS + y % CELL / ROWS_OF_WORD;
-  const uint before = rows->cell_x == 0 ? 0 : row_bits(rows, word - WORDS, y);
-  const uint behind = rows->cell_x == rows->columns - 1 ? 0 : row_bits(rows, word + WORDS, y);
-  const uint last_before = before == 0 ? 0 : first_listed(rows, word - WORDS, y) + popcount(before) - 1;
-  const uint first_behind = behind == 0 ? 0 : first_listed(rows, word + WORDS, y);
+  const int word = ((y >> CELL_BITS) * all->columns + rows->cell_x) * WORDS + y % CELL / ROWS_OF_WORD;
+  const uint before = rows->cell_x == 0 ? 0 : row_bits(all->bits[word - WORDS], y);
+  const uint behind = rows->cell_x == all->columns - 1 ? 0 : row_bits(all->bits[word + WORDS], y);
+  const uint last_before = before == 0 ? 0 : first_listed(all, word - WORDS, y) + popcount(before) - 1;
+  const uint first_behind = behind == 0 ? 0 : first_listed(all, word + WORDS, y);
   NearestInRow nearest;
   nearest.last_x = before == 0 ? -FAR_AWAY : 31 - (int)clz(before) - CELL;
   nearest.x = (short16)(short)nearest.last_x;
-  nearest.first_labels = nearest.last_labels = (uint8)rows->ids[last_before];
-  uint at = first_listed(rows, word, y);
-  for (uint seeds = row_bits(rows, word, y); seeds != 0; seeds &= seeds - 1) {
-    pass_over(&nearest, (int)lowest_bit(seeds), rows->ids[at++]);
+  nearest.first_labels = nearest.last_labels = (uint8)all->ids[last_before];
+  uint at = first_listed(all, word, y);
+  for (uint seeds = row_bits(all->bits[word], y); seeds != 0; seeds &= seeds - 1) {
+    pass_over(&nearest, (int)lowest_bit(seeds), all->ids[at++]);
   }
-  pass_over(&nearest, behind == 0 ? FAR_AWAY : (int)lowest_bit(behind) + CELL, rows->ids[first_behind]);
+  pass_over(&nearest, behind == 0 ? FAR_AWAY : (int)lowest_bit(behind) + CELL, all->ids[first_behind]);
   const short16 offset = nearest.x - CELL_LANES;
   rows->along_x[row] = as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)OFFSET_BITS;
   vstore8(nearest.first_labels, 0, rows->label + row * CELL);

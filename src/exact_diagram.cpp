@@ -68,7 +68,8 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Buffer listed = diagram.scratch(Scratch::exact_listed, word);
   const cl::Buffer pyramid = diagram.scratch(Scratch::exact_pyramid, all_cells * word);
   const cl::Buffer labelled = diagram.scratch(Scratch::exact_labelled, cells(grid, 0) * word);
-  const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, cells(grid, 1) * most_candidates * word);
+  const cl::Buffer lists =
+      diagram.scratch(Scratch::exact_candidates, cells(grid, 1) * most_candidates * word);
   const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, cells(grid, 1) * word);
 
   const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
@@ -93,11 +94,12 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   run("list_seeds", cells(grid, 0), bits, starts, word_starts, list, width, height);
   run("list_ids", count, places, count, bits, word_starts, ids);
   run("keep_lowest_ids", count, seeds.positions(), late, late_count, bits, word_starts, ids, width);
-  run("label_near", cells(grid, 0), bits, starts, word_starts, list, ids, diagram.labels(), labelled, width,
-      height);
-  run("list_candidates", cells(grid, 1), pyramid, starts, list, labelled, lists, counts, width, height, top);
-  const cl::Event last = run("label_far", cells(grid, 0), pyramid, bits, starts, word_starts, list, ids, labelled,
-                             lists, counts, diagram.labels(), width, height, top);
+  run("label_near", cells(grid, 0), bits, starts, word_starts, list, ids, width, height, diagram.labels(),
+      labelled);
+  run("list_candidates", cells(grid, 1), bits, starts, word_starts, list, ids, width, height, labelled,
+      pyramid, top, lists, counts);
+  const cl::Event last = run("label_far", cells(grid, 0), bits, starts, word_starts, list, ids, width, height,
+                             labelled, pyramid, top, lists, counts, diagram.labels());
   check(clFlush(device.queue()()), "starting the diagram");
   const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started;
   return {0, first, last, host.count()};

@@ -6,9 +6,10 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
-#include "brute_force.hpp"
 #include "exact_lists.hpp"
 #include "fixture.hpp"
+#include "input.hpp"
+#include "measured_cases.hpp"
 
 using namespace vorocl;
 
@@ -211,6 +212,24 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
     }
     check_against_tree(square, every_pixel(square), metric);
     check_against_tree({4096, 1000}, random_pixels({4096, 1000}, 5000, 25), metric);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(real_seeds_against_a_tree) {
+  const Grid map(1440, 720);
+  for (const Metric metric : both_metrics) check_against_tree(map, cities(map), metric);
+  for (const char* file : {"/lj-clusters.lammpstrj", "/lj-melt.lammpstrj"}) {
+    command::SeedOptions options;
+    options.trajectory = std::string(VOROCL_SAMPLES) + file;
+    options.frame = 4;
+    options.width = 600;
+    const command::Input input = command::read_input(options);
+    std::vector<Pixel> particles;
+    for (const Point& point : input.place(test_device()).read()) {
+      particles.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
+    }
+    BOOST_TEST(particles.size() > 1000);
+    for (const Metric metric : both_metrics) check_against_tree(input.grid, particles, metric);
   }
 }
 
