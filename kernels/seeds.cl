@@ -19,6 +19,16 @@ kernel void snap_points(global const float2* restrict points, global uint* restr
   }
 }
 
+// Keeps the first bad point of the first list that has one: 1, its index, and the bits of its x and y.
+kernel void keep_bad_point(global const float2* restrict points, global const uint* restrict first_bad,
+                           global uint* restrict kept) {
+  if (get_global_id(0) > 0 || kept[0] != 0 || *first_bad == NO_LABEL) return;
+  kept[0] = 1;
+  kept[1] = *first_bad;
+  kept[2] = as_uint(points[*first_bad].x);
+  kept[3] = as_uint(points[*first_bad].y);
+}
+
 kernel void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {
   const uint id = (uint)get_global_id(0);
   if (id == count) positions[id] = EMPTY;

@@ -1,8 +1,8 @@
 #include "vorocl/seeds.hpp"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
-#include <mutex>
 #include <string>
 #include <utility>
 
@@ -52,9 +52,8 @@ void check_points_buffer(const Device& device, const cl::Buffer& points, std::si
 /// The verdict on points that only the device has seen, read at each wait. It stays: a bad point is never
 /// forgotten.
 struct Seeds::DeferredCheck {
-  cl::Buffer points;     // the caller's, to quote the bad point from
   cl::Buffer first_bad;  // one uint32: the least index of a bad point, or no_label
-  std::mutex mutex;      // the check may come from any thread
+  cl::Buffer kept;       // four uint32: whether there was one, its index, and the bits of its x and y
 };
 
 Seeds::Seeds(const Device& device, const Grid& grid, std::size_t size) : device_(device), grid_(grid) {
@@ -148,11 +147,14 @@ void Seeds::snap_on_device(const cl::Buffer& points) {
     deferred_ = std::make_shared<DeferredCheck>();
     deferred_->first_bad = allocate(device_, sizeof(std::uint32_t), "the seeds");
     fill(device_, deferred_->first_bad, no_label, 1);
+    deferred_->kept = allocate(device_, 4 * sizeof(std::uint32_t), "the seeds");
+    fill(device_, deferred_->kept, cl_uint{0}, 4);
   }
-  deferred_->points = points;
   Kernel(device_, "seeds.cl", "snap_points", grid_)
       .over_items(size_ + 1, points, positions_, static_cast<cl_uint>(size_), grid_.width(), grid_.height(),
                   deferred_->first_bad);
+  Kernel(device_, "seeds.cl", "keep_bad_point", grid_)
+      .over_items(1, points, deferred_->first_bad, deferred_->kept);
 }
 
 std::vector<Point> Seeds::read() const {
@@ -169,11 +171,14 @@ std::vector<Point> Seeds::read() const {
 
 void Seeds::check() const {
   if (!deferred_) return;
-  const std::lock_guard<std::mutex> lock(deferred_->mutex);
-  const auto first_bad = download<std::uint32_t>(device_, deferred_->first_bad, 1).front();
-  if (first_bad == no_label) return;
-  const auto point = download<cl_float2>(device_, deferred_->points, 1, first_bad).front();
-  throw Error(describe_bad_point(first_bad, point.s[0], point.s[1], grid_));
+  const auto kept = download<std::uint32_t>(device_, deferred_->kept, 4);
+  if (kept[0] == 0) return;
+  const auto coordinate = [&](std::size_t i) {
+    float value = 0;
+    std::memcpy(&value, &kept[i], sizeof value);
+    return static_cast<double>(value);
+  };
+  throw Error(describe_bad_point(kept[1], coordinate(2), coordinate(3), grid_));
 }
 
 }  // namespace vorocl

@@ -79,6 +79,12 @@ BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_w
   check_error([&] { seeds.read(); }, {"point 41", "nan"});
 }
 
+BOOST_AUTO_TEST_CASE(the_first_bad_point_stays_the_one_that_is_named) {
+  Seeds seeds(test_device(), {30, 20}, buffer_of({{{1, 1}}, {{2, 99}}, {{3, 3}}}), 3);
+  seeds.move_to(buffer_of({{{-7, 4}}, {{5, 5}}, {{6, 6}}}), 3);
+  check_error([&] { seeds.read(); }, {"point 1", "99"});
+}
+
 BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
   const Grid grid(30, 20);
   check_error([&] { Seeds(test_device(), grid, cl::Buffer(), 1); }, {"null"});

@@ -101,8 +101,7 @@ void write_energies(const std::string& path, const Relaxation& relaxation) {
 }
 
 Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& seeds, Diagram& diagram,
-                      FrameWriter* writer) {
-  const Interruption interruption;
+                      const Interruption& interruption, FrameWriter* writer) {
   Progress progress("rounds");
   AnalysisBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled, double) { return exact_diagram(at, filled); };
@@ -163,13 +162,15 @@ void print_text(const RelaxOptions& options, const Seeds& seeds, const Relaxatio
 }
 
 void run(const RelaxOptions& options) {
+  const Interruption interruption;  // before there are files
   const Outputs outputs = check_outputs(options);
   const Input input = read_input(options.seeds);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
-  const Relaxation relaxation = run_rounds(options, input, seeds, diagram, outputs.rounds.get());
+  const Relaxation relaxation =
+      run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
   write_end(outputs, options, input, seeds, diagram, relaxation);
   if (!relaxation.converged && relaxation.rounds() < options.rounds) {
     throw Error(

@@ -106,8 +106,7 @@ void write(const SimulateOptions& options, const MovingSeeds& source, const Simu
 
 /// All frames, or those before a signal or an error.
 Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
-                   FrameWriter& writer) {
-  const Interruption interruption;
+                   const Interruption& interruption, FrameWriter& writer) {
   Progress progress;
   AnalysisBuffers buffers;
   Course course;
@@ -200,12 +199,13 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Co
 }
 
 void run(const SimulateOptions& options) {
+  const Interruption interruption;  // before there are files
   FrameWriter writer(options.output, options.other_is_truth());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Simulation simulation = make_simulation(options, *source, device);
-  const Course course = make_frames(options, *source, simulation, writer);
+  const Course course = make_frames(options, *source, simulation, interruption, writer);
   if (course.frames > 0) writer.finish();
   if (!course.trouble.empty()) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
