@@ -70,9 +70,11 @@ std::vector<Tick> ticks_of(const ColorBar& bar, int most) {
   if (step == 0) return {{bar.scale.low, number_text(bar.scale.low, 0)}};
   if (bar.whole_values) step = std::max(step, 1.0);
   std::vector<Tick> ticks;
+  const double first = std::ceil(bar.scale.low / step - 1e-9);
   const double last = std::floor(bar.scale.high / step + 1e-9);
-  for (double i = std::ceil(bar.scale.low / step - 1e-9); i <= last; ++i) {
-    const double value = i * step + 0.0;  // not -0
+  const int more = static_cast<int>(std::min(last - first, static_cast<double>(most)));
+  for (int i = 0; i <= more; ++i) {
+    const double value = (first + i) * step + 0.0;  // not -0
     ticks.push_back({value, number_text(value, step)});
   }
   return ticks;

@@ -41,9 +41,10 @@ cv::Mat_<cv::Vec3b> table_of(Palette palette) {
 bool is_categorical(Palette palette) { return palette == Palette::okabe_ito; }
 
 void check_scale(const Scale& scale) {
-  if (std::isfinite(scale.low) && std::isfinite(scale.high) && scale.low <= scale.high) return;
-  throw Error("a scale cannot go from " + std::to_string(scale.low) + " to " + std::to_string(scale.high) +
-              "; it goes from a finite number to one that is not less");
+  if (std::isfinite(scale.high - scale.low) && scale.low <= scale.high) return;
+  throw Error(
+      "a scale cannot go from " + std::to_string(scale.low) + " to " + std::to_string(scale.high) +
+      "; it goes from a finite number to one that is not less, and the difference is a finite number too");
 }
 
 void check_picture(const cv::Mat& picture) {

@@ -102,6 +102,13 @@ BOOST_AUTO_TEST_CASE(ticks_are_at_round_values) {
   BOOST_TEST(ticks({{2, 4}, Palette::viridis, "v", false, false}).ticks.size() > 3u);
   BOOST_TEST(ticks({{2, 4}, Palette::viridis, "v", true, false}).ticks.size() == 3u);  // 2, 3, 4
   BOOST_TEST(ticks({{7, 7}, Palette::viridis, "v", true, false}).ticks.size() == 1u);
+  // Steps that are next to nothing beside the values.
+  BOOST_TEST(!ticks({{1e16, 1e16 + 2}, Palette::viridis, "v", false, false}).ticks.empty());
+  check_error(
+      [&] {
+        ticks({{-1e308, 1e308}, Palette::viridis, "v", false, false});
+      },
+      {"scale", "difference"});
 }
 
 BOOST_AUTO_TEST_CASE(classes_are_blocks_with_a_tick_each) {

@@ -174,6 +174,7 @@ BOOST_AUTO_TEST_CASE(bad_outputs_are_refused_before_the_work) {
   refuses(folder, simulate + "--cells /proc/c%d.csv", failure, {"/proc/c0.csv", "cannot write"});
   refuses(folder, simulate + "--cells a%d.csv --adjacency a%05d.csv", usage, {"--cells and --adjacency"});
   refuses(folder, simulate + "--labels a%d.tif -o a%d.tif", usage, {"--labels and -o"});
+  refuses(folder, simulate + "--cells a%d.csv --statistics a12.csv", usage, {"--cells and --statistics"});
   refuses(folder, simulate + "--labels a%d.vti --distance a_%d.vti", usage,
           {"a.pvd", "--labels and --distance"});
   refuses(folder, simulate + "--compare-with jfa --similarity s.csv --statistics s.csv", usage,

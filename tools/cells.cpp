@@ -74,9 +74,10 @@ void print_json(const CellsOptions& options, const Seeds& seeds, const Report& r
 
 void print_text(const CellsOptions& options, const Seeds& seeds, const Report& report, Analysis& analysis) {
   const CellStatistics statistics = analysis.statistics();
-  fmt::print("{}: {} cells on {} x {} pixels in {:.1f} ms, {} waves, on {}\n", options.method.name,
-             statistics.cells, seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
-             report.waves(), seeds.device().name());
+  fmt::print(
+      "{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
+      options.method.name, statistics.cells, seeds.grid().width(), seeds.grid().height(),
+      report.milliseconds(), report.waves(), seeds.device().name());
   fmt::print("{} cells are empty; the mean area is {:.2f} pixels, with a deviation of {:.2f}\n",
              statistics.empty_cells, statistics.mean_area, statistics.area_deviation);
   fmt::print("{} vertices, {} pairs of cells that touch\n", analysis.vertices(), analysis.pair_count());

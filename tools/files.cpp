@@ -3,10 +3,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
-#include <map>
 #include <regex>
 #include <system_error>
 
@@ -17,6 +17,33 @@ namespace vorocl::command {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Where a path leads from here; empty: nowhere. Patterns that differ in the number's width alone are the
+/// same.
+std::string whole_path(const std::string& path) {
+  if (path.empty()) return path;
+  std::error_code ignored;
+  return fs::weakly_canonical(fs::absolute(std::regex_replace(path, std::regex("%0[1-9]d"), "%d")), ignored)
+      .string();
+}
+
+/// Whether a pattern with %d in place of a number gives the path.
+bool gives(const std::string& pattern, const std::string& path) {
+  const std::size_t at = pattern.find("%d");
+  if (at == std::string::npos) return false;
+  const std::string before = pattern.substr(0, at), behind = pattern.substr(at + 2);
+  if (path.size() <= before.size() + behind.size() || path.compare(0, before.size(), before) != 0 ||
+      path.compare(path.size() - behind.size(), behind.size(), behind) != 0) {
+    return false;
+  }
+  const auto number = path.begin() + static_cast<std::ptrdiff_t>(before.size());
+  return std::all_of(number, path.end() - static_cast<std::ptrdiff_t>(behind.size()),
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+bool may_be_one_file(const std::string& a, const std::string& b) {
+  return !a.empty() && (a == b || gives(a, b) || gives(b, a));
+}
 
 std::string reason(int code) { return std::generic_category().message(code); }
 
@@ -70,8 +97,10 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (!fs::is_directory(folder, ignored)) {
     throw Error("cannot write " + path + ": the folder " + folder.string() + " does not exist");
   }
-  temporary_path_ =
-      (folder / (".vorocl-" + std::to_string(getpid()) + "-" + target.filename().string())).string();
+  static std::atomic<unsigned> files{0};  // two outputs of one name must not meet under the temporary one
+  temporary_path_ = (folder / (".vorocl-" + std::to_string(getpid()) + "-" + std::to_string(files++) + "-" +
+                               target.filename().string()))
+                        .string();
   // Permissions alone do not tell: the file system may be read-only, or full.
   const Remover remover{temporary_path_};
   errno = 0;
@@ -108,17 +137,12 @@ void GrowingFile::finish() {
 }
 
 void check_distinct(const std::vector<NamedOutput>& outputs) {
-  std::map<std::string, std::string> options;  // by file
-  for (const NamedOutput& output : outputs) {
-    if (output.path.empty()) continue;
-    std::error_code ignored;
-    // Patterns that differ in the number's width alone meet at some number.
-    const std::string pattern = std::regex_replace(output.path, std::regex("%0[1-9]d"), "%d");
-    const auto [other, is_new] =
-        options.emplace(fs::weakly_canonical(fs::absolute(pattern), ignored).string(), output.option);
-    if (!is_new) {
-      throw UsageError(output.path + ": " + other->second + " and " + output.option +
-                       " cannot write one file");
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (may_be_one_file(whole_path(outputs[i].path), whole_path(outputs[j].path))) {
+        throw UsageError(outputs[i].path + ": " + outputs[j].option + " and " + outputs[i].option +
+                         " cannot write one file");
+      }
     }
   }
 }

@@ -31,8 +31,8 @@ Coloring parse_coloring(const std::string& text) {
 std::optional<double> parse_interval(const std::string& text) {
   if (text.empty()) return std::nullopt;
   const auto interval = parse_number<double>(text);
-  if (!interval || !std::isfinite(*interval) || *interval <= 0) {
-    throw Error("\"" + text + "\" must be a number of pixels greater than 0");
+  if (!interval || !std::isfinite(*interval) || *interval < 1) {
+    throw Error("\"" + text + "\" must be a number of pixels, at least 1");
   }
   return interval;
 }

@@ -65,14 +65,14 @@ Outputs check_outputs(const RelaxOptions& options) {
     file.emplace(path);
   };
   check_picture_options(options.pictures.picture);
-  open(outputs.labels, options.files[0].path, options.files[0].kind.extensions);
-  open(outputs.points, options.points_path, {".csv", ".npy"});
-  open(outputs.energy, options.energy_path, {".csv"});
-  if (options.shows_rounds()) {
+  if (options.shows_rounds()) {  // first: it makes the folder of numbered pictures
     outputs.rounds = std::make_unique<FrameWriter>(options.pictures);
   } else {
     open(outputs.picture, options.pictures.picture_path, picture_extensions());
   }
+  open(outputs.labels, options.files[0].path, options.files[0].kind.extensions);
+  open(outputs.points, options.points_path, {".csv", ".npy"});
+  open(outputs.energy, options.energy_path, {".csv"});
   return outputs;
 }
 

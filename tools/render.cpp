@@ -68,9 +68,10 @@ void print_json(const RenderOptions& options, const Seeds& seeds, const Report& 
 }
 
 void print_text(const RenderOptions& options, const Seeds& seeds, const Report& report) {
-  fmt::print("{}: {} seeds on {} x {} pixels in {:.1f} ms, {} waves, on {}\n", options.method.name,
-             seeds.alive(), seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
-             report.waves(), seeds.device().name());
+  fmt::print(
+      "{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
+      options.method.name, seeds.alive(), seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
+      report.waves(), seeds.device().name());
   for (const std::string& path : {options.labels_path, options.picture_path}) {
     if (!path.empty()) fmt::print("wrote {}\n", path);
   }
