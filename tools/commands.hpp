@@ -12,5 +12,6 @@ void add_simulate(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_ablation(CLI::App& app);
 
 }  // namespace vorocl::command

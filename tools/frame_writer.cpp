@@ -40,7 +40,7 @@ void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options) {
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str()
       ->needs(picture);
-  add_picture_options(app, options.picture, picture);
+  add_picture_options(app, options.picture);
 }
 
 FrameWriter::FrameWriter(const FrameWriterOptions& options, Metric metric, bool with_errors)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "vorocl/error.hpp"
 
@@ -14,6 +15,25 @@ namespace {
 constexpr int most_contours = 10;
 
 bool is_whole_or_none(double value) { return !std::isfinite(value) || value == std::round(value); }
+
+cv::Mat enlarged(const cv::Mat& image, int factor) {
+  cv::Mat result;
+  cv::resize(image, result, {}, factor, factor, cv::INTER_NEAREST);
+  return result;
+}
+
+/// Labels or distances of a grid.
+template <typename T>
+std::vector<T> enlarged(std::vector<T> image, const Grid& grid, int factor) {
+  static_assert(sizeof(T) == sizeof(std::int32_t));
+  const cv::Mat result = enlarged(cv::Mat(grid.height(), grid.width(), CV_32SC1, image.data()), factor);
+  return {result.ptr<T>(), result.ptr<T>() + result.total()};
+}
+
+std::vector<Point> enlarged(std::vector<Point> points, int factor) {
+  for (Point& point : points) point = {point.x * factor, point.y * factor};
+  return points;
+}
 
 std::string title_of(const Coloring& color) {
   switch (color.quantity) {
@@ -43,10 +63,14 @@ cv::Mat Painter::draw(const Scene& scene) {
     distance_field(scene.seeds, scene.diagram, distance_field_, metric_);
     distances_ = distance_field_.read();
   }
-  cv::Mat picture = color(scene);
-  if (options_.contours) draw_contour_lines(picture);
-  if (options_.edge_width > 0) draw_edges(picture, scene.image.labels, options_.edge_width);
-  if (options_.points_overlay) draw_points(picture, scene.seeds.read());
+  const Grid& grid = scene.image.grid;
+  const int enlargement = options_.enlargement;
+  cv::Mat picture = enlarged(color(scene), enlargement);
+  if (options_.contours) draw_contour_lines(picture, enlarged(distances_, grid, enlargement));
+  if (options_.edge_width > 0) {
+    draw_edges(picture, enlarged(scene.image.labels, grid, enlargement), options_.edge_width);
+  }
+  if (options_.points_overlay) draw_points(picture, enlarged(scene.seeds.read(), enlargement));
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),
@@ -101,13 +125,13 @@ Scale Painter::scale(const std::optional<Scale>& range) {
   return scale_.value_or(Scale{});
 }
 
-void Painter::draw_contour_lines(cv::Mat& picture) {
+void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances) {
   if (!contour_interval_) {
     const double step = round_step({0, range_of(distances_).value_or(Scale{0, 0}).high}, most_contours);
     if (step == 0) return;  // no pixel but the seeds'
     contour_interval_ = step;
   }
-  draw_contours(picture, distances_, *contour_interval_);
+  draw_contours(picture, distances, *contour_interval_);
 }
 
 }  // namespace vorocl::command

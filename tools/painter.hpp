@@ -40,7 +40,7 @@ class Painter {
   std::vector<double> neighbours(const Scene& scene);
   /// The scale of all pictures: the option's, or else the range of the first that has one.
   Scale scale(const std::optional<Scale>& range);
-  void draw_contour_lines(cv::Mat& picture);
+  void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances);
 
   PictureOptions options_;
   Metric metric_;

@@ -12,8 +12,10 @@
 #include "input.hpp"
 #include "label_file.hpp"
 #include "methods.hpp"
+#include "numbered_files.hpp"
 #include "painter.hpp"
 #include "usage_error.hpp"
+#include "vorocl/jump_flooding.hpp"
 
 namespace vorocl::command {
 
@@ -26,28 +28,39 @@ struct RenderOptions {
   std::string device;
   std::string picture_path;
   std::string labels_path;
+  std::string waves_pattern;
   PictureOptions picture;
   bool json = false;
+
+  bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
 };
 
 struct Outputs {
   std::optional<OutputFile> picture;
+  std::unique_ptr<NumberedFiles> waves;
   std::optional<OutputFile> labels;
 };
 
 /// All that can be said about the outputs before there is anything to put in.
 Outputs check_outputs(const RenderOptions& options) {
-  if (options.picture_path.empty() && options.labels_path.empty()) {
-    throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both");
+  if (!options.draws() && options.labels_path.empty()) {
+    throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both, or --waves PICTURES");
   }
-  if (options.picture_path == options.labels_path) {
+  if (!options.picture_path.empty() && options.picture_path == options.labels_path) {
     throw UsageError(options.picture_path + ": -o and --labels cannot write one file");
   }
+  if (!options.waves_pattern.empty() && !options.method.plan) {
+    throw UsageError("--waves: the method " + options.method.name + " has no waves");
+  }
+  if (options.draws()) check_picture_options(options.picture);
   Outputs outputs;
   if (!options.picture_path.empty()) {
-    check_picture_options(options.picture);
     check_extension(options.picture_path, picture_extensions());
     outputs.picture.emplace(options.picture_path);
+  }
+  if (!options.waves_pattern.empty()) {
+    check_extension(options.waves_pattern, picture_extensions());
+    outputs.waves = std::make_unique<NumberedFiles>(options.waves_pattern);
   }
   if (!options.labels_path.empty()) {
     check_label_path(options.labels_path);
@@ -74,28 +87,55 @@ void print_text(const RenderOptions& options, const Seeds& seeds, const Report& 
   fmt::print("{}: {} seeds on {} x {} pixels in {:.1f} ms, {} waves, on {}\n", options.method.name,
              seeds.alive(), seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
              report.waves(), seeds.device().name());
-  for (const std::string& path : {options.labels_path, options.picture_path}) {
+  for (const std::string& path : {options.labels_path, options.picture_path, options.waves_pattern}) {
     if (!path.empty()) fmt::print("wrote {}\n", path);
+  }
+}
+
+/// The labels of a diagram, as they are and with the ids that files and colours go by.
+Scene scene_of(const Input& input, const Seeds& seeds, const Diagram& diagram) {
+  LabelImage image{input.grid, diagram.read()};
+  LabelImage named = with_ids(image, input.ids);
+  return {seeds, diagram, std::move(image), std::move(named), input.values};
+}
+
+/// Draws the diagram before the first wave of the plan, where the seeds alone have labels, and after every
+/// wave. Each picture is flooded anew, by the waves so far.
+void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input, const Seeds& seeds,
+                Metric metric, Painter& painter) {
+  Diagram diagram(seeds.device(), input.grid);
+  Plan waves;
+  for (std::size_t i = 0; i <= plan.size(); ++i) {
+    flood(seeds, diagram, waves, metric);
+    const cv::Mat picture = painter.draw(scene_of(input, seeds, diagram));
+    files.file(static_cast<int>(i)).write([&](const std::string& path) { write_picture(path, picture); });
+    if (i < plan.size()) waves.push_back(plan[i]);
   }
 }
 
 void run(const RenderOptions& options) {
   const Outputs outputs = check_outputs(options);
   const Input input = read_input(options.seeds);
+  check_picture_size(options.picture, input.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
-  LabelImage image{input.grid, diagram.read()};
-  LabelImage named = with_ids(image, input.ids);
-  const Scene scene{seeds, diagram, std::move(image), std::move(named), input.values};
+  const Scene scene = scene_of(input, seeds, diagram);
 
   if (outputs.labels)
     outputs.labels->write([&](const std::string& path) { write_labels(path, scene.named); });
-  if (outputs.picture) {
-    const cv::Mat picture = Painter(options.picture, options.method_options.metric).draw(scene);
-    outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
+  if (options.draws()) {
+    const Metric metric = options.method_options.metric;
+    Painter painter(options.picture, metric, outputs.waves != nullptr);
+    const cv::Mat picture = painter.draw(scene);  // first, so that the waves have its scale
+    if (outputs.picture)
+      outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
+    if (outputs.waves) {
+      const Plan plan = options.method.plan(input.grid, report.waves(), options.method_options);
+      draw_waves(*outputs.waves, plan, input, seeds, metric, painter);
+    }
   }
   options.json ? print_json(options, seeds, report) : print_text(options, seeds, report);
 }
@@ -110,14 +150,19 @@ void add_render(CLI::App& app) {
   add_choice(*command, "--method", options->method, method_choices(), "How to make the diagram")->required();
   add_method_options(*command, options->method_options);
   add_device_option(*command, options->device);
-  CLI::Option* const picture =
-      command->add_option("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif");
-  picture->type_name("PICTURE");
+  command->add_option("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")
+      ->type_name("PICTURE");
   command->add_option("--labels", options->labels_path, "Labels to write: .npy (uint32) or .tif (32-bit)")
       ->type_name("FILE");
-  add_picture_options(*command, options->picture, picture);
+  command
+      ->add_option("--waves", options->waves_pattern,
+                   "Pictures to write of the diagram before the first wave and after every wave, such as "
+                   "waves/%02d.png; of djfa, those of the JFA that it starts with")
+      ->type_name("PICTURES");
+  add_picture_options(*command, options->picture);
   add_json_option(*command, options->json);
   command->callback([command, options] {
+    if (!options->draws()) refuse_picture_options(*command, "-o or --waves");
     check_method_options(*command, options->method_options, options->method.dynamic);
     options->seeds.value_column = options->picture.color.column;
     run(*options);
