@@ -48,7 +48,7 @@ const Column columns[] = {
     {"study", [](const Row& row) { return row.variant.study; }},
     {"setting", [](const Row& row) { return row.variant.setting; }},
     {"d_max", [](const Row& row) { return std::to_string(row.variant.step_length); }},
-    {"waves", [](const Row& row) { return std::to_string(row.result.waves); }},
+    {"waves_mean", [](const Row& row) { return text(row.result.waves.mean()); }},
     {"milliseconds_median", [](const Row& row) { return text(row.result.milliseconds.median()); }},
     {"milliseconds_least", [](const Row& row) { return text(row.result.milliseconds.least()); }},
     {"milliseconds_greatest", [](const Row& row) { return text(row.result.milliseconds.greatest()); }},
@@ -88,8 +88,8 @@ void print_table(const Configuration& configuration, const EvaluationSettings& s
              "ms/frame", "wrong %", "mean excess", "runs differ by %");
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const VariantResult& result = results[i];
-    fmt::print("{:<18} {:<32} {:>5} {:>5} {:>9.3f} {:>9.4f} {:>11.3g} {:>16.4f}\n", variants[i].study,
-               variants[i].setting, variants[i].step_length, result.waves,
+    fmt::print("{:<18} {:<32} {:>5} {:>5.1f} {:>9.3f} {:>9.4f} {:>11.3g} {:>16.4f}\n", variants[i].study,
+               variants[i].setting, variants[i].step_length, result.waves.mean(),
                result.milliseconds.median() / settings.timed_frames, result.errors.wrong_percent.mean(),
                result.errors.mean_excess.mean(), result.differing_between_runs.mean());
   }

@@ -61,12 +61,12 @@ void measure_accuracy(Simulation simulation, const Variant& variant, int frames,
     simulation.step();
     made(engines_side_by_side);
     if (frame == 0) continue;
+    result.waves.add(simulation.report(one).waves());
     result.similarity_to_exact.add(similarity(simulation.diagram(one), simulation.diagram(exact)));
     result.differing_between_runs.add(100 - similarity(simulation.diagram(one), simulation.diagram(again)));
     result.errors.add(
         distance_errors(simulation.seeds(), simulation.diagram(one), simulation.diagram(exact)));
   }
-  result.waves = simulation.report(one).waves();
 }
 
 }  // namespace

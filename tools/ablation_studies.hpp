@@ -25,9 +25,9 @@ struct Variant {
 
 /// In the Euclidean metric.
 struct VariantResult {
-  int waves = 0;                   ///< of the last frame
   Samples milliseconds;            ///< the device's, of the diagrams of a timed run; one value a run
-  Samples similarity_to_exact;     ///< in percent; one value a frame
+  Samples waves;                   ///< one value a frame, as the two that follow
+  Samples similarity_to_exact;     ///< in percent
   Samples differing_between_runs;  ///< the pixels that two runs side by side have different labels for, in
                                    ///< percent
   ErrorSamples errors;
