@@ -74,9 +74,10 @@ std::int64_t distance_at(const Frame& frame, std::uint32_t label, const Grid& gr
 
 BOOST_AUTO_TEST_CASE(the_table_has_every_study_and_its_numbers_are_those_of_simulate) {
   const TemporaryFolder folder;
-  const std::string out =
-      succeeds(folder, "ablation --sizes 90 --seeds 1% --frames 10 --timed-frames 2 -o a.csv");
-  BOOST_TEST(out.find("wrote a.csv") != std::string::npos);
+  const json printed = json::parse(
+      succeeds(folder, "ablation --sizes 90 --seeds 1% --frames 10 --timed-frames 2 -o a.csv --json"));
+  BOOST_TEST(printed.at("file") == "a.csv");
+  BOOST_TEST(printed.at("configurations") == 1);
   const auto rows = rows_of(folder / "a.csv");
   BOOST_TEST(rows.size() == 27u);
   std::map<std::string, int> studies;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "ablation_studies.hpp"
 #include "commands.hpp"
@@ -24,6 +25,7 @@ struct AblationOptions {
   EvaluationSettings settings;
   std::string path;
   std::string device;
+  bool json = false;
 };
 
 /// What a row is made from, besides the origin.
@@ -96,9 +98,10 @@ void print_table(const Configuration& configuration, const EvaluationSettings& s
   fmt::print("\n");
 }
 
-/// All variants of a configuration: prints them, and returns the table's lines.
-std::string ablate(const Device& device, const Configuration& configuration,
-                   const EvaluationSettings& settings) {
+/// Measures all variants of a configuration, prints them unless JSON is wanted, and returns the table's
+/// lines.
+std::string ablate(const Device& device, const Configuration& configuration, const AblationOptions& options) {
+  const EvaluationSettings& settings = options.settings;
   const Interruption interruption;
   Progress progress;
   const std::vector<Variant> variants = variants_of(device, configuration, settings);
@@ -111,7 +114,7 @@ std::string ablate(const Device& device, const Configuration& configuration,
   };
   const std::vector<VariantResult> results = measure(device, configuration, settings, variants, made);
   progress.erase();
-  print_table(configuration, settings, variants, results);
+  if (!options.json) print_table(configuration, settings, variants, results);
   const Origin origin = origin_of(device, settings);
   const std::string date = utc_now();
   std::string lines;
@@ -128,13 +131,19 @@ void run(const AblationOptions& options) {
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   std::string table = header_of(origin_of(device, options.settings)) + "\n";
-  for (const Configuration& configuration : all) table += ablate(device, configuration, options.settings);
+  for (const Configuration& configuration : all) table += ablate(device, configuration, options);
   file.write([&](const std::string& path) {
     std::ofstream stream = open_to_write(path);
     stream << table;
     check_written(stream, options.path);
   });
-  fmt::print("wrote {}\n", options.path);
+  if (options.json) {
+    const nlohmann::ordered_json result = {
+        {"device", device.name()}, {"configurations", all.size()}, {"file", options.path}};
+    fmt::print("{}\n", result.dump());
+  } else {
+    fmt::print("wrote {}\n", options.path);
+  }
 }
 
 }  // namespace
@@ -157,6 +166,7 @@ void add_ablation(CLI::App& app) {
       ->default_str("1%");
   add_settings_options(*command, options->settings);
   add_device_option(*command, options->device);
+  add_json_option(*command, options->json);
   command->callback([options] {
     if (options->sides.empty()) options->sides = {1000};
     if (options->seeds.empty()) options->seeds = {parse_seed_count("1%")};
