@@ -32,6 +32,15 @@ cl::Program build(const Device& device) {
   return program;
 }
 
+cl_int set_argument(const cl::Kernel& kernel, cl_uint index, const cl::Buffer& buffer) {
+  return clSetKernelArg(kernel(), index, sizeof(cl_mem), &buffer());
+}
+
+template <typename T>
+cl_int set_argument(const cl::Kernel& kernel, cl_uint index, const T& value) {
+  return clSetKernelArg(kernel(), index, sizeof value, &value);
+}
+
 /// A kernel of the program, with its arguments.
 template <typename... Arguments>
 cl::Kernel kernel_of(const cl::Program& program, const char* name, const Arguments&... arguments) {
@@ -39,7 +48,7 @@ cl::Kernel kernel_of(const cl::Program& program, const char* name, const Argumen
   cl::Kernel kernel(clCreateKernel(program(), name, &code));
   check(code, std::string("making the kernel ") + name);
   cl_uint index = 0;
-  (check(clSetKernelArg(kernel(), index++, sizeof(arguments), &arguments), "setting an argument"), ...);
+  (check(set_argument(kernel, index++, arguments), "setting an argument"), ...);
   return kernel;
 }
 
@@ -57,7 +66,7 @@ Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram,
                Stamping stamping) {
   const auto start = std::chrono::steady_clock::now();
   const Grid& grid = diagram.grid();
-  const cl_mem labels = diagram.labels()(), positions = seeds.positions()();
+  const cl::Buffer &labels = diagram.labels(), &positions = seeds.positions();
   const auto count = static_cast<cl_uint>(seeds.size());
   const cl_int width = grid.width(), height = grid.height();
   diagram.begin(seeds);
