@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(pixels_are_enlarged_and_lines_stay_thin) {
   }
   // The borders of the squares' labels, one pixel wide.
   const auto labels = brute_force(grid, seeds, Metric::euclidean);
-  const Grid large(13 * 5, 8 * 5);
+  const Grid large(65, 40);
   std::vector<std::uint32_t> large_labels;
   for (std::size_t y = 0; y < 40; ++y) {
     for (std::size_t x = 0; x < 65; ++x) large_labels.push_back(labels[y / 5 * 13 + x / 5]);

@@ -135,7 +135,7 @@ def range_verdict(values, low, high):
     return "agrees" if inside == len(values) else f"{inside} of {len(values)} within it"
 
 
-WAVES = "the waves' ratio is {:.2f}; see [speedups](#8-speedups)"
+WAVES = "the waves' ratio is {:.2f}; see section 8"
 
 
 def published_table(evaluation, large, lengths):
@@ -171,7 +171,7 @@ def published_table(evaluation, large, lengths):
         says = verdict(best, published, 0.1)
         reason = (
             "a squared distance costs no more than a Manhattan one here" if column == "speedup_over_djfae"
-            else "grids up to 2,000², where JFA has 11 waves (15 on 20,000²); see [speedups](#8-speedups)"
+            else "grids up to 2,000², where JFA has 11 waves (15 on 20,000²); see section 8"
         )
         add(name, f"{published} ×", f"{best:.2f} × ({n:,}², {seeds:,} seeds)", says, reason if says == "less" else "")
     slower = [
