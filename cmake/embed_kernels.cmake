@@ -1,7 +1,7 @@
-# Writes a C++ source that holds each .cl file as a string, so that the library needs no file at run time.
-# Called as: cmake -DOUTPUT=file.cpp "-DKERNELS=a.cl;b.cl" -P embed_kernels.cmake
-set(text "// Generated from kernels/*.cl: do not edit.\n#include \"kernel_sources.hpp\"\n\nnamespace vorocl {\n\n")
-string(APPEND text "const std::map<std::string, std::string>& kernel_sources() {\n")
+# Writes a C++ source that holds each .cl file as a string, so that programs need no file at run time.
+# Called as: cmake -DOUTPUT=file.cpp -DFUNCTION=kernel_sources "-DKERNELS=a.cl;b.cl" -P embed_kernels.cmake
+set(text "// Generated from .cl files: do not edit.\n#include <map>\n#include <string>\n\nnamespace vorocl {\n\n")
+string(APPEND text "const std::map<std::string, std::string>& ${FUNCTION}() {\n")
 string(APPEND text "  static const std::map<std::string, std::string> sources = {\n")
 foreach(kernel IN LISTS KERNELS)
   get_filename_component(name ${kernel} NAME)

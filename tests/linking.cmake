@@ -70,3 +70,6 @@ add_test(NAME manual_page COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/check_man.sh $<TAR
 
 add_test(NAME plot_evaluation COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_plot_evaluation.sh $<TARGET_FILE:vorocl_tool>)
 set_tests_properties(plot_evaluation PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME evaluation_scripts
+         COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/test_evaluation_scripts.sh $<TARGET_FILE:vorocl_tool>)
+set_tests_properties(evaluation_scripts PROPERTIES SKIP_RETURN_CODE 77)

@@ -31,7 +31,7 @@ std::vector<Pixel> pixels_of(const Seeds& seeds) {
 BOOST_AUTO_TEST_CASE(every_level_has_help) {
   const TemporaryFolder folder;
   for (const char* subcommand :
-       {"devices", "render", "simulate", "cells", "relax", "compare", "bench", "evaluate"}) {
+       {"devices", "render", "simulate", "cells", "relax", "compare", "bench", "evaluate", "ablation"}) {
     BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
     BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
   }

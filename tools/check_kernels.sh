@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 strict_compile() {
   command -v clang >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
   local kernel width metric neighbours
-  for kernel in kernels/*.cl; do
+  for kernel in kernels/*.cl tools/*.cl; do
     for width in 1 2 4 8 16; do
       for metric in EUCLIDEAN MANHATTAN; do
         for neighbours in 5 9; do
@@ -18,7 +18,7 @@ strict_compile() {
       done
     done
   done
-  echo "$(ls kernels/*.cl | wc -l) kernel files compile without a warning"
+  echo "$(ls kernels/*.cl tools/*.cl | wc -l) kernel files compile without a warning"
 }
 
 # Oclgrind exits with 0 whatever it finds: its log is what counts.

@@ -14,5 +14,6 @@ void add_relax(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_bench(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_ablation(CLI::App& app);
 
 }  // namespace vorocl::command

@@ -143,30 +143,6 @@ void run(const EvaluateOptions& options) {
   }
 }
 
-void add_settings_options(CLI::App& app, EvaluationSettings& settings) {
-  constexpr int most = 1000000;
-  app.add_option("--frames", settings.frames, "Frames over which similarities and errors are measured")
-      ->type_name("A")
-      ->check(CLI::Range(1, most))
-      ->capture_default_str();
-  app.add_option("--timed-frames", settings.timed_frames, "Frames of a timed run; with --full as --frames")
-      ->type_name("T")
-      ->check(CLI::Range(1, most))
-      ->capture_default_str();
-  app.add_option("--repeats", settings.repeats, "Timed runs of each method, which take turns")
-      ->type_name("R")
-      ->check(CLI::Range(3, most))
-      ->capture_default_str();
-  app.add_option("--step-length", settings.step_length,
-                 "Each seed moves by up to this many pixels along x and y in a frame, at random")
-      ->type_name("D")
-      ->check(CLI::Range(0, Grid::max_side))
-      ->capture_default_str();
-  app.add_option("--rng-seed", settings.rng_seed, "Seed of the random numbers")
-      ->type_name("R")
-      ->capture_default_str();
-}
-
 }  // namespace
 
 void add_evaluate(CLI::App& app) {
@@ -186,7 +162,7 @@ void add_evaluate(CLI::App& app) {
       ->type_name("S|P%,...")
       ->default_str("eight from 0.005% to 6.25%");
   command->add_flag("--full", options->full,
-                    "The paper's range, for a GPU: grids up to 20000 x 20000 pixels");
+                    "The paper's range, for a GPU: grids up to 20000 x 20000 pixels, timed over all frames");
   add_settings_options(*command, options->settings);
   add_device_option(*command, options->device);
   add_json_option(*command, options->json);

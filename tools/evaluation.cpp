@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "methods.hpp"
+#include "random_walk.hpp"
 #include "vorocl/cells.hpp"
-#include "vorocl/motion.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -14,24 +14,17 @@ namespace vorocl::command {
 
 namespace {
 
-/// How many frames of a timed run may be on their way to the device.
-constexpr int most_frames_ahead = 16;
-
 Simulation::Engine engine_of(const MethodResult& result) {
   MethodOptions options;
   options.metric = result.metric;
   return engine(choose(method_choices(), result.method), options);
 }
 
-Simulation random_walk(const Device& device, const Configuration& configuration,
-                       const EvaluationSettings& settings) {
+Simulation walk(const Device& device, const Configuration& configuration,
+                const EvaluationSettings& settings) {
   const Grid grid(configuration.side, configuration.side);
-  return {Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
-          [settings](Seeds& seeds, int frame) {
-            random_step(seeds, settings.step_length, Border::reflect, settings.rng_seed,
-                        static_cast<std::uint32_t>(frame));
-            return settings.step_length;
-          }};
+  return random_walk(Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
+                     settings.step_length, settings.rng_seed);
 }
 
 /// The similarities of a frame's diagrams, each pair compared once.
@@ -92,18 +85,6 @@ void measure_accuracy(Simulation simulation, int frames, ConfigurationResult& re
   }
 }
 
-void measure_time(Simulation simulation, int frames, MethodResult& result,
-                  const std::function<void(int)>& made) {
-  simulation.add_engine(engine_of(result));
-  for (int frame = 0; frame <= frames; ++frame) {
-    simulation.step();
-    if (frame % most_frames_ahead == 0) simulation.milliseconds();  // waits
-    made(1);
-  }
-  result.milliseconds.add(simulation.milliseconds());
-  result.host_milliseconds.add(simulation.host_milliseconds());
-}
-
 }  // namespace
 
 const std::vector<std::string>& evaluated_methods() {
@@ -125,10 +106,13 @@ ConfigurationResult evaluate(const Device& device, const Configuration& configur
       result.methods.back().metric = metric;
     }
   }
-  measure_accuracy(random_walk(device, configuration, settings), settings.frames, result, made);
+  measure_accuracy(walk(device, configuration, settings), settings.frames, result, made);
   for (int round = 0; round < settings.repeats; ++round) {
     for (MethodResult& method : result.methods) {
-      measure_time(random_walk(device, configuration, settings), settings.timed_frames, method, made);
+      const RunTimes times =
+          timed_run(walk(device, configuration, settings), engine_of(method), settings.timed_frames, made);
+      method.milliseconds.add(times.milliseconds);
+      method.host_milliseconds.add(times.host_milliseconds);
     }
   }
   return result;

@@ -91,11 +91,6 @@ std::string line_of(const Origin& origin, const Row& row) {
   return to_csv(fields);
 }
 
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
-}
-
 /// The lines of a file, without their ends.
 struct Lines {
   std::vector<std::string> whole;
@@ -176,6 +171,11 @@ Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) 
 }
 
 }  // namespace
+
+std::string utc_now() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
 
 Origin origin_of(const Device& device, const EvaluationSettings& settings) {
   return {{"version", VOROCL_VERSION},

@@ -14,6 +14,9 @@ namespace vorocl::command {
 /// What all rows of a file share, by column: version, device, settings.
 using Origin = std::vector<std::pair<std::string, std::string>>;
 
+/// "2026-01-31T12:00:00Z"
+std::string utc_now();
+
 Origin origin_of(const Device& device, const EvaluationSettings& settings);
 
 /// Not renamed at its end, as other files are: rows are added when a configuration is complete, so that an

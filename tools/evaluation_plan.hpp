@@ -1,6 +1,7 @@
-// The configurations of an evaluation, as a command line names them.
+// The configurations and settings of an evaluation, as a command line names them.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,5 +27,8 @@ SeedCount parse_seed_count(const std::string& text);
 /// percentage makes less than one seed or more than there can be.
 std::vector<Configuration> configurations(const std::vector<int>& sides,
                                           const std::vector<SeedCount>& counts);
+
+/// Adds --frames, --timed-frames, --repeats, --step-length and --rng-seed.
+void add_settings_options(CLI::App& app, EvaluationSettings& settings);
 
 }  // namespace vorocl::command

@@ -24,7 +24,7 @@ void add_film_options(CLI::App& app, FrameWriterOptions& options, const std::str
       ->check(CLI::Range(0.1, 240.0))
       ->capture_default_str()
       ->needs(picture);
-  add_picture_options(app, options.picture, picture);
+  add_picture_options(app, options.picture);
 }
 
 void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options) {

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   vorocl::command::add_compare(app);
   vorocl::command::add_bench(app);
   vorocl::command::add_evaluate(app);
+  vorocl::command::add_ablation(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

@@ -25,6 +25,15 @@ Report run_jump_flooding(const Seeds& seeds, Diagram& diagram, double, const Met
   return jump_flooding(seeds, diagram, {options.metric, neighbourhood(options), variant});
 }
 
+Plan plan_standard_flooding(const Grid&, int waves, const MethodOptions& options) {
+  return Plan(static_cast<std::size_t>(waves), {1, neighbourhood(options)});
+}
+
+template <JumpFloodingVariant variant>
+Plan plan_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
+  return jump_flooding_plan(grid, variant, neighbourhood(options));
+}
+
 Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double d_max,
                                  const MethodOptions& options) {
   const DynamicPlanOptions plan = {d_max, options.neighbourhood.value_or(NeighbourhoodMix::mixed),
@@ -36,16 +45,21 @@ Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptio
   return exact_diagram(seeds, diagram, {options.metric});
 }
 
+template <JumpFloodingVariant variant>
+Method of_jump_flooding(const char* name) {
+  return {name, false, run_jump_flooding<variant>, false, plan_jump_flooding<variant>};
+}
+
 }  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
-      {"standard-flooding", false, run_standard_flooding},
-      {"jfa", false, run_jump_flooding<JumpFloodingVariant::jfa>},
-      {"jfa+1", false, run_jump_flooding<JumpFloodingVariant::jfa_plus_1>},
-      {"jfa+2", false, run_jump_flooding<JumpFloodingVariant::jfa_plus_2>},
-      {"1+jfa", false, run_jump_flooding<JumpFloodingVariant::one_plus_jfa>},
-      {"djfa", true, run_dynamic_jump_flooding},
+      {"standard-flooding", false, run_standard_flooding, false, plan_standard_flooding},
+      of_jump_flooding<JumpFloodingVariant::jfa>("jfa"),
+      of_jump_flooding<JumpFloodingVariant::jfa_plus_1>("jfa+1"),
+      of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
+      of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
+      {"djfa", true, run_dynamic_jump_flooding, false, plan_jump_flooding<JumpFloodingVariant::jfa>},
       {"exact", false, run_exact, true},
   };
   return all;

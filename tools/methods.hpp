@@ -33,6 +33,8 @@ struct Method {
   /// d_max is the longest motion of a seed along an axis since the diagram was last filled, in pixels.
   std::function<Report(const Seeds&, Diagram&, double d_max, const MethodOptions&)> run;
   bool exact = false;  ///< whether its diagrams are the truth that others are judged by
+  /// The waves that it runs from seeds alone, of which its report has said the number. Null: it has no waves.
+  std::function<Plan(const Grid&, int waves, const MethodOptions&)> plan = {};
 };
 
 /// The method with its options as an engine of a simulation.

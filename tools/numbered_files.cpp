@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 NumberedFiles::NumberedFiles(const std::string& pattern) {
   std::smatch parts;
   if (!std::regex_match(pattern, parts, std::regex("([^%]*)%(0([1-9]))?d([^%/]*)"))) {
-    throw UsageError(pattern + ": the name must have one place for the frame's number, such as %05d" +
+    throw UsageError(pattern + ": the name must have one place for a number, such as %05d" +
                      extension_of(pattern));
   }
   before_ = parts[1];

@@ -1,4 +1,4 @@
-// Files of a frame each, whose names are numbered.
+// Files of a frame or a wave each, whose names are numbered.
 #pragma once
 
 #include <string>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "vorocl/error.hpp"
 
@@ -14,6 +15,25 @@ namespace {
 constexpr int most_contours = 10;
 
 bool is_whole_or_none(double value) { return !std::isfinite(value) || value == std::round(value); }
+
+cv::Mat enlarged(const cv::Mat& image, int factor) {
+  cv::Mat result;
+  cv::resize(image, result, {}, factor, factor, cv::INTER_NEAREST);
+  return result;
+}
+
+/// Labels or distances of a grid.
+template <typename T>
+std::vector<T> enlarged(std::vector<T> image, const Grid& grid, int factor) {
+  static_assert(sizeof(T) == sizeof(std::int32_t));
+  const cv::Mat result = enlarged(cv::Mat(grid.height(), grid.width(), CV_32SC1, image.data()), factor);
+  return {result.ptr<T>(), result.ptr<T>() + result.total()};
+}
+
+std::vector<Point> enlarged(std::vector<Point> points, int factor) {
+  for (Point& point : points) point = {point.x * factor, point.y * factor};
+  return points;
+}
 
 std::string title_of(const Coloring& color) {
   switch (color.quantity) {
@@ -38,10 +58,14 @@ Painter::Painter(const PictureOptions& options, bool many)
       contour_interval_(options.contour_interval) {}
 
 cv::Mat Painter::draw(Analysis& analysis, const std::vector<double>& values) {
-  cv::Mat picture = color(analysis, values);
-  if (options_.contours) draw_contour_lines(picture, analysis.distances());
-  if (options_.edge_width > 0) draw_edges(picture, analysis.image().labels, options_.edge_width);
-  if (options_.points_overlay) draw_points(picture, analysis.seeds());
+  const Grid& grid = analysis.grid();
+  const int enlargement = options_.enlargement;
+  cv::Mat picture = enlarged(color(analysis, values), enlargement);
+  if (options_.contours) draw_contour_lines(picture, enlarged(analysis.distances(), grid, enlargement));
+  if (options_.edge_width > 0) {
+    draw_edges(picture, enlarged(analysis.image().labels, grid, enlargement), options_.edge_width);
+  }
+  if (options_.points_overlay) draw_points(picture, enlarged(analysis.seeds(), enlargement));
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),

@@ -1,5 +1,7 @@
 #include "picture_options.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <opencv2/imgcodecs.hpp>
 
@@ -13,6 +15,7 @@ namespace vorocl::command {
 namespace {
 
 constexpr int widest_edge = 100;
+constexpr int most_enlarged = 1000;
 
 const Choices<Quantity> quantities = {{"id", Quantity::id},
                                       {"distance", Quantity::distance},
@@ -39,7 +42,7 @@ std::optional<double> parse_interval(const std::string& text) {
 
 }  // namespace
 
-void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* file) {
+void add_picture_options(CLI::App& app, PictureOptions& options) {
   const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis},
                                                     {"turbo", Palette::turbo},
                                                     {"greys", Palette::greys},
@@ -50,26 +53,22 @@ void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* fi
              "absent): " +
                  names_of(quantities))
       ->type_name("NAME")
-      ->default_str("id")
-      ->needs(file);
+      ->default_str("id");
   add_choice(
       app, "--palette", options.palette, palettes,
       "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
       "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
-      "have a colour each)")
-      ->needs(file);
+      "have a colour each)");
   add_parsed(app, "--scale", options.scale, parse_scale,
              "Values at the ends of the palette; those beyond get the colours of the ends. Else the range of "
              "the picture, in a film or series of the first one drawn")
-      ->type_name("LOW,HIGH")
-      ->needs(file);
-  app.add_flag("--color-bar", options.color_bar, "Draw the scale at the right, with numbers")->needs(file);
+      ->type_name("LOW,HIGH");
+  app.add_flag("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
   app.add_option("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
       ->type_name("[N]")
       ->expected(0, 1)
       ->default_str("1")
-      ->check(CLI::Range(1, widest_edge))
-      ->needs(file);
+      ->check(CLI::Range(1, widest_edge));
   const auto set_contours = [&options](const std::string& text) {
     options.contours = true;
     return parse_interval(text);
@@ -78,9 +77,19 @@ void add_picture_options(CLI::App& app, PictureOptions& options, CLI::Option* fi
              "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
              "number that makes at most 10 lines in the first picture")
       ->type_name("[D]")
-      ->expected(0, 1)
-      ->needs(file);
-  app.add_flag("--points-overlay", options.points_overlay, "Draw the seeds")->needs(file);
+      ->expected(0, 1);
+  app.add_flag("--points-overlay", options.points_overlay, "Draw the seeds");
+  app.add_option("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
+      ->type_name("K")
+      ->check(CLI::Range(1, most_enlarged))
+      ->capture_default_str();
+}
+
+void refuse_picture_options(const CLI::App& app, const std::string& files) {
+  for (const char* name : {"--color", "--palette", "--scale", "--color-bar", "--edges", "--contours",
+                           "--points-overlay", "--enlarge"}) {
+    if (app.count(name) > 0) throw UsageError(std::string(name) + " requires " + files);
+  }
 }
 
 const std::vector<std::string>& picture_extensions() {
@@ -106,6 +115,15 @@ void check_picture_options(const PictureOptions& options) {
   if (by_id && of_quantities != nullptr) {
     throw UsageError(of_quantities + std::string(" needs a --color that is a quantity: distance, area, "
                                                  "neighbours or column:NAME"));
+  }
+}
+
+void check_picture_size(const PictureOptions& options, const Grid& grid) {
+  const int most = Grid::max_side / grid.longest_side();
+  if (options.enlargement > most) {
+    throw UsageError(
+        fmt::format("--enlarge {} of {} x {} pixels makes too large a picture; at most {} is possible",
+                    options.enlargement, grid.width(), grid.height(), most));
   }
 }
 

@@ -342,14 +342,14 @@ def show_from_zero(panel, values, on_log_scale):
         panel.set_ylim(-0.05 * max(above_zero), 1.1 * max(above_zero))
 
 
-def save(figure, folder, name):
+def save(figure, folder, name, dpi):
     """Each file is whole as soon as it has its name."""
     paths = []
     for kind in ("png", "pdf"):
         path = os.path.join(folder, f"{name}.{kind}")
         temporary = os.path.join(folder, f".{os.getpid()}-{name}.{kind}")
         try:
-            figure.savefig(temporary, format=kind, dpi=150, metadata={"CreationDate": None} if kind == "pdf" else None)
+            figure.savefig(temporary, format=kind, dpi=dpi, metadata={"CreationDate": None} if kind == "pdf" else None)
             os.replace(temporary, path)
         finally:
             if os.path.exists(temporary):
@@ -377,13 +377,14 @@ def main():
     parser.add_argument(
         "-o", "--output", metavar="FOLDER", help="where the .png and .pdf files go (default: beside the table)"
     )
+    parser.add_argument("--dpi", type=int, default=150, help="dots an inch of the .png files (default: 150)")
     arguments = parser.parse_args()
     folder = arguments.output or os.path.dirname(arguments.table) or "."
     try:
         rows = read_table(arguments.table)
         os.makedirs(folder, exist_ok=True)
         for name, figure in figures(rows):
-            for path in save(figure, folder, name):
+            for path in save(figure, folder, name, arguments.dpi):
                 print(f"wrote {path}")
     except BadTable as error:
         sys.exit(f"plot_evaluation.py: error: {error}")

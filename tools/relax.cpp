@@ -165,6 +165,7 @@ void run(const RelaxOptions& options) {
   const Interruption interruption;  // before there are files
   const Outputs outputs = check_outputs(options);
   const Input input = read_input(options.seeds);
+  check_picture_size(options.pictures.picture, input.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
@@ -209,7 +210,8 @@ void add_relax(CLI::App& app) {
                    "seeds, and how many seeds the round moved")
       ->type_name("FILE");
   add_json_option(*command, options->json);
-  command->callback([options] {
+  command->callback([command, options] {
+    if (options->pictures.picture_path.empty()) refuse_picture_options(*command, "-o");
     options->seeds.value_column = options->pictures.picture.color.column;
     run(*options);
   });

@@ -202,6 +202,7 @@ void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
   FrameWriter writer(options.output, options.other_is_truth());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
+  check_picture_size(options.output.picture, source->grid());
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Simulation simulation = make_simulation(options, *source, device);
@@ -238,6 +239,7 @@ void add_simulate(CLI::App& app) {
   add_device_option(*command, options->device);
   add_json_option(*command, options->json);
   command->callback([command, options] {
+    if (options->output.picture_path.empty()) refuse_picture_options(*command, "-o");
     check_method_options(*command, options->method_options, options->method.dynamic);
     options->seeds.value_column = options->output.picture.color.column;
     run(*options);

@@ -1,0 +1,244 @@
+#!/usr/bin/python3
+"""Writes the tables of docs/evaluation.md between their marks, from the tables that the commands have written:
+evaluation_tables.py DOCUMENT FOLDER, with evaluation.csv, ablation.csv and lengths.csv (and evaluation-10000.csv, if it
+is there) in the folder."""
+
+import argparse
+import csv
+import os
+import re
+import sys
+
+
+def read(folder, name):
+    with open(os.path.join(folder, name), newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    if not rows:
+        raise ValueError(f"{name} is empty")
+    return rows
+
+
+def number(row, column):
+    return float(row[column])
+
+
+class Evaluation:
+    """Rows of vorocl evaluate, by n, seeds, method and metric."""
+
+    def __init__(self, rows):
+        self.rows = {(int(row["n"]), int(row["seeds"]), row["method"], row["metric"]): row for row in rows}
+        self.configurations = sorted({key[:2] for key in self.rows})
+
+    def row(self, n, seeds, method="djfa", metric="euclidean"):
+        return self.rows.get((n, seeds, method, metric))
+
+    def value(self, n, seeds, column, method="djfa", metric="euclidean"):
+        row = self.row(n, seeds, method, metric)
+        return number(row, column) if row else None
+
+    def all(self, column, method="djfa", metric="euclidean"):
+        return [(self.value(n, seeds, column, method, metric), n, seeds) for n, seeds in self.configurations]
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "| " + " | ".join("---" for _ in head) + " |"]
+    return "\n".join(lines + ["| " + " | ".join(row) + " |" for row in rows])
+
+
+def shown(value, digits, unit=""):
+    return "not run" if value is None else f"{value:,.{digits}f}{unit}"
+
+
+def times_table(evaluation):
+    head = [
+        "n", "seeds", "pixels a seed", "JFA: waves", "ms a frame (least, greatest)", "dJFA: waves", "waves' ratio",
+        "T_JFA / T_dJFAe", "T_JFA / T_dJFAm", "T_dJFAe / T_dJFAm", "T_JFA / T_exact",
+    ]
+    rows = []
+    for n, seeds in evaluation.configurations:
+        jfa, djfa = evaluation.row(n, seeds, "jfa"), evaluation.row(n, seeds)
+        djfam, exact = evaluation.row(n, seeds, metric="manhattan"), evaluation.row(n, seeds, "exact")
+        frames = number(jfa, "timed_frames")
+        median, least, greatest = (number(jfa, f"milliseconds_{name}") / frames for name in ("median", "least", "greatest"))
+        rows.append([
+            f"{n:,}", f"{seeds:,}", shown(number(jfa, "pixels_per_seed"), 0), jfa["waves"],
+            f"{median:.2f} ({least:.2f}, {greatest:.2f})", djfa["waves"],
+            shown(number(jfa, "waves") / number(djfa, "waves"), 2), shown(number(djfa, "speedup_over_jfa"), 2),
+            shown(number(djfam, "speedup_over_jfa"), 2), shown(number(djfam, "speedup_over_djfae"), 2),
+            shown(number(exact, "speedup_over_jfa"), 2),
+        ])
+    return table(head, rows)
+
+
+def similarity_table(evaluation):
+    head = [
+        "n", "seeds", "dJFAe to JFA (least)", "dJFAe to exact", "JFA to exact", "dJFAm to Euclidean JFA (least)",
+        "dJFAm to Manhattan JFA", "dJFAm to exact",
+    ]
+    rows = []
+    for n, seeds in evaluation.configurations:
+        djfae, djfam = evaluation.row(n, seeds), evaluation.row(n, seeds, metric="manhattan")
+
+        def percent(row, reference, with_least=False):
+            mean, least = (number(row, f"similarity_to_{reference}_{which}") for which in ("mean", "least"))
+            return f"{mean:.4f} ({least:.4f})" if with_least else f"{mean:.4f}"
+
+        rows.append([
+            f"{n:,}", f"{seeds:,}", percent(djfae, "euclidean_jfa", True), percent(djfae, "exact"),
+            percent(evaluation.row(n, seeds, "jfa"), "exact"), percent(djfam, "euclidean_jfa", True),
+            percent(djfam, "jfa"), percent(djfam, "exact"),
+        ])
+    return table(head, rows)
+
+
+def lengths_table(lengths):
+    head = ["length", "regions", "mean / L_avg", "deviation / L_avg", "greatest / L_avg", "under 2 L_avg"]
+    return table(head, [
+        [row["length"], f"{int(row['regions']):,}"]
+        + [shown(number(row, column) / number(row, "l_avg"), 3) for column in ("mean", "deviation", "greatest")]
+        + [shown(number(row, "percent_under_2_l_avg"), 2, " %")]
+        for row in lengths
+    ])
+
+
+def ablation_table(ablation):
+    head = [
+        "study", "setting", "d_max", "waves", "ms a frame (least, greatest)", "wrong pixels: mean", "greatest",
+        "mean excess (pixels)", "largest", "two runs differ in",
+    ]
+    rows, before = [], None
+    for row in ablation:
+        frames = number(row, "timed_frames")
+        median, least, greatest = (number(row, f"milliseconds_{name}") / frames for name in ("median", "least", "greatest"))
+        rows.append([
+            row["study"] if row["study"] != before else "", row["setting"], row["d_max"], f"{number(row, 'waves_mean'):g}",
+            f"{median:.2f} ({least:.2f}, {greatest:.2f})", shown(number(row, "wrong_percent_mean"), 4, " %"),
+            shown(number(row, "wrong_percent_greatest"), 4, " %"), f"{number(row, 'mean_excess'):.2g}",
+            shown(number(row, "largest_excess"), 1),
+            shown(number(row, "differing_between_runs_mean"), 4, " %"),
+        ])
+        before = row["study"]
+    return table(head, rows)
+
+
+def verdict(ours, published, tolerance):
+    """In words: whether ours is within a share of the published value."""
+    if ours is None:
+        return "not run here"
+    if abs(ours - published) <= tolerance * published:
+        return "agrees"
+    return "greater" if ours > published else "less"
+
+
+def range_verdict(values, low, high):
+    inside = sum(low <= value <= high for value in values)
+    return "agrees" if inside == len(values) else f"{inside} of {len(values)} within it"
+
+
+WAVES = "the waves' ratio is {:.2f}; see section 8"
+
+
+def published_table(evaluation, large, lengths):
+    head = ["published", "value", "ours", "verdict", "why"]
+    rows = []
+
+    def add(name, value, ours, says, why=""):
+        rows.append([name, value, ours, says, why])
+
+    under = {row["length"]: number(row, "percent_under_2_l_avg") for row in lengths}
+    for length, percent in under.items():
+        why = "" if percent > 98.5 else "a convex region's box is longer than the root of its area"
+        add(f"regions shorter than 2 L_avg ({length})", "about 99 %", shown(percent, 2, " %"),
+            "agrees" if percent > 98.5 else "less", why)
+    for n, seeds, published in [(1000, 100, 1.2), (1000, 10000, 2.1), (10000, 1000000, 4.3), (20000, 4000000, 4.7)]:
+        source = large if n >= 10000 else evaluation
+        ours = source.value(n, seeds, "speedup_over_jfa") if source else None
+        waves = [source.value(n, seeds, "waves", method) for method in ("jfa", "djfa")] if source else [None]
+        why = WAVES.format(waves[0] / waves[1]) if ours is not None else "for a GPU: `evaluate --full`"
+        add(f"speedup of dJFAe, {n:,}², {n * n // seeds:,} pixels a seed", f"{published} ×", shown(ours, 2, " ×"),
+            verdict(ours, published, 0.1), why)
+    add("speedup of dJFAm, 20,000², 100 pixels a seed", "5.1 ×", "not run", "not run here", "for a GPU: `evaluate --full`")
+    for name, published, metric, column in [
+        ("greatest speedup of dJFAe", 4.5, "euclidean", "speedup_over_jfa"),
+        ("greatest speedup of dJFAm", 5.0, "manhattan", "speedup_over_jfa"),
+        ("greatest speedup of all (abstract)", 5.3, None, None),
+        ("greatest T_dJFAe / T_dJFAm", 1.2, "manhattan", "speedup_over_djfae"),
+    ]:
+        if metric:
+            best, n, seeds = max(evaluation.all(column, metric=metric))
+        else:
+            best, n, seeds = max(evaluation.all("speedup_over_jfa") + evaluation.all("speedup_over_jfa", metric="manhattan"))
+        says = verdict(best, published, 0.1)
+        reason = (
+            "a squared distance costs no more than a Manhattan one here" if column == "speedup_over_djfae"
+            else "grids up to 2,000², where JFA has 11 waves (15 on 20,000²); see section 8"
+        )
+        add(name, f"{published} ×", f"{best:.2f} × ({n:,}², {seeds:,} seeds)", says, reason if says == "less" else "")
+    slower = [
+        evaluation.value(n, seeds, "waves", "jfa") / evaluation.value(n, seeds, "waves")
+        for metric in ("euclidean", "manhattan")
+        for value, n, seeds in evaluation.all("speedup_over_jfa", metric=metric) if value < 1
+    ]
+    count = 2 * len(evaluation.configurations)
+    add("dJFA takes less time than JFA", "always", f"in {count - len(slower)} of {count} cases",
+        "not always" if slower else "agrees",
+        f"where it does not, JFA has at most {max(slower):.2f} times as many waves" if slower else "")
+    for seeds, published in [(200, 99.997), (2000, 99.968), (20000, 99.796)]:
+        ours = evaluation.value(2000, seeds, "similarity_to_euclidean_jfa_mean")
+        says = "not run here" if ours is None else "agrees" if abs(ours - published) < 0.002 else "nearer" if ours > published else "less near"
+        add(f"similarity of dJFAe, 2,000², {seeds:,} seeds", f"{published} %", shown(ours, 4, " %"), says,
+            "theirs refreshes every 5th frame, scatters in place and does not stamp seeds" if says == "nearer" else "")
+    values = [value for value, _, _ in evaluation.all("similarity_to_euclidean_jfa_mean", metric="manhattan")]
+    add("similarity of dJFAm to the Euclidean JFA", "88 to 92 %", f"{min(values):.2f} to {max(values):.2f} %",
+        range_verdict(values, 88, 92), "")
+    values = [value for value, _, _ in evaluation.all("similarity_to_jfa_mean", metric="manhattan")]
+    add("similarity of dJFAm to its own JFA", "not given", f"{min(values):.4f} to {max(values):.4f} %", "",
+        "what is missing above is the metrics' difference")
+    return table(head, rows)
+
+
+def machine_line(rows):
+    row = rows[0]
+    return (f"Made by VoroCL {row['version']} on {row['device']} ({row['platform']} {row['driver']}), "
+            f"{rows[0]['date'][:10]}: {row['frames']} frames for accuracy, {row['repeats']} runs of {row['timed_frames']} "
+            f"frames for times, seeds moving by up to {row['step_length']} pixels along each axis in a frame.")
+
+
+def tables(folder):
+    rows, ablation, lengths = (read(folder, name) for name in ("evaluation.csv", "ablation.csv", "lengths.csv"))
+    evaluation = Evaluation(rows)
+    large_path = os.path.join(folder, "evaluation-10000.csv")
+    large = Evaluation(read(folder, "evaluation-10000.csv")) if os.path.exists(large_path) else None
+    return {
+        "machine": machine_line(rows),
+        "lengths": lengths_table(lengths),
+        "similarity": similarity_table(evaluation),
+        "times": times_table(evaluation),
+        "published": published_table(evaluation, large, lengths),
+        "ablation": machine_line(ablation) + "\n\n" + ablation_table(ablation),
+    }
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("document")
+    parser.add_argument("folder")
+    arguments = parser.parse_args()
+    try:
+        with open(arguments.document, encoding="utf-8") as file:
+            text = file.read()
+        for name, lines in tables(arguments.folder).items():
+            place = re.compile(rf"(<!-- table {name} -->\n).*?(<!-- end -->)", re.DOTALL)
+            text, found = place.subn(lambda match, lines=lines: match[1] + lines + "\n" + match[2], text)
+            if found != 1:
+                raise ValueError(f"{arguments.document} must have one place \"<!-- table {name} -->\", and it has {found}")
+        temporary = arguments.document + ".new"
+        with open(temporary, "w", encoding="utf-8") as file:
+            file.write(text)
+        os.replace(temporary, arguments.document)
+    except (OSError, ValueError, KeyError) as error:
+        sys.exit(f"evaluation_tables.py: error: {error}")
+
+
+if __name__ == "__main__":
+    main()
