@@ -6,4 +6,4 @@ cd "$(dirname "$0")/.."
 tools/build.sh
 export VOROCL_DEVICE="${VOROCL_DEVICE-Portable Computing Language}"  # PoCL, also where there is a GPU
 cd build
-ctest --output-on-failure "$@"
+ctest --output-on-failure --parallel "$(nproc)" "$@"

@@ -1,9 +1,11 @@
 #include "truth.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <nanoflann.hpp>
 #include <opencv2/core/utility.hpp>
+#include <tuple>
 
 #include "vorocl/error.hpp"
 
@@ -53,6 +55,11 @@ Truth::Truth(const Grid& grid, const std::vector<Point>& seeds, Metric metric)
     seeds_[id] = Position{static_cast<int>(seeds[id].x), static_cast<int>(seeds[id].y)};
     cloud.points.push_back({static_cast<double>(seeds_[id]->x), static_cast<double>(seeds_[id]->y)});
   }
+  // Thousands of seeds on one pixel would make a leaf of the tree that every query goes through.
+  const auto before = [](const Point& a, const Point& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+  const auto same = [](const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; };
+  std::sort(cloud.points.begin(), cloud.points.end(), before);
+  cloud.points.erase(std::unique(cloud.points.begin(), cloud.points.end(), same), cloud.points.end());
   if (cloud.points.empty()) throw Error("without seeds no pixel has a true label");
   const auto found = [&](int x, int y, const Point& nearest) {
     const auto i =
