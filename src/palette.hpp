@@ -12,7 +12,7 @@ const cv::Vec3b dark(32, 28, 26);
 const cv::Vec3b light(250, 250, 250);
 const cv::Vec3b absent_grey(214, 214, 214);
 
-/// Throws Error unless low <= high and both are finite.
+/// Throws Error unless low <= high, and these and their difference are finite.
 void check_scale(const Scale& scale);
 
 /// Throws Error unless the picture is CV_8UC3.

@@ -13,8 +13,6 @@ namespace vorocl {
 
 namespace {
 
-constexpr int widest_edge = 100;
-
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }

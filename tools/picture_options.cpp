@@ -14,7 +14,6 @@ namespace vorocl::command {
 
 namespace {
 
-constexpr int widest_edge = 100;
 constexpr int most_enlarged = 1000;
 
 const Choices<Quantity> quantities = {{"id", Quantity::id},

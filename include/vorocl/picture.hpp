@@ -60,6 +60,9 @@ VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, cons
 VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid,
                                      const Scale& scale, Palette palette);
 
+/// The widest borders that draw_edges() draws, in pixels.
+constexpr int widest_edge = 100;
+
 /// Draws the borders of the cells into a picture, in dark, `width` pixels wide. An even width has as many
 /// pixels on both sides of a border, an odd one one more on the left of it or above. Throws Error unless the
 /// picture has the labels' size and the width is 1 to 100.
