@@ -25,8 +25,8 @@ typedef struct {
   int left, top, right, bottom;
 } Box;
 
-inline Box box_of(int x, int y, int size, int width, int height) {
-  const Box box = {x, y, min(x + size, width) - 1, min(y + size, height) - 1};
+inline Box box_of(int x, int y, int columns, int rows, int width, int height) {
+  const Box box = {x, y, min(x + columns, width) - 1, min(y + rows, height) - 1};
   return box;
 }
 

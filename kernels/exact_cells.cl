@@ -31,6 +31,8 @@ inline uint lane_bits(int_run condition) {
 #define FAN_BITS 2
 #define CELL (1 << CELL_BITS)
 #define FAN (1 << FAN_BITS)
+// Cells that are labelled together, one above the other.
+#define PAIR 2
 
 inline int cell_bits(int level) { return CELL_BITS + FAN_BITS * level; }
 inline int cells_along(int pixels, int level) { return ((pixels - 1) >> cell_bits(level)) + 1; }
@@ -100,20 +102,30 @@ inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / 
 #define ALONG(offset) max(offset, -(offset))
 #endif
 
-// Sets the seeds' bits, and notes their places. A seed that comes late to its pixel gets NO_PLACE and queues up.
+// Sets the bits of a run of seeds, and notes their places. A seed that comes late to its pixel gets NO_PLACE and queues
+// up. All words are read first: where they are not in a cache, a CPU then waits for all of them at once. Behind the last
+// seed there is an empty position.
 #define NO_PLACE 0xffffffffu
-kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
-                     global uint* restrict places, global uint* restrict late, global uint* restrict late_count,
-                     int width) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= count) return;
-  places[id] = NO_PLACE;
-  if (positions[id] & EMPTY_BIT) return;
-  const uint place = bit_place(positions[id], cells_along(width, 0)), bit = 1u << place % 32;
-  if (atomic_or(bits + place / 32, bit) & bit) {
-    late[atomic_inc(late_count)] = id;
-  } else {
-    places[id] = place;
+kernel void set_bits(global const uint* restrict positions, uint count, global uint* bits, global uint* restrict places,
+                     global uint* restrict late, global uint* restrict late_count, int width) {
+  const uint first = (uint)get_global_id(0) * VOROCL_WIDTH;
+  if (first >= count) return;
+  const int columns = cells_along(width, 0);
+  uint place[VOROCL_WIDTH], seen[VOROCL_WIDTH];
+#pragma unroll
+  for (uint i = 0; i < VOROCL_WIDTH; ++i) {
+    const uint position = positions[min(first + i, count)];
+    place[i] = position & EMPTY_BIT ? NO_PLACE : bit_place(position, columns);
+    seen[i] = position & EMPTY_BIT ? 0 : bits[place[i] / 32];
+  }
+#pragma unroll
+  for (uint i = 0; i < VOROCL_WIDTH; ++i) {
+    const uint bit = 1u << place[i] % 32;
+    if (place[i] != NO_PLACE && ((seen[i] & bit) || (atomic_or(bits + place[i] / 32, bit) & bit))) {
+      late[atomic_inc(late_count)] = first + i;
+      place[i] = NO_PLACE;
+    }
+    places[min(first + i, count)] = place[i];
   }
 }
 
@@ -175,29 +187,29 @@ kernel void share_out_list(global uint* restrict starts, global uint* restrict l
   row[columns] = start;
 }
 
-// Lists each cell's seeds.
-kernel void list_seeds(global const uint* restrict bits, global const uint* restrict starts,
-                       global uint* restrict word_starts, global uint* restrict list, int width, int height) {
+// Says where the seeds of each word of a cell begin in the list.
+kernel void start_words(global const uint* restrict bits, global const uint* restrict starts,
+                        global uint* restrict word_starts, int width, int height) {
   const int cell = (int)get_global_id(0), columns = cells_along(width, 0);
   if (cell >= columns * cells_along(height, 0)) return;
-  const int x = cell % columns, y = cell / columns;
-  uint at = starts[start_of(x, y, columns)];
-  if (at == starts[start_of(x + 1, y, columns)]) return;
+  const int start = start_of(cell % columns, cell / columns, columns);
+  uint at = starts[start];
+  if (at == starts[start + 1]) return;
   for (int word = 0; word < WORDS; ++word) {
-    const uint first_pixel = pack(x * CELL, y * CELL + word * ROWS_OF_WORD);
     word_starts[cell * WORDS + word] = at;
-    for (uint seeds = bits[cell * WORDS + word]; seeds != 0; seeds &= seeds - 1) {
-      list[at++] = first_pixel + pixel_of_bit(lowest_bit(seeds));
-    }
+    at += popcount(bits[cell * WORDS + word]);
   }
 }
 
-// Lists the ids of the seeds, of those on one pixel the first one that came ...
-kernel void list_ids(global const uint* restrict places, uint count, global const uint* restrict bits,
-                     global const uint* restrict word_starts, global uint* restrict ids) {
+// Lists the seeds and their ids, of those on one pixel the first one that came ...
+kernel void list_seeds(global const uint* restrict positions, global const uint* restrict places, uint count,
+                       global const uint* restrict bits, global const uint* restrict word_starts,
+                       global uint* restrict list, global uint* restrict ids) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || places[id] == NO_PLACE) return;
-  ids[listed(bits, word_starts, places[id])] = id;
+  const uint at = listed(bits, word_starts, places[id]);
+  list[at] = positions[id];
+  ids[at] = id;
 }
 
 // ... and then the lowest one stays.

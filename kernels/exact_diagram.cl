@@ -4,13 +4,20 @@
 #include "exact_candidates.cl"
 #include "exact_rows.cl"
 
-// A tile is a cell of level 1. What its count says where it has more candidates than a list holds:
-#define TILE (CELL * FAN)
+// Cells are labelled in PAIRs, one above the other, and a work-item takes a COLUMN of FAN cells.
+#define PAIR 2
+// By the number of seeds near a pair, which are those in its two cells and in the ten around them: a pair of less than
+// SPARSE has candidates that are seldom near, one of less than MEDIUM is labelled as a whole. By the number near a cell,
+// in it and the eight around it: one of DENSE or more is labelled by rows. Measured: the ways cost the same there.
+#define SPARSE 5
+#define MEDIUM 24
+#define DENSE 56
+// Lists of candidates are made for tiles, the cells of level 1, from those of REGIONS, the cells of level 2. What a
+// list's count says if there are more candidates than it holds:
+#define TILE 1
+#define REGION 2
+#define MOST_OF_REGION 64
 #define TOO_MANY 0xffffffffu
-// By the number of seeds in a cell and those next to it: from so many on it is labelled by rows, and with less than so
-// many its candidates are seldom near. Measured: the ways cost the same there.
-#define DENSE 48
-#define SPARSE 4
 
 // Stores a run of labels, as far as it lies in the grid.
 inline void store_run(uint_run labels, global uint* image, int x, int y, int width) {
@@ -24,8 +31,11 @@ inline void store_run(uint_run labels, global uint* image, int x, int y, int wid
 }
 
 inline void fill_box(Box box, uint label, global uint* labels, int width) {
-  for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
-    for (int y = box.top; y <= box.bottom; ++y) store_run((uint_run)label, labels, x, y, width);
+  const int whole = (box.right + 1 - box.left) / VOROCL_WIDTH * VOROCL_WIDTH, columns = box.right + 1 - box.left;
+  for (int y = box.top; y <= box.bottom; ++y) {
+    global uint* const row = labels + y * width + box.left;
+    for (int x = 0; x < whole; x += VOROCL_WIDTH) STORE_WHOLE_RUN((uint_run)label, row + x);
+    for (int x = whole; x < columns; ++x) row[x] = label;
   }
 }
 
@@ -49,71 +59,76 @@ inline void sort_by_tie_rule(const uint* seeds, int count, uint* sorted) {
   }
 }
 
-// Rows whose least keys stay in registers together.
-#define ROWS 8
+// A BLOCK is so many rows of a cell, whole ones: what is written to memory comes in cache lines.
+#define RUNS_OF_ROW (CELL / VOROCL_WIDTH)
+#define BLOCK_ROWS (VOROCL_WIDTH >= 4 ? VOROCL_WIDTH / 2 : 1)
+#define FOR_BLOCK                                                       \
+  _Pragma("unroll") for (int row = 0; row < BLOCK_ROWS; ++row)          \
+    _Pragma("unroll") for (int run = 0; run < RUNS_OF_ROW; ++run)
 
-// Labels a box by candidates in the order of the tie rule. A candidate's KEY at a pixel says by how much farther it is
-// than the base, a seed that dominates none of them, and in its lowest bits which one it is: the least key wins. As no
-// candidate is dominated, these differences fit in 22 bits, however large the distances are. A key is the sum of a
-// part for the pixel's column and one for its row.
+// Labels a box as wide as a cell by candidates in the order of the tie rule. A candidate's KEY at a pixel says by how
+// much farther it is than the base, a seed that dominates none of them, and in its lowest bits which one it is: the
+// least key wins. As no candidate is dominated, these differences fit in 22 bits, however large the distances are. A
+// key is the sum of a part for the pixel's column and one for its row.
 #define MOST_KEYS 256
-#define LABEL_ROWS(look_up)                                                               \
-  _Pragma("unroll") for (int row = 0; row < ROWS; ++row) {                                \
-    label[row] = look_up(label_of, AS_UINT_RUN(least[row]) & place);                      \
-  }
+#define LABEL_BLOCK(look_up) FOR_BLOCK label[row][run] = look_up(label_of, AS_UINT_RUN(least[row][run]) & place);
 
 inline void label_by_keys(const uint* sorted, const uint* label_of, int count, uint base, Box box,
                           global uint* labels, int width) {
-  const int place_bits = 32 - (int)clz((uint)count - 1);
+  const int place_bits = 32 - (int)clz((uint)count - 1), tables = (count - 1) / VOROCL_WIDTH + 1;
   const uint_run place = (uint_run)((1u << place_bits) - 1);
-  uint of_row[MOST_KEYS * CELL];
-  uint_run of_column[MOST_KEYS];
-  for (int first = 0; first < CELL; first += VOROCL_WIDTH) {
-    const int_run y = box.top + first + AS_INT_RUN(LANES), offset_of_base = y - packed_y(base);
+  uint_run of_column[MOST_KEYS][RUNS_OF_ROW];
+  uint of_row[MOST_KEYS * VOROCL_WIDTH];
+#pragma unroll
+  for (int run = 0; run < RUNS_OF_ROW; ++run) {
+    const int_run x = box.left + run * VOROCL_WIDTH + AS_INT_RUN(LANES), offset_of_base = x - packed_x(base);
+    const int_run along_base = ALONG(offset_of_base);
+    for (int i = 0; i < count; ++i) {
+      const int_run offset = x - packed_x(sorted[i]);
+      of_column[i][run] = (AS_UINT_RUN(ALONG(offset) - along_base) << place_bits) + (uint)i;
+    }
+  }
+  for (int top = box.top; top <= box.bottom; top += VOROCL_WIDTH) {
+    const int_run y = top + AS_INT_RUN(LANES), offset_of_base = y - packed_y(base);
     const int_run along_base = ALONG(offset_of_base);
     for (int i = 0; i < count; ++i) {
       const int_run offset = y - packed_y(sorted[i]);
-      STORE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * CELL + first);
+      STORE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * VOROCL_WIDTH);
     }
-  }
-  for (int x = box.left; x <= box.right; x += VOROCL_WIDTH) {
-    const int_run pixel_x = x + AS_INT_RUN(LANES), offset_of_base = pixel_x - packed_x(base);
-    const int_run along_base = ALONG(offset_of_base);
-    for (int i = 0; i < count; ++i) {
-      const int_run offset = pixel_x - packed_x(sorted[i]);
-      of_column[i] = (AS_UINT_RUN(ALONG(offset) - along_base) << place_bits) + (uint)i;
-    }
-    for (int y = box.top; y <= box.bottom; y += ROWS) {
-      int_run least[ROWS];
-      uint_run label[ROWS];
-#pragma unroll
-      for (int row = 0; row < ROWS; ++row) least[row] = (int_run)INT_MAX;
+    for (int first = 0; first < VOROCL_WIDTH; first += BLOCK_ROWS) {
+      int_run least[BLOCK_ROWS][RUNS_OF_ROW];
+      uint_run label[BLOCK_ROWS][RUNS_OF_ROW];
+      FOR_BLOCK least[row][run] = (int_run)INT_MAX;
       for (int i = 0; i < count; ++i) {
-        const uint* const of_rows = of_row + i * CELL + (y - box.top);
-        const uint_run column = of_column[i];
-#pragma unroll
-        for (int row = 0; row < ROWS; ++row) least[row] = min(least[row], AS_INT_RUN(column + of_rows[row]));
+        const uint* const of_rows = of_row + i * VOROCL_WIDTH + first;
+        FOR_BLOCK least[row][run] = min(least[row][run], AS_INT_RUN(of_column[i][run] + of_rows[row]));
       }
-      const int tables = (count - 1) / VOROCL_WIDTH + 1;
       if (tables == 1) {
-        LABEL_ROWS(look_up_in_1)
+        LABEL_BLOCK(look_up_in_1)
       } else if (tables == 2) {
-        LABEL_ROWS(look_up_in_2)
+        LABEL_BLOCK(look_up_in_2)
       } else if (tables == 3) {
-        LABEL_ROWS(look_up_in_3)
+        LABEL_BLOCK(look_up_in_3)
       } else if (tables == 4) {
-        LABEL_ROWS(look_up_in_4)
+        LABEL_BLOCK(look_up_in_4)
       } else {
         uint at[VOROCL_WIDTH];
-        for (int row = 0; row < ROWS; ++row) {
-          STORE_RUN(AS_UINT_RUN(least[row]) & place, at);
-          for (int lane = 0; lane < VOROCL_WIDTH; ++lane) at[lane] = label_of[at[lane]];
-          label[row] = LOAD_RUN(at);
+        for (int row = 0; row < BLOCK_ROWS; ++row) {
+          for (int run = 0; run < RUNS_OF_ROW; ++run) {
+            STORE_RUN(AS_UINT_RUN(least[row][run]) & place, at);
+            for (int lane = 0; lane < VOROCL_WIDTH; ++lane) at[lane] = label_of[at[lane]];
+            label[row][run] = LOAD_RUN(at);
+          }
         }
       }
-#pragma unroll
-      for (int row = 0; row < ROWS; ++row) {
-        if (y + row <= box.bottom) store_run(label[row], labels, x, y + row, width);
+      if (box.left + CELL <= width && top + first + BLOCK_ROWS <= box.bottom + 1) {
+        FOR_BLOCK STORE_WHOLE_RUN(label[row][run], labels + (top + first + row) * width + box.left + run * VOROCL_WIDTH);
+      } else {
+        for (int row = 0; row < min(BLOCK_ROWS, box.bottom + 1 - top - first); ++row) {
+          for (int run = 0; run < RUNS_OF_ROW; ++run) {
+            store_run(label[row][run], labels, box.left + run * VOROCL_WIDTH, top + first + row, width);
+          }
+        }
       }
     }
   }
@@ -132,31 +147,31 @@ inline void label_by_list(const Listing* all, const Dominators* dominators, cons
   }
 }
 
-// Labels a cell by the best of the rows' nearest seeds; false if there is a pixel that has none within reach.
-inline bool label_by_rows(const Listing* all, int cell_x, int cell_y, global uint* labels) {
-  NearestInRows rows;
-  rows.all = all;
-  rows.cell_x = cell_x;
-  rows.top = cell_y * CELL;
+// Labels a cell of the rows' pair by the best of the rows' nearest seeds; false if there is a pixel that has none
+// within reach.
+inline bool label_by_rows(NearestInRows* rows, int cell_y, global uint* labels) {
+  const Listing* const all = rows->all;
+  const int left = rows->cell_x * CELL, top = cell_y * CELL;
   ushort16 least[CELL];
-  const int columns = min(CELL, all->width - cell_x * CELL), count = min(CELL, all->height - rows.top);
-  if (!find_least_row_keys(&rows, count, least)) return false;
-  for (int y = 0; y < count; ++y) {
-    const uint* const nearest = rows.label + y * CELL;
-    least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
-    const ushort* const at = (const ushort*)(least + y);
-    global uint* const out = labels + (rows.top + y) * all->width + cell_x * CELL;
-    if (columns == CELL) {
+  if (!find_least_row_keys(rows, top - rows->top, least)) return false;
+  for (int y = 0; y < CELL; ++y) least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
+  // Gathered first and stored in runs then, the labels fit in a CPU's store buffer, and it need not wait for memory.
+  uint label[CELL * CELL];
+  for (int y = 0; y < CELL; ++y) {
+    const ushort* const nearest = (const ushort*)(rows->nearest + (top - rows->top + y - REACH));
+    const ushort* const row = (const ushort*)(least + y);
 #pragma unroll
-      for (int x = 0; x < CELL; ++x) out[x] = nearest[at[x] + x];
-    } else {
-      for (int x = 0; x < columns; ++x) out[x] = nearest[at[x] + x];
+    for (int x = 0; x < CELL; ++x) label[y * CELL + x] = rows->ids[nearest[row[x] + x]];
+  }
+  for (int y = 0; y < min(CELL, all->height - top); ++y) {
+    for (int x = 0; x < CELL; x += VOROCL_WIDTH) {
+      store_run(LOAD_RUN(label + y * CELL + x), labels, left + x, top + y, all->width);
     }
   }
   return true;
 }
 
-// A cell's candidates and those of the cells next to it and next but one.
+// The candidates of a cell or a pair of cells and those of the cells next to it and next but one.
 #define MOST_NEAR MOST_CANDIDATES
 typedef struct {
   Box box;
@@ -165,11 +180,12 @@ typedef struct {
   uint seeds[MOST_NEAR + 5 * CELL * CELL + VOROCL_WIDTH];
 } Near;
 
-// Takes the seeds of a cell and of those up to so many cells away; false if that makes too many.
-inline bool take_near(Near* near, const Listing* all, int x, int y, int away) {
+// Takes the seeds of so many cells, one above the other, and of those up to so many cells away; false if that makes
+// too many.
+inline bool take_near(Near* near, const Listing* all, int x, int y, int cells, int away) {
   near->count = 0;
-  for (int row = -away; row <= away; ++row) {
-    near->count = add_seeds(all, x - away, x + away, y + row, near->seeds, near->count);
+  for (int row = y - away; row < y + cells + away; ++row) {
+    near->count = add_seeds(all, x - away, x + away, row, near->seeds, near->count);
     if (near->count <= MOST_NEAR) continue;
     pad(near->seeds, near->count);
     improve_dominator(&near->dominators, 0, near->seeds, near->count);
@@ -180,18 +196,42 @@ inline bool take_near(Near* near, const Listing* all, int x, int y, int away) {
   return true;
 }
 
-// Lists the candidates of a cell that has seeds near, if all of them are near; else false.
-inline bool find_near(Near* near, const Listing* all, int x, int y) {
-  near->box = box_of(x * CELL, y * CELL, CELL, all->width, all->height);
-  no_dominators(&near->dominators, near->box);
-  if (!take_near(near, all, x, y, 1)) return false;
-  improve_dominator(&near->dominators, 0, near->seeds, near->count);
+// Labels so many cells, one above the other, that have seeds near, if all of their candidates are near; else false.
+inline bool label_by_near(const Listing* all, int x, int y, int cells, global uint* labels) {
+  Near near;
+  near.box = box_of(x * CELL, y * CELL, CELL, cells * CELL, all->width, all->height);
+  no_dominators(&near.dominators, near.box);
+  if (!take_near(&near, all, x, y, cells, 1)) return false;
+  improve_dominator(&near.dominators, 0, near.seeds, near.count);
   int reach = 0;
-  for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near->dominators.distance[0][corner]);
+  for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near.dominators.distance[0][corner]);
   if (reach > ALONG(2 * CELL)) return false;
-  if (reach > ALONG(CELL) && !take_near(near, all, x, y, 2)) return false;
-  near->count = drop_dominated(&near->dominators, near->seeds, near->count);
-  return near->count <= MOST_KEYS;
+  if (reach > ALONG(CELL) && !take_near(&near, all, x, y, cells, 2)) return false;
+  near.count = drop_dominated(&near.dominators, near.seeds, near.count);
+  if (near.count > MOST_KEYS) return false;
+  label_by_list(all, &near.dominators, near.seeds, near.count, near.box, labels);
+  return true;
+}
+
+inline uint seeds_near(const Listing* all, int x, int y, int cells) {
+  uint seeds = 0;
+  for (int row = y - 1; row <= y + cells; ++row) seeds += count_seeds(all, x - 1, x + 1, row);
+  return seeds;
+}
+
+inline int pairs_down(const Listing* all) { return (all->rows - 1) / PAIR + 1; }
+
+inline bool label_pair(const Listing* all, int x, int y, global uint* labels) {
+  const uint seeds = seeds_near(all, x, y, PAIR);
+  if (seeds < SPARSE) return false;
+  if (seeds < MEDIUM) return label_by_near(all, x, y, PAIR, labels);
+  NearestInRows rows;
+  begin_rows(&rows, all, x, y);
+  for (int cell_y = y; cell_y < min(y + PAIR, all->rows); ++cell_y) {
+    if (seeds_near(all, x, cell_y, 1) >= DENSE && label_by_rows(&rows, cell_y, labels)) continue;
+    if (!label_by_near(all, x, cell_y, 1, labels)) return false;
+  }
+  return true;
 }
 
 kernel void label_near(global const uint* restrict bits, global const uint* restrict starts,
@@ -199,69 +239,97 @@ kernel void label_near(global const uint* restrict bits, global const uint* rest
                        global const uint* restrict ids, int width, int height, global uint* restrict labels,
                        global uint* restrict labelled) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
-  const int cell = (int)get_global_id(0);
-  if (cell >= all.columns * all.rows) return;
-  const int x = cell % all.columns, y = cell / all.columns;
-  uint seeds = 0;
-  for (int row = -1; row <= 1; ++row) seeds += count_seeds(&all, x - 1, x + 1, y + row);
-  labelled[cell] = 1;
-  if (seeds >= DENSE && label_by_rows(&all, x, y, labels)) return;
-  Near near;
-  if (seeds >= SPARSE && find_near(&near, &all, x, y)) {
-    label_by_list(&all, &near.dominators, near.seeds, near.count, near.box, labels);
-  } else {
-    labelled[cell] = 0;
-  }
+  const int pair = (int)get_global_id(0);
+  if (pair >= all.columns * pairs_down(&all)) return;
+  labelled[pair] = label_pair(&all, pair % all.columns, pair / all.columns * PAIR, labels);
 }
 
-inline bool all_labelled(const Listing* all, global const uint* labelled, int tile_x, int tile_y) {
-  for (int y = tile_y * FAN; y < min((tile_y + 1) * FAN, all->rows); ++y) {
-    for (int x = tile_x * FAN; x < min((tile_x + 1) * FAN, all->columns); ++x) {
-      if (!labelled[y * all->columns + x]) return false;
+// Whether all pairs of a cell of some level are labelled.
+inline bool all_labelled(const Listing* all, global const uint* labelled, int level, int x, int y) {
+  const int size = 1 << FAN_BITS * level;
+  for (int part_y = y * size; part_y < min((y + 1) * size, all->rows); part_y += PAIR) {
+    for (int part_x = x * size; part_x < min((x + 1) * size, all->columns); ++part_x) {
+      if (!labelled[part_y / PAIR * all->columns + part_x]) return false;
     }
   }
   return true;
 }
 
+// The number of a tile or region among them, the tiles first.
+inline int list_number(const Listing* all, int level, int x, int y) {
+  return level_start(all->width, all->height, level) - level_start(all->width, all->height, TILE) +
+         y * cells_along(all->width, level) + x;
+}
+
+inline uint seeds_in_cell(const Listing* all, int level, int x, int y) {
+  const int size = 1 << FAN_BITS * level;
+  uint seeds = 0;
+  for (int part_y = y * size; part_y < (y + 1) * size; ++part_y) {
+    seeds += count_seeds(all, x * size, (x + 1) * size - 1, part_y);
+  }
+  return seeds;
+}
+
+// Takes those of a list that can be candidates of a box, and pads them.
+inline int take_candidates(global const uint* list, int count, Box box, Dominators* dominators, uint* seeds) {
+  for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_RUN(LOAD_RUN(list + i), seeds + i);
+  pad(seeds, count);
+  no_dominators(dominators, box);
+  improve_dominator(dominators, 0, seeds, count);
+  return drop_dominated(dominators, seeds, count);
+}
+
+// Lists the candidates of a tile or region that has cells to be labelled yet. A tile of one is labelled at once.
 kernel void list_candidates(global const uint* restrict bits, global const uint* restrict starts,
                             global const uint* restrict word_starts, global const uint* restrict list,
-                            global const uint* restrict ids, int width, int height,
+                            global const uint* restrict ids, int width, int height, int level,
                             global const uint* restrict labelled, global const uint* restrict pyramid, int top_level,
-                            global uint* restrict lists, global uint* restrict counts) {
+                            global uint* lists, global uint* counts, global uint* restrict labels) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
-  const int tile = (int)get_global_id(0), tiles_across = cells_along(width, 1);
-  if (tile >= tiles_across * cells_along(height, 1)) return;
-  const int tile_x = tile % tiles_across, tile_y = tile / tiles_across;
-  if (all_labelled(&all, labelled, tile_x, tile_y)) return;
+  const int across = cells_along(width, level), cell = (int)get_global_id(0);
+  if (cell >= across * cells_along(height, level)) return;
+  const int x = cell % across, y = cell / across, number = list_number(&all, level, x, y);
+  if (all_labelled(&all, labelled, level, x, y)) return;
+  const int size = 1 << cell_bits(level);
+  const Box box = box_of(x * size, y * size, size, size, width, height);
+  if (level == REGION && seeds_in_cell(&all, level, x, y) > MOST_OF_REGION) {
+    counts[number] = TOO_MANY;
+    return;
+  }
+  const int above = list_number(&all, REGION, x / FAN, y / FAN);
   Search search;
-  begin_search(&search, box_of(tile_x * TILE, tile_y * TILE, TILE, width, height), &all, pyramid, top_level);
-  const bool complete = find_candidates(&search, &all);
-  counts[tile] = complete ? (uint)search.count : TOO_MANY;
-  if (!complete) return;
-  global uint* const candidates = lists + (size_t)tile * MOST_CANDIDATES;
+  if (level == TILE && counts[above] != TOO_MANY) {
+    search.count = take_candidates(lists + (size_t)above * MOST_CANDIDATES, (int)counts[above], box,
+                                   &search.dominators, search.seeds);
+  } else {
+    begin_search(&search, box, &all, pyramid, top_level);
+    if (!find_candidates(&search, &all)) {
+      counts[number] = TOO_MANY;
+      return;
+    }
+  }
+  counts[number] = (uint)search.count;
+  if (level == TILE && search.count <= 1) {
+    fill_box(box, search.count == 0 ? NO_LABEL : id_of(&all, search.seeds[0]), labels, width);
+    counts[number] = 0;
+    return;
+  }
+  global uint* const candidates = lists + (size_t)number * MOST_CANDIDATES;
   for (int i = 0; i < search.count; ++i) candidates[i] = search.seeds[i];
 }
 
-// Labels a cell by its tile's candidates, if only so many of them are left that this can be done.
+// Labels a box by its tile's candidates, if only so many of them are left that this can be done.
 inline bool label_by_tile(const Listing* all, global const uint* candidates, int count, Box box,
                           global uint* labels) {
-  if (count <= 1) {
-    fill_box(box, count == 0 ? NO_LABEL : id_of(all, candidates[0]), labels, all->width);
-    return true;
-  }
   uint seeds[MOST_CANDIDATES + VOROCL_WIDTH];
-  for (int i = 0; i < count; ++i) seeds[i] = candidates[i];
-  pad(seeds, count);
   Dominators dominators;
-  no_dominators(&dominators, box);
-  improve_dominator(&dominators, 0, seeds, count);
-  count = drop_dominated(&dominators, seeds, count);
+  count = take_candidates(candidates, count, box, &dominators, seeds);
   if (count > MOST_KEYS) return false;
   label_by_list(all, &dominators, seeds, count, box, labels);
   return true;
 }
 
-// Labels a cell by any number of candidates, list after list in any order.
+// Labels a cell of its box by any number of candidates, list after list in any order.
 inline void label_by_search(Search* search, const Listing* all, global uint* labels) {
   const Box box = search->box;
   uint_run least[CELL * CELL / VOROCL_WIDTH], nearest[CELL * CELL / VOROCL_WIDTH];
@@ -295,16 +363,19 @@ kernel void label_far(global const uint* restrict bits, global const uint* restr
                       global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
                       global const uint* restrict counts, global uint* restrict labels) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
-  const int cell = (int)get_global_id(0);
-  if (cell >= all.columns * all.rows || labelled[cell]) return;
-  const int x = cell % all.columns, y = cell / all.columns;
-  const Box box = box_of(x * CELL, y * CELL, CELL, width, height);
-  const int tile = y / FAN * cells_along(width, 1) + x / FAN;
+  const int pair = (int)get_global_id(0);
+  if (pair >= all.columns * pairs_down(&all) || labelled[pair]) return;
+  const int x = pair % all.columns, y = pair / all.columns * PAIR;
+  const int tile = list_number(&all, TILE, x / FAN, y / FAN);
+  if (counts[tile] == 0) return;
+  const Box box = box_of(x * CELL, y * CELL, CELL, PAIR * CELL, width, height);
   if (counts[tile] != TOO_MANY &&
       label_by_tile(&all, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {
     return;
   }
-  Search search;
-  begin_search(&search, box, &all, pyramid, top_level);
-  label_by_search(&search, &all, labels);
+  for (int cell_y = y; cell_y < min(y + PAIR, all.rows); ++cell_y) {
+    Search search;
+    begin_search(&search, box_of(x * CELL, cell_y * CELL, CELL, CELL, width, height), &all, pyramid, top_level);
+    label_by_search(&search, &all, labels);
+  }
 }

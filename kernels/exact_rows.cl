@@ -6,7 +6,7 @@
 #include "exact_cells.cl"
 
 #define REACH (CELL - 1)
-#define ROWS_IN_REACH (CELL + 2 * REACH)
+#define ROWS_IN_REACH (PAIR * CELL + 2 * REACH)
 #define CELL_LANES ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
 // A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits how far down the row is,
@@ -16,63 +16,92 @@
 // What stands for the distance to the seed of a row that has none near: more than any other, and the key fits.
 #define NO_SEED_NEAR 1250
 
-// The nearest seeds in the rows around a cell. Row 0 is REACH above the cell.
+// The ids of a row: of the last seed in the cell at the left, of the seeds in the row of the cell, of the first one in
+// the cell at the right.
+#define IDS_OF_ROW (CELL + 2)
+
+// The nearest seeds in the rows of a pair of cells and around it.
 typedef struct {
   const Listing* all;
-  int cell_x, top;                   // the cell's column of cells; its first row
+  int cell_x, top;                   // the pair's column of cells; the row of the grid that is row 0 here
+  int begin, end;                    // the rows that have been found
   ushort16 along_x[ROWS_IN_REACH];   // the part along x of a row key
-  uint label[ROWS_IN_REACH * CELL];  // of the row's nearest seeds
+  ushort16 nearest[ROWS_IN_REACH];   // the row's nearest seed, as a place in:
+  uint ids[ROWS_IN_REACH * IDS_OF_ROW];
 } NearestInRows;
 
-// The place in the list of the first seed in a row of a cell, given the word that holds the row.
-inline uint first_listed(const Listing* all, int word, int y) {
-  return listed(all->bits, all->word_starts, (uint)(word * 32 + y % ROWS_OF_WORD * CELL));
+inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int cell_y) {
+  rows->all = all;
+  rows->cell_x = cell_x;
+  rows->top = cell_y * CELL - REACH;
+  rows->begin = rows->end = 0;
 }
 
-// The nearest seed of each lane, in the two halves of 32-bit lanes that a vector of 256 bits can hold.
+// The place of the only bit, or of the highest one of 16, that is set in each lane, by the exponent of a float; -127
+// where none is.
+inline short16 place_of_bit(int8 first, int8 last) {
+  return convert_short16((int16)(as_int8(convert_float8(first)), as_int8(convert_float8(last))) >> 23) - (short)127;
+}
+
+// How many of the lowest 1, 2, ... 8 bits are set, a byte each: they are spread to bytes, and a product sums those.
+inline ulong count_up(uint bits) {
+  const ulong ones = 0x0101010101010101ul;
+  const ulong spread = (((bits & 0xffu) * ones & 0x8040201008040201ul) + 0x7f * ones) >> 7 & ones;
+  return spread * ones;
+}
+
+// The seeds in a row of a cell, given the word that holds it, and the places in the list of the first and last one, any
+// places if there is none. The mask stands for a condition, of which compilers make a branch.
 typedef struct {
-  short16 x;  // from the cell's left edge
-  uint8 first_labels, last_labels;
-  int last_x;
-} NearestInRow;
-
-// A seed to the right of the others takes over where the middle between it and the last one is passed.
-inline void pass_over(NearestInRow* nearest, int x, uint label) {
-  const short16 nearer = CELL_LANES * (short)2 > (short16)(short)(nearest->last_x + x);
-  nearest->x = select(nearest->x, (short16)(short)x, nearer);
-  nearest->first_labels = select(nearest->first_labels, (uint8)label, convert_int8(nearer.lo));
-  nearest->last_labels = select(nearest->last_labels, (uint8)label, convert_int8(nearer.hi));
-  nearest->last_x = x;
+  uint bits, first, last;
+} RowOfCell;
+inline RowOfCell row_of_cell(const Listing* all, int word, int y, bool in_grid) {
+  const int at = in_grid ? word : 0;
+  const uint bits = all->bits[at], above = bits & ((1u << y % ROWS_OF_WORD * CELL) - 1);
+  RowOfCell row;
+  row.bits = in_grid ? row_bits(bits, y) : 0;
+  const uint any = (uint)(-(int)row.bits >> 31);
+  row.first = (all->word_starts[at] + popcount(above)) & any;
+  row.last = row.first + popcount(row.bits) + any;
+  return row;
 }
 
-// A row's nearest seeds, of two the left one. Of the cells at the left and right only the seed next to this cell counts,
-// and one far away if there is none: without a branch, which would be taken as often as not.
+// A row's nearest seeds, of two the left one: a pixel's is the last one up to it or the first one behind it. Without a
+// branch or a loop, which would go one way as often as the other. Of the cells at the left and right only the seed next
+// to this cell counts, and one far away if there is none; the right one's last pixel is out of reach.
 #define FAR_AWAY 128
+#define UP_TO_FIRST_LANES ((int8)(0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff))
+#define UP_TO_LAST_LANES (UP_TO_FIRST_LANES << 8 | 0xff)
 inline void find_row(NearestInRows* rows, int row) {
   const Listing* const all = rows->all;
-  const int y = rows->top - REACH + row;
+  const int y = rows->top + row;
   if (y < 0 || y >= all->height) {
     rows->along_x[row] = (ushort16)(NO_SEED_NEAR << OFFSET_BITS);
     return;
   }
   const int word = ((y >> CELL_BITS) * all->columns + rows->cell_x) * WORDS + y % CELL / ROWS_OF_WORD;
-  const uint before = rows->cell_x == 0 ? 0 : row_bits(all->bits[word - WORDS], y);
-  const uint behind = rows->cell_x == all->columns - 1 ? 0 : row_bits(all->bits[word + WORDS], y);
-  const uint last_before = before == 0 ? 0 : first_listed(all, word - WORDS, y) + popcount(before) - 1;
-  const uint first_behind = behind == 0 ? 0 : first_listed(all, word + WORDS, y);
-  NearestInRow nearest;
-  nearest.last_x = before == 0 ? -FAR_AWAY : 31 - (int)clz(before) - CELL;
-  nearest.x = (short16)(short)nearest.last_x;
-  nearest.first_labels = nearest.last_labels = (uint8)all->ids[last_before];
-  uint at = first_listed(all, word, y);
-  for (uint seeds = row_bits(all->bits[word], y); seeds != 0; seeds &= seeds - 1) {
-    pass_over(&nearest, (int)lowest_bit(seeds), all->ids[at++]);
-  }
-  pass_over(&nearest, behind == 0 ? FAR_AWAY : (int)lowest_bit(behind) + CELL, all->ids[first_behind]);
-  const short16 offset = nearest.x - CELL_LANES;
+  const RowOfCell own = row_of_cell(all, word, y, true);
+  const RowOfCell before = row_of_cell(all, word - WORDS, y, rows->cell_x > 0);
+  const RowOfCell behind = row_of_cell(all, word + WORDS, y, rows->cell_x < all->columns - 1);
+  const int last_before = before.bits == 0 ? -FAR_AWAY : 31 - (int)clz(before.bits) - CELL;
+  const int8 up_to_first = (int)own.bits & UP_TO_FIRST_LANES, up_to_last = (int)own.bits & UP_TO_LAST_LANES;
+  const short16 left = max(place_of_bit(up_to_first, up_to_last), (short16)(short)last_before);
+  const int to_come = (int)(own.bits | (behind.bits & ALL_BITS >> 1) << CELL);
+  const int8 behind_first = to_come & ~UP_TO_FIRST_LANES, behind_last = to_come & ~UP_TO_LAST_LANES;
+  const ushort16 place = as_ushort16(place_of_bit(behind_first & -behind_first, behind_last & -behind_last));
+  const short16 right = as_short16(min(place, (ushort16)FAR_AWAY));
+  const short16 nearer = CELL_LANES * (short)2 > left + right;
+  const short16 offset = select(left, right, nearer) - CELL_LANES;
   rows->along_x[row] = as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)OFFSET_BITS;
-  vstore8(nearest.first_labels, 0, rows->label + row * CELL);
-  vstore8(nearest.last_labels, 1, rows->label + row * CELL);
+
+  const ulong first_counts = count_up(own.bits), last_counts = count_up(own.bits >> 8) + (first_counts >> 56) * 0x0101010101010101ul;
+  const short16 left_ones = convert_short16(as_uchar16((ulong2)(first_counts, last_counts)));
+  rows->nearest[row] = as_ushort16(left_ones - nearer) + (ushort)(row * IDS_OF_ROW);
+  uint* const ids = rows->ids + row * IDS_OF_ROW;
+  ids[0] = all->ids[before.last];
+  vstore8(vload8(0, all->ids + own.first), 0, ids + 1);
+  vstore8(vload8(1, all->ids + own.first), 1, ids + 1);
+  ids[1 + popcount(own.bits)] = all->ids[behind.first];
 }
 
 // Whether some lane is not below a limit.
@@ -81,24 +110,33 @@ inline bool any_from(ushort16 values, ushort limit) {
   return (lanes.s0 | lanes.s1 | lanes.s2 | lanes.s3) != 0;
 }
 
-// Finds the least row keys of the cell's first `count` rows, going from each row up and down until no row farther away
-// can have a nearer seed. False if that would go beyond the reach.
-inline bool find_least_row_keys(NearestInRows* rows, int count, ushort16* least) {
+// Finds a row unless the pair's first cell did: the rows that have been found follow each other.
+inline void need_row(NearestInRows* rows, int row) {
+  if (rows->begin <= row && row < rows->end) return;
+  find_row(rows, row);
+  rows->begin = min(rows->begin, row);
+  rows->end = max(rows->end, row + 1);
+}
+
+// Finds the least row keys of the rows of a cell, which begin at row `first`, going from each row up and down until no
+// row farther away can have a nearer seed. False if that would go beyond the reach.
+inline bool find_least_row_keys(NearestInRows* rows, int first, ushort16* least) {
+  if (rows->end < first) rows->begin = rows->end = first;
   ushort16 worst = (ushort16)0;
-  for (int y = 0; y < count; ++y) {
-    find_row(rows, REACH + y);
-    least[y] = rows->along_x[REACH + y] + (ushort)ROW_KEY(0, 0);
+  for (int y = 0; y < CELL; ++y) {
+    need_row(rows, first + y);
+    least[y] = rows->along_x[first + y] + (ushort)ROW_KEY(0, 0);
     worst = max(worst, least[y]);
   }
   for (int offset = 1; any_from(worst, (ushort)ROW_KEY(ALONG(offset), -REACH)); ++offset) {
     if (offset > REACH) return false;
-    find_row(rows, REACH - offset);
-    find_row(rows, REACH + count - 1 + offset);
+    need_row(rows, first - offset);
+    need_row(rows, first + CELL - 1 + offset);
     const ushort above = (ushort)ROW_KEY(ALONG(offset), -offset), below = (ushort)ROW_KEY(ALONG(offset), offset);
     worst = (ushort16)0;
-    for (int y = 0; y < count; ++y) {
-      const ushort16 to_above = rows->along_x[REACH + y - offset] + above;
-      const ushort16 to_below = rows->along_x[REACH + y + offset] + below;
+    for (int y = 0; y < CELL; ++y) {
+      const ushort16 to_above = rows->along_x[first + y - offset] + above;
+      const ushort16 to_below = rows->along_x[first + y + offset] + below;
       least[y] = min(least[y], min(to_above, to_below));
       worst = max(worst, least[y]);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CL/opencl.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -29,6 +30,13 @@ class Kernel {
   /// than that.
   Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
          const KernelOptions& options = {});
+
+  /// Takes smaller work-groups for over_items(): where few work-items do much each, all compute units get
+  /// some.
+  Kernel& in_small_groups() {
+    group_ = std::max<std::size_t>(group_ / 8, 1);
+    return *this;
+  }
 
   /// Enqueues one work-item a run of every row, with these arguments. Work-items outside the grid must
   /// return.
@@ -68,7 +76,8 @@ class Kernel {
   Device device_;
   std::string name_;
   Grid grid_;
-  int run_width_;  // pixels that one work-item computes
+  int run_width_;      // pixels that one work-item computes
+  std::size_t group_;  // work-items of a group over items
   cl::Kernel kernel_;
 };
 
