@@ -88,9 +88,16 @@ inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, 
   }
 }
 
-// Copies those entries of the run at `first` whose bit is set behind the `kept` ones at the front of the list.
-inline int keep_entries(uint* list, int first, uint bits, int kept) {
-  for (; bits != 0; bits &= bits - 1) list[kept++] = list[first + (int)lowest_bit(bits)];
+// Copies those entries of the run at `first` for which the condition holds behind the `kept` ones at the front of the
+// list. Every entry is copied, and the next one over it unless it is kept: no branch depends on the condition.
+inline int keep_entries(uint* list, int first, int_run condition, int kept) {
+  int keep[VOROCL_WIDTH];
+  STORE_RUN(condition, keep);
+#pragma unroll
+  for (int lane = 0; lane < VOROCL_WIDTH; ++lane) {
+    list[kept] = list[first + lane];
+    kept += keep[lane] & 1;
+  }
   return kept;
 }
 
@@ -118,7 +125,7 @@ inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end
     int_run lag = (int_run)INT_MIN;
     for (int i = begin; i < end; ++i) lag = max(lag, least_lag(dominators, i, seed, distance));
     lag = select(lag, (int_run)0, AS_INT_RUN(seed) < 0);  // empty
-    kept = keep_entries(seeds, first, lane_bits(lag < 0), kept);
+    kept = keep_entries(seeds, first, lag < 0, kept);
   }
   pad(seeds, kept);
   return kept;
@@ -221,9 +228,8 @@ inline void drop_dominated_cells(Search* search, int begin, int end) {
     const uint_run first_pixel = AS_UINT_RUN(top) << 16 | AS_UINT_RUN(left);
     for (int i = begin; i < end; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
     lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_RUN(search->named + first)) < 0);  // empty
-    const uint bits = lane_bits(lag < 0);
-    keep_entries(search->cells, first, bits, kept);
-    kept = keep_entries(search->named, first, bits, kept);
+    keep_entries(search->cells, first, lag < 0, kept);
+    kept = keep_entries(search->named, first, lag < 0, kept);
   }
   search->cell_count = kept;
   pad(search->named, kept);

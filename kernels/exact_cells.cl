@@ -16,16 +16,6 @@
 #define CONVERT_FLOAT_RUN JOIN(convert_float, VOROCL_WIDTH)
 #endif
 
-// The lanes in which a condition holds, a bit each. (any() becomes a branch for each lane under PoCL.)
-inline uint join_lanes_1(uint lanes) { return lanes; }
-inline uint join_lanes_2(uint2 lanes) { return join_lanes_1(lanes.lo | lanes.hi); }
-inline uint join_lanes_4(uint4 lanes) { return join_lanes_2(lanes.lo | lanes.hi); }
-inline uint join_lanes_8(uint8 lanes) { return join_lanes_4(lanes.lo | lanes.hi); }
-inline uint join_lanes_16(uint16 lanes) { return join_lanes_8(lanes.lo | lanes.hi); }
-inline uint lane_bits(int_run condition) {
-  return JOIN(join_lanes_, VOROCL_WIDTH)(select((uint_run)0, (uint_run)1 << LANES, condition));
-}
-
 // The sides of a cell of level 0 in pixels, and of a cell in cells of the level below it, as powers of two.
 #define CELL_BITS 4
 #define FAN_BITS 2
@@ -45,10 +35,9 @@ inline int level_start(int width, int height, int level) {
 }
 
 // The place of a pixel's bit: the bits of a cell stand together, row-major, one cell after the other.
-inline uint bit_place(uint pixel, int columns) {
-  const uint cell = (pixel >> (16 + CELL_BITS)) * (uint)columns + ((pixel & 0xffffu) >> CELL_BITS);
-  return (cell << 2 * CELL_BITS) + ((pixel >> 16 & (CELL - 1)) << CELL_BITS) + (pixel & (CELL - 1));
-}
+#define BIT_PLACE(pixel, columns)                                                                       \
+  (((((pixel) >> (16 + CELL_BITS)) * (uint)(columns) + (((pixel) & 0xffffu) >> CELL_BITS)) << 2 * CELL_BITS) + \
+   (((pixel) >> 16 & (CELL - 1)) << CELL_BITS) + ((pixel) & (CELL - 1)))
 
 // THE LIST OF SEEDS. The seeds of each cell stand in it together, row-major, without those that share a pixel; the
 // cells of a row of cells follow each other. `starts` says where a cell's seeds begin, `word_starts` where those of
@@ -76,7 +65,7 @@ inline Listing listing(global const uint* bits, global const uint* starts, globa
 }
 
 inline uint id_of(const Listing* all, uint seed) {
-  return all->ids[listed(all->bits, all->word_starts, bit_place(seed, all->columns))];
+  return all->ids[listed(all->bits, all->word_starts, BIT_PLACE(seed, all->columns))];
 }
 
 // The seeds of the cells from (first_x, y) to (last_x, y), as far as these are in the grid.
@@ -115,7 +104,7 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
 #pragma unroll
   for (uint i = 0; i < VOROCL_WIDTH; ++i) {
     const uint position = positions[min(first + i, count)];
-    place[i] = position & EMPTY_BIT ? NO_PLACE : bit_place(position, columns);
+    place[i] = position & EMPTY_BIT ? NO_PLACE : BIT_PLACE(position, columns);
     seen[i] = position & EMPTY_BIT ? 0 : bits[place[i] / 32];
   }
 #pragma unroll
@@ -218,7 +207,7 @@ kernel void keep_lowest_ids(global const uint* restrict positions, global const 
                             global const uint* restrict word_starts, global uint* restrict ids, int width) {
   const uint i = (uint)get_global_id(0);
   if (i >= *late_count) return;
-  atomic_min(ids + listed(bits, word_starts, bit_place(positions[late[i]], cells_along(width, 0))), late[i]);
+  atomic_min(ids + listed(bits, word_starts, BIT_PLACE(positions[late[i]], cells_along(width, 0))), late[i]);
 }
 
 #endif

@@ -47,15 +47,13 @@ inline void store_ids(uint_run seeds, const Listing* all, global uint* labels, i
   }
 }
 
-// Puts the list in the order of the tie rule.
-inline void sort_by_tie_rule(const uint* seeds, int count, uint* sorted) {
+// Numbers the seeds of a padded list in the order of the tie rule.
+inline void rank_by_tie_rule(const uint* seeds, int count, uint* ranks) {
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
     const uint_run run = LOAD_RUN(seeds + first);
     uint_run rank = (uint_run)0;
     for (int i = 0; i < count; ++i) rank += select((uint_run)0, (uint_run)1, seeds[i] < run);
-    uint to[VOROCL_WIDTH];
-    STORE_RUN(rank, to);
-    for (int lane = 0; lane < min(VOROCL_WIDTH, count - first); ++lane) sorted[to[lane]] = seeds[first + lane];
+    STORE_RUN(rank, ranks + first);
   }
 }
 
@@ -66,14 +64,14 @@ inline void sort_by_tie_rule(const uint* seeds, int count, uint* sorted) {
   _Pragma("unroll") for (int row = 0; row < BLOCK_ROWS; ++row)          \
     _Pragma("unroll") for (int run = 0; run < RUNS_OF_ROW; ++run)
 
-// Labels a box as wide as a cell by candidates in the order of the tie rule. A candidate's KEY at a pixel says by how
-// much farther it is than the base, a seed that dominates none of them, and in its lowest bits which one it is: the
-// least key wins. As no candidate is dominated, these differences fit in 22 bits, however large the distances are. A
-// key is the sum of a part for the pixel's column and one for its row.
+// Labels a box as wide as a cell by candidates and their ranks by the tie rule; `label_of` is in the order of the
+// ranks. A candidate's KEY at a pixel says by how much farther it is than the base, a seed that dominates none of them,
+// and in its lowest bits its rank: the least key wins. As no candidate is dominated, these differences fit in 22 bits,
+// however large the distances are. A key is the sum of a part for the pixel's column and one for its row.
 #define MOST_KEYS 256
 #define LABEL_BLOCK(look_up) FOR_BLOCK label[row][run] = look_up(label_of, AS_UINT_RUN(least[row][run]) & place);
 
-inline void label_by_keys(const uint* sorted, const uint* label_of, int count, uint base, Box box,
+inline void label_by_keys(const uint* seeds, const uint* ranks, const uint* label_of, int count, uint base, Box box,
                           global uint* labels, int width) {
   const int place_bits = 32 - (int)clz((uint)count - 1), tables = (count - 1) / VOROCL_WIDTH + 1;
   const uint_run place = (uint_run)((1u << place_bits) - 1);
@@ -84,15 +82,15 @@ inline void label_by_keys(const uint* sorted, const uint* label_of, int count, u
     const int_run x = box.left + run * VOROCL_WIDTH + AS_INT_RUN(LANES), offset_of_base = x - packed_x(base);
     const int_run along_base = ALONG(offset_of_base);
     for (int i = 0; i < count; ++i) {
-      const int_run offset = x - packed_x(sorted[i]);
-      of_column[i][run] = (AS_UINT_RUN(ALONG(offset) - along_base) << place_bits) + (uint)i;
+      const int_run offset = x - packed_x(seeds[i]);
+      of_column[i][run] = (AS_UINT_RUN(ALONG(offset) - along_base) << place_bits) + ranks[i];
     }
   }
   for (int top = box.top; top <= box.bottom; top += VOROCL_WIDTH) {
     const int_run y = top + AS_INT_RUN(LANES), offset_of_base = y - packed_y(base);
     const int_run along_base = ALONG(offset_of_base);
     for (int i = 0; i < count; ++i) {
-      const int_run offset = y - packed_y(sorted[i]);
+      const int_run offset = y - packed_y(seeds[i]);
       STORE_RUN(AS_UINT_RUN(ALONG(offset) - along_base) << place_bits, of_row + i * VOROCL_WIDTH);
     }
     for (int first = 0; first < VOROCL_WIDTH; first += BLOCK_ROWS) {
@@ -137,13 +135,14 @@ inline void label_by_keys(const uint* sorted, const uint* label_of, int count, u
 // Labels a box by a padded list that holds its candidates.
 inline void label_by_list(const Listing* all, const Dominators* dominators, const uint* seeds, int count, Box box,
                           global uint* labels) {
-  uint sorted[MOST_KEYS], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
-  sort_by_tie_rule(seeds, count, sorted);
-  for (int i = 0; i < count; ++i) label_of[i] = id_of(all, sorted[i]);
+  uint ranks[MOST_KEYS + VOROCL_WIDTH], places[MOST_KEYS + VOROCL_WIDTH], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
+  for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_RUN(BIT_PLACE(LOAD_RUN(seeds + i), all->columns), places + i);
+  rank_by_tie_rule(seeds, count, ranks);
+  for (int i = 0; i < count; ++i) label_of[ranks[i]] = all->ids[listed(all->bits, all->word_starts, places[i])];
   if (count == 1) {
     fill_box(box, label_of[0], labels, all->width);
   } else {
-    label_by_keys(sorted, label_of, count, dominators->seed[0], box, labels, all->width);
+    label_by_keys(seeds, ranks, label_of, count, dominators->seed[0], box, labels, all->width);
   }
 }
 
