@@ -18,7 +18,7 @@
 // A cell's seeds are added to a list at once, and lists are read in whole runs.
 #define LIST_ROOM (MOST_CANDIDATES + CELL * CELL + VOROCL_WIDTH)
 
-DEFINE_DISTANCE_BETWEEN(distance_between_two, uint, short2, as_uint, as_short2, convert_int)
+DEFINE_DISTANCE_BETWEEN(distance_to_corners, uint4, short8, as_uint4, as_short8, convert_int4)
 
 // Pixels, both ends included.
 typedef struct {
@@ -55,22 +55,6 @@ inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count
 #define WINS(seed, distance, other_seed, other_distance) \
   (((distance) < (other_distance)) | (((distance) == (other_distance)) & ((seed) < (other_seed))))
 
-// The seed that wins among a run's lanes.
-inline uint winning_lane_1(uint seed, uint distance) {
-  (void)distance;
-  return seed;
-}
-#define DEFINE_WINNING_LANE(name, uint_n, name_of_half)                                                         \
-  inline uint name(uint_n seed, uint_n distance) {                                                              \
-    return name_of_half(select(seed.hi, seed.lo, WINS(seed.lo, distance.lo, seed.hi, distance.hi)),             \
-                        min(distance.lo, distance.hi));                                                         \
-  }
-DEFINE_WINNING_LANE(winning_lane_2, uint2, winning_lane_1)
-DEFINE_WINNING_LANE(winning_lane_4, uint4, winning_lane_2)
-DEFINE_WINNING_LANE(winning_lane_8, uint8, winning_lane_4)
-DEFINE_WINNING_LANE(winning_lane_16, uint16, winning_lane_8)
-#define winning_lane JOIN(winning_lane_, VOROCL_WIDTH)
-
 // Takes the seed of a padded list that wins at a place, if it wins against the place's dominator.
 inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, int count) {
   const uint_run place = dominators->place[i];
@@ -82,10 +66,10 @@ inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, 
     nearest = select(nearest, seed, WINS(seed, distance, nearest, least));
     least = min(least, distance);
   }
-  dominators->seed[i] = winning_lane(nearest, least);
-  for (int corner = 0; corner < CORNERS; ++corner) {
-    dominators->distance[i][corner] = distance_between_two(dominators->seed[i], dominators->place[1 + corner]);
-  }
+  const uint least_of_all = lane_min(least);
+  dominators->seed[i] = lane_min(select((uint_run)EMPTY, nearest, least == least_of_all));
+  const uint4 corners = vload4(0, dominators->place + 1);
+  vstore4(distance_to_corners((uint4)dominators->seed[i], corners), 0, dominators->distance[i]);
 }
 
 // Copies those entries of the run at `first` for which the condition holds behind the `kept` ones at the front of the

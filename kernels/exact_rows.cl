@@ -40,7 +40,8 @@ inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int 
 // The place of the only bit, or of the highest one of 16, that is set in each lane, by the exponent of a float; -127
 // where none is.
 inline short16 place_of_bit(int8 first, int8 last) {
-  return convert_short16((int16)(as_int8(convert_float8(first)), as_int8(convert_float8(last))) >> 23) - (short)127;
+  const int8 first_places = as_int8(convert_float8(first)) >> 23, last_places = as_int8(convert_float8(last)) >> 23;
+  return (short16)(as_short16(first_places).even, as_short16(last_places).even) - (short)127;
 }
 
 // How many of the lowest 1, 2, ... 8 bits are set, a byte each: they are spread to bytes, and a product sums those.

@@ -102,6 +102,14 @@ inline uint lane_sum_8(uint8 values) { return lane_sum_4(values.lo + values.hi);
 inline uint lane_sum_16(uint16 values) { return lane_sum_8(values.lo + values.hi); }
 #define lane_sum JOIN(lane_sum_, VOROCL_WIDTH)
 
+// The least of a run's lanes.
+inline uint lane_min_1(uint values) { return values; }
+inline uint lane_min_2(uint2 values) { return min(values.lo, values.hi); }
+inline uint lane_min_4(uint4 values) { return lane_min_2(min(values.lo, values.hi)); }
+inline uint lane_min_8(uint8 values) { return lane_min_4(min(values.lo, values.hi)); }
+inline uint lane_min_16(uint16 values) { return lane_min_8(min(values.lo, values.hi)); }
+#define lane_min JOIN(lane_min_, VOROCL_WIDTH)
+
 // Whether this work-item has a run at all: the launch is rounded up to whole work-groups.
 inline bool has_run(int width, int height) {
   return (int)get_global_id(0) * VOROCL_WIDTH < width && (int)get_global_id(1) < height;
