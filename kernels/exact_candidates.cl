@@ -7,13 +7,6 @@
 
 #include "exact_cells.cl"
 
-// How many cells are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
-#ifndef MOST_PARENTS
-#define MOST_PARENTS 64
-#define MOST_CANDIDATES 1024
-#endif
-// The top of the pyramid has at most TOP_CELLS cells.
-#define TOP_CELLS 64
 #define MOST_CELLS (FAN * FAN * MOST_PARENTS + TOP_CELLS)
 // A cell's seeds are added to a list at once, and lists are read in whole runs.
 #define LIST_ROOM (MOST_CANDIDATES + CELL * CELL + VOROCL_WIDTH)

@@ -4,6 +4,7 @@
 #ifndef VOROCL_EXACT_CELLS
 #define VOROCL_EXACT_CELLS
 
+#include "exact_sizes.cl"
 #include "position.cl"
 
 #if VOROCL_WIDTH == 1
@@ -16,13 +17,8 @@
 #define CONVERT_FLOAT_RUN JOIN(convert_float, VOROCL_WIDTH)
 #endif
 
-// The sides of a cell of level 0 in pixels, and of a cell in cells of the level below it, as powers of two.
-#define CELL_BITS 4
-#define FAN_BITS 2
 #define CELL (1 << CELL_BITS)
 #define FAN (1 << FAN_BITS)
-// Cells that are labelled together, one above the other.
-#define PAIR 2
 
 inline int cell_bits(int level) { return CELL_BITS + FAN_BITS * level; }
 inline int cells_along(int pixels, int level) { return ((pixels - 1) >> cell_bits(level)) + 1; }
@@ -205,9 +201,9 @@ kernel void list_seeds(global const uint* restrict positions, global const uint*
 kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict late,
                             global const uint* restrict late_count, global const uint* restrict bits,
                             global const uint* restrict word_starts, global uint* restrict ids, int width) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= *late_count) return;
-  atomic_min(ids + listed(bits, word_starts, BIT_PLACE(positions[late[i]], cells_along(width, 0))), late[i]);
+  for (uint i = (uint)get_global_id(0); i < *late_count; i += (uint)get_global_size(0)) {
+    atomic_min(ids + listed(bits, word_starts, BIT_PLACE(positions[late[i]], cells_along(width, 0))), late[i]);
+  }
 }
 
 #endif

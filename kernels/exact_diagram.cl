@@ -4,19 +4,16 @@
 #include "exact_candidates.cl"
 #include "exact_rows.cl"
 
-// Cells are labelled in PAIRs, one above the other, and a work-item takes a COLUMN of FAN cells.
-#define PAIR 2
-// By the number of seeds near a pair, which are those in its two cells and in the ten around them: a pair of less than
+// A work-item labels a PAIR of cells, one above the other.
+// By the number of seeds near a pair, in its two cells and the ten around them: a pair of less than
 // SPARSE has candidates that are seldom near, one of less than MEDIUM is labelled as a whole. By the number near a cell,
 // in it and the eight around it: one of DENSE or more is labelled by rows. Measured: the ways cost the same there.
 #define SPARSE 5
 #define MEDIUM 24
 #define DENSE 56
-// Lists of candidates are made for tiles, the cells of level 1, from those of REGIONS, the cells of level 2. What a
-// list's count says if there are more candidates than it holds:
-#define TILE 1
-#define REGION 2
+// A region of more seeds gets no list: its tiles search for themselves.
 #define MOST_OF_REGION 64
+// What a list's count says if there are more candidates than it holds.
 #define TOO_MANY 0xffffffffu
 
 // Stores a run of labels, as far as it lies in the grid.
@@ -220,17 +217,20 @@ inline uint seeds_near(const Listing* all, int x, int y, int cells) {
 
 inline int pairs_down(const Listing* all) { return (all->rows - 1) / PAIR + 1; }
 
-inline bool label_pair(const Listing* all, int x, int y, global uint* labels) {
+// Labels a pair of cells, and says by a bit each which of them it could.
+#define BOTH 3
+inline uint label_pair(const Listing* all, int x, int y, global uint* labels) {
   const uint seeds = seeds_near(all, x, y, PAIR);
-  if (seeds < SPARSE) return false;
-  if (seeds < MEDIUM) return label_by_near(all, x, y, PAIR, labels);
+  if (seeds < SPARSE) return 0;
+  if (seeds < MEDIUM) return label_by_near(all, x, y, PAIR, labels) ? BOTH : 0;
   NearestInRows rows;
   begin_rows(&rows, all, x, y);
-  for (int cell_y = y; cell_y < min(y + PAIR, all->rows); ++cell_y) {
-    if (seeds_near(all, x, cell_y, 1) >= DENSE && label_by_rows(&rows, cell_y, labels)) continue;
-    if (!label_by_near(all, x, cell_y, 1, labels)) return false;
+  uint labelled = BOTH;
+  for (int i = 0; i < min(PAIR, all->rows - y); ++i) {
+    if (seeds_near(all, x, y + i, 1) >= DENSE && label_by_rows(&rows, y + i, labels)) continue;
+    if (!label_by_near(all, x, y + i, 1, labels)) labelled ^= 1u << i;
   }
-  return true;
+  return labelled;
 }
 
 kernel void label_near(global const uint* restrict bits, global const uint* restrict starts,
@@ -248,7 +248,7 @@ inline bool all_labelled(const Listing* all, global const uint* labelled, int le
   const int size = 1 << FAN_BITS * level;
   for (int part_y = y * size; part_y < min((y + 1) * size, all->rows); part_y += PAIR) {
     for (int part_x = x * size; part_x < min((x + 1) * size, all->columns); ++part_x) {
-      if (!labelled[part_y / PAIR * all->columns + part_x]) return false;
+      if (labelled[part_y / PAIR * all->columns + part_x] != BOTH) return false;
     }
   }
   return true;
@@ -278,7 +278,8 @@ inline int take_candidates(global const uint* list, int count, Box box, Dominato
   return drop_dominated(dominators, seeds, count);
 }
 
-// Lists the candidates of a tile or region that has cells to be labelled yet. A tile of one is labelled at once.
+// Lists the candidates of a tile or region that has cells to be labelled yet. A tile of one is labelled at once: it has
+// no crowded cell, whose rim would be more.
 kernel void list_candidates(global const uint* restrict bits, global const uint* restrict starts,
                             global const uint* restrict word_starts, global const uint* restrict list,
                             global const uint* restrict ids, int width, int height, int level,
@@ -363,16 +364,17 @@ kernel void label_far(global const uint* restrict bits, global const uint* restr
                       global const uint* restrict counts, global uint* restrict labels) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
   const int pair = (int)get_global_id(0);
-  if (pair >= all.columns * pairs_down(&all) || labelled[pair]) return;
+  if (pair >= all.columns * pairs_down(&all) || labelled[pair] == BOTH) return;
   const int x = pair % all.columns, y = pair / all.columns * PAIR;
   const int tile = list_number(&all, TILE, x / FAN, y / FAN);
   if (counts[tile] == 0) return;
-  const Box box = box_of(x * CELL, y * CELL, CELL, PAIR * CELL, width, height);
+  const int first = y + (labelled[pair] == 1), end = min(y + (labelled[pair] == 2 ? 1 : PAIR), all.rows);
+  const Box box = box_of(x * CELL, first * CELL, CELL, (end - first) * CELL, width, height);
   if (counts[tile] != TOO_MANY &&
       label_by_tile(&all, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {
     return;
   }
-  for (int cell_y = y; cell_y < min(y + PAIR, all.rows); ++cell_y) {
+  for (int cell_y = first; cell_y < end; ++cell_y) {
     Search search;
     begin_search(&search, box_of(x * CELL, cell_y * CELL, CELL, CELL, width, height), &all, pyramid, top_level);
     label_by_search(&search, &all, labels);

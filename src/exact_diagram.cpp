@@ -4,6 +4,7 @@
 #include <chrono>
 #include <string>
 
+#include "../kernels/exact_sizes.cl"
 #include "buffer.hpp"
 #include "exact_lists.hpp"
 #include "kernel.hpp"
@@ -12,18 +13,12 @@ namespace vorocl {
 
 namespace {
 
-// As in the kernels.
-constexpr int cell_bits = 4;                   // a cell has 16 x 16 pixels, ...
-constexpr int fan_bits = 2;                    // ... a cell of the next level 4 x 4 of those
-constexpr std::size_t top_cells = 64;          // the search begins with a level of at most so many cells
-constexpr std::size_t most_candidates = 1024;  // of a tile, which is a cell of level 1
-constexpr std::size_t pixels_of_cell = 256;
+constexpr std::size_t pixels_of_cell = std::size_t{1} << 2 * CELL_BITS;
 constexpr std::size_t most_lanes = 16;
-constexpr int tile = 1, region = 2;  // levels that have lists of candidates
-constexpr int pair = 2;              // cells that are labelled together, one above the other
+constexpr std::size_t most_items_for_late = 4096;  // there are seldom any seeds that share a pixel
 
 std::size_t cells_along(int pixels, int level) {
-  const int bits = cell_bits + fan_bits * level;
+  const int bits = CELL_BITS + FAN_BITS * level;
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
@@ -33,7 +28,7 @@ std::size_t cells(const Grid& grid, int level) {
 
 int top_level(const Grid& grid) {
   int level = 0;
-  while (cells(grid, level) > top_cells) ++level;
+  while (cells(grid, level) > TOP_CELLS) ++level;
   return level;
 }
 
@@ -58,8 +53,8 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const std::size_t bit_words = cells(grid, 0) * pixels_of_cell / 32;
   const std::size_t starts_count = cells(grid, 0) + cells_along(grid.height(), 0);
   const std::size_t across = cells_along(grid.width(), 0), down = cells_along(grid.height(), 0);
-  const std::size_t pairs = across * ((down - 1) / pair + 1);
-  const std::size_t list_count = cells(grid, tile) + cells(grid, region);
+  const std::size_t pairs = across * ((down - 1) / PAIR + 1);
+  const std::size_t list_count = cells(grid, TILE) + cells(grid, REGION);
   // Lists are read in whole runs.
   const std::size_t list_room = seeds.size() + most_lanes;
   const cl::Buffer bits = diagram.scratch(Scratch::exact_bits, bit_words * word);
@@ -73,41 +68,46 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Buffer listed = diagram.scratch(Scratch::exact_listed, word);
   const cl::Buffer pyramid = diagram.scratch(Scratch::exact_pyramid, all_cells * word);
   const cl::Buffer labelled = diagram.scratch(Scratch::exact_labelled, pairs * word);
-  const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, list_count * most_candidates * word);
+  const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, list_count * MOST_CANDIDATES * word);
   const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, list_count * word);
 
   const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
-  const auto kernel = [&](const char* name) { return Kernel(device, file, name, grid, {options.metric}); };
-  // Smaller work-groups than the usual ones would make PoCL compile the kernel again.
-  const std::size_t least = device.tuning().group_width * device.tuning().group_height;
-  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
-    return kernel(name).over_items(std::max(items, least), arguments...);
+  const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+  const auto kernel = [&](const char* name) {
+    Kernel made(device, file, name, grid, {options.metric});
+    made.in_groups_of(group);
+    return made;
   };
   const auto count = static_cast<cl_uint>(seeds.size());
-  const auto lanes = static_cast<std::size_t>(device.tuning().vector_width);
   const int width = grid.width(), height = grid.height();
 
   const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
   fill(device, late_count, cl_uint{0}, 1);
   fill(device, listed, cl_uint{0}, 1);
-  run("set_bits", (seeds.size() - 1) / lanes + 1, seeds.positions(), count, bits, places, late, late_count, width);
-  run("name_seeds", cells(grid, 0), bits, pyramid, starts, width, height);
+  kernel("set_bits").over_runs(count, seeds.positions(), count, bits, places, late, late_count, width);
+  kernel("name_seeds").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
-    run("name_seeds_above", cells(grid, level), pyramid, width, height, level);
+    kernel("name_seeds_above").over_items(cells(grid, level), pyramid, width, height, level);
   }
-  run("share_out_list", cells_along(grid.height(), 0), starts, listed, width, height);
-  run("start_words", cells(grid, 0), bits, starts, word_starts, width, height);
-  run("list_seeds", count, seeds.positions(), places, count, bits, word_starts, list, ids);
-  run("keep_lowest_ids", count, seeds.positions(), late, late_count, bits, word_starts, ids, width);
-  run("label_near", pairs, bits, starts, word_starts, list, ids, width, height, diagram.labels(), labelled);
-  for (const int level : {region, tile}) {
+  kernel("share_out_list").over_items(down, starts, listed, width, height);
+  kernel("start_words").over_items(cells(grid, 0), bits, starts, word_starts, width, height);
+  kernel("list_seeds").over_items(count, seeds.positions(), places, count, bits, word_starts, list, ids);
+  kernel("keep_lowest_ids")
+      .over_items(std::min(seeds.size(), most_items_for_late), seeds.positions(), late, late_count, bits,
+                  word_starts, ids, width);
+  kernel("label_near")
+      .over_items(pairs, bits, starts, word_starts, list, ids, width, height, diagram.labels(), labelled);
+  // Few items that do much each: in small groups, so that all compute units get some.
+  const std::size_t small_group = std::max<std::size_t>(group / 8, 1);
+  for (const int level : {REGION, TILE}) {
     kernel("list_candidates")
-        .in_small_groups()
-        .over_items(std::max(cells(grid, level), least), bits, starts, word_starts, list, ids, width, height,
-                    level, labelled, pyramid, top, lists, counts, diagram.labels());
+        .in_groups_of(small_group)
+        .over_items(cells(grid, level), bits, starts, word_starts, list, ids, width, height, level, labelled,
+                    pyramid, top, lists, counts, diagram.labels());
   }
-  const cl::Event last = run("label_far", pairs, bits, starts, word_starts, list, ids, width, height,
-                             labelled, pyramid, top, lists, counts, diagram.labels());
+  const cl::Event last = kernel("label_far")
+                             .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
+                                         pyramid, top, lists, counts, diagram.labels());
   check(clFlush(device.queue()()), "starting the diagram");
   const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started;
   return {0, first, last, host.count()};

@@ -36,11 +36,7 @@ std::size_t group_size(std::size_t wanted, std::size_t count) {
 
 Kernel::Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
                const KernelOptions& options)
-    : device_(device),
-      name_(name),
-      grid_(grid),
-      run_width_(run_width_for(device, grid)),
-      group_(device.tuning().group_width * device.tuning().group_height) {
+    : device_(device), name_(name), grid_(grid), run_width_(run_width_for(device, grid)) {
   cl_int code = CL_SUCCESS;
   kernel_ = cl::Kernel(
       clCreateKernel(program_for(device, file, build_options(run_width_, options))(), name.c_str(), &code));
@@ -59,7 +55,8 @@ cl::Event Kernel::enqueue_over_grid() {
 
 cl::Event Kernel::enqueue_over_items(std::size_t count) {
   if (count == 0) return {};
-  const std::size_t local = group_size(group_, count);
+  const std::size_t usual = device_.tuning().group_width * device_.tuning().group_height;
+  const std::size_t local = group_ != 0 ? group_ : group_size(usual, count);
   const std::size_t global = round_up(count, local);
   return enqueue(1, &global, &local);
 }

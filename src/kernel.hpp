@@ -2,7 +2,6 @@
 #pragma once
 
 #include <CL/opencl.hpp>
-#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -31,10 +30,10 @@ class Kernel {
   Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
          const KernelOptions& options = {});
 
-  /// Takes smaller work-groups for over_items(): where few work-items do much each, all compute units get
-  /// some.
-  Kernel& in_small_groups() {
-    group_ = std::max<std::size_t>(group_ / 8, 1);
+  /// Work-groups of this many items for over_items() and over_runs(), however few the items are. (PoCL
+  /// compiles a kernel again for each size.)
+  Kernel& in_groups_of(std::size_t items) {
+    group_ = items;
     return *this;
   }
 
@@ -52,6 +51,13 @@ class Kernel {
   cl::Event over_items(std::size_t count, const Arguments&... arguments) {
     set_arguments(0, arguments...);
     return enqueue_over_items(count);
+  }
+
+  /// As over_items(), with one work-item a run of items.
+  template <typename... Arguments>
+  cl::Event over_runs(std::size_t count, const Arguments&... arguments) {
+    const auto width = static_cast<std::size_t>(run_width_);
+    return over_items((count + width - 1) / width, arguments...);
   }
 
  private:
@@ -76,8 +82,9 @@ class Kernel {
   Device device_;
   std::string name_;
   Grid grid_;
-  int run_width_;      // pixels that one work-item computes
-  std::size_t group_;  // work-items of a group over items
+  int run_width_;  // pixels that one work-item computes
+  std::size_t group_ =
+      0;  // work-items of a group over items; 0: the device's usual ones, or less for few items
   cl::Kernel kernel_;
 };
 
