@@ -10,11 +10,9 @@
 #if VOROCL_WIDTH == 1
 #define AS_INT_RUN as_int
 #define AS_UINT_RUN as_uint
-#define CONVERT_FLOAT_RUN convert_float
 #else
 #define AS_INT_RUN JOIN(as_int, VOROCL_WIDTH)
 #define AS_UINT_RUN JOIN(as_uint, VOROCL_WIDTH)
-#define CONVERT_FLOAT_RUN JOIN(convert_float, VOROCL_WIDTH)
 #endif
 
 #define CELL (1 << CELL_BITS)
@@ -87,30 +85,20 @@ inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / 
 #define ALONG(offset) max(offset, -(offset))
 #endif
 
-// Sets the bits of a run of seeds, and notes their places. A seed that comes late to its pixel gets NO_PLACE and queues
-// up. All words are read first: where they are not in a cache, a CPU then waits for all of them at once. Behind the last
-// seed there is an empty position.
+// Sets the seeds' bits, and notes their places. A seed that comes late to its pixel gets NO_PLACE and queues up.
 #define NO_PLACE 0xffffffffu
-kernel void set_bits(global const uint* restrict positions, uint count, global uint* bits, global uint* restrict places,
-                     global uint* restrict late, global uint* restrict late_count, int width) {
-  const uint first = (uint)get_global_id(0) * VOROCL_WIDTH;
-  if (first >= count) return;
-  const int columns = cells_along(width, 0);
-  uint place[VOROCL_WIDTH], seen[VOROCL_WIDTH];
-#pragma unroll
-  for (uint i = 0; i < VOROCL_WIDTH; ++i) {
-    const uint position = positions[min(first + i, count)];
-    place[i] = position & EMPTY_BIT ? NO_PLACE : BIT_PLACE(position, columns);
-    seen[i] = position & EMPTY_BIT ? 0 : bits[place[i] / 32];
-  }
-#pragma unroll
-  for (uint i = 0; i < VOROCL_WIDTH; ++i) {
-    const uint bit = 1u << place[i] % 32;
-    if (place[i] != NO_PLACE && ((seen[i] & bit) || (atomic_or(bits + place[i] / 32, bit) & bit))) {
-      late[atomic_inc(late_count)] = first + i;
-      place[i] = NO_PLACE;
-    }
-    places[min(first + i, count)] = place[i];
+kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
+                     global uint* restrict places, global uint* restrict late, global uint* restrict late_count,
+                     int width) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  places[id] = NO_PLACE;
+  if (positions[id] & EMPTY_BIT) return;
+  const uint place = BIT_PLACE(positions[id], cells_along(width, 0)), bit = 1u << place % 32;
+  if (atomic_or(bits + place / 32, bit) & bit) {
+    late[atomic_inc(late_count)] = id;
+  } else {
+    places[id] = place;
   }
 }
 
@@ -138,7 +126,7 @@ kernel void name_seeds(global const uint* restrict bits, global uint* restrict p
   starts[start_of(x, y, columns)] = count;
 }
 
-// A level above 0: the first of the seeds that a cell's FAN x FAN parts name.
+// A level above 0: one of the seeds that a cell's FAN x FAN parts name.
 kernel void name_seeds_above(global uint* pyramid, int width, int height, int level) {
   const int cell = (int)get_global_id(0), columns = cells_along(width, level);
   if (cell >= columns * cells_along(height, level)) return;
@@ -157,13 +145,13 @@ kernel void name_seeds_above(global uint* pyramid, int width, int height, int le
 }
 
 // Gives each row of cells its part of the list, in the order in which the rows come, and each cell its start.
-kernel void share_out_list(global uint* restrict starts, global uint* restrict listed, int width, int height) {
+kernel void share_out_list(global uint* restrict starts, global uint* restrict end, int width, int height) {
   const int y = (int)get_global_id(0), columns = cells_along(width, 0);
   if (y >= cells_along(height, 0)) return;
   global uint* const row = starts + start_of(0, y, columns);
   uint seeds = 0;
   for (int x = 0; x < columns; ++x) seeds += row[x];
-  uint start = atomic_add(listed, seeds);
+  uint start = atomic_add(end, seeds);
   for (int x = 0; x < columns; ++x) {
     const uint count = row[x];
     row[x] = start;

@@ -1,13 +1,13 @@
-// The exact diagram. Most cells find their candidates among the seeds of the cells near them. For the others lists of
-// candidates are made, one for each large tile that has such cells.
+// The exact diagram. Most cells are labelled by the rows around them, or find their candidates among the seeds of the
+// cells near them. For the others lists of candidates are made, which regions hand down to the tiles in them.
 
 #include "exact_candidates.cl"
 #include "exact_rows.cl"
 
-// A work-item labels a PAIR of cells, one above the other.
-// By the number of seeds near a pair, in its two cells and the ten around them: a pair of less than
-// SPARSE has candidates that are seldom near, one of less than MEDIUM is labelled as a whole. By the number near a cell,
-// in it and the eight around it: one of DENSE or more is labelled by rows. Measured: the ways cost the same there.
+// A work-item labels a pair of cells. By the number of seeds near a pair, in its two cells and the ten around them: one
+// of less than SPARSE has candidates that are seldom near, one of less than MEDIUM is labelled as a whole. By the number
+// near a cell, in it and the eight around it: one of DENSE or more is labelled by rows. Measured: the ways cost the same
+// there.
 #define SPARSE 5
 #define MEDIUM 24
 #define DENSE 56
@@ -62,9 +62,9 @@ inline void rank_by_tie_rule(const uint* seeds, int count, uint* ranks) {
     _Pragma("unroll") for (int run = 0; run < RUNS_OF_ROW; ++run)
 
 // Labels a box as wide as a cell by candidates and their ranks by the tie rule; `label_of` is in the order of the
-// ranks. A candidate's KEY at a pixel says by how much farther it is than the base, a seed that dominates none of them,
-// and in its lowest bits its rank: the least key wins. As no candidate is dominated, these differences fit in 22 bits,
-// however large the distances are. A key is the sum of a part for the pixel's column and one for its row.
+// ranks. A candidate's KEY at a pixel says by how much farther it is than the base, and in its lowest bits its rank: the
+// least key wins. As the base is the nearest seed to the centre and dominates no candidate, these differences fit in 22
+// bits and a sign, however large the distances are. A key is the sum of a part for the pixel's column and one for its row.
 #define MOST_KEYS 256
 #define LABEL_BLOCK(look_up) FOR_BLOCK label[row][run] = look_up(label_of, AS_UINT_RUN(least[row][run]) & place);
 
@@ -148,18 +148,19 @@ inline void label_by_list(const Listing* all, const Dominators* dominators, cons
 inline bool label_by_rows(NearestInRows* rows, int cell_y, global uint* labels) {
   const Listing* const all = rows->all;
   const int left = rows->cell_x * CELL, top = cell_y * CELL;
+  const int count = min(CELL, all->height - top);
   ushort16 least[CELL];
-  if (!find_least_row_keys(rows, top - rows->top, least)) return false;
-  for (int y = 0; y < CELL; ++y) least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
+  if (!find_least_row_keys(rows, top - rows->top, count, least)) return false;
+  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)CELL;
   // Gathered first and stored in runs then, the labels fit in a CPU's store buffer, and it need not wait for memory.
   uint label[CELL * CELL];
-  for (int y = 0; y < CELL; ++y) {
+  for (int y = 0; y < count; ++y) {
     const ushort* const nearest = (const ushort*)(rows->nearest + (top - rows->top + y - REACH));
     const ushort* const row = (const ushort*)(least + y);
 #pragma unroll
     for (int x = 0; x < CELL; ++x) label[y * CELL + x] = rows->ids[nearest[row[x] + x]];
   }
-  for (int y = 0; y < min(CELL, all->height - top); ++y) {
+  for (int y = 0; y < count; ++y) {
     for (int x = 0; x < CELL; x += VOROCL_WIDTH) {
       store_run(LOAD_RUN(label + y * CELL + x), labels, left + x, top + y, all->width);
     }
@@ -167,7 +168,8 @@ inline bool label_by_rows(NearestInRows* rows, int cell_y, global uint* labels) 
   return true;
 }
 
-// The candidates of a cell or a pair of cells and those of the cells next to it and next but one.
+// The seeds of a cell or a pair of cells and of the cells next to it and next but one, of which candidates are left in
+// the end. Five cells, one beside the other, are added at once.
 #define MOST_NEAR MOST_CANDIDATES
 typedef struct {
   Box box;
@@ -192,12 +194,12 @@ inline bool take_near(Near* near, const Listing* all, int x, int y, int cells, i
   return true;
 }
 
-// Labels so many cells, one above the other, that have seeds near, if all of their candidates are near; else false.
+// Labels so many cells, one above the other, if there are seeds near and all of their candidates are; else false.
 inline bool label_by_near(const Listing* all, int x, int y, int cells, global uint* labels) {
   Near near;
   near.box = box_of(x * CELL, y * CELL, CELL, cells * CELL, all->width, all->height);
   no_dominators(&near.dominators, near.box);
-  if (!take_near(&near, all, x, y, cells, 1)) return false;
+  if (!take_near(&near, all, x, y, cells, 1) || near.count == 0) return false;
   improve_dominator(&near.dominators, 0, near.seeds, near.count);
   int reach = 0;
   for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near.dominators.distance[0][corner]);
@@ -296,10 +298,10 @@ kernel void list_candidates(global const uint* restrict bits, global const uint*
     counts[number] = TOO_MANY;
     return;
   }
-  const int above = list_number(&all, REGION, x / FAN, y / FAN);
+  const int region = list_number(&all, REGION, x / FAN, y / FAN);  // of a tile
   Search search;
-  if (level == TILE && counts[above] != TOO_MANY) {
-    search.count = take_candidates(lists + (size_t)above * MOST_CANDIDATES, (int)counts[above], box,
+  if (level == TILE && counts[region] != TOO_MANY) {
+    search.count = take_candidates(lists + (size_t)region * MOST_CANDIDATES, (int)counts[region], box,
                                    &search.dominators, search.seeds);
   } else {
     begin_search(&search, box, &all, pyramid, top_level);
@@ -368,7 +370,7 @@ kernel void label_far(global const uint* restrict bits, global const uint* restr
   const int x = pair % all.columns, y = pair / all.columns * PAIR;
   const int tile = list_number(&all, TILE, x / FAN, y / FAN);
   if (counts[tile] == 0) return;
-  const int first = y + (labelled[pair] == 1), end = min(y + (labelled[pair] == 2 ? 1 : PAIR), all.rows);
+  const int first = y + (labelled[pair] == 1), end = min(labelled[pair] == 2 ? y + 1 : y + PAIR, all.rows);
   const Box box = box_of(x * CELL, first * CELL, CELL, (end - first) * CELL, width, height);
   if (counts[tile] != TOO_MANY &&
       label_by_tile(&all, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {

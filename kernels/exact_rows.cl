@@ -45,10 +45,10 @@ inline short16 place_of_bit(int8 first, int8 last) {
 }
 
 // How many of the lowest 1, 2, ... 8 bits are set, a byte each: they are spread to bytes, and a product sums those.
+#define ONES 0x0101010101010101ul
 inline ulong count_up(uint bits) {
-  const ulong ones = 0x0101010101010101ul;
-  const ulong spread = (((bits & 0xffu) * ones & 0x8040201008040201ul) + 0x7f * ones) >> 7 & ones;
-  return spread * ones;
+  const ulong spread = (((bits & 0xffu) * ONES & 0x8040201008040201ul) + 0x7f * ONES) >> 7 & ONES;
+  return spread * ONES;
 }
 
 // The seeds in a row of a cell, given the word that holds it, and the places in the list of the first and last one, any
@@ -95,9 +95,9 @@ inline void find_row(NearestInRows* rows, int row) {
   const short16 offset = select(left, right, nearer) - CELL_LANES;
   rows->along_x[row] = as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)OFFSET_BITS;
 
-  const ulong first_counts = count_up(own.bits), last_counts = count_up(own.bits >> 8) + (first_counts >> 56) * 0x0101010101010101ul;
-  const short16 left_ones = convert_short16(as_uchar16((ulong2)(first_counts, last_counts)));
-  rows->nearest[row] = as_ushort16(left_ones - nearer) + (ushort)(row * IDS_OF_ROW);
+  const ulong2 counts = (ulong2)(count_up(own.bits), count_up(own.bits >> 8) + popcount(own.bits & 0xffu) * ONES);
+  const short16 up_to = convert_short16(as_uchar16(counts));
+  rows->nearest[row] = as_ushort16(up_to - nearer) + (ushort)(row * IDS_OF_ROW);
   uint* const ids = rows->ids + row * IDS_OF_ROW;
   ids[0] = all->ids[before.last];
   vstore8(vload8(0, all->ids + own.first), 0, ids + 1);
@@ -119,12 +119,12 @@ inline void need_row(NearestInRows* rows, int row) {
   rows->end = max(rows->end, row + 1);
 }
 
-// Finds the least row keys of the rows of a cell, which begin at row `first`, going from each row up and down until no
-// row farther away can have a nearer seed. False if that would go beyond the reach.
-inline bool find_least_row_keys(NearestInRows* rows, int first, ushort16* least) {
+// Finds the least row keys of the `count` rows of a cell, which begin at row `first`, going from each row up and down
+// until no row farther away can have a nearer seed. False if that would go beyond the reach.
+inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushort16* least) {
   if (rows->end < first) rows->begin = rows->end = first;
   ushort16 worst = (ushort16)0;
-  for (int y = 0; y < CELL; ++y) {
+  for (int y = 0; y < count; ++y) {
     need_row(rows, first + y);
     least[y] = rows->along_x[first + y] + (ushort)ROW_KEY(0, 0);
     worst = max(worst, least[y]);
@@ -132,10 +132,10 @@ inline bool find_least_row_keys(NearestInRows* rows, int first, ushort16* least)
   for (int offset = 1; any_from(worst, (ushort)ROW_KEY(ALONG(offset), -REACH)); ++offset) {
     if (offset > REACH) return false;
     need_row(rows, first - offset);
-    need_row(rows, first + CELL - 1 + offset);
+    need_row(rows, first + count - 1 + offset);
     const ushort above = (ushort)ROW_KEY(ALONG(offset), -offset), below = (ushort)ROW_KEY(ALONG(offset), offset);
     worst = (ushort16)0;
-    for (int y = 0; y < CELL; ++y) {
+    for (int y = 0; y < count; ++y) {
       const ushort16 to_above = rows->along_x[first + y - offset] + above;
       const ushort16 to_below = rows->along_x[first + y + offset] + below;
       least[y] = min(least[y], min(to_above, to_below));

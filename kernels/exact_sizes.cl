@@ -1,10 +1,11 @@
 // Sizes of the exact engine, for its kernels and for the host that makes their buffers.
 
-// The sides of a cell of level 0 in pixels, and of a cell in cells of the level below it, as powers of two.
+// The sides of a cell of level 0 in pixels, and of a cell in cells of the level below it, as powers of two. (A row of a
+// cell of level 0 is a vector of 16 lanes in many places.)
 #define CELL_BITS 4
 #define FAN_BITS 2
 
-// Cells that are labelled together, one above the other.
+// Cells that are labelled together, one above the other: so many bits say which of them are.
 #define PAIR 2
 
 // Lists of candidates are made for tiles, the cells of level 1, from those of regions, the cells of level 2.

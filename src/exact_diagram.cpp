@@ -4,10 +4,11 @@
 #include <chrono>
 #include <string>
 
-#include "../kernels/exact_sizes.cl"
 #include "buffer.hpp"
 #include "exact_lists.hpp"
 #include "kernel.hpp"
+// Last: it defines macros.
+#include "../kernels/exact_sizes.cl"
 
 namespace vorocl {
 
@@ -55,14 +56,14 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const std::size_t across = cells_along(grid.width(), 0), down = cells_along(grid.height(), 0);
   const std::size_t pairs = across * ((down - 1) / PAIR + 1);
   const std::size_t list_count = cells(grid, TILE) + cells(grid, REGION);
-  // Lists are read in whole runs.
+  // Lists are read in whole runs, ids in rows of a cell.
   const std::size_t list_room = seeds.size() + most_lanes;
   const cl::Buffer bits = diagram.scratch(Scratch::exact_bits, bit_words * word);
   const cl::Buffer word_starts = diagram.scratch(Scratch::exact_word_starts, bit_words * word);
   const cl::Buffer starts = diagram.scratch(Scratch::exact_starts, starts_count * word);
   const cl::Buffer list = diagram.scratch(Scratch::exact_list, list_room * word);
   const cl::Buffer ids = diagram.scratch(Scratch::exact_ids, list_room * word);
-  const cl::Buffer places = diagram.scratch(Scratch::exact_places, (seeds.size() + 1) * word);
+  const cl::Buffer places = diagram.scratch(Scratch::exact_places, seeds.size() * word);
   const cl::Buffer late = diagram.scratch(Scratch::exact_late, seeds.size() * word);
   const cl::Buffer late_count = diagram.scratch(Scratch::flags, word);
   const cl::Buffer listed = diagram.scratch(Scratch::exact_listed, word);
@@ -74,9 +75,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
   const std::size_t group = device.tuning().group_width * device.tuning().group_height;
   const auto kernel = [&](const char* name) {
-    Kernel made(device, file, name, grid, {options.metric});
-    made.in_groups_of(group);
-    return made;
+    return Kernel(device, file, name, grid, {options.metric}).in_groups_of(group);
   };
   const auto count = static_cast<cl_uint>(seeds.size());
   const int width = grid.width(), height = grid.height();
@@ -84,7 +83,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
   fill(device, late_count, cl_uint{0}, 1);
   fill(device, listed, cl_uint{0}, 1);
-  kernel("set_bits").over_runs(count, seeds.positions(), count, bits, places, late, late_count, width);
+  kernel("set_bits").over_items(count, seeds.positions(), count, bits, places, late, late_count, width);
   kernel("name_seeds").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
     kernel("name_seeds_above").over_items(cells(grid, level), pyramid, width, height, level);
@@ -95,17 +94,18 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   kernel("keep_lowest_ids")
       .over_items(std::min(seeds.size(), most_items_for_late), seeds.positions(), late, late_count, bits,
                   word_starts, ids, width);
-  kernel("label_near")
+  // Work-items that do much each: small groups spread them over the compute units.
+  const auto heavy = [&](const char* name, std::size_t most) {
+    return kernel(name).in_groups_of(std::min(group, most));
+  };
+  heavy("label_near", 64)
       .over_items(pairs, bits, starts, word_starts, list, ids, width, height, diagram.labels(), labelled);
-  // Few items that do much each: in small groups, so that all compute units get some.
-  const std::size_t small_group = std::max<std::size_t>(group / 8, 1);
   for (const int level : {REGION, TILE}) {
-    kernel("list_candidates")
-        .in_groups_of(small_group)
+    heavy("list_candidates", 8)
         .over_items(cells(grid, level), bits, starts, word_starts, list, ids, width, height, level, labelled,
                     pyramid, top, lists, counts, diagram.labels());
   }
-  const cl::Event last = kernel("label_far")
+  const cl::Event last = heavy("label_far", 64)
                              .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
                                          pyramid, top, lists, counts, diagram.labels());
   check(clFlush(device.queue()()), "starting the diagram");

@@ -30,7 +30,7 @@ class Kernel {
   Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
          const KernelOptions& options = {});
 
-  /// Work-groups of this many items for over_items() and over_runs(), however few the items are. (PoCL
+  /// Work-groups of this many items for over_items(), however few the items are. (PoCL
   /// compiles a kernel again for each size.)
   Kernel& in_groups_of(std::size_t items) {
     group_ = items;
@@ -51,13 +51,6 @@ class Kernel {
   cl::Event over_items(std::size_t count, const Arguments&... arguments) {
     set_arguments(0, arguments...);
     return enqueue_over_items(count);
-  }
-
-  /// As over_items(), with one work-item a run of items.
-  template <typename... Arguments>
-  cl::Event over_runs(std::size_t count, const Arguments&... arguments) {
-    const auto width = static_cast<std::size_t>(run_width_);
-    return over_items((count + width - 1) / width, arguments...);
   }
 
  private:
@@ -82,9 +75,8 @@ class Kernel {
   Device device_;
   std::string name_;
   Grid grid_;
-  int run_width_;  // pixels that one work-item computes
-  std::size_t group_ =
-      0;  // work-items of a group over items; 0: the device's usual ones, or less for few items
+  int run_width_;          // pixels that one work-item computes
+  std::size_t group_ = 0;  // work-items of a group over items; 0: the usual ones, less for few items
   cl::Kernel kernel_;
 };
 
