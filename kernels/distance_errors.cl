@@ -26,9 +26,9 @@ inline float excess(uint distance, uint least) {
 
 // Each work-item judges a stretch of pixels: how many are wrong, and how many of those have no seed; the sum and the
 // greatest of the others' excess distances. Where labels are equal, nothing is looked up.
-kernel void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
-                         global const uint* restrict positions, uint count, uint pixels, int width, uint stretch,
-                         global uint2* restrict wrong, global float2* restrict excesses) {
+RUN_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
+                             global const uint* restrict positions, uint count, uint pixels, int width, uint stretch,
+                             global uint2* restrict wrong, global float2* restrict excesses) {
   const uint item = (uint)get_global_id(0);
   if (item >= (pixels + stretch - 1) / stretch) return;
   const uint end = min((item + 1) * stretch, pixels);

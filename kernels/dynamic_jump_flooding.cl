@@ -3,8 +3,8 @@
 #include "position.cl"
 
 // Each pixel's label to the position that its seed has now; a seed that is there no more leaves its pixels empty.
-kernel void advance_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
-                           global uint* restrict out, int width, int height) {
+RUN_KERNEL void advance_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                               global uint* restrict out, int width, int height) {
   if (!has_run(width, height)) return;
   const int first = run_y() * width + run_x(width);
   const uint_run at = min(LOAD_RUN(labels + first), (uint_run)count);
@@ -19,7 +19,7 @@ kernel void stamp_positions(global const uint* restrict positions, uint count, g
 }
 
 // Reports whether a pixel has no label.
-kernel void find_unlabelled(global const uint* restrict labels, int width, int height, global int* restrict found) {
+RUN_KERNEL void find_unlabelled(global const uint* restrict labels, int width, int height, global int* restrict found) {
   if (!has_run(width, height)) return;
   if (ANY(LOAD_RUN(labels + run_y() * width + run_x(width)) == NO_LABEL)) atomic_or(found, 1);
 }

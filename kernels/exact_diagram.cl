@@ -235,10 +235,10 @@ inline uint label_pair(const Listing* all, int x, int y, global uint* labels) {
   return labelled;
 }
 
-kernel void label_near(global const uint* restrict bits, global const uint* restrict starts,
-                       global const uint* restrict word_starts, global const uint* restrict list,
-                       global const uint* restrict ids, int width, int height, global uint* restrict labels,
-                       global uint* restrict labelled) {
+RUN_KERNEL void label_near(global const uint* restrict bits, global const uint* restrict starts,
+                           global const uint* restrict word_starts, global const uint* restrict list,
+                           global const uint* restrict ids, int width, int height, global uint* restrict labels,
+                           global uint* restrict labelled) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
   const int pair = (int)get_global_id(0);
   if (pair >= all.columns * pairs_down(&all)) return;
@@ -282,11 +282,11 @@ inline int take_candidates(global const uint* list, int count, Box box, Dominato
 
 // Lists the candidates of a tile or region that has cells to be labelled yet. A tile of one is labelled at once: it has
 // no crowded cell, whose rim would be more.
-kernel void list_candidates(global const uint* restrict bits, global const uint* restrict starts,
-                            global const uint* restrict word_starts, global const uint* restrict list,
-                            global const uint* restrict ids, int width, int height, int level,
-                            global const uint* restrict labelled, global const uint* restrict pyramid, int top_level,
-                            global uint* lists, global uint* counts, global uint* restrict labels) {
+RUN_KERNEL void list_candidates(global const uint* restrict bits, global const uint* restrict starts,
+                                global const uint* restrict word_starts, global const uint* restrict list,
+                                global const uint* restrict ids, int width, int height, int level,
+                                global const uint* restrict labelled, global const uint* restrict pyramid, int top_level,
+                                global uint* lists, global uint* counts, global uint* restrict labels) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
   const int across = cells_along(width, level), cell = (int)get_global_id(0);
   if (cell >= across * cells_along(height, level)) return;
@@ -359,11 +359,11 @@ inline void label_by_search(Search* search, const Listing* all, global uint* lab
   }
 }
 
-kernel void label_far(global const uint* restrict bits, global const uint* restrict starts,
-                      global const uint* restrict word_starts, global const uint* restrict list,
-                      global const uint* restrict ids, int width, int height, global const uint* restrict labelled,
-                      global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
-                      global const uint* restrict counts, global uint* restrict labels) {
+RUN_KERNEL void label_far(global const uint* restrict bits, global const uint* restrict starts,
+                          global const uint* restrict word_starts, global const uint* restrict list,
+                          global const uint* restrict ids, int width, int height, global const uint* restrict labelled,
+                          global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
+                          global const uint* restrict counts, global uint* restrict labels) {
   const Listing all = listing(bits, starts, word_starts, list, ids, width, height);
   const int pair = (int)get_global_id(0);
   if (pair >= all.columns * pairs_down(&all) || labelled[pair] == BOTH) return;

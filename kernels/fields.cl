@@ -24,15 +24,15 @@ inline uint_run find_distances(global const uint* labels, global const uint* pos
   return select(distance_between(position, run_positions(x, y)), (uint_run)NO_DISTANCE, (position & EMPTY_BIT) != 0);
 }
 
-kernel void integer_distances(global const uint* restrict labels, global const uint* restrict positions, uint count,
-                              global uint* restrict out, int width, int height) {
+RUN_KERNEL void integer_distances(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                                  global uint* restrict out, int width, int height) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   STORE_RUN(find_distances(labels, positions, count, x, y, width), out + y * width + x);
 }
 
-kernel void float_distances(global const uint* restrict labels, global const uint* restrict positions, uint count,
-                            global float* restrict out, int width, int height) {
+RUN_KERNEL void float_distances(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                                global float* restrict out, int width, int height) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   const uint_run distance = find_distances(labels, positions, count, x, y, width);
@@ -51,7 +51,7 @@ inline uint is_border(global const uint* labels, int x, int y, int width, int he
                 (y > 0 && own[-width] != *own) || (y + 1 < height && own[width] != *own));
 }
 
-kernel void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int width, int height) {
+RUN_KERNEL void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int width, int height) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   global const uint* const run = labels + y * width + x;

@@ -4,8 +4,8 @@
 
 // The first wave, straight from the map of the pixels that hold a seed. Its candidates are the run's own pixels
 // moved by the neighbours' offsets: from the last to the first, in their order of distance, each that is there wins.
-kernel void seed_wave(global const uchar* restrict seeded, global uint* restrict out, int width, int height,
-                      int step) {
+RUN_KERNEL void seed_wave(global const uchar* restrict seeded, global uint* restrict out, int width, int height,
+                          int step) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   const uint_run pixel = run_positions(x, y);
@@ -21,15 +21,15 @@ kernel void seed_wave(global const uchar* restrict seeded, global uint* restrict
   store_labels(best, out, x, y, width);
 }
 
-kernel void wave(global const uint* restrict in, global uint* restrict out, int width, int height, int step) {
+RUN_KERNEL void wave(global const uint* restrict in, global uint* restrict out, int width, int height, int step) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   store_labels(nearest_label(in, x, y, width, height, step), out, x, y, width);
 }
 
 // The last wave writes ids, which it looks up in the ids at the seeds' pixels (see seeds.cl).
-kernel void last_wave(global const uint* restrict in, global const uint* restrict ids, global uint* restrict labels,
-                      int width, int height, int step) {
+RUN_KERNEL void last_wave(global const uint* restrict in, global const uint* restrict ids, global uint* restrict labels,
+                          int width, int height, int step) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   const uint_run best = nearest_label(in, x, y, width, height, step);

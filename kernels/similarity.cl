@@ -3,8 +3,8 @@
 #include "vector.cl"
 
 // Each work-item counts a stretch of pixels, so that few of them meet at the counter.
-kernel void count_differences(global const uint* restrict a, global const uint* restrict b, uint pixels,
-                              uint stretch, global uint* restrict differences) {
+RUN_KERNEL void count_differences(global const uint* restrict a, global const uint* restrict b, uint pixels,
+                                  uint stretch, global uint* restrict differences) {
   const uint begin = (uint)get_global_id(0) * stretch;
   if (begin >= pixels) return;
   const uint end = min(begin + stretch, pixels);

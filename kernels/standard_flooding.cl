@@ -2,8 +2,8 @@
 
 #include "wave.cl"
 
-kernel void reporting_wave(global const uint* restrict in, global uint* restrict out, int width, int height,
-                           int wave, global int* restrict last_change) {
+RUN_KERNEL void reporting_wave(global const uint* restrict in, global uint* restrict out, int width, int height,
+                               int wave, global int* restrict last_change) {
   if (!has_run(width, height)) return;
   const int x = run_x(width), y = run_y();
   const uint_run own = load_labels(in, x, y, width, height);

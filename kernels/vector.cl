@@ -34,6 +34,9 @@ typedef struct __attribute__((packed)) {
 #define ANY(condition) any(condition)
 #endif
 
+// A kernel whose work-items compute whole runs. The hint keeps compilers that make vectors of work-items from doing so.
+#define RUN_KERNEL kernel __attribute__((vec_type_hint(uint_run)))
+
 #if VOROCL_WIDTH == 2
 #define LANES ((uint2)(0, 1))
 #elif VOROCL_WIDTH == 4

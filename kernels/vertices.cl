@@ -3,8 +3,8 @@
 #include "position.cl"
 
 // Each work-item counts a stretch of the corners below one row; corner x is between the pixels x and x + 1.
-kernel void find_vertices(global const uint* restrict labels, int width, int height, uint stretch,
-                          global uint* restrict vertices) {
+RUN_KERNEL void find_vertices(global const uint* restrict labels, int width, int height, uint stretch,
+                              global uint* restrict vertices) {
   const int across = (width - 2) / (int)stretch + 1;
   const int begin = (int)(get_global_id(0) % (size_t)across) * (int)stretch, y = (int)(get_global_id(0) / (size_t)across);
   if (y >= height - 1) return;
