@@ -5,15 +5,21 @@
 #define PHILOX_POSITIONS 0u
 #define PHILOX_MOTION 1u
 
+// (In scalars, as compilers for CPUs make a vector of a uint4 and pick it apart in every round; and by 64-bit products,
+// which give both halves at once.)
 inline uint4 philox(uint4 counter, uint2 key) {
+  uint a = counter.s0, b = counter.s1, c = counter.s2, d = counter.s3, key_0 = key.s0, key_1 = key.s1;
   for (int round = 0; round < 10; ++round) {
-    const uint high_0 = mul_hi(counter.s0, 0xd2511f53u), low_0 = counter.s0 * 0xd2511f53u;
-    const uint high_1 = mul_hi(counter.s2, 0xcd9e8d57u), low_1 = counter.s2 * 0xcd9e8d57u;
-    counter = (uint4)(high_1 ^ counter.s1 ^ key.s0, low_1, high_0 ^ counter.s3 ^ key.s1, low_0);
-    key += (uint2)(0x9e3779b9u, 0xbb67ae85u);
+    const ulong product_0 = (ulong)a * 0xd2511f53u, product_1 = (ulong)c * 0xcd9e8d57u;
+    a = (uint)(product_1 >> 32) ^ b ^ key_0;
+    b = (uint)product_1;
+    c = (uint)(product_0 >> 32) ^ d ^ key_1;
+    d = (uint)product_0;
+    key_0 += 0x9e3779b9u;
+    key_1 += 0xbb67ae85u;
   }
-  return counter;
+  return (uint4)(a, b, c, d);
 }
 
 // Maps 32 random bits to 0 ... count - 1; the bias is below count / 2^32.
-inline uint uniform_below(uint bits, uint count) { return mul_hi(bits, count); }
+inline uint uniform_below(uint bits, uint count) { return (uint)((ulong)bits * count >> 32); }
