@@ -153,8 +153,8 @@ inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int
 // Adds those seeds of the cells from (first_x, y) to (last_x, y), as far as they are in the grid, that can be candidates
 // for other cells: of a crowded cell only the rim. A crowded cell itself is always labelled by rows, without candidates:
 // of its CELL * CELL pixels at most 120 are farther than REACH from one of them (a corner, Manhattan), so one of more
-// seeds than that is in reach of each pixel. (Taking the rims costs more than it saves until there are some more.)
-#define CROWDED 160
+// seeds than that is in reach of each pixel.
+#define CROWDED 160  // with a margin
 inline int add_seeds(const Listing* all, int first_x, int last_x, int y, uint* seeds, int count) {
   first_x = max(first_x, 0);
   last_x = min(last_x, all->columns - 1);
