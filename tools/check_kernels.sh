@@ -4,21 +4,23 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
+kernel_files() { find kernels tools -name '*.cl' | sort; }
+
 strict_compile() {
   command -v clang >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
   local kernel width metric neighbours
-  for kernel in kernels/*.cl tools/*.cl; do
+  for kernel in $(kernel_files); do
     for width in 1 2 4 8 16; do
       for metric in EUCLIDEAN MANHATTAN; do
         for neighbours in 5 9; do
-          clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only \
+          clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Ikernels \
             -Wall -Wextra -Wconversion -Werror -Wno-unused-function -Wno-unused-const-variable \
             -DVOROCL_WIDTH=$width -DVOROCL_GUARD=16 -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours "$kernel"
         done
       done
     done
   done
-  echo "$(ls kernels/*.cl tools/*.cl | wc -l) kernel files compile without a warning"
+  echo "$(kernel_files | wc -l) kernel files compile without a warning"
 }
 
 # Oclgrind exits with 0 whatever it finds: its log is what counts.

@@ -9,5 +9,5 @@ shift || true
 mapfile -t files < <(git ls-files '*.cpp' '*.hpp' '*.c' '*.h')
 clang-format --dry-run -Werror "${files[@]}"
 [ -f "$build/compile_commands.json" ] || cmake -S . -B "$build" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON >/dev/null
-mapfile -t sources < <(if [ $# -gt 0 ]; then printf '%s\n' "$@"; else git ls-files 'src/*.cpp' 'tools/*.cpp' 'tests/test_*.cpp'; fi)
+mapfile -t sources < <(if [ $# -gt 0 ]; then printf '%s\n' "$@"; else git ls-files 'src/*.cpp' 'tools/*.cpp' 'tests/*test_*.cpp'; fi)
 clang-tidy --quiet -p "$build" "${sources[@]}"

@@ -1,8 +1,8 @@
 // The exact diagram. Most cells are labelled by the rows around them, or find their candidates among the seeds of the
 // cells near them. For the others lists of candidates are made, which regions hand down to the tiles in them.
 
-#include "exact_candidates.cl"
-#include "exact_rows.cl"
+#include "exact/candidates.cl"
+#include "exact/rows.cl"
 
 // A work-item labels a pair of cells. By the number of seeds near a pair, in its two cells and the ten around them: one
 // of less than SPARSE has candidates that are seldom near, one of less than MEDIUM is labelled as a whole. By the number

@@ -3,7 +3,7 @@
 // A row of a cell is one vector of CELL lanes here, whatever VOROCL_WIDTH is. Rows up to REACH above and below the cell
 // take part, and in each row the cells to the left and right: a seed at REACH or nearer is among those.
 
-#include "exact_cells.cl"
+#include "exact/cells.cl"
 
 #define REACH (CELL - 1)
 #define ROWS_IN_REACH (PAIR * CELL + 2 * REACH)

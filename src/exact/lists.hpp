@@ -6,8 +6,8 @@
 namespace vorocl {
 
 enum class ListLength {
-  full,         ///< exact_diagram.cl
-  two_entries,  ///< exact_short_lists.cl: nearly every list overflows, which tests want to see
+  full,         ///< exact/diagram.cl
+  two_entries,  ///< exact/short_lists.cl: nearly every list overflows, which tests want to see
 };
 
 /// exact_diagram() with lists of this length.

@@ -4,6 +4,6 @@
 set -euo pipefail
 command -v doxygen >/dev/null || { echo "Doxygen is not installed: skipped"; exit 77; }
 folder=$(realpath -m "$1")
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 mkdir -p "$folder"
 { cat docs/Doxyfile; echo "OUTPUT_DIRECTORY = \"$folder\""; } | doxygen -

@@ -1,7 +1,7 @@
 // Runs every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh). Prints
 // nothing.
 #include "brute_force.hpp"
-#include "exact_lists.hpp"
+#include "exact/lists.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;

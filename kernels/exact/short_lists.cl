@@ -3,4 +3,4 @@
 #define MOST_PARENTS 2
 #define MOST_CANDIDATES 2
 
-#include "exact_diagram.cl"
+#include "exact/diagram.cl"

@@ -5,10 +5,10 @@
 #include <string>
 
 #include "buffer.hpp"
-#include "exact_lists.hpp"
+#include "exact/lists.hpp"
 #include "kernel.hpp"
 // Last: it defines macros.
-#include "../kernels/exact_sizes.cl"
+#include "exact/sizes.cl"
 
 namespace vorocl {
 
@@ -72,7 +72,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, list_count * MOST_CANDIDATES * word);
   const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, list_count * word);
 
-  const std::string file = length == ListLength::full ? "exact_diagram.cl" : "exact_short_lists.cl";
+  const std::string file = length == ListLength::full ? "exact/diagram.cl" : "exact/short_lists.cl";
   const std::size_t group = device.tuning().group_width * device.tuning().group_height;
   const auto kernel = [&](const char* name) {
     return Kernel(device, file, name, grid, {options.metric}).in_groups_of(group);

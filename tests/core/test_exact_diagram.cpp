@@ -6,7 +6,7 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
-#include "exact_lists.hpp"
+#include "exact/lists.hpp"
 #include "fixture.hpp"
 #include "input.hpp"
 #include "measured_cases.hpp"

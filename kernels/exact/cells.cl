@@ -4,7 +4,7 @@
 #ifndef VOROCL_EXACT_CELLS
 #define VOROCL_EXACT_CELLS
 
-#include "exact_sizes.cl"
+#include "exact/sizes.cl"
 #include "position.cl"
 
 #if VOROCL_WIDTH == 1

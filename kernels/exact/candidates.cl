@@ -5,7 +5,7 @@
 // distances is affine in the pixel, for the Manhattan metric it is the sum of a monotone function of x and one of y:
 // both are greatest at a corner. A cell is dominated if already its point nearest to each corner is.
 
-#include "exact_cells.cl"
+#include "exact/cells.cl"
 
 #define MOST_CELLS (FAN * FAN * MOST_PARENTS + TOP_CELLS)
 // A cell's seeds are added to a list at once, and lists are read in whole runs.
