@@ -6,9 +6,9 @@
 #include <nanoflann.hpp>
 #include <numeric>
 
+#include "app/sources/seed_input.hpp"
 #include "exact/lists.hpp"
 #include "fixture.hpp"
-#include "input.hpp"
 #include "measured_cases.hpp"
 
 using namespace vorocl;
