@@ -5,7 +5,7 @@
 #define NO_DISTANCE 0x7fffffffu
 
 // The distance between two packed positions, as distance_between() has it for runs; NO_DISTANCE without a seed.
-inline uint distance_to(uint position, int x, int y) {
+static inline uint distance_to(uint position, int x, int y) {
   const int dx = packed_x(position) - x, dy = packed_y(position) - y;
   if (position & EMPTY_BIT) return NO_DISTANCE;
 #ifdef VOROCL_EUCLIDEAN
@@ -16,7 +16,7 @@ inline uint distance_to(uint position, int x, int y) {
 }
 
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
-inline float excess(uint distance, uint least) {
+static inline float excess(uint distance, uint least) {
 #ifdef VOROCL_EUCLIDEAN
   return (float)(distance - least) / (sqrt((float)distance) + sqrt((float)least));
 #else

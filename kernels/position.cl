@@ -11,12 +11,12 @@
 #define EMPTY_BIT 0x80000000u
 #define EMPTY 0x80008000u
 
-inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
-inline int packed_x(uint position) { return (int)(position & 0xffffu); }
-inline int packed_y(uint position) { return (int)(position >> 16); }
+static inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
+static inline int packed_x(uint position) { return (int)(position & 0xffffu); }
+static inline int packed_y(uint position) { return (int)(position >> 16); }
 
 // Where a seed's pixel is in a row-major image.
-inline uint_run pixel_index(uint_run position, int width) {
+static inline uint_run pixel_index(uint_run position, int width) {
   return (position >> 16) * (uint)width + (position & 0xffffu);
 }
 
@@ -27,7 +27,7 @@ inline uint_run pixel_index(uint_run position, int width) {
 #define FIRST_ID 1
 
 // Packed positions of the run's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
-inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
+static inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
 
 // The distance between two packed positions: squared for VOROCL_EUCLIDEAN, else Manhattan. The coordinates are
 // subtracted as 16-bit numbers, which cannot overflow for real positions. Both metrics are then the sum of two
@@ -38,7 +38,7 @@ inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
 #define FACTOR(difference) (((difference) >> (short)15) | (short)1)  // the sign: -1 or 1
 #endif
 #define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
-  inline uint_n name(uint_n a, uint_n b) {                                                            \
+  static inline uint_n name(uint_n a, uint_n b) {                                                     \
     const short_2n difference = as_short_2n(a) - as_short_2n(b);                                      \
     const short_2n factor = FACTOR(difference);                                                       \
     return as_uint_n(convert_int_n(difference.even) * convert_int_n(factor.even) +                    \
@@ -55,18 +55,18 @@ DEFINE_DISTANCE_BETWEEN(distance_between, uint4, short8, as_uint4, as_short8, co
 DEFINE_DISTANCE_BETWEEN(distance_between, uint8, short16, as_uint8, as_short16, convert_int8)
 #else  // there is no short32: two halves
 DEFINE_DISTANCE_BETWEEN(distance_between_halves, uint8, short16, as_uint8, as_short16, convert_int8)
-inline uint16 distance_between(uint16 a, uint16 b) {
+static inline uint16 distance_between(uint16 a, uint16 b) {
   return (uint16)(distance_between_halves(a.lo, b.lo), distance_between_halves(a.hi, b.hi));
 }
 #endif
 
 // As distance_between(), where the position may be empty: that is farther than any seed. What the subtraction
 // made of an empty position is of no account, for its sign bit alone puts it past every real distance.
-inline uint_run distance_to_label(uint_run position, uint_run pixel) {
+static inline uint_run distance_to_label(uint_run position, uint_run pixel) {
   return distance_between(position, pixel) | (position & EMPTY_BIT);
 }
 
 // One step of the tie rule's minimum: takes a candidate whose distance is the least one, if it comes first.
-inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
+static inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
   return select(best, min(best, candidate), distance == least);
 }

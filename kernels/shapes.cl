@@ -10,7 +10,7 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   largest[id] = -1;
 }
 
-inline int distance_of(int x, int y, int seed_x, int seed_y) {
+static inline int distance_of(int x, int y, int seed_x, int seed_y) {
   const int dx = (int)abs_diff(x, seed_x), dy = (int)abs_diff(y, seed_y);
 #ifdef VOROCL_EUCLIDEAN
   return dx * dx + dy * dy;

@@ -2,6 +2,7 @@
 
 #include "buffer.hpp"
 #include "opencl_info.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
@@ -29,6 +30,16 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   }
   buffer = cl::Buffer();
   buffer = allocate(device, bytes, "the measures of a diagram");
+}
+
+std::shared_ptr<const SeedsFrame> frame_of(const Seeds& seeds, const Diagram& diagram) {
+  Internal::state(diagram).check_fits(seeds);
+  return Internal::state(seeds).frame();
+}
+
+const cl::Buffer& no_buffer() {
+  static const cl::Buffer none;
+  return none;
 }
 
 Blocks::Blocks(const Device& device, const Grid& grid)

@@ -1,11 +1,11 @@
 // Asks OpenCL about its objects.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <string>
 #include <type_traits>
 
 #include "opencl_error.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 

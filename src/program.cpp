@@ -37,14 +37,15 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
   cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
-  check(code, "making the program " + file);
+  check(code, [&] { return "making the program " + file; });
   if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
     const auto ask = [id](const cl::Program& of, cl_program_build_info name, std::size_t size, void* value,
                           std::size_t* used) {
       return clGetProgramBuildInfo(of(), id, name, size, value, used);
     };
     throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" +
-                info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG));
+                    info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
+                ErrorKind::kernel_build);
   }
   return program;
 }
@@ -52,7 +53,7 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
 }  // namespace
 
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
-  Device::State& state = device.state();
+  DeviceState& state = Internal::state(device);
   const std::lock_guard<std::mutex> lock(state.programs_mutex);
   const std::string key = file + ' ' + options;
   const auto found = state.programs.find(key);

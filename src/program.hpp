@@ -1,10 +1,10 @@
 // Builds OpenCL programs from the embedded kernels, once per device and options.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <string>
 
 #include "vorocl/device.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 

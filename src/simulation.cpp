@@ -15,10 +15,10 @@ std::size_t Simulation::add_engine(Engine engine) {
 }
 
 void Simulation::step() {
-  const double d_max = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
+  const double max_displacement = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
   ++frame_;
   for (Track& track : tracks_) {
-    track.report = track.engine(seeds_, track.diagram, d_max);
+    track.report = track.engine(seeds_, track.diagram, max_displacement);
     if (frame_ == 0) continue;  // every engine starts from nothing there: the paper does not count it
     track.untimed.push_back(track.report);
     track.host_milliseconds += track.report.host_milliseconds();

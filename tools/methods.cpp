@@ -1,6 +1,6 @@
 #include "methods.hpp"
 
-#include "usage_error.hpp"
+#include "app/terminal/usage_error.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/jump_flooding.hpp"

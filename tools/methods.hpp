@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "options.hpp"
+#include "app/options/options.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/plan.hpp"
 #include "vorocl/report.hpp"

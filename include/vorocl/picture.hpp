@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {

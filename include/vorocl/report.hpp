@@ -1,9 +1,8 @@
 // What an engine reports of one diagram: its waves and its times.
 #pragma once
 
-#include <CL/opencl.hpp>
-
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 

@@ -18,7 +18,7 @@ typedef struct {
   int left, top, right, bottom;
 } Box;
 
-inline Box box_of(int x, int y, int columns, int rows, int width, int height) {
+static inline Box box_of(int x, int y, int columns, int rows, int width, int height) {
   const Box box = {x, y, min(x + columns, width) - 1, min(y + rows, height) - 1};
   return box;
 }
@@ -32,7 +32,7 @@ typedef struct {
   uint distance[DOMINATORS][CORNERS];  // from each seed to each corner
 } Dominators;
 
-inline void no_dominators(Dominators* dominators, Box box) {
+static inline void no_dominators(Dominators* dominators, Box box) {
   dominators->place[0] = pack((box.left + box.right) / 2, (box.top + box.bottom) / 2);
   dominators->place[1] = pack(box.left, box.top);
   dominators->place[2] = pack(box.right, box.top);
@@ -42,14 +42,14 @@ inline void no_dominators(Dominators* dominators, Box box) {
 }
 
 // Fills a list's last run with empty positions.
-inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count); }
+static inline void pad(uint* list, int count) { STORE_RUN((uint_run)EMPTY, list + count); }
 
 // Whether a seed wins against another one, by distance and tie rule.
 #define WINS(seed, distance, other_seed, other_distance) \
   (((distance) < (other_distance)) | (((distance) == (other_distance)) & ((seed) < (other_seed))))
 
 // Takes the seed of a padded list that wins at a place, if it wins against the place's dominator.
-inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, int count) {
+static inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, int count) {
   const uint_run place = dominators->place[i];
   uint_run nearest = dominators->seed[i];
   uint_run least = distance_to_label(nearest, place);
@@ -67,7 +67,7 @@ inline void improve_dominator(Dominators* dominators, int i, const uint* seeds, 
 
 // Copies those entries of the run at `first` for which the condition holds behind the `kept` ones at the front of the
 // list. Every entry is copied, and the next one over it unless it is kept: no branch depends on the condition.
-inline int keep_entries(uint* list, int first, int_run condition, int kept) {
+static inline int keep_entries(uint* list, int first, int_run condition, int kept) {
   int keep[VOROCL_WIDTH];
   STORE_RUN(condition, keep);
 #pragma unroll
@@ -80,7 +80,7 @@ inline int keep_entries(uint* list, int first, int_run condition, int kept) {
 
 // By how much seeds at these distances from the corners are behind a dominator where they are least so: below 0 if
 // they win at a corner. At an equal distance the dominator wins if it comes first.
-inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, const uint_run* distance) {
+static inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, const uint_run* distance) {
   int_run lag = AS_INT_RUN(distance[0] - dominators->distance[i][0]);
 #pragma unroll
   for (int corner = 1; corner < CORNERS; ++corner) {
@@ -90,7 +90,7 @@ inline int_run least_lag(const Dominators* dominators, int i, uint_run seed, con
 }
 
 // Drops the seeds of a padded list that are dominated by one of the dominators from `begin` to `end`.
-inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end, uint* seeds, int count) {
+static inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end, uint* seeds, int count) {
   int kept = 0;
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
     const uint_run seed = LOAD_RUN(seeds + first);
@@ -112,7 +112,7 @@ inline int drop_dominated_seeds(const Dominators* dominators, int begin, int end
 // so the winners at the corners are found among what is left: what is nearest to a corner is dominated by none. A few
 // are let be: trying them at the pixels costs less.
 #define FEW 8
-inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
+static inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
   count = drop_dominated_seeds(dominators, 0, 1, seeds, count);
   if (count <= FEW) return count;
   for (int i = 1; i < DOMINATORS; ++i) improve_dominator(dominators, i, seeds, count);
@@ -120,13 +120,13 @@ inline int drop_dominated(Dominators* dominators, uint* seeds, int count) {
 }
 
 // The seeds of a row of the grid in one cell; outside the grid everything counts as a seed.
-inline uint seeds_in_row(const Listing* all, int cell_x, int y) {
+static inline uint seeds_in_row(const Listing* all, int cell_x, int y) {
   if (cell_x < 0 || cell_x >= all->columns || y < 0 || y >= all->height) return ALL_BITS;
   return row_bits(all->bits[((y >> CELL_BITS) * all->columns + cell_x) * WORDS + y % CELL / ROWS_OF_WORD], y);
 }
 
 // Adds the seeds of a cell but those whose four neighbours are seeds: these win at no pixel but their own.
-inline int add_rim(const Listing* all, int cell_x, int cell_y, uint* seeds, int count) {
+static inline int add_rim(const Listing* all, int cell_x, int cell_y, uint* seeds, int count) {
   const int top = cell_y * CELL;
   uint above = seeds_in_row(all, cell_x, top - 1), own = seeds_in_row(all, cell_x, top);
   for (int y = top; y < min(top + CELL, all->height); ++y) {
@@ -143,7 +143,7 @@ inline int add_rim(const Listing* all, int cell_x, int cell_y, uint* seeds, int 
 }
 
 // Copies a part of the list, and may write a run behind it.
-inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int count) {
+static inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int count) {
   for (uint i = begin; i < end; i += VOROCL_WIDTH) {
     STORE_RUN(LOAD_RUN(all->list + i), seeds + count + (int)(i - begin));
   }
@@ -155,7 +155,7 @@ inline int copy_seeds(const Listing* all, uint begin, uint end, uint* seeds, int
 // of its CELL * CELL pixels at most 120 are farther than REACH from one of them (a corner, Manhattan), so one of more
 // seeds than that is in reach of each pixel.
 #define CROWDED 160  // with a margin
-inline int add_seeds(const Listing* all, int first_x, int last_x, int y, uint* seeds, int count) {
+static inline int add_seeds(const Listing* all, int first_x, int last_x, int y, uint* seeds, int count) {
   first_x = max(first_x, 0);
   last_x = min(last_x, all->columns - 1);
   if (y < 0 || y >= all->rows || first_x > last_x) return count;
@@ -188,7 +188,7 @@ typedef struct {
 
 // Drops the cells that are dominated by one of the dominators from `begin` to `end`. No seed of a cell comes before the
 // cell's first pixel.
-inline void drop_dominated_cells(Search* search, int begin, int end) {
+static inline void drop_dominated_cells(Search* search, int begin, int end) {
   const Box box = search->box;
   const int size = 1 << cell_bits(search->level);
   int kept = 0;
@@ -213,7 +213,7 @@ inline void drop_dominated_cells(Search* search, int begin, int end) {
 }
 
 // Adds the cells of a rectangle of the search's level that are not empty.
-inline void add_cells(Search* search, const Listing* all, global const uint* pyramid, int x, int y, int size) {
+static inline void add_cells(Search* search, const Listing* all, global const uint* pyramid, int x, int y, int size) {
   const int columns = cells_along(all->width, search->level), rows = cells_along(all->height, search->level);
   global const uint* const level = pyramid + level_start(all->width, all->height, search->level);
   for (int cell_y = y; cell_y < min(y + size, rows); ++cell_y) {
@@ -228,7 +228,7 @@ inline void add_cells(Search* search, const Listing* all, global const uint* pyr
 
 // Takes the seeds that are their cells' only ones as candidates, as long as there is room, so that these cells need not
 // be refined.
-inline void take_only_seeds(Search* search) {
+static inline void take_only_seeds(Search* search) {
   int kept = 0;
   for (int i = 0; i < search->cell_count; ++i) {
     if (search->cells[i] & MORE || search->count >= MOST_CANDIDATES) {
@@ -241,7 +241,8 @@ inline void take_only_seeds(Search* search) {
 }
 
 // Finds the cells that may hold candidates of the box, as fine as they can be listed, and candidates on the way.
-inline void begin_search(Search* search, Box box, const Listing* all, global const uint* pyramid, int top_level) {
+static inline void begin_search(Search* search, Box box, const Listing* all, global const uint* pyramid,
+                                int top_level) {
   uint parents[MOST_PARENTS];
   search->box = box;
   search->level = top_level;
@@ -272,7 +273,7 @@ inline void begin_search(Search* search, Box box, const Listing* all, global con
 
 // Lists candidates behind those that the search has already; false if there are more of them than fit, so that the
 // caller takes these and comes again.
-inline bool find_candidates(Search* search, const Listing* all) {
+static inline bool find_candidates(Search* search, const Listing* all) {
   const int side_bits = FAN_BITS * search->level, side = 1 << side_bits;  // parts of a cell along an axis
   const int parts = search->cell_count << 2 * side_bits;
   while (search->next_part < parts) {

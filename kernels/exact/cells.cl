@@ -18,11 +18,11 @@
 #define CELL (1 << CELL_BITS)
 #define FAN (1 << FAN_BITS)
 
-inline int cell_bits(int level) { return CELL_BITS + FAN_BITS * level; }
-inline int cells_along(int pixels, int level) { return ((pixels - 1) >> cell_bits(level)) + 1; }
+static inline int cell_bits(int level) { return CELL_BITS + FAN_BITS * level; }
+static inline int cells_along(int pixels, int level) { return ((pixels - 1) >> cell_bits(level)) + 1; }
 
 // Where a level begins in the pyramid, which holds its levels row-major, the finest one first.
-inline int level_start(int width, int height, int level) {
+static inline int level_start(int width, int height, int level) {
   int start = 0;
   for (int i = 0; i < level; ++i) start += cells_along(width, i) * cells_along(height, i);
   return start;
@@ -36,13 +36,13 @@ inline int level_start(int width, int height, int level) {
 // THE LIST OF SEEDS. The seeds of each cell stand in it together, row-major, without those that share a pixel; the
 // cells of a row of cells follow each other. `starts` says where a cell's seeds begin, `word_starts` where those of
 // each word of its bits do, so that a seed's place in the list follows from its position: a bit vector with rank.
-inline uint listed(global const uint* bits, global const uint* word_starts, uint place) {
+static inline uint listed(global const uint* bits, global const uint* word_starts, uint place) {
   const uint word = place / 32;
   return word_starts[word] + popcount(bits[word] & ((1u << place % 32) - 1));
 }
 
 // A row of cells has one start more than cells: where its last cell ends.
-inline int start_of(int cell_x, int cell_y, int columns) { return cell_y * (columns + 1) + cell_x; }
+static inline int start_of(int cell_x, int cell_y, int columns) { return cell_y * (columns + 1) + cell_x; }
 
 // All of it, once it is made.
 typedef struct {
@@ -51,19 +51,19 @@ typedef struct {
   global const uint *list, *ids;  // the seeds' positions and ids
 } Listing;
 
-inline Listing listing(global const uint* bits, global const uint* starts, global const uint* word_starts,
-                       global const uint* list, global const uint* ids, int width, int height) {
+static inline Listing listing(global const uint* bits, global const uint* starts, global const uint* word_starts,
+                              global const uint* list, global const uint* ids, int width, int height) {
   const Listing all = {width, height, cells_along(width, 0), cells_along(height, 0), bits, starts, word_starts,
                        list, ids};
   return all;
 }
 
-inline uint id_of(const Listing* all, uint seed) {
+static inline uint id_of(const Listing* all, uint seed) {
   return all->ids[listed(all->bits, all->word_starts, BIT_PLACE(seed, all->columns))];
 }
 
 // The seeds of the cells from (first_x, y) to (last_x, y), as far as these are in the grid.
-inline uint count_seeds(const Listing* all, int first_x, int last_x, int y) {
+static inline uint count_seeds(const Listing* all, int first_x, int last_x, int y) {
   if (y < 0 || y >= all->rows) return 0;
   const int end = start_of(min(last_x + 1, all->columns), y, all->columns);
   return all->starts[end] - all->starts[start_of(max(first_x, 0), y, all->columns)];
@@ -73,10 +73,10 @@ inline uint count_seeds(const Listing* all, int first_x, int last_x, int y) {
 #define ROWS_OF_WORD (32 / CELL)
 // The seeds in a row of a cell, given the word that holds it: a bit each, the lowest bit at the left.
 #define ALL_BITS ((1u << CELL) - 1)
-inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * CELL & ALL_BITS; }
-inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
+static inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * CELL & ALL_BITS; }
+static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 // The pixel of a word's bit, as an offset from the word's first pixel.
-inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / CELL)); }
+static inline uint pixel_of_bit(uint bit) { return pack((int)(bit % CELL), (int)(bit / CELL)); }
 
 // The length of an offset along one axis, as it enters the distance.
 #ifdef VOROCL_EUCLIDEAN

@@ -17,7 +17,7 @@
 #define TOO_MANY 0xffffffffu
 
 // Stores a run of labels, as far as it lies in the grid.
-inline void store_run(uint_run labels, global uint* image, int x, int y, int width) {
+static inline void store_run(uint_run labels, global uint* image, int x, int y, int width) {
   if (x + VOROCL_WIDTH <= width) {
     STORE_WHOLE_RUN(labels, image + y * width + x);
     return;
@@ -27,7 +27,7 @@ inline void store_run(uint_run labels, global uint* image, int x, int y, int wid
   for (int lane = 0; x + lane < width; ++lane) image[y * width + x + lane] = label[lane];
 }
 
-inline void fill_box(Box box, uint label, global uint* labels, int width) {
+static inline void fill_box(Box box, uint label, global uint* labels, int width) {
   const int whole = (box.right + 1 - box.left) / VOROCL_WIDTH * VOROCL_WIDTH, columns = box.right + 1 - box.left;
   for (int y = box.top; y <= box.bottom; ++y) {
     global uint* const row = labels + y * width + box.left;
@@ -36,7 +36,7 @@ inline void fill_box(Box box, uint label, global uint* labels, int width) {
   }
 }
 
-inline void store_ids(uint_run seeds, const Listing* all, global uint* labels, int x, int y) {
+static inline void store_ids(uint_run seeds, const Listing* all, global uint* labels, int x, int y) {
   uint seed[VOROCL_WIDTH];
   STORE_RUN(seeds, seed);
   for (int lane = 0; lane < min(VOROCL_WIDTH, all->width - x); ++lane) {
@@ -45,7 +45,7 @@ inline void store_ids(uint_run seeds, const Listing* all, global uint* labels, i
 }
 
 // Numbers the seeds of a padded list in the order of the tie rule.
-inline void rank_by_tie_rule(const uint* seeds, int count, uint* ranks) {
+static inline void rank_by_tie_rule(const uint* seeds, int count, uint* ranks) {
   for (int first = 0; first < count; first += VOROCL_WIDTH) {
     const uint_run run = LOAD_RUN(seeds + first);
     uint_run rank = (uint_run)0;
@@ -68,8 +68,8 @@ inline void rank_by_tie_rule(const uint* seeds, int count, uint* ranks) {
 #define MOST_KEYS 256
 #define LABEL_BLOCK(look_up) FOR_BLOCK label[row][run] = look_up(label_of, AS_UINT_RUN(least[row][run]) & place);
 
-inline void label_by_keys(const uint* seeds, const uint* ranks, const uint* label_of, int count, uint base, Box box,
-                          global uint* labels, int width) {
+static inline void label_by_keys(const uint* seeds, const uint* ranks, const uint* label_of, int count, uint base,
+                                 Box box, global uint* labels, int width) {
   const int place_bits = 32 - (int)clz((uint)count - 1), tables = (count - 1) / VOROCL_WIDTH + 1;
   const uint_run place = (uint_run)((1u << place_bits) - 1);
   uint_run of_column[MOST_KEYS][RUNS_OF_ROW];
@@ -130,8 +130,8 @@ inline void label_by_keys(const uint* seeds, const uint* ranks, const uint* labe
 }
 
 // Labels a box by a padded list that holds its candidates.
-inline void label_by_list(const Listing* all, const Dominators* dominators, const uint* seeds, int count, Box box,
-                          global uint* labels) {
+static inline void label_by_list(const Listing* all, const Dominators* dominators, const uint* seeds, int count,
+                                 Box box, global uint* labels) {
   uint ranks[MOST_KEYS + VOROCL_WIDTH], places[MOST_KEYS + VOROCL_WIDTH], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
   for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_RUN(BIT_PLACE(LOAD_RUN(seeds + i), all->columns), places + i);
   rank_by_tie_rule(seeds, count, ranks);
@@ -145,7 +145,7 @@ inline void label_by_list(const Listing* all, const Dominators* dominators, cons
 
 // Labels a cell of the rows' pair by the best of the rows' nearest seeds; false if there is a pixel that has none
 // within reach.
-inline bool label_by_rows(NearestInRows* rows, int cell_y, global uint* labels) {
+static inline bool label_by_rows(NearestInRows* rows, int cell_y, global uint* labels) {
   const Listing* const all = rows->all;
   const int left = rows->cell_x * CELL, top = cell_y * CELL;
   const int count = min(CELL, all->height - top);
@@ -180,7 +180,7 @@ typedef struct {
 
 // Takes the seeds of so many cells, one above the other, and of those up to so many cells away; false if that makes
 // too many.
-inline bool take_near(Near* near, const Listing* all, int x, int y, int cells, int away) {
+static inline bool take_near(Near* near, const Listing* all, int x, int y, int cells, int away) {
   near->count = 0;
   for (int row = y - away; row < y + cells + away; ++row) {
     near->count = add_seeds(all, x - away, x + away, row, near->seeds, near->count);
@@ -195,7 +195,7 @@ inline bool take_near(Near* near, const Listing* all, int x, int y, int cells, i
 }
 
 // Labels so many cells, one above the other, if there are seeds near and all of their candidates are; else false.
-inline bool label_by_near(const Listing* all, int x, int y, int cells, global uint* labels) {
+static inline bool label_by_near(const Listing* all, int x, int y, int cells, global uint* labels) {
   Near near;
   near.box = box_of(x * CELL, y * CELL, CELL, cells * CELL, all->width, all->height);
   no_dominators(&near.dominators, near.box);
@@ -211,17 +211,17 @@ inline bool label_by_near(const Listing* all, int x, int y, int cells, global ui
   return true;
 }
 
-inline uint seeds_near(const Listing* all, int x, int y, int cells) {
+static inline uint seeds_near(const Listing* all, int x, int y, int cells) {
   uint seeds = 0;
   for (int row = y - 1; row <= y + cells; ++row) seeds += count_seeds(all, x - 1, x + 1, row);
   return seeds;
 }
 
-inline int pairs_down(const Listing* all) { return (all->rows - 1) / PAIR + 1; }
+static inline int pairs_down(const Listing* all) { return (all->rows - 1) / PAIR + 1; }
 
 // Labels a pair of cells, and says by a bit each which of them it could.
 #define BOTH 3
-inline uint label_pair(const Listing* all, int x, int y, global uint* labels) {
+static inline uint label_pair(const Listing* all, int x, int y, global uint* labels) {
   const uint seeds = seeds_near(all, x, y, PAIR);
   if (seeds < SPARSE) return 0;
   if (seeds < MEDIUM) return label_by_near(all, x, y, PAIR, labels) ? BOTH : 0;
@@ -246,7 +246,7 @@ RUN_KERNEL void label_near(global const uint* restrict bits, global const uint* 
 }
 
 // Whether all pairs of a cell of some level are labelled.
-inline bool all_labelled(const Listing* all, global const uint* labelled, int level, int x, int y) {
+static inline bool all_labelled(const Listing* all, global const uint* labelled, int level, int x, int y) {
   const int size = 1 << FAN_BITS * level;
   for (int part_y = y * size; part_y < min((y + 1) * size, all->rows); part_y += PAIR) {
     for (int part_x = x * size; part_x < min((x + 1) * size, all->columns); ++part_x) {
@@ -257,12 +257,12 @@ inline bool all_labelled(const Listing* all, global const uint* labelled, int le
 }
 
 // The number of a tile or region among them, the tiles first.
-inline int list_number(const Listing* all, int level, int x, int y) {
+static inline int list_number(const Listing* all, int level, int x, int y) {
   return level_start(all->width, all->height, level) - level_start(all->width, all->height, TILE) +
          y * cells_along(all->width, level) + x;
 }
 
-inline uint seeds_in_cell(const Listing* all, int level, int x, int y) {
+static inline uint seeds_in_cell(const Listing* all, int level, int x, int y) {
   const int size = 1 << FAN_BITS * level;
   uint seeds = 0;
   for (int part_y = y * size; part_y < (y + 1) * size; ++part_y) {
@@ -272,7 +272,7 @@ inline uint seeds_in_cell(const Listing* all, int level, int x, int y) {
 }
 
 // Takes those of a list that can be candidates of a box, and pads them.
-inline int take_candidates(global const uint* list, int count, Box box, Dominators* dominators, uint* seeds) {
+static inline int take_candidates(global const uint* list, int count, Box box, Dominators* dominators, uint* seeds) {
   for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_RUN(LOAD_RUN(list + i), seeds + i);
   pad(seeds, count);
   no_dominators(dominators, box);
@@ -321,8 +321,8 @@ RUN_KERNEL void list_candidates(global const uint* restrict bits, global const u
 }
 
 // Labels a box by its tile's candidates, if only so many of them are left that this can be done.
-inline bool label_by_tile(const Listing* all, global const uint* candidates, int count, Box box,
-                          global uint* labels) {
+static inline bool label_by_tile(const Listing* all, global const uint* candidates, int count, Box box,
+                                 global uint* labels) {
   uint seeds[MOST_CANDIDATES + VOROCL_WIDTH];
   Dominators dominators;
   count = take_candidates(candidates, count, box, &dominators, seeds);
@@ -332,7 +332,7 @@ inline bool label_by_tile(const Listing* all, global const uint* candidates, int
 }
 
 // Labels a cell of its box by any number of candidates, list after list in any order.
-inline void label_by_search(Search* search, const Listing* all, global uint* labels) {
+static inline void label_by_search(Search* search, const Listing* all, global uint* labels) {
   const Box box = search->box;
   uint_run least[CELL * CELL / VOROCL_WIDTH], nearest[CELL * CELL / VOROCL_WIDTH];
   for (int i = 0; i < CELL * CELL / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_run)0xffffffffu;

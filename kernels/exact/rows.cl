@@ -30,7 +30,7 @@ typedef struct {
   uint ids[ROWS_IN_REACH * IDS_OF_ROW];
 } NearestInRows;
 
-inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int cell_y) {
+static inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int cell_y) {
   rows->all = all;
   rows->cell_x = cell_x;
   rows->top = cell_y * CELL - REACH;
@@ -39,14 +39,14 @@ inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int 
 
 // The place of the only bit, or of the highest one of 16, that is set in each lane, by the exponent of a float; -127
 // where none is.
-inline short16 place_of_bit(int8 first, int8 last) {
+static inline short16 place_of_bit(int8 first, int8 last) {
   const int8 first_places = as_int8(convert_float8(first)) >> 23, last_places = as_int8(convert_float8(last)) >> 23;
   return (short16)(as_short16(first_places).even, as_short16(last_places).even) - (short)127;
 }
 
 // How many of the lowest 1, 2, ... 8 bits are set, a byte each: they are spread to bytes, and a product sums those.
 #define ONES 0x0101010101010101ul
-inline ulong count_up(uint bits) {
+static inline ulong count_up(uint bits) {
   const ulong spread = (((bits & 0xffu) * ONES & 0x8040201008040201ul) + 0x7f * ONES) >> 7 & ONES;
   return spread * ONES;
 }
@@ -56,7 +56,7 @@ inline ulong count_up(uint bits) {
 typedef struct {
   uint bits, first, last;
 } RowOfCell;
-inline RowOfCell row_of_cell(const Listing* all, int word, int y, bool in_grid) {
+static inline RowOfCell row_of_cell(const Listing* all, int word, int y, bool in_grid) {
   const int at = in_grid ? word : 0;
   const uint bits = all->bits[at], above = bits & ((1u << y % ROWS_OF_WORD * CELL) - 1);
   RowOfCell row;
@@ -73,7 +73,7 @@ inline RowOfCell row_of_cell(const Listing* all, int word, int y, bool in_grid) 
 #define FAR_AWAY 128
 #define UP_TO_FIRST_LANES ((int8)(0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff))
 #define UP_TO_LAST_LANES (UP_TO_FIRST_LANES << 8 | 0xff)
-inline void find_row(NearestInRows* rows, int row) {
+static inline void find_row(NearestInRows* rows, int row) {
   const Listing* const all = rows->all;
   const int y = rows->top + row;
   if (y < 0 || y >= all->height) {
@@ -106,13 +106,13 @@ inline void find_row(NearestInRows* rows, int row) {
 }
 
 // Whether some lane is not below a limit.
-inline bool any_from(ushort16 values, ushort limit) {
+static inline bool any_from(ushort16 values, ushort limit) {
   const ulong4 lanes = as_ulong4(values >= (ushort16)limit);
   return (lanes.s0 | lanes.s1 | lanes.s2 | lanes.s3) != 0;
 }
 
 // Finds a row unless the pair's first cell did: the rows that have been found follow each other.
-inline void need_row(NearestInRows* rows, int row) {
+static inline void need_row(NearestInRows* rows, int row) {
   if (rows->begin <= row && row < rows->end) return;
   find_row(rows, row);
   rows->begin = min(rows->begin, row);
@@ -121,7 +121,7 @@ inline void need_row(NearestInRows* rows, int row) {
 
 // Finds the least row keys of the `count` rows of a cell, which begin at row `first`, going from each row up and down
 // until no row farther away can have a nearer seed. False if that would go beyond the reach.
-inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushort16* least) {
+static inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushort16* least) {
   if (rows->end < first) rows->begin = rows->end = first;
   ushort16 worst = (ushort16)0;
   for (int y = 0; y < count; ++y) {

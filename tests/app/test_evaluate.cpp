@@ -11,7 +11,7 @@
 #include <sstream>
 #include <thread>
 
-#include "csv.hpp"
+#include "formats/csv.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;

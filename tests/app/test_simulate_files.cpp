@@ -10,8 +10,8 @@
 #include <opencv2/videoio.hpp>
 #include <thread>
 
-#include "label_file.hpp"
-#include "progress.hpp"
+#include "app/terminal/progress.hpp"
+#include "formats/label_files.hpp"
 #include "run_command.hpp"
 #include "vorocl/picture.hpp"
 

@@ -29,11 +29,11 @@ void run_all(const Device& device, const Grid& grid, Metric metric) {
 void move_all(const Device& device, const Grid& grid, Metric metric) {
   Seeds seeds(device, grid, centres(random_pixels(grid, 9, 3)));
   Diagram diagram(device, grid);
-  dynamic_jump_flooding(seeds, diagram, {metric});
+  dynamic_jump_flooding(seeds, diagram, 0, {metric});
   random_step(seeds, 2, Border::reflect, 1, 1);
-  dynamic_jump_flooding(seeds, diagram, {metric, {2}, 0});
+  dynamic_jump_flooding(seeds, diagram, 2, {metric});
   seeds.move_to({Point{1, 1}, std::nullopt, Point{2, 2}});
-  dynamic_jump_flooding(seeds, diagram, {metric, {40}, 0});
+  dynamic_jump_flooding(seeds, diagram, 40, {metric});
   diagram.wait();
 }
 

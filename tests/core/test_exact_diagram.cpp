@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nanoflann.hpp>
 #include <numeric>
 
 #include "exact/lists.hpp"
 #include "fixture.hpp"
-#include "input.hpp"
-#include "measured_cases.hpp"
+#include "samples.hpp"
+#include "seed_tree.hpp"
 
 using namespace vorocl;
 
@@ -28,70 +27,6 @@ Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pi
   Diagram diagram(device, grid);
   exact_diagram_with_lists(Seeds(device, grid, centres(seeds)), diagram, {metric}, lists);
   return diagram.read();
-}
-
-/// The seeds as nanoflann reads them, in the order of the tie rule.
-struct SeedCloud {
-  std::vector<Pixel> seeds;
-  std::size_t kdtree_get_point_count() const { return seeds.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? seeds[i].x : seeds[i].y; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-/// Keeps the first of the nearest seeds. Distances are integers, so that half of one lets ties in.
-struct FirstNearest {
-  double least = std::numeric_limits<double>::max();
-  std::size_t first = 0;
-  bool addPoint(double distance, std::size_t index) {
-    if (distance < least || (distance == least && index < first)) {
-      least = distance;
-      first = index;
-    }
-    return true;
-  }
-  double worstDist() const { return least + 0.5; }
-  bool full() const { return true; }
-  void init() {}
-  std::size_t size() const { return 1; }
-};
-
-template <typename Norm>
-Labels search_tree(const Grid& grid, const std::vector<Pixel>& seeds) {
-  std::vector<std::uint32_t> ids(seeds.size());
-  std::iota(ids.begin(), ids.end(), 0u);
-  std::stable_sort(ids.begin(), ids.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return seeds[a] < seeds[b]; });
-  // Without the seeds that share another one's pixel: thousands of equal points make the tree's leaves
-  // overflow.
-  const auto same = [&](std::uint32_t a, std::uint32_t b) {
-    return !(seeds[a] < seeds[b]) && !(seeds[b] < seeds[a]);
-  };
-  ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
-  SeedCloud cloud;
-  for (const std::uint32_t id : ids) cloud.seeds.push_back(seeds[id]);
-  nanoflann::KDTreeSingleIndexAdaptor<Norm, SeedCloud, 2> tree(2, cloud);
-  tree.buildIndex();
-  Labels labels;
-  labels.reserve(grid.pixels());
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      FirstNearest nearest;
-      const double pixel[] = {static_cast<double>(x), static_cast<double>(y)};
-      tree.findNeighbors(nearest, pixel, nanoflann::SearchParams());
-      labels.push_back(ids[nearest.first]);
-    }
-  }
-  return labels;
-}
-
-/// The exact labels by a k-d tree.
-Labels tree_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
-  return metric == Metric::euclidean
-             ? search_tree<nanoflann::L2_Simple_Adaptor<double, SeedCloud>>(grid, seeds)
-             : search_tree<nanoflann::L1_Adaptor<double, SeedCloud>>(grid, seeds);
 }
 
 std::size_t count_differences(const Labels& a, const Labels& b) {
@@ -218,18 +153,9 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
 BOOST_AUTO_TEST_CASE(real_seeds_against_a_tree) {
   const Grid map(1440, 720);
   for (const Metric metric : both_metrics) check_against_tree(map, cities(map), metric);
-  for (const char* file : {"/lj-clusters.lammpstrj", "/lj-melt.lammpstrj"}) {
-    command::SeedOptions options;
-    options.trajectory = std::string(VOROCL_SAMPLES) + file;
-    options.frame = 4;
-    options.width = 600;
-    const command::Input input = command::read_input(options);
-    std::vector<Pixel> particles;
-    for (const Point& point : input.place(test_device()).read()) {
-      particles.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
-    }
-    BOOST_TEST(particles.size() > 1000);
-    for (const Metric metric : both_metrics) check_against_tree(input.grid, particles, metric);
+  const Grid box(600, 500);
+  for (const char* dump : {"lj-clusters.lammpstrj", "lj-melt.lammpstrj"}) {
+    for (const Metric metric : both_metrics) check_against_tree(box, particles(dump, box), metric);
   }
 }
 
