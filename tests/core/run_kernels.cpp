@@ -1,5 +1,5 @@
-// Launches every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh), and fails
-// if the sources hold a kernel that was not launched.
+// Launches every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh),
+// and fails if the sources hold a kernel that was not launched.
 #include <dlfcn.h>
 
 #include <iostream>
@@ -61,8 +61,8 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
   diagram.wait();
 }
 
-/// Seeds on every pixel at the left, some in the middle and none at the right: the exact engine takes another way in
-/// each part. Its lists of two entries overflow nearly always.
+/// Seeds on every pixel at the left, some in the middle and none at the right: the exact engine takes another
+/// way in each part. Its lists of two entries overflow nearly always.
 void make_exact_diagrams(const Device& device, Metric metric) {
   const Grid grid(176, 90);
   std::vector<Pixel> pixels = every_pixel({35, grid.height()});
