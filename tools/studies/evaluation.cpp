@@ -4,9 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "methods.hpp"
 #include "studies/random_motion.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/error.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -17,7 +18,7 @@ namespace {
 Simulation::Engine engine_of(const MethodResult& result) {
   MethodOptions options;
   options.metric = result.metric;
-  return engine(choose(method_choices(), result.method), options);
+  return engine(method(result.method), options);
 }
 
 Simulation walk(const Device& device, const Configuration& configuration,

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
+#include "app/options/method_options.hpp"
 #include "app/sources/seed_input.hpp"
-#include "app/sources/trajectory_seeds.hpp"
-#include "methods.hpp"
 #include "studies/ground_truth.hpp"
 #include "studies/opencv_baseline.hpp"
 #include "studies/samples.hpp"
@@ -24,7 +22,7 @@ namespace vorocl::command {
 namespace {
 
 /// Takes part without being a method of ours: it has nothing to run on a diagram.
-const Method opencv_method = {"opencv", false, nullptr};
+const Method opencv_method = {"opencv", false, false, nullptr, nullptr};
 
 /// How far seeds have moved since the diagram that a dynamic method starts from: the paper's step length.
 constexpr int step_length = 5;
@@ -58,23 +56,13 @@ Contender engine(const Method& method, const Seeds& seeds, Diagram& diagram, con
   return {method.name, [] {}, run, [&diagram] { return diagram.read(); }, {}, 0};
 }
 
-/// Points of Seeds::read() to move_to().
-std::vector<std::optional<Point>> present(const std::vector<Point>& points) {
-  std::vector<std::optional<Point>> present;
-  present.reserve(points.size());
-  for (const Point& point : points) {
-    present.push_back(std::isnan(point.x) ? std::nullopt : std::optional<Point>(point));
-  }
-  return present;
-}
-
 /// A method that goes on from the last frame: each run starts from the JFA of the seeds one random step away.
 Contender dynamic_engine(const Method& method, const Seeds& seeds, Diagram& diagram,
                          const MethodOptions& options) {
-  const auto now = present(seeds.read());
-  const auto moving = std::make_shared<Seeds>(place(seeds.device(), seeds.grid(), now));
+  const auto now = seeds.read();
+  const auto moving = std::make_shared<Seeds>(seeds.clone());
   random_step(*moving, step_length, Border::reflect, 1, 0);
-  const auto before = present(moving->read());
+  const auto before = moving->read();
   const auto prepare = [moving, before, now, &diagram, options] {
     moving->move_to(before);
     jump_flooding(*moving, diagram, {options.metric});
@@ -154,7 +142,7 @@ void run(const BenchOptions& options) {
   for (const Method& method : options.methods) {
     if (!method.run) {
       contenders.push_back(opencv(seeds, options.method_options.metric));
-    } else if (method.dynamic) {
+    } else if (method.continues) {
       contenders.push_back(dynamic_engine(method, seeds, diagram, options.method_options));
     } else {
       contenders.push_back(engine(method, seeds, diagram, options.method_options));
@@ -189,9 +177,9 @@ void add_bench(CLI::App& app) {
   add_device_option(*command, options->device);
   add_json_option(*command, options->json);
   command->callback([command, options] {
-    const auto is_dynamic = [](const Method& method) { return method.dynamic; };
+    const auto is_djfa = [](const Method& method) { return method.continues; };
     check_method_options(*command, options->method_options,
-                         std::any_of(options->methods.begin(), options->methods.end(), is_dynamic));
+                         std::any_of(options->methods.begin(), options->methods.end(), is_djfa));
     run(*options);
   });
 }

@@ -6,11 +6,11 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
+#include "app/options/method_options.hpp"
 #include "app/outputs/diagram_files.hpp"
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
-#include "methods.hpp"
 
 namespace vorocl::command {
 
@@ -18,7 +18,7 @@ namespace {
 
 struct CellsOptions {
   SeedOptions seeds;
-  Method method = choose(method_choices(), "exact");
+  Method method = vorocl::method("exact");
   MethodOptions method_options;
   std::string device;
   std::vector<FileRequest> files = {{cells_kind(), ""},
@@ -117,7 +117,7 @@ void add_cells(CLI::App& app) {
   add_file_options(*command, options->files);
   add_json_option(*command, options->json);
   command->callback([command, options] {
-    check_method_options(*command, options->method_options, options->method.dynamic);
+    check_method_options(*command, options->method_options, options->method.continues);
     run(*options);
   });
 }

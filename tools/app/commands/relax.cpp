@@ -77,7 +77,8 @@ Outputs check_outputs(const RelaxOptions& options) {
 }
 
 void write_points(const std::string& path, const Seeds& seeds, const std::vector<std::uint32_t>& ids) {
-  const std::vector<Point> points = seeds.read();
+  std::vector<Point> points;
+  for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
   if (extension_of(path) == ".npy") {
     write_npy_points(path, points);
     return;

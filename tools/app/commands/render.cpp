@@ -7,13 +7,13 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
+#include "app/options/method_options.hpp"
 #include "app/outputs/diagram_files.hpp"
 #include "app/outputs/painter.hpp"
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/numbered_files.hpp"
-#include "methods.hpp"
 #include "vorocl/jump_flooding.hpp"
 
 namespace vorocl::command {
@@ -22,7 +22,7 @@ namespace {
 
 struct RenderOptions {
   SeedOptions seeds;
-  Method method;
+  Method method = {};
   MethodOptions method_options;
   std::string device;
   std::string picture_path;
@@ -156,7 +156,7 @@ void add_render(CLI::App& app) {
   add_json_option(*command, options->json);
   command->callback([command, options] {
     if (!options->draws()) refuse_picture_options(*command, "-o or --waves");
-    check_method_options(*command, options->method_options, options->method.dynamic);
+    check_method_options(*command, options->method_options, options->method.continues);
     options->seeds.value_column = options->picture.color.column;
     run(*options);
   });
