@@ -56,6 +56,7 @@ class VOROCL_API Simulation {
     std::vector<Report> untimed;  // frames whose device time has not been asked for
     double milliseconds = 0;
     double host_milliseconds = 0;
+    double max_displacement = 0;  // since the diagram was last filled
   };
 
   Seeds seeds_;
