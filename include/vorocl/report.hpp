@@ -6,7 +6,8 @@
 
 namespace vorocl {
 
-/// Engines enqueue and return; their report can be asked later.
+/// Engines enqueue and return; their report can be asked later, from any thread, also when seeds and diagram
+/// are gone.
 class VOROCL_API Report {
  public:
   Report() = default;

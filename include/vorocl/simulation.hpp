@@ -14,8 +14,9 @@ namespace vorocl {
 
 /// Owns the frame counter, the seeds and a diagram for each engine, so that engines can be compared on one
 /// motion. Nothing is allocated on the device after frame 0 (while the number of seeds stays), and nothing
-/// waits unless an engine or the caller reads. One thread at a time. If step() throws, the simulation can go
-/// on with the next one: the frame that failed counts, and its diagrams count as never filled.
+/// waits unless an engine or the caller reads. One thread at a time. After step() has thrown, the
+/// next one goes on: with the same frame if the motion threw, with the next frame if an engine did; engines
+/// that had not run by then are told the displacement of both frames.
 class VOROCL_API Simulation {
  public:
   /// Moves the seeds on to a frame (from 1 on) and returns the greatest displacement of a seed along an axis,
@@ -56,6 +57,7 @@ class VOROCL_API Simulation {
     std::vector<Report> untimed;  // frames whose device time has not been asked for
     double milliseconds = 0;
     double host_milliseconds = 0;
+    double max_displacement = 0;  // since the diagram was last filled
   };
 
   Seeds seeds_;

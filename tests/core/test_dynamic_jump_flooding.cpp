@@ -267,3 +267,27 @@ BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   check_error([&] { run(0, {mixed, 2, -1}, 0); }, {"-1 extra waves"});
   check_error([&] { run(0, {}, -2); }, {"-2 frames"});
 }
+
+// An engine that did not run in a frame starts from an older one: it is told how far seeds moved since then.
+BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
+  Simulation simulation(Seeds::random(test_device(), Grid(30, 20), 5, 1), [](Seeds&, int) { return 3.0; });
+  int calls = 0;
+  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double) {
+    if (++calls == 3) throw Error("no more");
+    return exact_diagram(seeds, diagram);
+  });
+  std::vector<double> displacements;
+  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    displacements.push_back(max_displacement);
+    return exact_diagram(seeds, diagram);
+  });
+  for (int frame = 0; frame < 5; ++frame) {
+    if (frame == 2) {
+      check_error([&] { simulation.step(); }, {"no more"});
+    } else {
+      simulation.step();
+    }
+  }
+  BOOST_TEST(simulation.frame() == 4);
+  BOOST_TEST(displacements == (std::vector<double>{0, 3, 6, 3}), boost::test_tools::per_element());
+}

@@ -1,4 +1,5 @@
-// The exact engine: no wrong pixel, tie rule included, on any input; judged by brute force and a k-d tree.
+// The exact engine: no wrong pixel, tie rule included, on any input; judged by brute force on the host, by
+// the reference kernel and by a k-d tree.
 #define BOOST_TEST_MODULE exact_diagram
 #include <algorithm>
 #include <cmath>
@@ -6,6 +7,7 @@
 #include <numeric>
 
 #include "exact/lists.hpp"
+#include "exact/reference.hpp"
 #include "fixture.hpp"
 #include "samples.hpp"
 #include "seed_tree.hpp"
@@ -29,13 +31,19 @@ Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pi
   return diagram.read();
 }
 
+Labels reference_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
+  Diagram diagram(test_device(), grid);
+  reference_diagram(Seeds(test_device(), grid, centres(seeds)), diagram, metric);
+  return diagram.read();
+}
+
 std::size_t count_differences(const Labels& a, const Labels& b) {
   std::size_t differences = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differences += a[i] != b[i] ? 1 : 0;
   return differences;
 }
 
-/// Sets that starve some cells of seeds and flood others.
+/// Sets that starve some bins of seeds and flood others.
 std::vector<Case> hurtful_cases(const Grid& grid) {
   const int w = grid.width(), h = grid.height();
   std::vector<Pixel> clusters, corner, row, column, diagonal, ring, checkers, blocks, stacked, patches;
@@ -83,21 +91,24 @@ void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metri
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
+BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : edge_cases()) {
-      const Labels truth = brute_force(c.grid, c.seeds, metric);
+      const Labels expected = brute_force(c.grid, c.seeds, metric);
+      BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", reference") {
+        BOOST_TEST(count_differences(reference_labels(c.grid, c.seeds, metric), expected) == 0);
+      }
       for (const ListLength lists : both_lengths) {
         BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << name_of(lists)) {
           const Labels labels = exact_labels(test_device(), c.grid, c.seeds, metric, lists);
-          BOOST_TEST(count_differences(labels, truth) == 0);
+          BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
+BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
   std::mt19937 rng(1);
   const auto below = [&](std::size_t n) { return static_cast<int>(rng() % n); };
   for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
@@ -113,7 +124,9 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
     const Metric metric = both_metrics[rng() % 2];
     const ListLength lists = both_lengths[rng() % 4 == 0 ? 1 : 0];
     const Labels labels = exact_labels(test_device(), grid, seeds, metric, lists);
-    const std::size_t wrong = count_differences(labels, brute_force(grid, seeds, metric));
+    const Labels expected = brute_force(grid, seeds, metric);
+    BOOST_TEST(count_differences(reference_labels(grid, seeds, metric), expected) == 0);
+    const std::size_t wrong = count_differences(labels, expected);
     BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
                                    << grid.height() << " with " << count << " seeds, "
                                    << vorocl::name_of(metric) << ", " << name_of(lists));
@@ -208,9 +221,9 @@ BOOST_AUTO_TEST_CASE(lowest_id_of_a_shared_pixel) {
   std::vector<Pixel> seeds = random_pixels(grid, 60000, 51);
   const std::vector<Pixel> reverse(seeds.rbegin(), seeds.rend());
   seeds.insert(seeds.end(), reverse.begin(), reverse.end());
-  const Labels truth = tree_labels(grid, seeds, Metric::euclidean);
+  const Labels expected = tree_labels(grid, seeds, Metric::euclidean);
   for (int attempt = 0; attempt < 50; ++attempt) {
-    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds), truth) == 0);
+    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds), expected) == 0);
   }
 }
 

@@ -1,7 +1,10 @@
 // Every OpenCL call of every method fails once: the call throws, and the objects are as good as new
 // afterwards.
 #define BOOST_TEST_MODULE faults
+#include <atomic>
+#include <chrono>
 #include <functional>
+#include <thread>
 
 #include "failing_opencl.hpp"
 #include "fixture.hpp"
@@ -23,7 +26,7 @@ int fail_each_call(const std::function<void()>& start, const std::function<void(
                    const std::function<void()>& judge) {
   for (int call = 1;; ++call) {
     start();
-    fault() = {call, 0};
+    fault().set(call);
     bool threw = false;
     try {
       action();
@@ -32,7 +35,7 @@ int fail_each_call(const std::function<void()>& start, const std::function<void(
       BOOST_TEST((error.kind() == ErrorKind::device_memory), error.what());
     }
     const bool came = fault().calls >= call;
-    fault() = {};
+    fault().set(0);
     BOOST_REQUIRE_EQUAL(threw, came);
     BOOST_TEST_CONTEXT("call " << call) { judge(); }
     if (!came) return call - 1;
@@ -133,4 +136,33 @@ BOOST_AUTO_TEST_CASE(measures_that_fail_are_empty) {
     BOOST_TEST(field.read().size() == grid.pixels());
   };
   BOOST_TEST(fail_each_call(start, measure, judge) >= 30);
+}
+
+// While an event holds the queue back, a thread that makes one frame after the other stops.
+BOOST_AUTO_TEST_CASE(at_most_128_commands_are_in_flight) {
+  const Seeds seeds = Seeds::random(test_device(), grid, 40, 1);
+  Diagram diagram(test_device(), grid);
+  exact_diagram(seeds, diagram);
+  const std::vector<std::uint32_t> expected = diagram.read();
+  cl_int code = CL_SUCCESS;
+  const cl::Event gate(clCreateUserEvent(test_device().context()(), &code));
+  BOOST_REQUIRE(code == CL_SUCCESS);
+  test_device().wait_for({gate});
+  fault().set(0);
+  std::atomic<int> frames{0};
+  std::thread maker([&] {
+    for (; frames < 100; ++frames) exact_diagram(seeds, diagram);
+  });
+  int before = -1;
+  for (int now = 0; now != before; now = fault().enqueued) {
+    before = now;
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  }
+  BOOST_TEST(fault().enqueued >= 64);
+  BOOST_TEST(fault().enqueued <= 128);
+  BOOST_TEST(frames < 100);
+  clSetUserEventStatus(gate(), CL_COMPLETE);
+  maker.join();
+  BOOST_TEST(frames == 100);
+  BOOST_TEST((diagram.read() == expected));
 }

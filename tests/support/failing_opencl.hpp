@@ -4,16 +4,30 @@
 
 #include <dlfcn.h>
 
+#include <atomic>
+#include <string>
+
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-/// Which call fails. Calls are counted from 1 once it is set; 0: none.
+/// Which call fails. Calls are counted from 1 once it is set; 0: none. And how many were kernels to launch or
+/// buffers to fill.
 struct Fault {
-  int fails_at = 0;
-  int calls = 0;
+  std::atomic<int> fails_at{0};
+  std::atomic<int> calls{0};
+  std::atomic<int> enqueued{0};
 
-  bool comes() { return ++calls == fails_at; }
+  void set(int call) {
+    calls = enqueued = 0;
+    fails_at = call;
+  }
+
+  bool comes(const char* name) {
+    const std::string call(name);
+    enqueued += call == "clEnqueueNDRangeKernel" || call == "clEnqueueFillBuffer" ? 1 : 0;
+    return ++calls == fails_at;
+  }
 };
 
 inline Fault& fault() {
@@ -32,17 +46,17 @@ Function* loaders(const char* name) {
 #define VOROCL_FAULTY extern "C" __attribute__((visibility("default")))
 
 /// A call that returns its error code.
-#define VOROCL_FAULTY_CALL(name, parameters, arguments)                    \
-  VOROCL_FAULTY cl_int CL_API_CALL name parameters {                       \
-    static const auto next = vorocl::loaders<cl_int parameters>(#name);    \
-    return vorocl::fault().comes() ? CL_OUT_OF_RESOURCES : next arguments; \
+#define VOROCL_FAULTY_CALL(name, parameters, arguments)                         \
+  VOROCL_FAULTY cl_int CL_API_CALL name parameters {                            \
+    static const auto next = vorocl::loaders<cl_int parameters>(#name);         \
+    return vorocl::fault().comes(#name) ? CL_OUT_OF_RESOURCES : next arguments; \
   }
 
 /// A call that returns an object, and its error code through a pointer.
 #define VOROCL_FAULTY_MAKER(type, name, parameters, arguments)        \
   VOROCL_FAULTY type CL_API_CALL name parameters {                    \
     static const auto next = vorocl::loaders<type parameters>(#name); \
-    if (!vorocl::fault().comes()) return next arguments;              \
+    if (!vorocl::fault().comes(#name)) return next arguments;         \
     *code = CL_MEM_OBJECT_ALLOCATION_FAILURE;                         \
     return nullptr;                                                   \
   }
