@@ -2,8 +2,6 @@
 
 #include "position.cl"
 
-#define NO_DISTANCE 0x7fffffffu
-
 #if VOROCL_WIDTH == 1
 typedef float float_run;
 #define TO_FLOATS convert_float

@@ -77,7 +77,7 @@ Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& res
   const cl::Event last = run_over_cells("join_sums", count, width, wide, high, sums.area, sums.sum_x,
                                         sums.sum_y, sums.home, sums.home_sums);
   sums.seeds = std::move(measured);
-  return stopwatch.report(device, count > 0 ? first : added, count > 0 ? last : added);
+  return report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
 }
 
 std::vector<CellSums> CellSumsResult::read() const {
@@ -111,7 +111,7 @@ Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult&
                                     seeds.positions(), count, grid.width(), grid.height(), blocks.wide(),
                                     blocks.high(), shapes.boxes, shapes.distances);
   shapes.seeds = std::move(measured);
-  return stopwatch.report(device, count > 0 ? first : last, last);
+  return report_of(stopwatch, device, count > 0 ? first : last, last);
 }
 
 std::vector<CellShape> CellShapesResult::read() const {

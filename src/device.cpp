@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
@@ -172,7 +173,16 @@ void DeviceState::enqueued(const cl::Event& command) {
     older = end_of_batch_;
     end_of_batch_ = command;
   }
-  if (older() != nullptr) check(clWaitForEvents(1, &older()), "waiting for earlier commands");
+  if (older() == nullptr) return;
+  const auto start = std::chrono::steady_clock::now();
+  check(clWaitForEvents(1, &older()), "waiting for earlier commands");
+  milliseconds_waited() +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+double& DeviceState::milliseconds_waited() {
+  thread_local double milliseconds = 0;
+  return milliseconds;
 }
 
 Device Device::select(const std::string& request) {

@@ -22,6 +22,9 @@ struct DeviceState {
   /// flight: PoCL takes longer to enqueue a command the more there are, and the host may run ahead by hours.
   void enqueued(const cl::Event& command);
 
+  /// The time that this thread has spent in such waits: it is none of an engine's.
+  static double& milliseconds_waited();
+
  private:
   static constexpr int batch = 64;
   std::mutex flight_mutex_;

@@ -66,8 +66,7 @@ Filling::Filling(const Seeds& seeds, Diagram& diagram)
 Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age) {
   check(clFlush(diagram_.device.queue()()), "starting the diagram");
   diagram_.contents = DiagramContents{seeds_, age, last};
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
-  return {waves, first, last, host.count()};
+  return {waves, first, last, stopwatch_.milliseconds()};
 }
 
 // --- Diagram ---

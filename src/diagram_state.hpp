@@ -1,7 +1,6 @@
 // What a Diagram holds besides its labels, and how an engine fills it.
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +10,7 @@
 #include "internal.hpp"
 #include "kernel.hpp"
 #include "seeds_frame.hpp"
+#include "stopwatch.hpp"
 #include "vorocl/report.hpp"
 
 namespace vorocl {
@@ -73,7 +73,7 @@ class Filling {
   Report commit(int waves, const cl::Event& first, const cl::Event& last, int age = 0);
 
  private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+  Stopwatch stopwatch_;
   DiagramState& diagram_;
   std::optional<DiagramContents> previous_;
   std::shared_ptr<const SeedsFrame> seeds_;

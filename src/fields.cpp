@@ -32,7 +32,7 @@ Report fill_field(const Diagram& diagram, std::shared_ptr<const SeedsFrame> seed
   state.device = device;
   state.seeds = std::move(seeds);
   state.pixels = grid.pixels();
-  return stopwatch.report(device, event, event);
+  return report_of(stopwatch, device, event, event);
 }
 
 template <typename T>

@@ -49,10 +49,10 @@ Blocks::Blocks(const Device& device, const Grid& grid)
       high_(bits_of_height(device)),
       count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
 
-Report Stopwatch::report(const Device& device, const cl::Event& first, const cl::Event& last) const {
+Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
+                 const cl::Event& last) {
   check(clFlush(device.queue()()), "starting a measurement");
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
-  return {0, first, last, host.count()};
+  return {0, first, last, stopwatch.milliseconds()};
 }
 
 }  // namespace vorocl

@@ -2,7 +2,6 @@
 // walk through (see runs.cl).
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "diagram_state.hpp"
@@ -53,13 +52,8 @@ class Blocks {
   std::size_t count_;
 };
 
-/// Runs from its making to the report of what was enqueued in between.
-class Stopwatch {
- public:
-  Report report(const Device& device, const cl::Event& first, const cl::Event& last) const;
-
- private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-};
+/// Starts what was enqueued since the stopwatch was made, and reports it.
+Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
+                 const cl::Event& last);
 
 }  // namespace vorocl

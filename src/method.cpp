@@ -47,7 +47,7 @@ Plan plan_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
 }
 
 template <JumpFloodingVariant variant>
-constexpr Method of_jump_flooding(const char* name) {
+Method of_jump_flooding(const char* name) {
   return {name, false, false, run_jump_flooding<variant>, plan_jump_flooding<variant>};
 }
 
@@ -70,7 +70,7 @@ const Method& method(const std::string& name) {
   std::string names;
   for (const Method& method : methods()) {
     if (method.name == name) return method;
-    names += (names.empty() ? "" : ", ") + std::string(method.name);
+    names += (names.empty() ? "" : ", ") + method.name;
   }
   throw Error("there is no method \"" + name + "\"; there are " + names);
 }

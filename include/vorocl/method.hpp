@@ -27,7 +27,7 @@ struct MethodOptions {
 
 /// A way to make a diagram from seeds.
 struct Method {
-  const char* name;  ///< such as "jfa+1"
+  std::string name;  ///< such as "jfa+1"
   bool exact;        ///< every pixel gets its nearest seed: other methods are judged by it
   bool continues;    ///< it goes on from the labels that the diagram holds, so frames must come in order
 

@@ -12,13 +12,13 @@ namespace vorocl {
 
 namespace {
 
-constexpr std::size_t pixels_of_cell = std::size_t{1} << 2 * CELL_BITS;
+constexpr std::size_t pixels_of_cell = std::size_t{1} << 2 * BIN_BITS;
 constexpr std::size_t most_lanes = 16;
 constexpr std::size_t most_items_for_late = 4096;  // there are seldom any seeds that share a pixel
 constexpr std::size_t word = sizeof(std::uint32_t);
 
 std::size_t cells_along(int pixels, int level) {
-  const int bits = CELL_BITS + FAN_BITS * level;
+  const int bits = BIN_BITS + FAN_BITS * level;
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
@@ -28,7 +28,7 @@ std::size_t cells(const Grid& grid, int level) {
 
 int top_level(const Grid& grid) {
   int level = 0;
-  while (cells(grid, level) > TOP_CELLS) ++level;
+  while (cells(grid, level) > TOP_BINS) ++level;
   return level;
 }
 
@@ -101,9 +101,9 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   fill(device, late_count, cl_uint{0}, 1);
   fill(device, listed, cl_uint{0}, 1);
   kernel("set_bits").over_items(count, seeds.positions(), count, bits, places, late, late_count, width);
-  kernel("name_seeds").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
+  kernel("find_representatives").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
-    kernel("name_seeds_above").over_items(cells(grid, level), pyramid, width, height, level);
+    kernel("find_representatives_above").over_items(cells(grid, level), pyramid, width, height, level);
   }
   kernel("share_out_list").over_items(down, starts, listed, width, height);
   kernel("start_words").over_items(cells(grid, 0), bits, starts, word_starts, width, height);

@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "brute_force.hpp"
-#include "csv.hpp"
-#include "in_place_scatter.hpp"
+#include "formats/csv.hpp"
 #include "run_command.hpp"
-#include "seed_spread.hpp"
+#include "studies/in_place_scatter.hpp"
+#include "studies/seed_spread.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "formats/label_files.hpp"
 #include "host_measures.hpp"
-#include "label_file.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"

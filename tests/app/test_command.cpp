@@ -7,7 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "brute_force.hpp"
-#include "label_file.hpp"
+#include "formats/label_files.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;

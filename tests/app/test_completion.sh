@@ -3,7 +3,7 @@
 set -euo pipefail
 command=$1
 # shellcheck disable=SC1091
-source "$(dirname "$0")/../tools/vorocl.bash"
+source "$(dirname "$0")/../../tools/vorocl.bash"
 
 # Completes the last of the words, and compares: expect "WANTED ..." WORD...
 expect() {

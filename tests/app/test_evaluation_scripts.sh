@@ -3,7 +3,7 @@
 # python3-matplotlib is not installed.
 set -euo pipefail
 command=$1
-tools=$(dirname "$(realpath "$0")")/../tools
+scripts=$(dirname "$(realpath "$0")")/../../tools/studies/paper
 /usr/bin/python3 -c 'import matplotlib' 2>/dev/null || { echo "python3-matplotlib is not installed: skipped"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
@@ -13,13 +13,13 @@ is_png() { [ "$(head -c 4 "$1")" = $'\x89PNG' ] || { echo "$1 is no picture"; ex
 refuses() { # refuses TEXT SCRIPT ARGUMENT...: one line, which says TEXT
   local text=$1
   shift
-  if "$tools/$1" "${@:2}" >/dev/null 2>said; then echo "$* was done"; exit 1; fi
+  if "$scripts/$1" "${@:2}" >/dev/null 2>said; then echo "$* was done"; exit 1; fi
   if [ "$(wc -l <said)" -ne 1 ] || ! grep -qF "$text" said; then echo "\"$text\" was wanted, and it said:"; cat said; exit 1; fi
 }
 
 # Lengths of regions, against a loop over the pixels.
 "$command" render --random 60 --size 57x40 --method exact --labels labels.npy -o labels.png >/dev/null
-"$tools/plot_region_lengths.py" labels.npy -o lengths.png >lengths.csv
+"$scripts/plot_region_lengths.py" labels.npy -o lengths.png >lengths.csv
 is_png lengths.png
 /usr/bin/python3 - <<'PYTHON'
 import csv
@@ -50,7 +50,7 @@ PYTHON
 refuses 'missing.npy' plot_region_lengths.py missing.npy -o a.png
 refuses 'labels.png' plot_region_lengths.py labels.png -o a.png
 
-"$tools/montage.py" -o montage.png --columns 2 "one=labels.png" "" "two=lengths.png"
+"$scripts/montage.py" -o montage.png --columns 2 "one=labels.png" "" "two=lengths.png"
 is_png montage.png
 refuses 'missing.png' montage.py -o a.png "one=missing.png"
 
@@ -60,14 +60,14 @@ refuses 'missing.png' montage.py -o a.png "one=missing.png"
 for name in machine lengths similarity times published ablation; do
   printf 'before %s\n<!-- table %s -->\nold\n<!-- end -->\n' "$name" "$name"
 done >document.md
-"$tools/evaluation_tables.py" document.md .
+"$scripts/evaluation_tables.py" document.md .
 [ "$(grep -c '^before' document.md)" -eq 6 ] || { echo "text around the tables is gone"; exit 1; }
 ! grep -q '^old' document.md || { echo "an old table has stayed"; exit 1; }
 rows() { sed -n "/<!-- table $1 -->/,/<!-- end -->/p" document.md | grep -c '^| '; }
 [ "$(rows times) $(rows similarity) $(rows ablation) $(rows lengths)" = "6 6 29 4" ] || { echo "rows are missing:"; cat document.md; exit 1; }
 grep -q 'speedup of dJFAe, 1,000², 100 pixels a seed | 2.1 × | not run' document.md
 cp document.md again.md
-"$tools/evaluation_tables.py" again.md .
+"$scripts/evaluation_tables.py" again.md .
 cmp document.md again.md
 sed -i '/table times/d' document.md
 refuses 'must have one place "<!-- table times -->"' evaluation_tables.py document.md .

@@ -6,9 +6,9 @@
 #include <map>
 #include <set>
 
+#include "app/outputs/painter.hpp"
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "painter.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

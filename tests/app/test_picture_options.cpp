@@ -3,8 +3,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "app/options/picture_options.hpp"
 #include "brute_force.hpp"
-#include "picture_options.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"
 

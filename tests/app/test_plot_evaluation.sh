@@ -2,7 +2,7 @@
 # The figures of a tiny evaluation: test_plot_evaluation.sh COMMAND. Exits with 77 where python3-matplotlib is not installed.
 set -euo pipefail
 command=$1
-plot=$(dirname "$(realpath "$0")")/../tools/plot_evaluation.py
+plot=$(dirname "$(realpath "$0")")/../../tools/studies/paper/plot_evaluation.py
 /usr/bin/python3 -c 'import matplotlib' 2>/dev/null || { echo "python3-matplotlib is not installed: skipped"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -9,8 +9,8 @@
 #include <opencv2/videoio.hpp>
 #include <thread>
 
+#include "formats/label_files.hpp"
 #include "host_measures.hpp"
-#include "label_file.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"

@@ -4,8 +4,8 @@
 
 #include <regex>
 
+#include "formats/label_files.hpp"
 #include "host_measures.hpp"
-#include "label_file.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"

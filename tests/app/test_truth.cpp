@@ -5,8 +5,8 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "opencv_peer.hpp"
-#include "truth.hpp"
+#include "studies/ground_truth.hpp"
+#include "studies/opencv_baseline.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

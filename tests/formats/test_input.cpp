@@ -5,11 +5,11 @@
 #include <limits>
 #include <opencv2/imgcodecs.hpp>
 
-#include "csv.hpp"
+#include "app/sources/seed_input.hpp"
 #include "fixture.hpp"
-#include "input.hpp"
-#include "mask.hpp"
-#include "npy.hpp"
+#include "formats/csv.hpp"
+#include "formats/mask.hpp"
+#include "formats/npy.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;

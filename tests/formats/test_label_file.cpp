@@ -3,11 +3,11 @@
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
 
-#include "files.hpp"
+#include "app/terminal/usage_error.hpp"
 #include "fixture.hpp"
-#include "label_file.hpp"
+#include "formats/files.hpp"
+#include "formats/label_files.hpp"
 #include "temporary_folder.hpp"
-#include "usage_error.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

@@ -1,9 +1,9 @@
 // .vti and .pvd files, with a straight parser; check_vtk.sh reads them with VTK.
 #define BOOST_TEST_MODULE vtk_files
 #include "fixture.hpp"
-#include "label_file.hpp"
+#include "formats/label_files.hpp"
+#include "formats/vtk.hpp"
 #include "raw_images.hpp"
-#include "vtk_files.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

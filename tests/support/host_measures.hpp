@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "label_image.hpp"
+#include "formats/label_image.hpp"
 #include "measured_cases.hpp"
-#include "numbers.hpp"
+#include "formats/numbers.hpp"
 #include "temporary_folder.hpp"
 
 namespace vorocl {

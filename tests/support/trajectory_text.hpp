@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "temporary_folder.hpp"
-#include "trajectory.hpp"
+#include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
 

@@ -1,0 +1,195 @@
+// vorocl evaluate: the paper's experiment over grid sizes and numbers of seeds, as one table.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/commands/commands.hpp"
+#include "app/commands/finish_at_end.hpp"
+#include "app/options/options.hpp"
+#include "app/terminal/interruption.hpp"
+#include "app/terminal/progress.hpp"
+#include "studies/evaluation.hpp"
+#include "studies/evaluation_file.hpp"
+#include "studies/evaluation_plan.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+struct EvaluateOptions {
+  std::vector<int> sides;  // empty: the usual ones
+  std::vector<SeedCount> seeds;
+  bool full = false;
+  EvaluationSettings settings;
+  std::string path;
+  bool resume = false;
+  std::string device;
+  bool json = false;
+};
+
+/// Up to the paper's largest grid with --full; without it, what two cores do in some minutes.
+std::vector<int> sides_of(const EvaluateOptions& options) {
+  if (!options.sides.empty()) return options.sides;
+  if (options.full) return {1000, 2000, 5000, 10000, 15000, 20000};
+  return {500, 1000, 2000};
+}
+
+/// From 20,000 to 16 pixels a seed.
+std::vector<SeedCount> seeds_of(const EvaluateOptions& options) {
+  if (!options.seeds.empty()) return options.seeds;
+  std::vector<SeedCount> counts;
+  for (const char* text : {"0.005%", "0.01%", "0.05%", "0.1%", "0.5%", "1%", "3%", "6.25%"}) {
+    counts.push_back(parse_seed_count(text));
+  }
+  return counts;
+}
+
+/// How much of the evaluation is done, in pixels of diagrams.
+class Course {
+ public:
+  Course(const std::vector<Configuration>& configurations, const EvaluationSettings& settings) {
+    for (const Configuration& configuration : configurations) {
+      all_ += diagrams_of(settings) * static_cast<double>(configuration.pixels());
+    }
+  }
+
+  /// Throws Error once Ctrl-C has come.
+  void made(const Configuration& configuration, int diagrams) {
+    done_ += diagrams * static_cast<double>(configuration.pixels());
+    frames_ += diagrams;
+    progress_.show(frames_, done_ / all_);
+    if (interruption_.came()) throw Error("interrupted");
+  }
+  void erase_progress() { progress_.erase(); }
+
+ private:
+  Interruption interruption_;
+  Progress progress_;
+  double all_ = 0;
+  double done_ = 0;
+  int frames_ = 0;
+};
+
+void print_table_head() {
+  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "", "", "pixels", "JFA",
+             "speedup", "speedup", "speedup", "similarity %", "wrong %", "wrong %");
+  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "n", "seeds", "a seed",
+             "ms/frame", "dJFAe", "dJFAm", "exact", "dJFAe to JFA", "JFA", "dJFAe");
+}
+
+void print_table_row(const Configuration& configuration, const EvaluationSettings& settings,
+                     const ConfigurationResult& result) {
+  const auto euclidean = Metric::euclidean;
+  const MethodResult& jfa = result.of("jfa", euclidean);
+  const MethodResult& djfa = result.of("djfa", euclidean);
+  const double jfa_time = jfa.milliseconds.median();
+  const auto speedup = [&](const MethodResult& of) { return jfa_time / of.milliseconds.median(); };
+  fmt::print("{:>6} {:>10} {:>13.1f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>13.4f} {:>13.4f} {:>13.4f}\n",
+             configuration.side, configuration.seeds,
+             static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds),
+             jfa_time / settings.timed_frames, speedup(djfa), speedup(result.of("djfa", Metric::manhattan)),
+             speedup(result.of("exact", euclidean)), djfa.similarity_to_euclidean_jfa.mean(),
+             jfa.errors.wrong_percent.mean(), djfa.errors.wrong_percent.mean());
+  std::fflush(stdout);
+}
+
+/// Those that the file does not have yet.
+std::vector<Configuration> missing(const std::vector<Configuration>& wanted, const EvaluationFile& file) {
+  std::vector<Configuration> missing;
+  for (const Configuration& configuration : wanted) {
+    if (!file.has(configuration)) missing.push_back(configuration);
+  }
+  return missing;
+}
+
+/// Four diagrams of flooding (13 bytes a pixel) and two exact ones (5.3) are there at a time, and the sum is
+/// not known to the driver, which may promise more than there is. Throws Error that names the first grid too
+/// large.
+void check_memory(const Device& device, const std::vector<Configuration>& wanted) {
+  constexpr double bytes_a_pixel = 64;
+  cl_ulong there = 0;
+  clGetDeviceInfo(device.cl_device()(), CL_DEVICE_GLOBAL_MEM_SIZE, sizeof there, &there, nullptr);
+  for (const Configuration& configuration : wanted) {
+    const double needed = bytes_a_pixel * static_cast<double>(configuration.pixels());
+    if (needed <= static_cast<double>(there)) continue;
+    throw Error(fmt::format(
+        "too little device memory for {0} x {0} pixels: the methods together need {1:.1f} GiB, "
+        "{2} has {3:.1f} GiB; take smaller --sizes",
+        configuration.side, needed / (1 << 30), device.name(), static_cast<double>(there) / (1 << 30)));
+  }
+}
+
+void evaluate_all(const EvaluateOptions& options, const std::vector<Configuration>& todo,
+                  const Device& device, EvaluationFile& file) {
+  if (!options.json && !todo.empty()) print_table_head();
+  Course course(todo, options.settings);
+  for (const Configuration& configuration : todo) {
+    const ConfigurationResult result = evaluate(device, configuration, options.settings,
+                                                [&](int diagrams) { course.made(configuration, diagrams); });
+    file.add(configuration, result);
+    course.erase_progress();
+    if (!options.json) print_table_row(configuration, options.settings, result);
+  }
+}
+
+void run(const EvaluateOptions& options) {
+  const std::vector<Configuration> wanted = configurations(sides_of(options), seeds_of(options));
+  EvaluationFile file(options.path, options.resume);
+  const Device device = Device::select(options.device);
+  const FinishAtEnd finish(device);
+  check_memory(device, wanted);
+  file.begin(origin_of(device, options.settings));
+  const std::vector<Configuration> todo = missing(wanted, file);
+  const auto complete = [&] { return wanted.size() - missing(wanted, file).size(); };
+  try {
+    evaluate_all(options, todo, device, file);
+  } catch (const std::exception& error) {  // ours, or out of memory
+    throw Error(
+        fmt::format("{}; of {} configurations {} are complete in {}, and --resume goes on with the rest",
+                    error.what(), wanted.size(), complete(), file.path()));
+  }
+  if (options.json) {
+    const nlohmann::ordered_json result = {{"device", device.name()},
+                                           {"configurations", wanted.size()},
+                                           {"made_before", wanted.size() - todo.size()},
+                                           {"file", file.path()}};
+    fmt::print("{}\n", result.dump());
+  } else {
+    fmt::print("{} configurations, {} of them made before, on {}: wrote {}\n", wanted.size(),
+               wanted.size() - todo.size(), device.name(), file.path());
+  }
+}
+
+}  // namespace
+
+void add_evaluate(CLI::App& app) {
+  const auto options = std::make_shared<EvaluateOptions>();
+  CLI::App* const command = app.add_subcommand(
+      "evaluate",
+      "The paper's experiment: JFA, dJFA and exact diagrams of moving seeds, in accuracy and time");
+  command->add_option("-o", options->path, "Table to write: a .csv file that grows with each configuration")
+      ->type_name("FILE")
+      ->required();
+  command->add_flag("--resume", options->resume, "Go on with the file where it is there already");
+  add_list(*command, "--sizes", options->sides, parse_side, "Grids, of n x n pixels")
+      ->type_name("n,...")
+      ->default_str("500,1000,2000");
+  add_list(*command, "--seeds", options->seeds, parse_seed_count,
+           "Numbers of seeds, or percentages of the pixels")
+      ->type_name("S|P%,...")
+      ->default_str("eight from 0.005% to 6.25%");
+  command->add_flag("--full", options->full,
+                    "The paper's range, for a GPU: grids up to 20000 x 20000 pixels, timed over all frames");
+  add_settings_options(*command, options->settings);
+  add_device_option(*command, options->device);
+  add_json_option(*command, options->json);
+  command->callback([command, options] {
+    if (options->full && command->count("--timed-frames") == 0) {
+      options->settings.timed_frames = options->settings.frames;
+    }
+    run(*options);
+  });
+}
+
+}  // namespace vorocl::command

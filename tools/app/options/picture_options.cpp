@@ -1,0 +1,150 @@
+#include "app/options/picture_options.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "app/options/options.hpp"
+#include "app/terminal/usage_error.hpp"
+#include "formats/images/quiet_standard_error.hpp"
+#include "formats/numbers.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+constexpr int most_enlarged = 1000;
+
+const Choices<Quantity> quantities = {{"id", Quantity::id},
+                                      {"distance", Quantity::distance},
+                                      {"area", Quantity::area},
+                                      {"neighbours", Quantity::neighbours},
+                                      {"column:NAME", Quantity::column}};
+
+Coloring parse_coloring(const std::string& text) {
+  const std::string column = "column:";
+  if (text.compare(0, column.size(), column) != 0) return {choose(quantities, text), ""};
+  const std::string name(trimmed(text.substr(column.size())));
+  if (name.empty()) throw Error("\"" + text + "\" names no column; give column:NAME");
+  return {Quantity::column, name};
+}
+
+std::optional<double> parse_interval(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const auto interval = parse_number<double>(text);
+  if (!interval || !std::isfinite(*interval) || *interval < 1) {
+    throw Error("\"" + text + "\" must be a number of pixels, at least 1");
+  }
+  return interval;
+}
+
+}  // namespace
+
+void add_picture_options(CLI::App& app, PictureOptions& options) {
+  const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis},
+                                                    {"turbo", Palette::turbo},
+                                                    {"greys", Palette::greys},
+                                                    {"okabe-ito", Palette::okabe_ito}};
+  add_parsed(app, "--color", options.color, parse_coloring,
+             "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
+             "number of neighbours, or a column of the CSV file or the trajectory (grey where a value is "
+             "absent): " +
+                 names_of(quantities))
+      ->type_name("NAME")
+      ->default_str("id");
+  add_choice(
+      app, "--palette", options.palette, palettes,
+      "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
+      "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
+      "have a colour each)");
+  add_parsed(app, "--scale", options.scale, parse_scale,
+             "Values at the ends of the palette; those beyond get the colours of the ends. Else the range of "
+             "the picture, in a film or series of the first one drawn")
+      ->type_name("LOW,HIGH");
+  app.add_flag("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
+  app.add_option("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
+      ->type_name("[N]")
+      ->expected(0, 1)
+      ->default_str("1")
+      ->check(CLI::Range(1, widest_edge));
+  const auto set_contours = [&options](const std::string& text) {
+    options.contours = true;
+    return parse_interval(text);
+  };
+  add_parsed(app, "--contours", options.contour_interval, set_contours,
+             "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
+             "number that makes at most 10 lines in the first picture")
+      ->type_name("[D]")
+      ->expected(0, 1);
+  app.add_flag("--points-overlay", options.points_overlay, "Draw the seeds");
+  app.add_option("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
+      ->type_name("K")
+      ->check(CLI::Range(1, most_enlarged))
+      ->capture_default_str();
+}
+
+void refuse_picture_options(const CLI::App& app, const std::string& files) {
+  for (const char* name : {"--color", "--palette", "--scale", "--color-bar", "--edges", "--contours",
+                           "--points-overlay", "--enlarge"}) {
+    if (app.count(name) > 0) throw UsageError(std::string(name) + " requires " + files);
+  }
+}
+
+const std::vector<std::string>& picture_extensions() {
+  static const std::vector<std::string> all = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
+  return all;
+}
+
+void check_picture_options(const PictureOptions& options) {
+  const bool by_id = options.color.quantity == Quantity::id;
+  const bool is_continuous =
+      options.color.quantity == Quantity::distance || options.color.quantity == Quantity::area;
+  if (by_id && options.palette && !is_categorical(*options.palette)) {
+    throw UsageError(
+        "this --palette is for quantities, such as --color distance; ids take okabe-ito, or none");
+  }
+  if (is_continuous && options.palette && is_categorical(*options.palette)) {
+    throw UsageError(
+        "--palette okabe-ito is for ids and whole numbers, and distances and areas are continuous "
+        "quantities; "
+        "take viridis, turbo or greys");
+  }
+  const char* const of_quantities = options.color_bar ? "--color-bar" : options.scale ? "--scale" : nullptr;
+  if (by_id && of_quantities != nullptr) {
+    throw UsageError(of_quantities + std::string(" needs a --color that is a quantity: distance, area, "
+                                                 "neighbours or column:NAME"));
+  }
+}
+
+void check_picture_size(const PictureOptions& options, const Grid& grid) {
+  const int most = Grid::max_side / grid.longest_side();
+  if (options.enlargement > most) {
+    throw UsageError(
+        fmt::format("--enlarge {} of {} x {} pixels makes too large a picture; at most {} is possible",
+                    options.enlargement, grid.width(), grid.height(), most));
+  }
+}
+
+Scale parse_scale(const std::string& text) {
+  const auto comma = text.find(',');
+  const auto low = parse_number<double>(text.substr(0, comma));
+  const auto high = comma == std::string::npos ? std::nullopt : parse_number<double>(text.substr(comma + 1));
+  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
+    throw Error("\"" + text +
+                "\" must be LOW,HIGH, two numbers of which the second is greater, such as 0,100");
+  }
+  return {*low, *high};
+}
+
+void write_picture(const std::string& path, const cv::Mat& picture) {
+  const QuietStandardError quiet;
+  bool written = false;
+  try {
+    written = cv::imwrite(path, picture);
+  } catch (const cv::Exception&) {  // its text names OpenCV's own source lines
+  }
+  if (!written) throw Error("writing " + path + " failed");
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,132 @@
+#include "app/outputs/diagram_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+
+#include "app/options/picture_options.hpp"
+#include "formats/files.hpp"
+#include "formats/label_files.hpp"
+#include "formats/npy.hpp"
+#include "formats/tiff.hpp"
+#include "formats/vtk.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+void write_label_file(const std::string& path, Analysis& analysis) { write_labels(path, analysis.named()); }
+
+std::string row_of(const CellMeasures& cell, Metric metric) {
+  std::string extent = ",,,,,", distance;
+  if (cell.sums.area > 0) {
+    const Point centroid = cell.sums.centroid();
+    const CellShape& shape = cell.shape;
+    extent = fmt::format("{},{},{},{},{},{}", centroid.x, centroid.y, shape.left, shape.top, shape.right,
+                         shape.bottom);
+    distance = metric == Metric::euclidean ? fmt::format("{}", std::sqrt(shape.largest_distance))
+                                           : fmt::format("{}", shape.largest_distance);
+  }
+  return fmt::format("{},{},{},{},{},{},{},{},{}\n", cell.id, cell.seed.x, cell.seed.y, cell.sums.area,
+                     extent, cell.perimeter, cell.neighbours, distance, cell.shape.touches_border ? 1 : 0);
+}
+
+void write_cell_file(const std::string& path, Analysis& analysis) {
+  std::ofstream file = open_to_write(path);
+  file << "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
+          "touches_border\n";
+  for (const CellMeasures& cell : analysis.cells()) file << row_of(cell, analysis.metric());
+  check_written(file, path);
+}
+
+void write_adjacency_file(const std::string& path, Analysis& analysis) {
+  std::ofstream file = open_to_write(path);
+  file << "a,b,length\n";
+  for (const CellPair& pair : analysis.pairs())
+    file << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
+  check_written(file, path);
+}
+
+void write_distance_file(const std::string& path, Analysis& analysis) {
+  const std::vector<float>& distances = analysis.distances();
+  const std::string extension = extension_of(path);
+  if (extension == ".npy") {
+    write_npy(path, analysis.grid(), distances);
+  } else if (extension == ".vti") {
+    write_vti(path, "distance", analysis.grid(), distances);
+  } else {
+    write_tiff(path, analysis.grid(), distances);
+  }
+}
+
+void write_border_file(const std::string& path, Analysis& analysis) {
+  std::vector<std::uint8_t> borders = analysis.borders();
+  const std::string extension = extension_of(path);
+  if (extension == ".npy") {
+    write_npy(path, analysis.grid(), borders);
+  } else if (extension == ".vti") {
+    write_vti(path, "border", analysis.grid(), borders);
+  } else {
+    const cv::Mat mask(analysis.grid().height(), analysis.grid().width(), CV_8U, borders.data());
+    write_picture(path, 255 * mask);
+  }
+}
+
+}  // namespace
+
+const FileKind& labels_kind() {
+  static const FileKind kind = {
+      "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards from the lower left corner)",
+      label_extensions(), write_label_file};
+  return kind;
+}
+
+const FileKind& cells_kind() {
+  static const FileKind kind = {
+      "--cells",
+      "A .csv file with a row a cell: its area, centroid, extent, perimeter, neighbours",
+      {".csv"},
+      write_cell_file};
+  return kind;
+}
+
+const FileKind& adjacency_kind() {
+  static const FileKind kind = {
+      "--adjacency",
+      "A .csv file with a row a pair of cells that touch: their ids and the pixel edges they share",
+      {".csv"},
+      write_adjacency_file};
+  return kind;
+}
+
+const FileKind& distance_kind() {
+  static const FileKind kind = {
+      "--distance",
+      "Distances to the nearest seed, in pixels: .npy (float32), .tif (32-bit float) or .vti (y upwards "
+      "from the lower left corner)",
+      {".npy", ".tif", ".tiff", ".vti"},
+      write_distance_file};
+  return kind;
+}
+
+const FileKind& border_kind() {
+  static const FileKind kind = {
+      "--border",
+      "1 where a pixel's edge is shared with another cell, else 0: .npy (uint8), .vti, or .png (white for 1)",
+      {".npy", ".png", ".vti"},
+      write_border_file};
+  return kind;
+}
+
+void add_file_options(CLI::App& app, std::vector<FileRequest>& requests, bool numbered) {
+  for (FileRequest& request : requests) {
+    const FileKind& kind = request.kind;
+    std::string example;
+    if (numbered) example = fmt::format("; a file a frame, such as frames/%05d{}", kind.extensions.front());
+    if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
+    app.add_option(kind.option, request.path, kind.about + example)->type_name(numbered ? "FILES" : "FILE");
+  }
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,33 @@
+#include "app/outputs/frame_files.hpp"
+
+#include <filesystem>
+#include <regex>
+
+namespace vorocl::command {
+
+namespace fs = std::filesystem;
+
+std::string collection_path(const FileRequest& request) {
+  if (extension_of(request.path) != ".vti") return {};
+  const fs::path pattern(request.path);
+  std::string name = std::regex_replace(pattern.stem().string(), std::regex("[-_.]*%(0[1-9])?d"), "");
+  if (name.empty()) name = request.kind.option.substr(2);
+  return (pattern.parent_path() / (name + ".pvd")).string();
+}
+
+FrameFiles::FrameFiles(const FileRequest& request) : request_(request), files_(request.path) {
+  const std::string collection = collection_path(request);
+  if (!collection.empty()) collection_.emplace(collection);
+}
+
+void FrameFiles::add(int frame, std::int64_t time, Analysis& analysis) {
+  const OutputFile file = files_.file(frame);
+  file.write([&](const std::string& path) { request_.kind.write(path, analysis); });
+  if (collection_) listed_.push_back({time, fs::path(file.path()).filename().string()});
+}
+
+void FrameFiles::finish() const {
+  if (collection_) collection_->write([&](const std::string& path) { write_pvd(path, listed_); });
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,38 @@
+// Numbered files of one kind, and the collection that lists those that ParaView opens.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/outputs/diagram_files.hpp"
+#include "formats/numbered_files.hpp"
+#include "formats/vtk.hpp"
+
+namespace vorocl::command {
+
+/// The collection of .vti files of this kind: the pattern without its number, as l.pvd for l_%05d.vti, or the
+/// option's name where nothing is left. Empty for other files.
+std::string collection_path(const FileRequest& request);
+
+/// Each numbered file is whole as soon as it is there.
+class FrameFiles {
+ public:
+  /// Throws UsageError for a pattern that cannot be meant, Error if no file can be made there.
+  explicit FrameFiles(const FileRequest& request);
+
+  /// Writes the file of a frame, which shows this time.
+  void add(int frame, std::int64_t time, Analysis& analysis);
+
+  /// Writes the collection.
+  void finish() const;
+
+ private:
+  FileRequest request_;
+  NumberedFiles files_;
+  std::optional<OutputFile> collection_;
+  std::vector<TimedFile> listed_;
+};
+
+}  // namespace vorocl::command

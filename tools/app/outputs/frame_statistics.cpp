@@ -1,0 +1,28 @@
+#include "app/outputs/frame_statistics.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <numeric>
+
+namespace vorocl::command {
+
+FrameStatistics::FrameStatistics(const std::string& path) : file_(path) {
+  file_.stream() << "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds\n";
+}
+
+void FrameStatistics::add(int frame, double milliseconds, Analysis& analysis) {
+  const CellStatistics statistics = analysis.statistics();
+  // Counted here and not on the device, where a particle's label may be another's in the next frame.
+  const std::vector<std::uint32_t>& labels = analysis.named().labels;
+  std::string changed;
+  if (!last_labels_.empty()) {
+    changed = fmt::format("{}", std::inner_product(labels.begin(), labels.end(), last_labels_.begin(),
+                                                   std::size_t{0}, std::plus<>(), std::not_equal_to<>()));
+  }
+  last_labels_ = labels;
+  file_.stream() << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
+                                statistics.mean_area, statistics.area_deviation, changed, milliseconds);
+}
+
+}  // namespace vorocl::command

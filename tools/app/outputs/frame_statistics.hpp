@@ -1,0 +1,28 @@
+// A table of the diagrams' statistics, a row a frame.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/outputs/measures.hpp"
+#include "formats/files.hpp"
+
+namespace vorocl::command {
+
+class FrameStatistics {
+ public:
+  /// Throws Error if the file cannot be made there.
+  explicit FrameStatistics(const std::string& path);
+
+  /// Every frame, in order; `milliseconds` is the device's time for its diagram.
+  void add(int frame, double milliseconds, Analysis& analysis);
+
+  void finish() { file_.finish(); }
+
+ private:
+  GrowingFile file_;
+  std::vector<std::uint32_t> last_labels_;  // by id, of the frame before; empty: there is none
+};
+
+}  // namespace vorocl::command

@@ -1,0 +1,85 @@
+// A diagram and all that is measured of it, by the ids that files have.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "formats/label_image.hpp"
+#include "vorocl/analysis.hpp"
+
+namespace vorocl::command {
+
+/// The device's memory of measurements: with one for all frames, later frames allocate nothing.
+struct AnalysisBuffers {
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  AdjacencyResult adjacency;
+  Field<float> distances;
+  Field<std::uint8_t> borders;
+};
+
+/// What is known of a cell.
+struct CellMeasures {
+  std::uint32_t id = 0;
+  Point seed;
+  CellSums sums;
+  CellShape shape;
+  std::uint32_t neighbours = 0;
+  std::uint32_t perimeter = 0;  ///< pixel edges shared with other cells
+};
+
+/// Measures of one diagram. Each is made when it is first asked for, and waits; all throw as the library's
+/// functions of the same names.
+class Analysis {
+ public:
+  /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. Keeps
+  /// references to all but the metric.
+  Analysis(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids, Metric metric,
+           AnalysisBuffers& buffers);
+
+  const Grid& grid() const { return diagram_.grid(); }
+  Metric metric() const { return metric_; }
+
+  /// The labels as the diagram has them, and as files have them.
+  const LabelImage& image();
+  const LabelImage& named();
+
+  /// By label, absent seeds included: where it is, as Seeds::read() gives it; the pixels of its cell; the
+  /// cells that share a pixel edge with that.
+  const std::vector<std::optional<Point>>& seeds();
+  std::vector<double> areas();
+  std::vector<double> neighbours();
+
+  /// Sorted by id; no absent seeds.
+  std::vector<CellMeasures> cells();
+
+  /// Sorted by a and then b, a < b.
+  std::vector<CellPair> pairs();
+  std::size_t pair_count();
+  std::size_t vertices() const { return count_vertices(diagram_); }
+  CellStatistics statistics();
+
+  /// Row-major.
+  const std::vector<float>& distances();
+  std::vector<std::uint8_t> borders();
+
+ private:
+  std::uint32_t id_of(std::size_t label) const;
+  const AdjacencyResult& adjacency_result();
+  CellSumsResult& sums_result();
+
+  const Seeds& seeds_;
+  const Diagram& diagram_;
+  const std::vector<std::uint32_t>& ids_;
+  Metric metric_;
+  AnalysisBuffers& buffers_;
+  bool has_sums_ = false;
+  bool has_adjacency_ = false;
+  std::optional<LabelImage> image_;
+  std::optional<LabelImage> named_;
+  std::optional<std::vector<std::optional<Point>>> points_;
+  std::optional<std::vector<float>> distances_;
+};
+
+}  // namespace vorocl::command

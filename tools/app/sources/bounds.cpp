@@ -1,0 +1,108 @@
+#include "app/sources/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/terminal/console.hpp"
+#include "formats/numbers.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+std::string describe(std::size_t index, const Point& point) {
+  return fmt::format("point {} at ({}, {})", index, point.x, point.y);
+}
+
+/// Written in the order of operations that is documented, so that rounding is the same everywhere.
+int pixel(double value, double low, double high, int count) {
+  if (low == high) return count / 2;
+  const double position = std::floor((value - low) * count / (high - low));
+  return std::min(static_cast<int>(position), count - 1);
+}
+
+}  // namespace
+
+Bounds parse_bounds(const std::string& text) {
+  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 <= X1 and Y0 <= Y1");
+  std::vector<double> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto comma = std::min(text.find(',', begin), text.size());
+    const auto value = parse_number<double>(std::string_view(text).substr(begin, comma - begin));
+    if (!value || !std::isfinite(*value)) throw error;
+    values.push_back(*value);
+    begin = comma + 1;
+  }
+  if (values.size() != 4 || values[0] > values[2] || values[1] > values[3]) throw error;
+  return {values[0], values[1], values[2], values[3]};
+}
+
+std::string to_string(const Bounds& bounds) {
+  return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
+}
+
+Bounds bounding_box(const std::vector<Point>& points) {
+  Bounds box{points.at(0).x, points[0].y, points[0].x, points[0].y};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& point = points[i];
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      throw Error(describe(i, point) + " is not finite");
+    }
+    box = {std::min(box.x0, point.x), std::min(box.y0, point.y), std::max(box.x1, point.x),
+           std::max(box.y1, point.y)};
+  }
+  return box;
+}
+
+Grid grid_of_width(const Bounds& bounds, int width) {
+  if (bounds.x0 == bounds.x1) {
+    throw Error("the bounds " + to_string(bounds) +
+                " have no width to scale by: give --size instead of --width");
+  }
+  const double height = std::round(width * (bounds.y1 - bounds.y0) / (bounds.x1 - bounds.x0));
+  if (height > Grid::max_side) {
+    throw Error(fmt::format(
+        "a width of {} makes a height of {:.0f} pixels with the bounds {}; at most {} are possible", width,
+        height, to_string(bounds), Grid::max_side));
+  }
+  return Grid(width, std::max(1, static_cast<int>(height)));
+}
+
+bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
+  const double x_extent = bounds.x1 - bounds.x0, y_extent = bounds.y1 - bounds.y0;
+  if (x_extent == 0 || y_extent == 0) return true;
+  const double wanted_height = std::max(1.0, grid.width() * y_extent / x_extent);
+  const double wanted_width = std::max(1.0, grid.height() * x_extent / y_extent);
+  return std::abs(grid.height() - wanted_height) <= 0.5 || std::abs(grid.width() - wanted_width) <= 0.5;
+}
+
+void warn_of_scales(const Bounds& bounds, const Grid& grid) {
+  if (has_square_pixels(bounds, grid)) return;
+  print_warning(
+      fmt::format("the bounds {} get different scales in x and y on {} x {} pixels, so the cells are not "
+                  "Voronoi cells in data units; --width {} keeps pixels square",
+                  to_string(bounds), grid.width(), grid.height(), grid.width()));
+}
+
+std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
+                             bool y_up) {
+  std::vector<Point> pixels;
+  pixels.reserve(points.size());
+  for (const Point& point : points) {
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
+      throw Error(describe(pixels.size(), point) + " is not finite");
+    }
+    if (point.x < bounds.x0 || point.x > bounds.x1 || point.y < bounds.y0 || point.y > bounds.y1) {
+      throw Error(describe(pixels.size(), point) + " is outside the bounds " + to_string(bounds));
+    }
+    const int column = pixel(point.x, bounds.x0, bounds.x1, grid.width());
+    const int row = pixel(point.y, bounds.y0, bounds.y1, grid.height());
+    pixels.push_back({column + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5});
+  }
+  return pixels;
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,108 @@
+#include "app/sources/moving_seeds.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "app/options/options.hpp"
+#include "app/sources/trajectory_seeds.hpp"
+#include "app/terminal/usage_error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// The paper's model: uniform steps.
+class RandomWalk : public MovingSeeds {
+ public:
+  RandomWalk(const SeedOptions& seeds, const MotionOptions& motion)
+      : input_(read_input(seeds)),
+        rng_seed_(seeds.rng_seed),
+        frames_(*motion.frames),
+        step_length_(*motion.step_length),
+        border_(motion.border) {}
+
+  Grid grid() const override { return input_.grid; }
+  Seeds place(const Device& device) const override { return input_.place(device); }
+  bool next() override {
+    if (frame_ == frames_) return false;
+    ++frame_;
+    return true;
+  }
+  double move(Seeds& seeds) const override {
+    random_step(seeds, step_length_, border_, rng_seed_, static_cast<std::uint32_t>(frame_));
+    return step_length_;
+  }
+  const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
+  const std::vector<double>& values() const override { return input_.values; }
+  std::optional<std::int64_t> timestep() const override { return std::nullopt; }
+  std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
+
+ private:
+  Input input_;
+  std::uint64_t rng_seed_;
+  int frames_;
+  int step_length_;
+  Border border_;
+  int frame_ = 0;
+};
+
+class Trajectory : public MovingSeeds {
+ public:
+  Trajectory(const SeedOptions& seeds, std::optional<int> frames)
+      : particles_(seeds), frames_(frames), bytes_(particles_.bytes_left()) {}
+
+  Grid grid() const override { return particles_.grid(); }
+  Seeds place(const Device& device) const override { return Seeds(device, grid(), particles_.points()); }
+  bool next() override {
+    if (frame_ == frames_ || !particles_.next()) return false;
+    ++frame_;
+    return true;
+  }
+  double move(Seeds& seeds) const override {
+    seeds.move_to(particles_.points());
+    return particles_.longest_step();
+  }
+  const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
+  const std::vector<double>& values() const override { return particles_.values(); }
+  std::optional<std::int64_t> timestep() const override { return particles_.timestep(); }
+  std::optional<double> done() const override {
+    const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
+    const auto left = particles_.bytes_left();
+    if (!bytes_ || !left || *bytes_ == 0) return frames_ ? std::optional<double>(of_frames) : std::nullopt;
+    return std::max(of_frames, 1 - static_cast<double>(*left) / static_cast<double>(*bytes_));
+  }
+
+ private:
+  TrajectorySeeds particles_;
+  std::optional<int> frames_;
+  std::optional<std::uintmax_t> bytes_;  // after frame 0
+  int frame_ = 0;
+};
+
+}  // namespace
+
+void add_motion_options(CLI::App& app, MotionOptions& options) {
+  app.add_option("--frames", options.frames, "Steps to make after frame 0; for a trajectory: at most")
+      ->type_name("A")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max() - 1));
+  CLI::Option* const trajectory = app.get_option("--trajectory");
+  app.add_option("--step-length", options.step_length,
+                 "Each seed moves by up to this many pixels along x and y in a step, at random")
+      ->type_name("D")
+      ->check(CLI::Range(0, Grid::max_side))
+      ->excludes(trajectory);
+  const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
+  add_choice(app, "--border", options.border, borders, "What seeds do there, moving at random")
+      ->default_str("reflect")
+      ->excludes(trajectory);
+}
+
+std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion) {
+  if (!seeds.trajectory.empty()) return std::make_unique<Trajectory>(seeds, motion.frames);
+  if (!motion.frames) throw UsageError("--frames A is required, except with --trajectory");
+  if (!motion.step_length) throw UsageError("--step-length D is required, except with --trajectory");
+  return std::make_unique<RandomWalk>(seeds, motion);
+}
+
+}  // namespace vorocl::command

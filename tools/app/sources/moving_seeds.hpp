@@ -1,0 +1,55 @@
+// Seeds with their motion: what a simulation is of.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "app/sources/seed_input.hpp"
+#include "vorocl/motion.hpp"
+
+namespace vorocl::command {
+
+struct MotionOptions {
+  std::optional<int> frames;
+  std::optional<int> step_length;
+  Border border = Border::reflect;
+};
+
+/// Adds --frames, --step-length and --border.
+void add_motion_options(CLI::App& app, MotionOptions& options);
+
+class MovingSeeds {
+ public:
+  virtual ~MovingSeeds() = default;
+  virtual Grid grid() const = 0;
+
+  /// The seeds of frame 0.
+  virtual Seeds place(const Device& device) const = 0;
+
+  /// Makes the next motion ready; false if there is none. Throws Error if a file is bad there.
+  virtual bool next() = 0;
+
+  /// Moves the seeds by it, and returns the longest motion along an axis, in pixels.
+  virtual double move(Seeds& seeds) const = 0;
+
+  /// The ids that labels carry, by seed; empty: the seeds' own.
+  virtual const std::vector<std::uint32_t>& ids() const = 0;
+
+  /// The values of the value column, by seed; NaN: absent.
+  virtual const std::vector<double>& values() const = 0;
+
+  /// What the file calls the time of the frame; none where it has no name for it.
+  virtual std::optional<std::int64_t> timestep() const = 0;
+
+  /// How much of the whole is done, 0 ... 1, as far as that is known.
+  virtual std::optional<double> done() const = 0;
+};
+
+/// Those of a trajectory, or seeds that move at random. Throws UsageError for options that do not go
+/// together, Error if a file is bad.
+std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion);
+
+}  // namespace vorocl::command

@@ -1,0 +1,54 @@
+// The seeds that a command line asks for, and the grid that they are on.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/sources/bounds.hpp"
+#include "formats/csv.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl::command {
+
+struct SeedOptions {
+  std::size_t random = 0;  // 0: not given, as are empty names
+  std::uint64_t rng_seed = 1;
+  std::string points;
+  std::string mask;
+  std::string trajectory;
+  int frame = 0;  // of the trajectory
+  std::optional<Grid> size;
+  int width = 0;
+  std::optional<Bounds> bounds;
+  bool y_up = false;
+  std::optional<Columns> columns;
+  std::string value_column;  // whose values are read with the points
+};
+
+/// Adds --random, --points, --mask, --trajectory (one of which is required) and what goes with them.
+/// Where seeds `move` at random, the rng seed has a use for all of them.
+void add_seed_options(CLI::App& app, SeedOptions& options, bool move = false);
+
+/// Adds --frame, for the subcommands that show one frame.
+void add_frame_option(CLI::App& app, SeedOptions& options);
+
+/// Seeds that have been read and checked, and need but a device.
+struct Input {
+  Grid grid;
+  std::function<Seeds(const Device&)> place;
+  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
+  std::vector<double> values;      // of the value column, by seed; NaN: absent
+};
+
+/// Reads and checks the files. Throws Error if one is bad, UsageError where no size is given; warns on
+/// standard error where the axes get different scales.
+Input read_input(const SeedOptions& options);
+
+/// "WxH" to a grid. Throws Error if it is not that, or not possible.
+Grid parse_size(const std::string& text);
+
+}  // namespace vorocl::command

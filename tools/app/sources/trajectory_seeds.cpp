@@ -1,0 +1,137 @@
+#include "app/sources/trajectory_seeds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+#include "app/sources/periodic_step.hpp"
+#include "app/sources/seed_input.hpp"
+#include "app/terminal/usage_error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+bool holds(const Bounds& bounds, const Point& point) {
+  return point.x >= bounds.x0 && point.x <= bounds.x1 && point.y >= bounds.y0 && point.y <= bounds.y1;
+}
+
+/// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
+/// pixel the first, which has the lowest id, exchanges with the one in the lowest slot, whose label the pixel
+/// carries.
+std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& pixels, const ParticleSlots& slots) {
+  std::vector<std::uint32_t> by_cell = slots.of_ids();
+  std::unordered_map<std::int64_t, std::size_t> first;  // of the particles on each pixel
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto pixel =
+        static_cast<std::int64_t>(pixels[i].y) * Grid::max_side + static_cast<std::int64_t>(pixels[i].x);
+    std::uint32_t& lowest = by_cell[first.emplace(pixel, i).first->second];
+    if (by_cell[i] < lowest) std::swap(by_cell[i], lowest);
+  }
+  return by_cell;
+}
+
+/// What the particles have, by slot; `absent` where there is none.
+template <typename T>
+std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std::uint32_t>& slots,
+                       std::size_t size, T absent) {
+  std::vector<T> result(size, absent);
+  for (std::size_t i = 0; i < of_particles.size(); ++i) result[slots[i]] = of_particles[i];
+  return result;
+}
+
+}  // namespace
+
+TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
+    : path_(options.trajectory), given_bounds_(options.bounds), grid_(options.size), y_up_(options.y_up) {
+  if (!options.size && options.width == 0) {
+    throw UsageError("--size WxH or --width W is required with --trajectory");
+  }
+  reader_ = open_trajectory(path_, options.value_column);
+  std::optional<Bounds> bounds;
+  while (number_ < start) {
+    if (!read()) {
+      throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
+                              path_, start, number_));
+    }
+    bounds = bounds_of_frame();
+  }
+  if (!grid_) grid_ = grid_of_width_in(bounds, options.width);
+  take_frame(bounds);
+}
+
+bool TrajectorySeeds::next() {
+  if (!read()) return false;
+  take_frame(bounds_of_frame());
+  return true;
+}
+
+bool TrajectorySeeds::read() {
+  if (!reader_->next(frame_)) return false;
+  ++number_;
+  return true;
+}
+
+std::optional<Bounds> TrajectorySeeds::bounds_of_frame() {
+  if (given_bounds_) return given_bounds_;
+  if (frame_.box) return Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
+  if (!first_bounds_ && !frame_.positions.empty()) first_bounds_ = bounding_box(frame_.positions);
+  return first_bounds_;
+}
+
+Grid TrajectorySeeds::grid_of_width_in(const std::optional<Bounds>& bounds, int width) const {
+  if (!bounds) {
+    throw Error(path_ +
+                ": the frame has neither a box nor particles to tell the height by: give --size "
+                "instead of --width, or --bounds");
+  }
+  try {
+    return grid_of_width(*bounds, width);
+  } catch (const Error& error) {
+    throw Error(path_ + ": " + error.what());
+  }
+}
+
+void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
+  std::vector<Point> pixels;
+  Periods periods;
+  if (bounds) {
+    check_inside(*bounds);
+    pixels = to_pixels(frame_.positions, *bounds, *grid_, y_up_);
+    if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, *grid_, y_up_);
+    if (!scales_checked_) warn_of_scales(*bounds, *grid_);
+    scales_checked_ = true;
+  }
+  slots_.update(frame_.ids);
+  std::vector<std::optional<Point>> points(slots_.size());
+  longest_step_ = 0;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const std::uint32_t slot = slots_.of_ids()[i];
+    points[slot] = pixels[i];
+    // A slot that was taken holds the same particle still.
+    if (slot < points_.size() && points_[slot]) {
+      longest_step_ = std::max(longest_step_, chebyshev_step(*points_[slot], pixels[i], periods));
+    }
+  }
+  points_ = std::move(points);
+  const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
+  ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
+  values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+void TrajectorySeeds::check_inside(const Bounds& bounds) const {
+  for (std::size_t i = 0; i < frame_.positions.size(); ++i) {
+    const Point& point = frame_.positions[i];
+    if (holds(bounds, point)) continue;
+    throw Error(
+        fmt::format("{}: particle {} of frame {} is at ({}, {}), outside the {} {}; give --bounds "
+                    "X0,Y0,X1,Y1 that hold the particles of all frames",
+                    path_, frame_.ids[i], number_, point.x, point.y,
+                    given_bounds_ ? "bounds" : "bounding box of the first frame,", to_string(bounds)));
+  }
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,77 @@
+// The particles of a trajectory as moving seeds: mapped to pixels, each in a slot of its own.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/sources/bounds.hpp"
+#include "app/sources/particle_slots.hpp"
+#include "formats/trajectory/trajectory.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl::command {
+
+struct SeedOptions;
+
+/// Holds one frame: memory does not grow with the number of frames.
+class TrajectorySeeds {
+ public:
+  /// Reads the first frames, up to the one to start from. Throws UsageError where no size is given, Error if
+  /// the file is bad or has fewer frames; warns on standard error where the axes get different scales.
+  explicit TrajectorySeeds(const SeedOptions& options, int start = 0);
+
+  const Grid& grid() const { return *grid_; }
+
+  /// Reads the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is bad
+  /// or has a particle outside the bounds.
+  bool next();
+
+  /// The seeds of the frame, by slot, to move_to() from.
+  const std::vector<std::optional<Point>>& points() const { return points_; }
+
+  /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
+  /// whose label the pixels carry, has the lowest id.
+  const std::vector<std::uint32_t>& ids() const { return ids_; }
+
+  /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
+  const std::vector<double>& values() const { return values_; }
+
+  /// The longest motion along an axis to this frame of a particle that was there before, in pixels; the
+  /// shorter way round where the box is periodic.
+  double longest_step() const { return longest_step_; }
+
+  /// The frame's time step, where the file has one.
+  std::optional<std::int64_t> timestep() const { return frame_.timestep; }
+
+  /// How much of the file is still to be read; none where that is not known.
+  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
+
+ private:
+  bool read();
+  /// None for a frame that has neither a box nor particles.
+  std::optional<Bounds> bounds_of_frame();
+  Grid grid_of_width_in(const std::optional<Bounds>& bounds, int width) const;
+  void take_frame(const std::optional<Bounds>& bounds);
+  void check_inside(const Bounds& bounds) const;
+
+  std::string path_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  std::optional<Bounds> given_bounds_;
+  std::optional<Bounds> first_bounds_;  // for frames without a box
+  std::optional<Grid> grid_;            // set by the constructor
+  bool y_up_;
+  bool scales_checked_ = false;
+
+  Frame frame_;
+  int number_ = -1;
+  ParticleSlots slots_;
+  std::vector<std::optional<Point>> points_;
+  std::vector<std::uint32_t> ids_;
+  std::vector<double> values_;
+  double longest_step_ = 0;
+};
+
+}  // namespace vorocl::command

@@ -1,0 +1,209 @@
+#include "formats/npy.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+
+#include "formats/files.hpp"
+#include "formats/numbers.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+const char magic[] = "\x93NUMPY";
+constexpr std::size_t magic_size = sizeof magic - 1;
+
+struct Header {
+  std::string type;  // such as "<f8"
+  std::vector<std::size_t> shape;
+};
+
+/// The size of a type's values and how to read one; bytes are taken as they are, so the host must be
+/// little-endian.
+struct Type {
+  std::size_t size;
+  double (*read)(const char* bytes);
+};
+
+template <typename T>
+Type type_of() {
+  return {sizeof(T), [](const char* bytes) {
+            T value;
+            std::memcpy(&value, bytes, sizeof value);
+            return static_cast<double>(value);
+          }};
+}
+
+const std::map<std::string, Type>& types() {
+  static const std::map<std::string, Type> all = {
+      {"|i1", type_of<std::int8_t>()},   {"|u1", type_of<std::uint8_t>()},  {"<i2", type_of<std::int16_t>()},
+      {"<u2", type_of<std::uint16_t>()}, {"<i4", type_of<std::int32_t>()},  {"<u4", type_of<std::uint32_t>()},
+      {"<i8", type_of<std::int64_t>()},  {"<u8", type_of<std::uint64_t>()}, {"<f4", type_of<float>()},
+      {"<f8", type_of<double>()}};
+  return all;
+}
+
+template <typename T>
+constexpr const char* type_name = nullptr;
+template <>
+constexpr const char* type_name<std::uint8_t> = "|u1";
+template <>
+constexpr const char* type_name<std::uint32_t> = "<u4";
+template <>
+constexpr const char* type_name<float> = "<f4";
+template <>
+constexpr const char* type_name<double> = "<f8";
+
+/// The text behind "'key':" in the header, a Python dictionary that NumPy writes in one line.
+std::string header_value(const std::string& header, const std::string& key, const std::string& path) {
+  const auto found = header.find("'" + key + "':");
+  if (found == std::string::npos) throw Error(path + " is no .npy array: its header has no " + key);
+  return std::string(trimmed(header.substr(found + key.size() + 3)));
+}
+
+std::vector<std::size_t> parse_shape(const std::string& text, const std::string& path) {
+  std::vector<std::size_t> shape;
+  const auto end = text.find(')');
+  for (std::size_t begin = 1; text[0] == '(' && end != std::string::npos && begin < end;) {
+    const auto comma = std::min(text.find(',', begin), end);
+    const std::string item = text.substr(begin, comma - begin);
+    begin = comma + 1;
+    if (trimmed(item).empty()) continue;  // behind the last comma, as in (5,)
+    const auto side = parse_number<std::size_t>(item);
+    if (!side) throw Error(path + " is no .npy array: its header's shape is " + text.substr(0, end + 1));
+    shape.push_back(*side);
+  }
+  return shape;
+}
+
+std::string to_string(const std::vector<std::size_t>& shape) {
+  std::string text;
+  for (const std::size_t side : shape) text += (text.empty() ? "" : ", ") + std::to_string(side);
+  return "(" + text + ")";
+}
+
+std::string read_header_text(std::ifstream& file, const std::string& path) {
+  char start[magic_size + 2] = {};
+  file.read(start, sizeof start);
+  const auto version = static_cast<unsigned char>(start[magic_size]);
+  if (!file || std::memcmp(start, magic, magic_size) != 0 || version < 1 || version > 3) {
+    throw Error(path + " is no .npy array of format version 1 to 3");
+  }
+  std::uint32_t length = 0;
+  file.read(reinterpret_cast<char*>(&length), version == 1 ? 2 : 4);
+  std::string text(file && length < (1u << 20) ? length : 0, ' ');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!file || text.empty()) throw Error(path + " is no .npy array: its header ends early");
+  return text;
+}
+
+Header read_header(std::ifstream& file, const std::string& path) {
+  const std::string text = read_header_text(file, path);
+  const std::string type = header_value(text, "descr", path);  // a list where values are records
+  Header header{type[0] == '\'' ? type.substr(1, type.find('\'', 1) - 1) : "record",
+                parse_shape(header_value(text, "shape", path), path)};
+  if (types().count(header.type) == 0) {
+    throw Error(path + " holds values of type " + header.type +
+                "; little-endian integers and floating-point numbers of 1 to 8 bytes can be read");
+  }
+  if (header_value(text, "fortran_order", path).compare(0, 5, "False") != 0) {
+    throw Error(path + " is in Fortran order; save it with numpy.ascontiguousarray()");
+  }
+  return header;
+}
+
+/// The values behind the header, which must be `count` of them at least.
+std::vector<char> read_values(std::ifstream& file, const Header& header, std::size_t count,
+                              const std::string& path) {
+  const auto begin = file.tellg();
+  const auto there_is = static_cast<std::size_t>(file.seekg(0, std::ios::end).tellg() - begin);
+  const std::size_t size = types().at(header.type).size;
+  // Compared before the memory is taken: a damaged header may promise anything.
+  if (there_is / size < count) throw Error(path + " ends early: its shape is " + to_string(header.shape));
+  std::vector<char> bytes(count * size);
+  file.seekg(begin).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!file) throw Error("reading " + path + " failed");
+  return bytes;
+}
+
+template <typename T>
+void write_array(const std::string& path, const std::vector<std::size_t>& shape,
+                 const std::vector<T>& values) {
+  std::string header = std::string("{'descr': '") + type_name<T> +
+                       "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
+  // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
+  header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
+  header += '\n';
+  const auto length = static_cast<std::uint16_t>(header.size());
+  std::ofstream file = open_to_write(path);
+  file.write(magic, magic_size);
+  file.write("\x01\x00", 2);
+  file.write(reinterpret_cast<const char*>(&length), sizeof length);
+  file.write(header.data(), static_cast<std::streamsize>(header.size()));
+  file.write(reinterpret_cast<const char*>(values.data()),
+             static_cast<std::streamsize>(values.size() * sizeof(T)));
+  check_written(file, path);
+}
+
+}  // namespace
+
+std::vector<Point> read_npy_points(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  const Header header = read_header(file, path);
+  if (header.shape.size() != 2 || header.shape[1] != 2) {
+    throw Error(path + " has the shape " + to_string(header.shape) + "; points need (N, 2)");
+  }
+  const std::size_t count = header.shape[0];
+  if (count == 0) throw Error(path + " holds no points");
+  if (count >= no_label) throw Error(path + " holds more points than there can be seeds");
+  const std::vector<char> bytes = read_values(file, header, 2 * count, path);
+  const Type& type = types().at(header.type);
+  std::vector<Point> points(count);
+  const char* value = bytes.data();
+  for (Point& point : points) {
+    point = {type.read(value), type.read(value + type.size)};
+    value += 2 * type.size;
+  }
+  return points;
+}
+
+LabelImage read_npy_labels(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  const Header header = read_header(file, path);
+  const auto& shape = header.shape;
+  constexpr std::size_t most = Grid::max_side;
+  const bool is_image =
+      shape.size() == 2 && shape[0] >= 1 && shape[0] <= most && shape[1] >= 1 && shape[1] <= most;
+  if (header.type != "<u4" || !is_image) {
+    throw Error(path + " holds " + header.type + " of shape " + to_string(shape) +
+                "; labels are uint32 (<u4) of shape (height, width), with sides from 1 to " +
+                std::to_string(most));
+  }
+  LabelImage image{Grid(static_cast<int>(shape[1]), static_cast<int>(shape[0])), {}};
+  const std::vector<char> bytes = read_values(file, header, image.grid.pixels(), path);
+  image.labels.resize(image.grid.pixels());
+  std::memcpy(image.labels.data(), bytes.data(), bytes.size());
+  return image;
+}
+
+template <typename T>
+void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values) {
+  const auto height = static_cast<std::size_t>(grid.height()), width = static_cast<std::size_t>(grid.width());
+  write_array(path, {height, width}, values);
+}
+
+template void write_npy(const std::string&, const Grid&, const std::vector<std::uint8_t>&);
+template void write_npy(const std::string&, const Grid&, const std::vector<std::uint32_t>&);
+template void write_npy(const std::string&, const Grid&, const std::vector<float>&);
+
+void write_npy_points(const std::string& path, const std::vector<Point>& points) {
+  std::vector<double> values;
+  values.reserve(2 * points.size());
+  for (const Point& point : points) values.insert(values.end(), {point.x, point.y});
+  write_array(path, {points.size(), 2}, values);
+}
+
+}  // namespace vorocl::command

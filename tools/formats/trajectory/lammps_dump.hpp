@@ -1,0 +1,40 @@
+// LAMMPS text dumps of the styles atom and custom.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "formats/trajectory/line_reader.hpp"
+#include "formats/trajectory/particle_rows.hpp"
+#include "formats/trajectory/trajectory.hpp"
+
+namespace vorocl::command {
+
+/// Each frame is a few sections, "ITEM: NAME" with lines after it, of which ATOMS is the last. The columns'
+/// names follow in that line; positions are x y, scaled xs ys, unwrapped xu yu, or both, xsu ysu.
+class LammpsDump : public TrajectoryReader {
+ public:
+  LammpsDump(LineReader lines, std::string value_column);
+  bool next(Frame& frame) override;
+  std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
+
+ private:
+  struct Header {
+    std::optional<std::int64_t> timestep;
+    std::optional<ParticleCount> count;
+    std::optional<Cell> cell;
+  };
+
+  /// The frame's sections up to the line ITEM: ATOMS; returns the columns there.
+  std::string_view read_header(Header& header);
+  /// The box from the present line, ITEM: BOX BOUNDS, of which the rest is the title, and the three after it.
+  Cell read_cell(std::string_view title, std::size_t frame_line);
+  void next_value(std::size_t frame_line);
+
+  LineReader lines_;
+  std::string value_column_;
+  ParticleRows rows_;
+};
+
+}  // namespace vorocl::command

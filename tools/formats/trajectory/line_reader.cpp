@@ -1,0 +1,139 @@
+#include "formats/trajectory/line_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "formats/files.hpp"
+#include "formats/numbers.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+constexpr std::size_t block_bytes = 1 << 20;
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
+template <typename T>
+T take_number(const LineReader& lines, std::string_view& text, const std::string& what) {
+  const std::string_view field = take_field(text);
+  if (field.empty()) throw lines.error(what + " is missing here");
+  const std::optional<T> number = parse_number<T>(field);
+  if (!number || !std::isfinite(static_cast<double>(*number))) {
+    throw lines.error(shown(field) + " is not " + what);
+  }
+  return *number;
+}
+
+}  // namespace
+
+LineReader::LineReader(const std::string& path)
+    : path_(path), stream_(open_to_read(path)), buffer_(block_bytes) {}
+
+bool LineReader::next() {
+  if (repeat_) {
+    repeat_ = false;
+    return true;
+  }
+  std::size_t searched = 0;
+  for (;;) {
+    const char* const rest = buffer_.data() + begin_;
+    const std::size_t length = end_ - begin_;
+    if (const void* const feed = std::memchr(rest + searched, '\n', length - searched)) {
+      set_line(static_cast<std::size_t>(static_cast<const char*>(feed) - rest));
+      ++begin_;
+      return true;
+    }
+    if (at_end_) {
+      if (length == 0) return false;
+      set_line(length);
+      broken_off_ = true;
+      return true;
+    }
+    searched = length;
+    read_block();
+  }
+}
+
+void LineReader::set_line(std::size_t length) {
+  line_ = std::string_view(buffer_.data() + begin_, length);
+  begin_ += length;
+  ++number_;
+  if (number_ == 1 && line_.substr(0, byte_order_mark.size()) == byte_order_mark) {
+    line_.remove_prefix(byte_order_mark.size());
+  }
+}
+
+void LineReader::read_block() {
+  if (end_ - begin_ == buffer_.size()) {
+    throw error_at(number_ + 1, "the line is longer than a mebibyte; this is no text file of particles");
+  }
+  std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
+  end_ -= begin_;
+  begin_ = 0;
+  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+  const auto count = static_cast<std::size_t>(stream_.gcount());
+  end_ += count;
+  bytes_read_ += count;
+  if (stream_.bad()) throw error_at(number_ + 1, "reading failed; is the disk or the connection in order?");
+  at_end_ = !stream_;
+}
+
+bool LineReader::next_filled() {
+  while (next()) {
+    if (!trimmed(line_).empty()) return true;
+  }
+  return false;
+}
+
+std::optional<std::uintmax_t> LineReader::bytes_left() const {
+  // Asked anew each time: a simulation may still be writing the file.
+  std::error_code code;
+  const std::uintmax_t size = std::filesystem::file_size(path_, code);
+  if (code) return std::nullopt;
+  const std::uintmax_t position = bytes_read_ - (end_ - begin_);
+  return size > position ? size - position : 0;
+}
+
+Error LineReader::error(const std::string& what) const {
+  const char* const hint = broken_off_ ? " (the file ends in this line: it seems cut off)" : "";
+  return error_at(std::max<std::size_t>(number_, 1), what + hint);
+}
+
+Error LineReader::error_at(std::size_t number, const std::string& what) const {
+  return Error(path_ + ":" + std::to_string(number) + ": " + what);
+}
+
+std::string_view take_field(std::string_view& text) {
+  const char* const end = text.data() + text.size();
+  const char* const start = std::find_if_not(text.data(), end, is_blank);
+  const char* const stop = std::find_if(start, end, is_blank);
+  text = std::string_view(stop, static_cast<std::size_t>(end - stop));
+  return std::string_view(start, static_cast<std::size_t>(stop - start));
+}
+
+std::int64_t take_integer(const LineReader& lines, std::string_view& text, const std::string& what) {
+  return take_number<std::int64_t>(lines, text, what);
+}
+
+double take_real(const LineReader& lines, std::string_view& text, const std::string& what) {
+  return take_number<double>(lines, text, what);
+}
+
+void check_end(const LineReader& lines, std::string_view rest) {
+  const std::string_view more = trimmed(rest);
+  if (!more.empty()) throw lines.error(shown(more) + " is more than belongs in this line");
+}
+
+std::string shown(std::string_view text) {
+  std::string piece(text.substr(0, 40));
+  std::replace_if(
+      piece.begin(), piece.end(), [](unsigned char c) { return c < ' '; }, '?');
+  return '"' + piece + (text.size() > piece.size() ? "..." : "") + '"';
+}
+
+}  // namespace vorocl::command

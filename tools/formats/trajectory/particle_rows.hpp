@@ -1,0 +1,67 @@
+// The rows of a frame, one a particle, in both kinds of trajectory files.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/trajectory/line_reader.hpp"
+#include "formats/trajectory/simulation_box.hpp"
+#include "formats/trajectory/trajectory.hpp"
+
+namespace vorocl::command {
+
+/// The number of particles that a frame says it has, and the line that says so.
+struct ParticleCount {
+  std::size_t value = 0;
+  std::size_t line = 0;
+};
+
+/// The count in the present line. Throws Error if it is none, or more than there are labels.
+ParticleCount parse_count(const LineReader& lines);
+
+/// Which fields of a row matter; the others are not looked at.
+struct RowLayout {
+  std::size_t fields = 0;
+  bool may_have_more = false;  ///< whether a row may have more fields than these
+  std::size_t x = 0;
+  std::size_t y = 0;
+  std::optional<std::size_t> id;  ///< where there is none, the row's number from 0 is the id
+  bool scaled = false;            ///< x and y are in lengths of the cell's edges
+  std::optional<std::size_t> value;
+};
+
+/// Where the column is among those of the file; none if its name is empty. Throws Error, which lists them, if
+/// it is not there.
+std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<std::string>& names,
+                                             const std::string& column);
+
+/// Reads the rows of one frame after another into the same memory.
+class ParticleRows {
+ public:
+  /// Reads as many rows as the count says, from the next line on, and makes the frame's ids, positions,
+  /// values and box of them; without a cell the positions are taken as they are (and are not scaled). Throws
+  /// Error for a row that cannot be read, an id that comes twice, a particle outside a wall, and a file that
+  /// ends too early; before any reading if what is left of the file cannot hold the rows.
+  void read(LineReader& lines, const RowLayout& layout, const ParticleCount& count, std::optional<Cell>& cell,
+            Frame& frame);
+
+ private:
+  struct Row {
+    std::uint32_t id;
+    std::uint32_t number;  // from 0
+    Point position;
+    double value;
+  };
+
+  Row parse(const LineReader& lines, const RowLayout& layout, const ParticleCount& count) const;
+  void sort(const LineReader& lines, std::size_t first_line);
+
+  std::vector<Row> rows_;
+};
+
+/// The error for a file that ends before the frame that starts at a line is complete.
+Error cut_off(const LineReader& lines, std::size_t frame_line);
+
+}  // namespace vorocl::command

@@ -1,0 +1,129 @@
+#include "formats/trajectory/simulation_box.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+void check(const LineReader& lines, const Axis& axis, char name) {
+  const double length = axis.length();
+  if (axis.high < axis.low || !std::isfinite(length)) {
+    throw lines.error(
+        fmt::format("the box reaches from {} to {} in {}: these are no bounds", axis.low, axis.high, name));
+  }
+  if (axis.periodic() && length == 0) {
+    throw lines.error(fmt::format("the box is periodic in {}, but has no length there", name));
+  }
+}
+
+double unscaled(const Axis& axis, double scaled) {
+  const double value = axis.low + scaled * axis.length();
+  // Rounding must not carry a particle on a wall through it.
+  return scaled >= 0 && scaled <= 1 ? std::clamp(value, axis.low, axis.high) : value;
+}
+
+/// Into [low, high) by whole lengths; returns how many were taken off.
+double wrap(const Axis& axis, double& value) {
+  if (value >= axis.low && value < axis.high) return 0;
+  const double length = axis.length();
+  const double distance = value - axis.low;
+  double rest = std::fmod(distance, length);
+  if (rest < 0) rest += length;
+  const double turns = std::round((distance - rest) / length);
+  value = axis.low + rest;
+  if (value >= axis.high) value = axis.low;  // a hair below low is rounded up to high
+  return turns;
+}
+
+/// The number as a dump shows it by default, in six digits.
+double as_printed(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof(text), value, std::chars_format::general, 6).ptr;
+  std::from_chars(text, end, value);
+  return value;
+}
+
+/// A particle within a wall can be printed beyond it, but never beyond the wall as it would be printed.
+bool is_outside(double value, double wall, bool low) {
+  return low ? value < std::min(wall, as_printed(wall)) : value > std::max(wall, as_printed(wall));
+}
+
+/// Makes an axis that is not periodic hold the value: moves the box's sides if they are open, or, by no more
+/// than was lost in printing, the value.
+void hold(const LineReader& lines, std::uint32_t id, const Axis& axis, char name, double& value,
+          double& box_low, double& box_high) {
+  if (value >= axis.low && value <= axis.high) return;
+  const bool low = value < axis.low;
+  const double bound = low ? axis.low : axis.high;
+  if ((low ? axis.sides.first : axis.sides.second) == Side::open) {
+    box_low = std::min(box_low, value);
+    box_high = std::max(box_high, value);
+  } else if (is_outside(value, bound, low)) {
+    throw lines.error(
+        fmt::format("particle {0} is at {1} = {2}, outside the fixed wall at {1} = {3}; correct it, or "
+                    "give this side of the box the flag s (shrink-wrapped)",
+                    id, name, value, bound));
+  } else {
+    value = bound;
+  }
+}
+
+}  // namespace
+
+bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
+
+Cell::Cell(const LineReader& lines, const Axis& x, const Axis& y, double tilt)
+    : x_(x), y_(y), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
+  check(lines, x, 'x');
+  check(lines, y, 'y');
+  if (x.periodic() && y.periodic()) return;
+  if (!is_negligible(tilt, x.length())) {
+    throw lines.error(
+        "the box is tilted but not periodic in both x and y; only a periodic one can be drawn as a "
+        "rectangle");
+  }
+  tilt_ = box_.tilt = 0;
+}
+
+Point Cell::from_scaled(Point scaled) const {
+  return {unscaled(x_, scaled.x) + scaled.y * tilt_, unscaled(y_, scaled.y)};
+}
+
+Point Cell::place(const LineReader& lines, std::uint32_t id, Point position) {
+  if (y_.periodic()) {
+    // The copies of a tilted cell above it are shifted in x.
+    position.x -= wrap(y_, position.y) * tilt_;
+  } else {
+    hold(lines, id, y_, 'y', position.y, box_.y0, box_.y1);
+  }
+  if (x_.periodic()) {
+    wrap(x_, position.x);
+  } else {
+    hold(lines, id, x_, 'x', position.x, box_.x0, box_.x1);
+  }
+  return position;
+}
+
+Cell cell_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y) {
+  const auto& [a, b, c] = edges;
+  const double length = std::max(std::abs(a[0]), std::abs(b[1]));
+  for (const double component : {a[1], a[2], b[2], c[0], c[1]}) {
+    if (!is_negligible(component, length)) {
+      throw lines.error(
+          "the box is turned, or tilted in z; its first edge must lie along x, its second in the xy "
+          "plane and its third along z");
+    }
+  }
+  const Axis x_axis{origin.x, origin.x + a[0], x};
+  const Axis y_axis{origin.y, origin.y + b[1], y};
+  return Cell(lines, x_axis, y_axis, b[0]);
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,67 @@
+// The box of a frame as its file states it, and the place of particles in it.
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "formats/trajectory/line_reader.hpp"
+#include "formats/trajectory/trajectory.hpp"
+
+namespace vorocl::command {
+
+/// What is beyond a side of a box: its other side, nothing that a particle can enter, or more room.
+enum class Side { periodic, wall, open };
+
+/// The low and the high side of an axis: both are periodic, or none is.
+using Sides = std::pair<Side, Side>;
+
+/// One axis of a box.
+struct Axis {
+  double low;
+  double high;
+  Sides sides;
+
+  bool periodic() const { return sides.first == Side::periodic; }
+  double length() const { return high - low; }
+};
+
+/// A parallelogram with the edges (x.length(), 0) and (tilt, y.length()), whose lower left corner is
+/// (x.low, y.low).
+class Cell {
+ public:
+  /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
+  /// tilt where not both axes are periodic: only then a rectangle holds the same particles.
+  Cell(const LineReader& lines, const Axis& x, const Axis& y, double tilt = 0);
+
+  /// A position given in lengths of the edges, in data units.
+  Point from_scaled(Point scaled) const;
+
+  /// Where a particle is drawn: wrapped on a periodic axis, as it is elsewhere, where the box grows to hold
+  /// it. Throws Error, at the reader's line, for a particle outside a wall.
+  Point place(const LineReader& lines, std::uint32_t id, Point position);
+
+  /// The rectangle that holds all particles placed so far.
+  const Box& box() const { return box_; }
+
+ private:
+  Axis x_;
+  Axis y_;
+  double tilt_;
+  Box box_;
+};
+
+/// The edges of a box in three dimensions.
+struct Edges {
+  double a[3];
+  double b[3];
+  double c[3];
+};
+
+/// The cell with these edges. Throws Error, at the reader's line, unless the first lies along x, the second
+/// in the xy plane and the third along z, and where Cell does.
+Cell cell_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y);
+
+/// Whether a length is zero but for rounding, beside another.
+bool is_negligible(double length, double beside);
+
+}  // namespace vorocl::command

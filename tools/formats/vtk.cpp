@@ -1,0 +1,99 @@
+#include "formats/vtk.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "formats/files.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+template <typename T>
+constexpr const char* type_name = nullptr;
+template <>
+constexpr const char* type_name<std::uint8_t> = "UInt8";
+template <>
+constexpr const char* type_name<std::uint32_t> = "UInt32";
+template <>
+constexpr const char* type_name<float> = "Float32";
+
+const char* byte_order() {
+  const std::uint16_t one = 1;
+  return *reinterpret_cast<const unsigned char*>(&one) == 1 ? "LittleEndian" : "BigEndian";
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+template <typename T>
+void write_vti(const std::string& path, const std::string& name, const Grid& grid,
+               const std::vector<T>& values) {
+  const std::string extent = fmt::format("0 {} 0 {} 0 0", grid.width(), grid.height());
+  const std::string start = fmt::format(
+      R"(<?xml version="1.0"?>
+<VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
+  <ImageData WholeExtent="{1}" Origin="0 0 0" Spacing="1 1 1">
+    <Piece Extent="{1}">
+      <CellData Scalars="{2}">
+        <DataArray type="{3}" Name="{2}" format="appended" offset="0"/>
+      </CellData>
+    </Piece>
+  </ImageData>
+  <AppendedData encoding="raw">
+    _)",
+      byte_order(), extent, name, type_name<T>);
+  const std::uint64_t bytes = values.size() * sizeof(T);
+  const auto row_bytes = static_cast<std::streamsize>(static_cast<std::size_t>(grid.width()) * sizeof(T));
+  std::ofstream file = open_to_write(path);
+  file << start;
+  file.write(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+  for (int row = grid.height() - 1; row >= 0; --row) {
+    const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * grid.width();
+    file.write(reinterpret_cast<const char*>(first), row_bytes);
+  }
+  file << "\n  </AppendedData>\n</VTKFile>\n";
+  check_written(file, path);
+}
+
+template void write_vti(const std::string&, const std::string&, const Grid&,
+                        const std::vector<std::uint8_t>&);
+template void write_vti(const std::string&, const std::string&, const Grid&,
+                        const std::vector<std::uint32_t>&);
+template void write_vti(const std::string&, const std::string&, const Grid&, const std::vector<float>&);
+
+void write_pvd(const std::string& path, const std::vector<TimedFile>& files) {
+  std::ofstream file = open_to_write(path);
+  file << fmt::format(
+              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"{}\">\n",
+              byte_order())
+       << "  <Collection>\n";
+  for (const TimedFile& entry : files) {
+    file << fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time,
+                        escaped(entry.name));
+  }
+  file << "  </Collection>\n</VTKFile>\n";
+  check_written(file, path);
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,126 @@
+#include "studies/ablation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "studies/in_place_scatter.hpp"
+#include "studies/random_motion.hpp"
+#include "vorocl/method.hpp"
+#include "vorocl/similarity.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+constexpr int engines_side_by_side = 3;  // a variant twice, and the exact method
+
+Simulation::Engine engine_of(const std::string& name, const MethodOptions& options = {}) {
+  return engine(method(name), options);
+}
+
+/// The studies of dJFA's own options.
+void add_options(std::vector<Variant>& variants, int step_length) {
+  const auto add = [&](const std::string& study, const std::string& setting, const MethodOptions& options) {
+    variants.push_back({study, setting, engine_of("djfa", options), step_length});
+  };
+  for (const int waves : {0, 1, 2}) {
+    MethodOptions options;
+    options.von_neumann_waves = waves;
+    add("von Neumann waves", std::to_string(waves), options);
+  }
+  MethodOptions all_von_neumann;
+  all_von_neumann.neighbourhood = NeighbourhoodMix::von_neumann;
+  add("von Neumann waves", "all", all_von_neumann);
+  for (const int waves : {0, 1, 2}) {
+    MethodOptions options;
+    options.extra_waves = waves;
+    add("extra waves", std::to_string(waves), options);
+  }
+  for (const int interval : {0, 5, 10}) {
+    MethodOptions options;
+    options.refresh_interval = interval;
+    add("refresh interval", std::to_string(interval), options);
+  }
+}
+
+Simulation walk(const Device& device, const Configuration& configuration, const EvaluationSettings& settings,
+                const Variant& variant) {
+  const Grid grid(configuration.side, configuration.side);
+  const Device tuned = variant.one_pixel_a_work_item ? device.with_tuning(Tuning{}) : device;
+  return random_walk(spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
+                     variant.step_length, settings.rng_seed);
+}
+
+void measure_accuracy(Simulation simulation, const Variant& variant, int frames, VariantResult& result,
+                      const std::function<void(int)>& made) {
+  const std::size_t one = simulation.add_engine(variant.engine),
+                    again = simulation.add_engine(variant.engine),
+                    exact = simulation.add_engine(engine_of("exact"));
+  for (int frame = 0; frame <= frames; ++frame) {
+    simulation.step();
+    made(engines_side_by_side);
+    if (frame == 0) continue;
+    result.waves.add(simulation.report(one).waves());
+    result.similarity_to_exact.add(similarity(simulation.diagram(one), simulation.diagram(exact)));
+    result.differing_between_runs.add(100 - similarity(simulation.diagram(one), simulation.diagram(again)));
+    result.errors.add(
+        distance_errors(simulation.seeds(), simulation.diagram(one), simulation.diagram(exact)));
+  }
+}
+
+}  // namespace
+
+std::vector<Variant> variants_of(const Device& device, const Configuration& configuration,
+                                 const EvaluationSettings& settings) {
+  const int d_max = settings.step_length;
+  std::vector<Variant> variants;
+  for (const char* method : {"jfa", "djfa", "exact"})
+    variants.push_back({"method", method, engine_of(method), d_max});
+  add_options(variants, d_max);
+  const double length =
+      std::sqrt(static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds));
+  for (const int times : {1, 2, 3, 4}) {
+    const auto longest = std::min(std::round(times * length), static_cast<double>(Grid::max_side));
+    variants.push_back({"d_max", std::to_string(times) + " L", engine_of("djfa"), static_cast<int>(longest)});
+  }
+  const std::pair<const char*, Spread> spreads[] = {
+      {"uniform", Spread::uniform}, {"clusters", Spread::clusters}, {"gradient", Spread::gradient}};
+  for (const auto& [name, spread] : spreads) {
+    for (const char* method : {"jfa", "djfa"}) {
+      variants.push_back({"seeds", std::string(name) + ", " + method, engine_of(method), d_max, spread});
+    }
+  }
+  variants.push_back({"waves", "gather", engine_of("djfa"), d_max});
+  variants.push_back(
+      {"waves", "gather, one pixel a work-item", engine_of("djfa"), d_max, Spread::uniform, true});
+  variants.push_back(
+      {"waves", "scatter in place, as printed", in_place_scatter(device, Stamping::none), d_max});
+  variants.push_back(
+      {"waves", "scatter in place, seeds stamped", in_place_scatter(device, Stamping::seeds), d_max});
+  return variants;
+}
+
+std::vector<VariantResult> measure(const Device& device, const Configuration& configuration,
+                                   const EvaluationSettings& settings, const std::vector<Variant>& variants,
+                                   const std::function<void(int)>& made) {
+  std::vector<VariantResult> results(variants.size());
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    measure_accuracy(walk(device, configuration, settings, variants[i]), variants[i], settings.frames,
+                     results[i], made);
+  }
+  for (int round = 0; round < settings.repeats; ++round) {
+    for (std::size_t i = 0; i < variants.size(); ++i) {
+      results[i].milliseconds.add(timed_run(walk(device, configuration, settings, variants[i]),
+                                            variants[i].engine, settings.timed_frames, made)
+                                      .milliseconds);
+    }
+  }
+  return results;
+}
+
+int diagrams_of_variant(const EvaluationSettings& settings) {
+  return engines_side_by_side * (settings.frames + 1) + settings.repeats * (settings.timed_frames + 1);
+}
+
+}  // namespace vorocl::command

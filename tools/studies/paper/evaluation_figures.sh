@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
+# nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
+# ablation and tables; without any, all of them.
+set -euo pipefail
+cd "$(dirname "$0")/../../.."
+vorocl=$(realpath "${1:-build/tools/vorocl}")
+shift || true
+parts=" ${*:-pictures lengths evaluation large ablation tables} "
+out=$PWD/docs/evaluation
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export POCL_AFFINITY=1 MPLCONFIGDIR=$work/matplotlib
+mkdir -p "$out"
+wants() { [[ $parts == *" $1 "* ]]; }
+montage() { tools/studies/paper/montage.py -o "$out/$1.png" "${@:2}"; }
+
+if wants pictures; then
+  "$vorocl" render --random 17 --size 500x500 --method exact --edges 2 --points-overlay -o "$work/17.png"
+  montage seeds17 --columns 1 --inches 3.5 "=$work/17.png"
+
+  # wave_pictures NAME METHOD CAPTION...: the arguments of a row of six pictures.
+  wave_pictures() {
+    local name=$1 method=$2 i=0 caption
+    shift 2
+    "$vorocl" render --points "$work/$name.csv" --size 8x8 --bounds 0,0,8,8 --method "$method" --enlarge 24 \
+      --points-overlay --waves "$work/$name-$method-%d.png" >/dev/null
+    for caption in "$@"; do
+      row+=("$caption=$work/$name-$method-$i.png")
+      i=$((i + 1))
+    done
+    while [ $((${#row[@]} % 6)) -ne 0 ]; do row+=(""); done
+  }
+  printf 'x,y\n2.5,2.5\n' >"$work/one.csv"
+  printf 'x,y\n1.5,1.5\n6.5,2.5\n3.5,6.5\n' >"$work/three.csv"
+  row=()
+  wave_pictures one standard-flooding "StF: seed" "wave 1" "wave 2" "wave 3" "wave 4" "wave 5"
+  wave_pictures one jfa "JFA: seed" "wave 1, step 4" "wave 2, step 2" "wave 3, step 1"
+  wave_pictures three standard-flooding "StF: seeds" "wave 1" "wave 2" "wave 3" "wave 4"
+  wave_pictures three jfa "JFA: seeds" "wave 1, step 4" "wave 2, step 2" "wave 3, step 1"
+  montage flooding --columns 6 --inches 1.5 "${row[@]}"
+
+  printf 'x,y\n4.5,4.5\n' >"$work/centre.csv"
+  for neighbourhood in moore von-neumann; do
+    "$vorocl" render --points "$work/centre.csv" --size 9x9 --bounds 0,0,9,9 --method 1+jfa --neighbourhood "$neighbourhood" \
+      --enlarge 24 --points-overlay --waves "$work/$neighbourhood-%d.png" >/dev/null
+    "$vorocl" render --random 15 --size 150x150 --method jfa --neighbourhood "$neighbourhood" --enlarge 4 \
+      --points-overlay -o "$work/$neighbourhood.png"
+  done
+  montage neighbourhoods --columns 2 --inches 1.5 "Moore=$work/moore-1.png" "von Neumann=$work/von-neumann-1.png"
+  montage von_neumann --columns 2 --inches 4 "JFA, Moore=$work/moore.png" "JFA, von Neumann=$work/von-neumann.png"
+
+  "$vorocl" simulate --random 50 --size 1000x1000 --frames 100 --step-length 5 --method djfa --every 20 --edges 4 \
+    --points-overlay -o "$work/frame-%d.png"
+  frames=()
+  for frame in 0 20 40 60 80 100; do frames+=("frame $frame=$work/frame-$frame.png"); done
+  montage frames50 --columns 3 --inches 2.6 "${frames[@]}"
+fi
+
+if wants lengths; then
+  "$vorocl" render --random 10000 --size 2000x2000 --method exact --labels "$work/labels.npy"
+  tools/studies/paper/plot_region_lengths.py "$work/labels.npy" -o "$out/lengths.png" --dpi 80 >"$work/lengths.csv"
+  mv "$work/lengths.csv" "$out/"
+fi
+
+if wants evaluation; then
+  "$vorocl" evaluate -o "$work/evaluation.csv"
+  mv "$work/evaluation.csv" "$out/"
+fi
+if wants large; then
+  "$vorocl" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 1 -o "$work/evaluation-10000.csv"
+  mv "$work/evaluation-10000.csv" "$out/"
+fi
+if wants ablation; then
+  "$vorocl" ablation -o "$work/ablation.csv"
+  mv "$work/ablation.csv" "$out/"
+fi
+if wants tables; then
+  tools/studies/paper/plot_evaluation.py "$out/evaluation.csv" -o "$work/figures" --dpi 70
+  mv "$work"/figures/{similarity,times,speedup}_{n,density}.png "$out/"
+  tools/studies/paper/evaluation_tables.py docs/evaluation.md "$out"
+fi
