@@ -71,7 +71,7 @@ static void test_methods(const vorocl_device* device) {
   vorocl_diagram *diagram = NULL, *exact = NULL;
   vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
   vorocl_method_description method;
-  uint32_t nearest[pixels], nearest_manhattan[pixels], by_moore[pixels];
+  uint32_t nearest[pixels], nearest_manhattan[pixels], by_name[pixels];
   size_t count = 0;
   int waves = -1;
   double percent = 0, milliseconds = -1, host_milliseconds = -1;
@@ -110,15 +110,21 @@ static void test_methods(const vorocl_device* device) {
   OK(vorocl_standard_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE));
   OK(vorocl_similarity(diagram, exact, &percent));
   CHECK(percent > 99);
-  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_ONE_PLUS_JFA));
-  OK(vorocl_similarity(diagram, exact, &percent));
-  CHECK(percent > 99);
-  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, VOROCL_JFA));
-  OK(vorocl_diagram_read(diagram, by_moore, pixels));
+  for (vorocl_variant variant = VOROCL_JFA; variant <= VOROCL_ONE_PLUS_JFA; ++variant) {
+    OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, variant));
+    OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+    CHECK(waves == expected_methods[1 + variant].waves);
+    OK(vorocl_diagram_read(diagram, by_name, pixels));
+    OK(vorocl_run(expected_methods[1 + variant].name, seeds, diagram, 0, NULL));
+    CHECK(has_labels(diagram, by_name));
+  }
+  options.neighbourhood = VOROCL_VON_NEUMANN;
+  OK(vorocl_run("jfa", seeds, diagram, 0, &options));
+  OK(vorocl_diagram_read(diagram, by_name, pixels));
+  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_VON_NEUMANN, VOROCL_JFA));
+  CHECK(has_labels(diagram, by_name));
   OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA));
-  CHECK(has_labels(diagram, by_moore));
-  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_VON_NEUMANN, VOROCL_JFA_PLUS_1));
-  CHECK(!has_labels(diagram, by_moore)); /* it goes wrong, as the paper shows */
+  CHECK(!has_labels(diagram, by_name)); /* von Neumann waves go wrong, as the paper shows */
   options.metric = VOROCL_MANHATTAN;
   OK(vorocl_run("exact", seeds, diagram, 0, &options));
   CHECK(has_labels(diagram, nearest_manhattan));
