@@ -1,92 +1,133 @@
-/* The C functions, from C: each engine against a search of every pixel, and each bad argument against its
-   status and message. Also built against an installed copy, through pkg-config. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+/* The C functions of devices, seeds, diagrams and methods, from C: each against a search of every pixel or a
+   known value. Also built against an installed copy, through pkg-config. */
+#include "test_c_api.h"
 
-#include "vorocl/vorocl.h"
+static const struct {
+  const char* name;
+  int exact, continues, waves;
+} expected_methods[] = {{"standard-flooding", 0, 0, -1},
+                        {"jfa", 0, 0, 6},
+                        {"jfa+1", 0, 0, 7},
+                        {"jfa+2", 0, 0, 8},
+                        {"1+jfa", 0, 0, 7},
+                        {"djfa", 0, 1, 6},
+                        {"exact", 1, 0, 0}};
 
-enum { width = 61, height = 40, pixels = width * height, seed_count = 5 };
+static void test_devices(const vorocl_device* device) {
+  vorocl_device_list* list = NULL;
+  vorocl_device_description description;
+  vorocl_device *adopted = NULL, *tuned = NULL;
+  vorocl_tuning tuning, read;
+  const char *name = NULL, *platform = NULL, *driver = NULL;
+  cl_context context = NULL;
+  cl_command_queue queue = NULL;
+  cl_device_id id = NULL, id_of_queue = NULL;
+  size_t count = 0, selected = 0;
+  OK(vorocl_device_name(device, &name));
+  OK(vorocl_device_platform_name(device, &platform));
+  OK(vorocl_device_driver_version(device, &driver));
 
-static const vorocl_point points[seed_count] = {
-    {3.5, 2.5}, {50.5, 5.5}, {20.5, 30.5}, {60.5, 39.5}, {33.5, 16.5}};
-static int failures = 0;
-
-static void check(int right, const char* what, int line) {
-  if (right) return;
-  fprintf(stderr, "test_c_api.c:%d: %s (last message: %s)\n", line, what, vorocl_error_message());
-  ++failures;
-}
-#define CHECK(condition) check(condition, #condition, __LINE__)
-#define OK(call) check((call) == VOROCL_SUCCESS, #call, __LINE__)
-
-/* The call fails with this status, and the message holds this part. */
-#define FAILS(call, status, part)                                                        \
-  do {                                                                                   \
-    check((call) == (status), #call " has the status " #status, __LINE__);               \
-    check(strstr(vorocl_error_message(), part) != NULL, #call " says: " part, __LINE__); \
-  } while (0)
-
-static double distance_squared(vorocl_point point, int x, int y) {
-  const double dx = point.x - (x + 0.5), dy = point.y - (y + 0.5);
-  return dx * dx + dy * dy;
-}
-
-static int all_nearest(const uint32_t* labels) {
-  for (int i = 0; i < pixels; ++i) {
-    const int x = i % width, y = i / width;
-    if (labels[i] >= seed_count) return 0;
-    for (int seed = 0; seed < seed_count; ++seed) {
-      if (distance_squared(points[seed], x, y) < distance_squared(points[labels[i]], x, y)) return 0;
-    }
+  OK(vorocl_device_list_create(NULL, &list));
+  OK(vorocl_device_list_count(list, &count));
+  for (size_t i = 0; i < count; ++i) {
+    OK(vorocl_device_list_get(list, i, &description));
+    CHECK(strlen(description.type) > 0 && strncmp(description.opencl_version, "OpenCL ", 7) == 0);
+    CHECK(description.global_memory >= description.max_allocation && description.compute_units > 0);
+    if (!description.selected) continue;
+    ++selected;
+    CHECK(strcmp(description.name, name) == 0 && strcmp(description.platform, platform) == 0);
+    CHECK(strcmp(description.driver_version, driver) == 0);
+    CHECK(strlen(description.reason) > 0 && strlen(description.why_not) == 0);
   }
-  return 1;
+  CHECK(selected == 1);
+  vorocl_device_list_free(list);
+  OK(vorocl_device_list_create("no such device", &list));
+  for (size_t i = 0; i < count; ++i) {
+    OK(vorocl_device_list_get(list, i, &description));
+    CHECK(!description.selected);
+  }
+  vorocl_device_list_free(list);
+
+  OK(vorocl_device_context(device, &context));
+  OK(vorocl_device_queue(device, &queue));
+  OK(vorocl_device_id(device, &id));
+  CHECK(clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof id_of_queue, &id_of_queue, NULL) == CL_SUCCESS);
+  CHECK(id == id_of_queue);
+  OK(vorocl_device_adopt(context, queue, &adopted));
+  OK(vorocl_device_tuning(adopted, &tuning));
+  CHECK(tuning.vector_width >= 1 && tuning.group_width * tuning.group_height >= 1);
+  tuning.vector_width = tuning.vector_width == 1 ? 2 : 1;
+  tuning.group_width = 3;
+  tuning.group_height = 2;
+  OK(vorocl_device_with_tuning(adopted, &tuning, &tuned));
+  vorocl_device_free(adopted);
+  OK(vorocl_device_tuning(tuned, &read));
+  CHECK(read.vector_width == tuning.vector_width && read.group_width == 3 && read.group_height == 2);
+  vorocl_device_free(tuned);
 }
 
-static void test_engines(const vorocl_device* device) {
+static void test_methods(const vorocl_device* device) {
   vorocl_seeds* seeds = NULL;
   vorocl_diagram *diagram = NULL, *exact = NULL;
-  uint32_t labels[pixels];
-  int waves = -1;
-  double milliseconds = -1, percent = 0;
+  vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
+  vorocl_method_description method;
+  uint32_t nearest[pixels], nearest_manhattan[pixels], by_name[pixels];
   size_t count = 0;
+  int waves = -1;
+  double percent = 0, milliseconds = -1, host_milliseconds = -1;
   cl_event event = NULL;
-  vorocl_dynamic_jump_flooding_options options = VOROCL_DYNAMIC_JUMP_FLOODING_DEFAULTS;
-
-  OK(vorocl_seeds_from_points(device, width, height, points, seed_count, &seeds));
-  OK(vorocl_seeds_count(seeds, &count));
-  CHECK(count == seed_count);
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  search_all(points, present, seed_count, VOROCL_MANHATTAN, nearest_manhattan);
+  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
   OK(vorocl_diagram_create(device, width, height, &diagram));
   OK(vorocl_diagram_create(device, width, height, &exact));
   OK(vorocl_diagram_event(diagram, &event));
   CHECK(event == NULL);
-  OK(vorocl_diagram_read(diagram, labels, pixels));
-  CHECK(labels[0] == VOROCL_NO_LABEL);
 
+  OK(vorocl_exact_diagram(seeds, exact, VOROCL_MANHATTAN));
+  CHECK(has_labels(exact, nearest_manhattan));
   OK(vorocl_exact_diagram(seeds, exact, VOROCL_EUCLIDEAN));
-  OK(vorocl_diagram_read(exact, labels, pixels));
-  CHECK(all_nearest(labels));
+  CHECK(has_labels(exact, nearest));
 
-  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA_PLUS_2));
-  OK(vorocl_diagram_report(diagram, &waves, &milliseconds));
-  CHECK(waves == 8); /* 32, 16, 8, 4, 2, 1 and 2, 1 */
-  CHECK(milliseconds >= 0);
-  OK(vorocl_diagram_event(diagram, &event));
-  CHECK(event != NULL && clWaitForEvents(1, &event) == CL_SUCCESS);
-  OK(vorocl_similarity(diagram, exact, &percent));
-  CHECK(percent == 100.0);
+  OK(vorocl_method_count(&count));
+  CHECK(count == sizeof expected_methods / sizeof *expected_methods);
+  for (size_t i = 0; i < count; ++i) {
+    OK(vorocl_method_get(i, &method));
+    CHECK(strcmp(method.name, expected_methods[i].name) == 0);
+    CHECK(method.exact == expected_methods[i].exact && method.continues == expected_methods[i].continues);
+    OK(vorocl_prepare(method.name, device, width, height, seed_count, NULL));
+    OK(vorocl_run(method.name, seeds, diagram, 0, &options));
+    OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
+    CHECK(expected_methods[i].waves < 0 || waves == expected_methods[i].waves);
+    CHECK(milliseconds > 0 && host_milliseconds > 0);
+    OK(vorocl_diagram_event(diagram, &event));
+    CHECK(event != NULL && clWaitForEvents(1, &event) == CL_SUCCESS);
+    OK(vorocl_similarity(diagram, exact, &percent));
+    CHECK(method.exact ? percent == 100 : percent > 99);
+  }
 
+  /* Each by its own function, and by its options. */
   OK(vorocl_standard_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE));
   OK(vorocl_similarity(diagram, exact, &percent));
-  CHECK(percent > 99.0);
-
-  OK(vorocl_random_step(seeds, 2, VOROCL_PERIODIC, 7, 1));
-  options.max_step = 2;
-  OK(vorocl_dynamic_jump_flooding(seeds, diagram, &options));
-  OK(vorocl_exact_diagram(seeds, exact, VOROCL_EUCLIDEAN));
-  OK(vorocl_similarity(diagram, exact, &percent));
-  CHECK(percent > 95.0);
+  CHECK(percent > 99);
+  for (vorocl_variant variant = VOROCL_JFA; variant <= VOROCL_ONE_PLUS_JFA; ++variant) {
+    OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, variant));
+    OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+    CHECK(waves == expected_methods[1 + variant].waves);
+    OK(vorocl_diagram_read(diagram, by_name, pixels));
+    OK(vorocl_run(expected_methods[1 + variant].name, seeds, diagram, 0, NULL));
+    CHECK(has_labels(diagram, by_name));
+  }
+  options.neighbourhood = VOROCL_VON_NEUMANN;
+  OK(vorocl_run("jfa", seeds, diagram, 0, &options));
+  OK(vorocl_diagram_read(diagram, by_name, pixels));
+  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_VON_NEUMANN, VOROCL_JFA));
+  CHECK(has_labels(diagram, by_name));
+  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA));
+  CHECK(!has_labels(diagram, by_name)); /* von Neumann waves go wrong, as the paper shows */
+  options.metric = VOROCL_MANHATTAN;
+  OK(vorocl_run("exact", seeds, diagram, 0, &options));
+  CHECK(has_labels(diagram, nearest_manhattan));
 
   OK(vorocl_device_finish(device));
   vorocl_seeds_free(seeds);
@@ -94,33 +135,173 @@ static void test_engines(const vorocl_device* device) {
   vorocl_diagram_free(exact);
 }
 
-static void test_motion_and_absence(const vorocl_device* device) {
+/* Four waves go on from labels that are there, six start from seeds alone: 200 seeds are 3.5 pixels apart. */
+static void test_dynamic_jump_flooding(const vorocl_device* device) {
   vorocl_seeds* seeds = NULL;
-  vorocl_point read[seed_count];
-  const unsigned char present[seed_count] = {1, 1, 0, 1, 1};
-  OK(vorocl_seeds_random(device, width, height, 3, 1, &seeds));
-  OK(vorocl_seeds_move_to(seeds, points, present, seed_count));
-  OK(vorocl_seeds_read(seeds, read, seed_count));
-  CHECK(read[1].x == 50.5 && read[1].y == 5.5);
-  CHECK(isnan(read[2].x));
-  OK(vorocl_seeds_move_to(seeds, points, NULL, seed_count));
-  OK(vorocl_seeds_read(seeds, read, seed_count));
-  CHECK(read[2].x == 20.5 && read[2].y == 30.5);
-  FAILS(vorocl_seeds_read(seeds, read, 4), VOROCL_ERROR, "5 seeds");
+  vorocl_diagram *diagram = NULL, *exact = NULL;
+  vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
+  vorocl_point list[200];
+  uint32_t nearest[pixels];
+  cl_mem labels = NULL;
+  cl_event event = NULL;
+  int waves = -1;
+  size_t changed = 1;
+  double percent = 0, milliseconds = -1;
+  OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
+  OK(vorocl_diagram_create(device, width, height, &diagram));
+  OK(vorocl_diagram_create(device, width, height, &exact));
+  OK(vorocl_dynamic_jump_flooding(seeds, diagram, 0, NULL));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 6);
+  OK(vorocl_random_step(seeds, 2, VOROCL_PERIODIC, 7, 1));
+  OK(vorocl_dynamic_jump_flooding(seeds, diagram, 61, NULL));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 6); /* as far as the grid */
+  OK(vorocl_random_step(seeds, 2, VOROCL_REFLECT, 7, 2));
+  OK(vorocl_dynamic_jump_flooding(seeds, diagram, 2, NULL));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 4);
+  OK(vorocl_exact_diagram(seeds, exact, VOROCL_EUCLIDEAN));
+  OK(vorocl_similarity(diagram, exact, &percent));
+  CHECK(percent > 95);
+
+  /* Right labels written into a diagram stay right, and are gone on from. */
+  OK(vorocl_seeds_read(seeds, list, 200));
+  search_all(list, NULL, 200, VOROCL_EUCLIDEAN, nearest);
+  CHECK(has_labels(exact, nearest));
+  nearest[5] = VOROCL_NO_LABEL;
+  OK(vorocl_diagram_write(diagram, nearest, pixels));
+  OK(vorocl_changed_pixels(diagram, exact, &changed));
+  CHECK(changed == 1);
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event == NULL);
+  OK(vorocl_diagram_report(diagram, &waves, &milliseconds, NULL));
+  CHECK(waves == 0 && milliseconds == 0);
+  OK(vorocl_dynamic_jump_flooding(seeds, diagram, 0, &options));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 4);
+  OK(vorocl_changed_pixels(diagram, exact, &changed));
+  CHECK(changed == 0);
+  OK(vorocl_diagram_labels(exact, &labels));
+  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_VON_NEUMANN, VOROCL_JFA));
+  CHECK(!has_labels(diagram, nearest));
+  OK(vorocl_diagram_write_buffer(diagram, labels));
+  OK(vorocl_changed_pixels(diagram, exact, &changed));
+  CHECK(changed == 0);
+
+  /* The options reach the method. */
+  options.extra_waves = 2;
+  OK(vorocl_dynamic_jump_flooding(seeds, diagram, 2, &options));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 6);
+  options.extra_waves = 0;
+  options.refresh_interval = 1;
+  OK(vorocl_run("djfa", seeds, diagram, 2, &options));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 6);
   vorocl_seeds_free(seeds);
+  vorocl_diagram_free(diagram);
+  vorocl_diagram_free(exact);
 }
 
-/* Points and labels in the caller's buffers. */
+static void test_seeds(const vorocl_device* device) {
+  vorocl_seeds *seeds = NULL, *clone = NULL, *again = NULL;
+  vorocl_diagram* diagram = NULL;
+  vorocl_point read[200], moved[200], one = {7, 7};
+  uint8_t mask[pixels] = {0};
+  uint32_t nearest[pixels], positions[seed_count + 1];
+  cl_mem buffer = NULL;
+  cl_command_queue queue = NULL;
+  size_t count = 0;
+  int64_t w = 0, h = 0;
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  OK(vorocl_diagram_create(device, width, height, &diagram));
+  OK(vorocl_diagram_grid(diagram, &w, &h));
+  CHECK(w == width && h == height);
+
+  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
+  OK(vorocl_seeds_grid(seeds, &w, &h));
+  CHECK(w == width && h == height);
+  OK(vorocl_seeds_count(seeds, &count));
+  CHECK(count == seed_count);
+  OK(vorocl_seeds_alive(seeds, &count));
+  CHECK(count == seed_count - 1);
+  OK(vorocl_seeds_check(seeds));
+  OK(vorocl_seeds_read(seeds, read, seed_count));
+  OK(vorocl_device_queue(device, &queue));
+  OK(vorocl_seeds_positions(seeds, &buffer));
+  CHECK(clEnqueueReadBuffer(queue, buffer, CL_TRUE, 0, sizeof positions, positions, 0, NULL, NULL) ==
+        CL_SUCCESS);
+  for (int id = 0; id < seed_count; ++id) {
+    const uint32_t x = (uint32_t)points[id].x, y = (uint32_t)points[id].y;
+    CHECK(positions[id] == (present[id] ? y << 16 | x : 0x80008000));
+    CHECK(present[id] ? read[id].x == x + 0.5 && read[id].y == y + 0.5
+                      : isnan(read[id].x) && isnan(read[id].y));
+  }
+  CHECK(positions[seed_count] == 0x80008000);
+
+  /* A clone keeps what it was made from. */
+  OK(vorocl_seeds_clone(seeds, &clone));
+  OK(vorocl_seeds_move_to(seeds, &one, NULL, 1));
+  OK(vorocl_seeds_alive(seeds, &count));
+  CHECK(count == 1);
+  OK(vorocl_exact_diagram(clone, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest));
+  OK(vorocl_seeds_move_to(seeds, points, present, seed_count));
+  vorocl_seeds_free(clone);
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
+  vorocl_seeds_free(seeds);
+  CHECK(has_labels(diagram, nearest));
+
+  /* A mask's pixels are seeds in row-major order. */
+  mask[2] = 1;
+  mask[width] = 200;
+  mask[pixels - 1] = 1;
+  OK(vorocl_seeds_from_mask(device, width, height, mask, pixels, &seeds));
+  OK(vorocl_seeds_count(seeds, &count));
+  CHECK(count == 3);
+  OK(vorocl_seeds_read(seeds, read, 3));
+  CHECK(pixel_of(read[0]) == 2 && pixel_of(read[1]) == width && pixel_of(read[2]) == pixels - 1);
+  vorocl_seeds_free(seeds);
+
+  /* Random seeds are the same for the same number, and move no farther than they may. */
+  OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
+  OK(vorocl_seeds_random(device, width, height, 200, 7, &again));
+  OK(vorocl_seeds_read(seeds, read, 200));
+  OK(vorocl_seeds_read(again, moved, 200));
+  CHECK(memcmp(read, moved, sizeof read) == 0);
+  OK(vorocl_random_step(again, 3, VOROCL_REFLECT, 1, 1));
+  OK(vorocl_seeds_read(again, moved, 200));
+  CHECK(memcmp(read, moved, sizeof read) != 0);
+  for (int id = 0; id < 200; ++id) {
+    CHECK(fabs(read[id].x - moved[id].x) <= 3 && fabs(read[id].y - moved[id].y) <= 3);
+  }
+  vorocl_seeds_free(seeds);
+  vorocl_seeds_free(again);
+
+  OK(vorocl_seeds_from_points(device, width, height, NULL, NULL, 0, &seeds)); /* no seeds are allowed */
+  OK(vorocl_seeds_read(seeds, NULL, 0));
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
+  search_all(NULL, NULL, 0, VOROCL_EUCLIDEAN, nearest);
+  CHECK(has_labels(diagram, nearest));
+  vorocl_seeds_free(seeds);
+  vorocl_diagram_free(diagram);
+}
+
+/* Points, marks and labels in the caller's buffers. */
 static void test_own_buffers(const vorocl_device* device) {
   float pairs[2 * seed_count];
-  uint32_t labels[pixels];
+  uint32_t labels[pixels], nearest[pixels], nearest_of_all[pixels];
   cl_int code = CL_SUCCESS;
   cl_context context = NULL;
   cl_command_queue queue = NULL;
-  cl_mem own_points, own_labels, same_labels = NULL;
+  cl_mem own_points, own_marks, own_labels, same_labels = NULL;
   cl_event uploaded = NULL;
-  vorocl_seeds *seeds = NULL, *refused_seeds = NULL;
-  vorocl_diagram *diagram = NULL, *refused_diagram = NULL;
+  vorocl_seeds* seeds = NULL;
+  vorocl_diagram* diagram = NULL;
+  size_t alive = 0;
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  search_all(points, NULL, seed_count, VOROCL_EUCLIDEAN, nearest_of_all);
   for (int i = 0; i < seed_count; ++i) {
     pairs[2 * i] = (float)points[i].x;
     pairs[2 * i + 1] = (float)points[i].y;
@@ -128,160 +309,65 @@ static void test_own_buffers(const vorocl_device* device) {
   OK(vorocl_device_context(device, &context));
   OK(vorocl_device_queue(device, &queue));
   own_points = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof pairs, NULL, &code);
+  own_marks = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof present, (void*)(uintptr_t)present, &code);
   own_labels = clCreateBuffer(context, CL_MEM_READ_WRITE, sizeof labels, NULL, &code);
   CHECK(clEnqueueWriteBuffer(queue, own_points, CL_FALSE, 0, sizeof pairs, pairs, 0, NULL, &uploaded) ==
         CL_SUCCESS);
   OK(vorocl_device_wait_for(device, 1, &uploaded));
-  OK(vorocl_seeds_from_buffer(device, width, height, own_points, seed_count, &seeds));
+  OK(vorocl_seeds_from_buffer(device, width, height, own_points, own_marks, seed_count, &seeds));
+  OK(vorocl_seeds_alive(seeds, &alive));
+  CHECK(alive == seed_count - 1);
   OK(vorocl_diagram_over_buffer(device, width, height, own_labels, &diagram));
   OK(vorocl_diagram_labels(diagram, &same_labels));
   CHECK(same_labels == own_labels);
   OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
   CHECK(clEnqueueReadBuffer(queue, own_labels, CL_TRUE, 0, sizeof labels, labels, 0, NULL, NULL) ==
         CL_SUCCESS);
-  CHECK(all_nearest(labels));
-  OK(vorocl_seeds_move_to_buffer(seeds, own_points, 2));
+  CHECK(memcmp(labels, nearest, sizeof labels) == 0);
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, NULL, seed_count));
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest_of_all));
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, own_marks, seed_count));
+  clReleaseMemObject(own_points); /* retained until they are read */
+  clReleaseMemObject(own_marks);
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
   OK(vorocl_diagram_wait(diagram));
-
-  FAILS(vorocl_seeds_from_buffer(device, width, height, own_points, seed_count + 1, &refused_seeds),
-        VOROCL_ERROR, "40 bytes; 48 are needed");
-  CHECK(refused_seeds == NULL);
-  FAILS(vorocl_seeds_from_buffer(device, width, height, NULL, 1, &refused_seeds), VOROCL_NULL_ARGUMENT,
-        "points is NULL");
-  FAILS(vorocl_diagram_over_buffer(device, width, height + 1, own_labels, &refused_diagram), VOROCL_ERROR,
-        "are needed");
-  FAILS(vorocl_diagram_over_buffer(device, 2, 2, own_points, &refused_diagram), VOROCL_ERROR, "read-only");
-  FAILS(vorocl_diagram_over_buffer(device, 2, 2, NULL, &refused_diagram), VOROCL_NULL_ARGUMENT,
-        "labels is NULL");
+  CHECK(has_labels(diagram, nearest));
   vorocl_seeds_free(seeds);
   vorocl_diagram_free(diagram);
   clReleaseEvent(uploaded);
-  clReleaseMemObject(own_points);
   clReleaseMemObject(own_labels);
 }
 
-static void test_bad_devices(const vorocl_device* device) {
-  cl_context context = NULL, other = NULL;
-  cl_command_queue queue = NULL, out_of_order = NULL;
-  cl_device_id id = NULL;
-  cl_mem foreign = NULL;
-  cl_event null_event = NULL;
-  cl_int code = CL_SUCCESS;
-  vorocl_device* made = NULL;
+/* What was made on a device outlives it, and a diagram the seeds it was made from. */
+static void test_order_of_freeing(void) {
+  vorocl_device* device = NULL;
   vorocl_seeds* seeds = NULL;
-  vorocl_diagram *diagram = NULL, *here = NULL;
-  double percent = 0;
-  OK(vorocl_device_context(device, &context));
-  OK(vorocl_device_queue(device, &queue));
-  clGetCommandQueueInfo(queue, CL_QUEUE_DEVICE, sizeof id, &id, NULL);
-  other = clCreateContext(NULL, 1, &id, NULL, NULL, &code);
-  out_of_order = clCreateCommandQueue(context, id, CL_QUEUE_OUT_OF_ORDER_EXEC_MODE_ENABLE, &code);
-
-  FAILS(vorocl_device_select("no such device", &made), VOROCL_ERROR, "no such device");
-  CHECK(made == NULL);
-  FAILS(vorocl_device_adopt(NULL, queue, &made), VOROCL_NULL_ARGUMENT, "context is NULL");
-  FAILS(vorocl_device_adopt(context, NULL, &made), VOROCL_NULL_ARGUMENT, "queue is NULL");
-  FAILS(vorocl_device_adopt(other, queue, &made), VOROCL_ERROR, "another context");
-  if (out_of_order != NULL) {
-    FAILS(vorocl_device_adopt(context, out_of_order, &made), VOROCL_ERROR, "out of order");
-    clReleaseCommandQueue(out_of_order);
-  }
-  FAILS(vorocl_device_wait_for(device, 1, &null_event), VOROCL_ERROR, "null");
-  FAILS(vorocl_device_wait_for(device, 1, NULL), VOROCL_NULL_ARGUMENT, "events is NULL");
-
-  foreign = clCreateBuffer(other, CL_MEM_READ_WRITE, pixels * sizeof(uint32_t), NULL, &code);
-  FAILS(vorocl_seeds_from_buffer(device, width, height, foreign, 2, &seeds), VOROCL_ERROR,
-        "another OpenCL context");
-  FAILS(vorocl_diagram_over_buffer(device, width, height, foreign, &diagram), VOROCL_ERROR,
-        "another OpenCL context");
-
-  /* Seeds and a diagram of two devices. */
-  OK(vorocl_device_select(NULL, &made));
-  OK(vorocl_seeds_from_points(made, width, height, points, seed_count, &seeds));
-  OK(vorocl_diagram_create(made, width, height, &diagram));
-  OK(vorocl_diagram_create(device, width, height, &here));
-  FAILS(vorocl_jump_flooding(seeds, here, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_ERROR,
-        "different devices");
-  FAILS(vorocl_exact_diagram(seeds, here, VOROCL_EUCLIDEAN), VOROCL_ERROR, "different devices");
-  FAILS(vorocl_similarity(here, diagram, &percent), VOROCL_ERROR, "different devices");
-  vorocl_device_free(made); /* before what was made of it */
-  OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA));
-  OK(vorocl_diagram_wait(diagram));
-  vorocl_diagram_free(here);
-  vorocl_diagram_free(diagram);
-  vorocl_seeds_free(seeds);
-  clReleaseMemObject(foreign);
-  clReleaseContext(other);
-}
-
-static void test_bad_arguments(const vorocl_device* device) {
-  vorocl_seeds* seeds = NULL;
-  vorocl_diagram *diagram = NULL, *other = NULL;
-  uint32_t labels[pixels];
-  double percent = 0;
-  const vorocl_point outside = {61, 2}, not_finite = {NAN, 2};
-  vorocl_dynamic_jump_flooding_options options = VOROCL_DYNAMIC_JUMP_FLOODING_DEFAULTS;
-  FAILS(vorocl_seeds_from_points(device, width, height, &outside, 1, &seeds), VOROCL_ERROR, "point 0");
-  FAILS(vorocl_seeds_from_points(device, width, height, &not_finite, 1, &seeds), VOROCL_ERROR, "not finite");
-  FAILS(vorocl_seeds_from_points(device, width, height, NULL, 1, &seeds), VOROCL_NULL_ARGUMENT,
-        "points is NULL");
-  FAILS(vorocl_seeds_from_points(device, width, height, points, (size_t)-1, &seeds), VOROCL_ERROR,
-        "too many");
-  FAILS(vorocl_seeds_from_points(NULL, width, height, points, 1, &seeds), VOROCL_NULL_ARGUMENT,
-        "device is NULL");
-  FAILS(vorocl_seeds_from_points(device, width, height, points, 1, NULL), VOROCL_NULL_ARGUMENT,
-        "seeds is NULL");
-  FAILS(vorocl_seeds_random(device, 0, height, 1, 1, &seeds), VOROCL_ERROR, "width is 0");
-  FAILS(vorocl_diagram_create(device, width, 40000, &diagram), VOROCL_ERROR, "height is 40000");
-
-  OK(vorocl_seeds_from_points(device, width, height, NULL, 0, &seeds)); /* no seeds are allowed */
+  vorocl_diagram* diagram = NULL;
+  uint32_t nearest[pixels];
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  OK(vorocl_device_select("", &device));
+  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
   OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_create(device, height, width, &other));
-  FAILS(vorocl_jump_flooding(seeds, other, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_ERROR,
-        "61 x 40");
-  FAILS(vorocl_jump_flooding(NULL, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_NULL_ARGUMENT,
-        "seeds is NULL");
-  FAILS(vorocl_jump_flooding(seeds, NULL, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_NULL_ARGUMENT,
-        "diagram is NULL");
-  FAILS(vorocl_jump_flooding(seeds, diagram, 9, VOROCL_MOORE, VOROCL_JFA), VOROCL_ERROR, "metric 9");
-  FAILS(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MIXED, VOROCL_JFA), VOROCL_ERROR,
-        "mixed");
-  FAILS(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, 9), VOROCL_ERROR, "variant 9");
-  FAILS(vorocl_random_step(seeds, 1, 9, 0, 0), VOROCL_ERROR, "border 9");
-  FAILS(vorocl_dynamic_jump_flooding(seeds, diagram, NULL), VOROCL_NULL_ARGUMENT, "options is NULL");
-  options.extra_waves = 3;
-  FAILS(vorocl_dynamic_jump_flooding(seeds, diagram, &options), VOROCL_ERROR, "3 extra waves");
-  FAILS(vorocl_similarity(diagram, other, &percent), VOROCL_ERROR, "different grids");
-  FAILS(vorocl_diagram_read(diagram, labels, 7), VOROCL_ERROR, "room for 7");
-  FAILS(vorocl_diagram_read(diagram, NULL, pixels), VOROCL_NULL_ARGUMENT, "labels is NULL");
-  vorocl_diagram_free(diagram);
-  vorocl_diagram_free(other);
+  vorocl_device_free(device);
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
   vorocl_seeds_free(seeds);
-  vorocl_device_free(NULL);
-  vorocl_seeds_free(NULL);
-  vorocl_diagram_free(NULL);
+  CHECK(has_labels(diagram, nearest));
+  vorocl_diagram_free(diagram);
 }
 
 int main(void) {
-  vorocl_device *device = NULL, *adopted = NULL;
-  cl_context context = NULL;
-  cl_command_queue queue = NULL;
-  const char* name = NULL;
+  vorocl_device* device = NULL;
   CHECK(strlen(vorocl_version()) >= 5);
   CHECK(strcmp(vorocl_error_message(), "") == 0); /* nothing has failed yet */
   OK(vorocl_device_select(NULL, &device));
-  if (device == NULL) return 1;
-  OK(vorocl_device_name(device, &name));
-  CHECK(name != NULL && strlen(name) > 0);
-  OK(vorocl_device_context(device, &context));
-  OK(vorocl_device_queue(device, &queue));
-  OK(vorocl_device_adopt(context, queue, &adopted));
-  test_engines(adopted);
-  vorocl_device_free(adopted);
-  test_motion_and_absence(device);
+  if (device == NULL) return EXIT_FAILURE;
+  test_devices(device);
+  test_seeds(device);
   test_own_buffers(device);
-  test_bad_devices(device);
-  test_bad_arguments(device);
+  test_methods(device);
+  test_dynamic_jump_flooding(device);
+  test_order_of_freeing();
   vorocl_device_free(device);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds a C program against an installed copy as pkg-config says, and runs it: pkg_config.sh LIBDIR VERSION FILE.c COMPILER...
+# Builds a C program against an installed copy as pkg-config says, without a note of the compiler, and runs it:
+#   pkg_config.sh LIBDIR VERSION FILE.c COMPILER...
 # Exits with 77 where pkg-config is not installed.
 set -euo pipefail
 libdir=$1 version=$2 source=$3
@@ -13,5 +14,6 @@ if [ -f "$libdir/pkgconfig/vorocl-picture.pc" ]; then pkg-config --exists --prin
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # shellcheck disable=SC2046
-"$@" -std=c99 -DCL_TARGET_OPENCL_VERSION=120 "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program"
+notes=$("$@" -std=c99 -Wall -Wextra "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program" 2>&1)
+[ -z "$notes" ] || { echo "$notes"; exit 1; }
 LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$folder/program"

@@ -1,0 +1,99 @@
+// The C functions that fill diagrams.
+#include <optional>
+
+#include "calls.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+/// None: each method has its own.
+std::optional<NeighbourhoodMix> to_mix(vorocl_neighbourhood neighbourhood) {
+  if (neighbourhood == VOROCL_MOORE) return NeighbourhoodMix::moore;
+  if (neighbourhood == VOROCL_VON_NEUMANN) return NeighbourhoodMix::von_neumann;
+  if (neighbourhood == VOROCL_MIXED) return NeighbourhoodMix::mixed;
+  if (neighbourhood == VOROCL_DEFAULT_NEIGHBOURHOOD) return std::nullopt;
+  refuse("neighbourhood", neighbourhood);
+}
+
+/// For methods whose waves all have one neighbourhood.
+Neighbourhood to_neighbourhood(vorocl_neighbourhood neighbourhood) {
+  const std::optional<NeighbourhoodMix> mix = to_mix(neighbourhood);
+  if (mix == NeighbourhoodMix::mixed) throw Error("only dynamic jump flooding has a mixed neighbourhood");
+  return mix == NeighbourhoodMix::von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
+}
+
+JumpFloodingVariant to_variant(vorocl_variant variant) {
+  if (variant == VOROCL_JFA) return JumpFloodingVariant::jfa;
+  if (variant == VOROCL_JFA_PLUS_1) return JumpFloodingVariant::jfa_plus_1;
+  if (variant == VOROCL_JFA_PLUS_2) return JumpFloodingVariant::jfa_plus_2;
+  if (variant == VOROCL_ONE_PLUS_JFA) return JumpFloodingVariant::one_plus_jfa;
+  refuse("variant", variant);
+}
+
+MethodOptions to_options(const vorocl_method_options* options) {
+  if (options == nullptr) return {};
+  return {to_metric(options->metric), to_mix(options->neighbourhood), options->von_neumann_waves,
+          options->extra_waves, options->refresh_interval};
+}
+
+}  // namespace
+
+vorocl_status vorocl_standard_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
+                                       vorocl_metric metric, vorocl_neighbourhood neighbourhood) {
+  return guarded([&] {
+    vorocl_diagram& to = given(diagram, "diagram");
+    to.report =
+        standard_flooding(of(seeds), to.diagram, {to_metric(metric), to_neighbourhood(neighbourhood)});
+  });
+}
+
+vorocl_status vorocl_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric,
+                                   vorocl_neighbourhood neighbourhood, vorocl_variant variant) {
+  return guarded([&] {
+    vorocl_diagram& to = given(diagram, "diagram");
+    to.report = jump_flooding(of(seeds), to.diagram,
+                              {to_metric(metric), to_neighbourhood(neighbourhood), to_variant(variant)});
+  });
+}
+
+vorocl_status vorocl_exact_diagram(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric) {
+  return guarded([&] {
+    vorocl_diagram& to = given(diagram, "diagram");
+    to.report = exact_diagram(of(seeds), to.diagram, {to_metric(metric)});
+  });
+}
+
+vorocl_status vorocl_dynamic_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
+                                           double max_displacement, const vorocl_method_options* options) {
+  return vorocl_run("djfa", seeds, diagram, max_displacement, options);
+}
+
+// --- by name ---
+
+vorocl_status vorocl_method_count(size_t* count) {
+  return answer(count, "count", [&] { return methods().size(); });
+}
+
+vorocl_status vorocl_method_get(size_t index, vorocl_method_description* description) {
+  return guarded([&] {
+    const Method& from = at(methods(), index, "methods");
+    given(description, "description") = {from.name.c_str(), from.exact ? 1 : 0, from.continues ? 1 : 0};
+  });
+}
+
+vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram,
+                         double max_displacement, const vorocl_method_options* options) {
+  return guarded([&] {
+    vorocl_diagram& to = given(diagram, "diagram");
+    to.report =
+        method(&given(name, "method")).run(of(seeds), to.diagram, max_displacement, to_options(options));
+  });
+}
+
+vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, int64_t width, int64_t height,
+                             size_t seeds, const vorocl_method_options* options) {
+  return guarded([&] {
+    prepare(method(&given(name, "method")), of(device), Grid(width, height), seeds, to_options(options));
+  });
+}
