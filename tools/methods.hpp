@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "app/options/options.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/plan.hpp"
 #include "vorocl/report.hpp"
@@ -24,15 +23,12 @@ struct MethodOptions {
   int refresh_interval = 0;
 };
 
-/// Adds --metric, --neighbourhood and the waves of djfa.
-void add_method_options(CLI::App& app, MethodOptions& options);
-
 struct Method {
   std::string name;
   bool dynamic = false;  ///< whether it goes on from the labels that the diagram holds
   /// d_max is the longest motion of a seed along an axis since the diagram was last filled, in pixels.
   std::function<Report(const Seeds&, Diagram&, double d_max, const MethodOptions&)> run;
-  bool exact = false;  ///< whether its diagrams are the truth that others are judged by
+  bool exact = false;  ///< whether its diagrams are the ground truth that others are judged by
   /// The waves that it runs from seeds alone, of which its report has said the number. Null: it has no waves.
   std::function<Plan(const Grid&, int waves, const MethodOptions&)> plan = {};
 };
@@ -42,10 +38,9 @@ Simulation::Engine engine(const Method& method, const MethodOptions& options);
 
 const std::vector<Method>& methods();
 
-/// The methods as choices of an option.
-Choices<Method> method_choices();
+/// The method of a name. Throws Error if there is none.
+const Method& method(const std::string& name);
 
-/// Throws UsageError for options that only djfa has, if none of the methods is djfa.
-void check_method_options(const CLI::App& app, const MethodOptions& options, bool has_dynamic);
+std::string to_string(Metric metric);
 
 }  // namespace vorocl::command

@@ -16,7 +16,7 @@ namespace {
 constexpr int engines_side_by_side = 3;  // a variant twice, and the exact method
 
 Simulation::Engine engine_of(const std::string& method, const MethodOptions& options = {}) {
-  return engine(choose(method_choices(), method), options);
+  return engine(vorocl::command::method(method), options);
 }
 
 /// The studies of dJFA's own options.
@@ -48,8 +48,8 @@ Simulation walk(const Device& device, const Configuration& configuration, const 
                 const Variant& variant) {
   const Grid grid(configuration.side, configuration.side);
   const Device tuned = variant.one_pixel_a_work_item ? device.with_tuning(Tuning{}) : device;
-  return random_walk(spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
-                     variant.step_length, settings.rng_seed);
+  return {spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
+          RandomMotion{variant.step_length, settings.rng_seed}};
 }
 
 void measure_accuracy(Simulation simulation, const Variant& variant, int frames, VariantResult& result,

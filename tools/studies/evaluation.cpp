@@ -7,6 +7,7 @@
 #include "methods.hpp"
 #include "studies/random_motion.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/error.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -17,14 +18,14 @@ namespace {
 Simulation::Engine engine_of(const MethodResult& result) {
   MethodOptions options;
   options.metric = result.metric;
-  return engine(choose(method_choices(), result.method), options);
+  return engine(method(result.method), options);
 }
 
 Simulation walk(const Device& device, const Configuration& configuration,
                 const EvaluationSettings& settings) {
   const Grid grid(configuration.side, configuration.side);
-  return random_walk(Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
-                     settings.step_length, settings.rng_seed);
+  return {Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
+          RandomMotion{settings.step_length, settings.rng_seed}};
 }
 
 /// The similarities of a frame's diagrams, each pair compared once.

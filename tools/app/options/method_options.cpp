@@ -1,0 +1,54 @@
+#include "app/options/method_options.hpp"
+
+#include "app/options/common_options.hpp"
+#include "app/terminal/usage_error.hpp"
+
+namespace vorocl::command {
+
+Choices<Method> method_choices() {
+  Choices<Method> choices;
+  for (const Method& method : methods()) choices.emplace_back(method.name, method);
+  return choices;
+}
+
+void add_method_options(Command& command, MethodOptions& options) {
+  add_metric_option(command, options.metric);
+  const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {
+      {"moore", NeighbourhoodMix::moore},
+      {"von-neumann", NeighbourhoodMix::von_neumann},
+      {"mixed", NeighbourhoodMix::mixed}};
+  command
+      .add_choice("--neighbourhood", options.neighbourhood, neighbourhoods, "Neighbours that a wave looks at")
+      .default_text("mixed for djfa, moore for the others");
+  command
+      .add(
+          "--von-neumann-waves", options.von_neumann_waves,
+          "djfa with the mixed neighbourhood: how many waves, from the first, look at von Neumann neighbours")
+      .value_name("0|1|2")
+      .in_range(0, 2)
+      .default_is_value();
+  command
+      .add("--extra-waves", options.extra_waves,
+           "djfa: waves to add at the end: one of step 1, or two of steps 2 and 1")
+      .value_name("0|1|2")
+      .in_range(0, 2)
+      .default_is_value();
+  command
+      .add("--refresh-interval", options.refresh_interval,
+           "djfa: make a full JFA in every R-th frame; 0: in frame 0 alone")
+      .value_name("R")
+      .in_range(0, 1000000000)
+      .default_is_value();
+}
+
+void check_method_options(const Command& command, const MethodOptions& options, bool has_dynamic) {
+  if (has_dynamic) return;
+  if (options.neighbourhood == NeighbourhoodMix::mixed) {
+    throw UsageError("--neighbourhood mixed is for the method djfa");
+  }
+  for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval"}) {
+    if (command.has(name)) throw UsageError(std::string(name) + " is for the method djfa");
+  }
+}
+
+}  // namespace vorocl::command

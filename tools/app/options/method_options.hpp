@@ -1,0 +1,18 @@
+// How diagrams are made.
+#pragma once
+
+#include "app/options/command_line.hpp"
+#include "methods.hpp"
+
+namespace vorocl::command {
+
+/// The methods as choices of an option.
+Choices<Method> method_choices();
+
+/// Adds --metric, --neighbourhood and the waves of djfa.
+void add_method_options(Command& command, MethodOptions& options);
+
+/// Throws UsageError for options that only djfa has, if none of the methods is djfa.
+void check_method_options(const Command& command, const MethodOptions& options, bool has_dynamic);
+
+}  // namespace vorocl::command
