@@ -17,7 +17,7 @@ if(VOROCL_BUILD_PICTURE)
 endif()
 
 set(library_is_static TRUE)
-set(static_needs " -lstdc++ -pthread") # a static library brings nothing along, and its user may be a C program
+set(static_needs " -l${cxx_runtime} -pthread")
 if(BUILD_SHARED_LIBS)
   set(library_is_static FALSE)
   set(static_needs)

@@ -8,24 +8,24 @@
 // A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the table
 // names its pair by one of the edges that the two cells share, so one 32-bit atomic takes a slot; there is no other name
 // for a pair of 32-bit ids that fits.
-inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
+static inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
 
 // The ids of the cells on both sides of an edge, the lower one first.
-inline uint2 pair_at(global const uint* labels, int width, uint edge) {
+static inline uint2 pair_at(global const uint* labels, int width, uint edge) {
   const uint pixel = edge >> 1;
   const uint p = labels[pixel], q = labels[pixel + (edge & 1 ? (uint)width : 1u)];
   return (uint2)(min(p, q), max(p, q));
 }
 
-inline uint hash_of(uint2 pair) {
+static inline uint hash_of(uint2 pair) {
   uint hash = pair.s0 * 0x9e3779b1u + pair.s1 * 0x85ebca77u;
   hash = (hash ^ hash >> 15) * 0xc2b2ae3du;
   return hash ^ hash >> 13;
 }
 
 // Adds to the length of the border that an edge belongs to. The table has 2^bits slots, of which most stay free.
-inline void add_border(global const uint* labels, int width, uint edge, uint length, uint mask, global uint* slots,
-                       global uint* lengths, global uint* overflow) {
+static inline void add_border(global const uint* labels, int width, uint edge, uint length, uint mask,
+                              global uint* slots, global uint* lengths, global uint* overflow) {
   const uint2 pair = pair_at(labels, width, edge);
   uint at = hash_of(pair) & mask;
   for (int probe = 0; probe < MOST_PROBES; ++probe, at = (at + 1) & mask) {
@@ -90,10 +90,10 @@ kernel void place_pairs(global const uint* restrict labels, int width, uint slot
 }
 
 // The second cell of a pair of the list.
-inline uint second_of(global const uint* pair_list, uint at) { return pair_list[(size_t)at * 3 + 1]; }
+static inline uint second_of(global const uint* pair_list, uint at) { return pair_list[(size_t)at * 3 + 1]; }
 
 // Sinks a pair in the heap of the pairs from `begin` on, so that the one with the greatest second cell is on top.
-inline void sink(global uint* pair_list, uint begin, uint size, uint hole, uint3 pair) {
+static inline void sink(global uint* pair_list, uint begin, uint size, uint hole, uint3 pair) {
   for (uint child = 2 * hole + 1; child < size; child = 2 * hole + 1) {
     if (child + 1 < size && second_of(pair_list, begin + child + 1) > second_of(pair_list, begin + child)) ++child;
     if (second_of(pair_list, begin + child) <= pair.s1) break;

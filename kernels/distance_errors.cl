@@ -2,21 +2,14 @@
 
 #include "position.cl"
 
-#define NO_DISTANCE 0x7fffffffu
-
-// The distance between two packed positions, as distance_between() has it for runs; NO_DISTANCE without a seed.
-inline uint distance_to(uint position, int x, int y) {
-  const int dx = packed_x(position) - x, dy = packed_y(position) - y;
+// The distance from a pixel to a packed position; NO_DISTANCE without a seed.
+static inline uint distance_to(uint position, int x, int y) {
   if (position & EMPTY_BIT) return NO_DISTANCE;
-#ifdef VOROCL_EUCLIDEAN
-  return (uint)(dx * dx + dy * dy);
-#else
-  return abs(dx) + abs(dy);
-#endif
+  return distance_of_offset(packed_x(position) - x, packed_y(position) - y);
 }
 
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
-inline float excess(uint distance, uint least) {
+static inline float excess(uint distance, uint least) {
 #ifdef VOROCL_EUCLIDEAN
   return (float)(distance - least) / (sqrt((float)distance) + sqrt((float)least));
 #else

@@ -2,8 +2,6 @@
 
 #include "position.cl"
 
-#define NO_DISTANCE 0x7fffffffu
-
 #if VOROCL_WIDTH == 1
 typedef float float_run;
 #define TO_FLOATS convert_float
@@ -15,8 +13,8 @@ typedef JOIN(float, VOROCL_WIDTH) float_run;
 #endif
 
 // Each pixel's distance to its label's seed.
-inline uint_run find_distances(global const uint* labels, global const uint* positions, uint count, int x, int y,
-                               int width) {
+static inline uint_run find_distances(global const uint* labels, global const uint* positions, uint count, int x, int y,
+                                      int width) {
   uint lane[VOROCL_WIDTH];
   STORE_RUN(min(LOAD_RUN(labels + y * width + x), (uint_run)count), lane);
   for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = positions[lane[i]];
@@ -45,7 +43,7 @@ RUN_KERNEL void float_distances(global const uint* restrict labels, global const
 }
 
 // Whether a pixel has another label than one of its four neighbours.
-inline uint is_border(global const uint* labels, int x, int y, int width, int height) {
+static inline uint is_border(global const uint* labels, int x, int y, int width, int height) {
   global const uint* const own = labels + y * width + x;
   return (uint)((x > 0 && own[-1] != *own) || (x + 1 < width && own[1] != *own) ||
                 (y > 0 && own[-width] != *own) || (y + 1 < height && own[width] != *own));

@@ -4,7 +4,7 @@
 #include "position.cl"
 
 // Where a coordinate ends up on an axis of `size` pixels. Reflected, the axis and its mirror image repeat for ever.
-inline int bounded(int at, int size, int periodic) {
+static inline int bounded(int at, int size, int periodic) {
   const int period = periodic ? size : 2 * size;
   int folded = at % period;
   if (folded < 0) folded += period;

@@ -7,7 +7,7 @@
 
 // (In scalars, as compilers for CPUs make a vector of a uint4 and pick it apart in every round; and by 64-bit products,
 // which give both halves at once.)
-inline uint4 philox(uint4 counter, uint2 key) {
+static inline uint4 philox(uint4 counter, uint2 key) {
   uint a = counter.s0, b = counter.s1, c = counter.s2, d = counter.s3, key_0 = key.s0, key_1 = key.s1;
   for (int round = 0; round < 10; ++round) {
     const ulong product_0 = (ulong)a * 0xd2511f53u, product_1 = (ulong)c * 0xcd9e8d57u;
@@ -22,4 +22,4 @@ inline uint4 philox(uint4 counter, uint2 key) {
 }
 
 // Maps 32 random bits to 0 ... count - 1; the bias is below count / 2^32.
-inline uint uniform_below(uint bits, uint count) { return (uint)((ulong)bits * count >> 32); }
+static inline uint uniform_below(uint bits, uint count) { return (uint)((ulong)bits * count >> 32); }

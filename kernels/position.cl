@@ -1,44 +1,60 @@
 // Seed positions, distances and the tie rule: what every engine must agree on, to the bit.
 //
 // A seed's position is packed as y << 16 | x. The sign bit says that there is no seed (EMPTY); real coordinates
-// are at most 0x7fff. Packed positions in unsigned order are in row-major order of position, so:
-//
-//   THE TIE RULE: of the seeds at the least distance, the one with the smallest packed position wins.
+// are at most 0x7fff.
+
+#ifndef VOROCL_POSITION
+#define VOROCL_POSITION
 
 #include "vector.cl"
 
 #define NO_LABEL 0xffffffffu
 #define EMPTY_BIT 0x80000000u
 #define EMPTY 0x80008000u
+#define LAST_COORDINATE 0x7fff
+#define NO_DISTANCE 0x7fffffffu  // what results say where there is no seed: more than any distance
 
-inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
-inline int packed_x(uint position) { return (int)(position & 0xffffu); }
-inline int packed_y(uint position) { return (int)(position >> 16); }
+static inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
+static inline int packed_x(uint position) { return (int)(position & 0xffffu); }
+static inline int packed_y(uint position) { return (int)(position >> 16); }
 
 // Where a seed's pixel is in a row-major image.
-inline uint_run pixel_index(uint_run position, int width) {
+static inline uint_run pixel_index(uint_run position, int width) {
   return (position >> 16) * (uint)width + (position & 0xffffu);
 }
 
-// The list of seed positions has one value more than there are seeds: EMPTY, which every label that names no seed is
-// clamped to when its position is looked up.
+// The list of seed positions has one value more than there are seeds: EMPTY. A label that is no seed's id is clamped to
+// it when its position is looked up.
 
 // An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
 #define FIRST_ID 1
 
 // Packed positions of the run's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
-inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
+static inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
 
-// The distance between two packed positions: squared for VOROCL_EUCLIDEAN, else Manhattan. The coordinates are
-// subtracted as 16-bit numbers, which cannot overflow for real positions. Both metrics are then the sum of two
-// products of 16-bit numbers, a form that compilers turn into one multiply-add instruction (pmaddwd on x86).
+// DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, else the
+// Manhattan distance, both integers. ALONG(offset) is offset * FACTOR(offset). Both macros take numbers and vectors,
+// FACTOR those of 16 bits.
 #ifdef VOROCL_EUCLIDEAN
-#define FACTOR(difference) (difference)
+#define ALONG(offset) ((offset) * (offset))
+#define FACTOR(offset) (offset)
 #else
-#define FACTOR(difference) (((difference) >> (short)15) | (short)1)  // the sign: -1 or 1
+#define ALONG(offset) max(offset, -(offset))
+#define FACTOR(offset) (((offset) >> (short)15) | (short)1)  // the sign: -1 or 1
 #endif
+
+#if 2 * LAST_COORDINATE * LAST_COORDINATE >= 0x80000000
+#error "A distance uses the bit that makes an empty position farther than any seed"
+#endif
+
+// The distance of two pixels that are (dx, dy) apart.
+static inline uint distance_of_offset(int dx, int dy) { return (uint)(ALONG(dx) + ALONG(dy)); }
+
+// The distance between two packed positions, vectors of them. The coordinates are subtracted as 16-bit numbers, which
+// cannot overflow for real positions. The distance is then the sum of two products of 16-bit numbers, a form that
+// compilers turn into one multiply-add instruction (pmaddwd on x86).
 #define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
-  inline uint_n name(uint_n a, uint_n b) {                                                            \
+  static inline uint_n name(uint_n a, uint_n b) {                                                     \
     const short_2n difference = as_short_2n(a) - as_short_2n(b);                                      \
     const short_2n factor = FACTOR(difference);                                                       \
     return as_uint_n(convert_int_n(difference.even) * convert_int_n(factor.even) +                    \
@@ -55,18 +71,32 @@ DEFINE_DISTANCE_BETWEEN(distance_between, uint4, short8, as_uint4, as_short8, co
 DEFINE_DISTANCE_BETWEEN(distance_between, uint8, short16, as_uint8, as_short16, convert_int8)
 #else  // there is no short32: two halves
 DEFINE_DISTANCE_BETWEEN(distance_between_halves, uint8, short16, as_uint8, as_short16, convert_int8)
-inline uint16 distance_between(uint16 a, uint16 b) {
+static inline uint16 distance_between(uint16 a, uint16 b) {
   return (uint16)(distance_between_halves(a.lo, b.lo), distance_between_halves(a.hi, b.hi));
 }
 #endif
 
-// As distance_between(), where the position may be empty: that is farther than any seed. What the subtraction
-// made of an empty position is of no account, for its sign bit alone puts it past every real distance.
-inline uint_run distance_to_label(uint_run position, uint_run pixel) {
+// As distance_between(), where the position may be empty: that is farther than any seed. The subtraction makes a
+// meaningless number of an empty position, but the sign bit alone puts it past every real distance.
+static inline uint_run distance_to_label(uint_run position, uint_run pixel) {
   return distance_between(position, pixel) | (position & EMPTY_BIT);
 }
 
-// One step of the tie rule's minimum: takes a candidate whose distance is the least one, if it comes first.
-inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
+// THE TIE RULE: of the seeds at the least distance, the one that comes first in row-major order of position wins. That
+// is the unsigned order of packed positions. The macros take numbers and vectors.
+#define COMES_FIRST(seed, other) ((seed) < (other))
+#define WINS(seed, distance, other, other_distance) \
+  (((distance) < (other_distance)) | (((distance) == (other_distance)) & COMES_FIRST(seed, other)))
+
+// One step of a search for the first of the nearest seeds where the least distance is known: takes a candidate that has
+// it, if it comes first.
+static inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
   return select(best, min(best, candidate), distance == least);
 }
+
+// The seed that wins among the lanes of a vector.
+static inline uint winning_lane(uint_run seeds, uint_run distances) {
+  return lane_min(select((uint_run)0xffffffffu, seeds, distances == lane_min(distances)));
+}
+
+#endif

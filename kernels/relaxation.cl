@@ -23,7 +23,7 @@ kernel void add_energy(global const uint* restrict labels, global const uint* re
 }
 
 // The coordinate nearest to the mean; of two, the present one.
-inline int nearest_to_mean(ulong sum, uint area, int present) {
+static inline int nearest_to_mean(ulong sum, uint area, int present) {
   const int low = (int)(sum / area);
   const ulong twice_the_rest = 2 * (sum % area);
   if (twice_the_rest == area) return present == low + 1 ? present : low;

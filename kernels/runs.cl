@@ -13,15 +13,15 @@ typedef struct {
 } block_t;
 
 // Blocks have 2^wide columns and 2^high rows.
-inline uint blocks_across(int width, int wide) { return ((uint)(width - 1) >> wide) + 1; }
+static inline uint blocks_across(int width, int wide) { return ((uint)(width - 1) >> wide) + 1; }
 
 // The index of the block that holds a pixel.
-inline uint block_of(int x, int y, int width, int wide, int high) {
+static inline uint block_of(int x, int y, int width, int wide, int high) {
   return ((uint)y >> high) * blocks_across(width, wide) + ((uint)x >> wide);
 }
 
 // The block of this work-item; the launch is rounded up to whole work-groups, so there may be none.
-inline bool take_block(int width, int height, int wide, int high, block_t* block) {
+static inline bool take_block(int width, int height, int wide, int high, block_t* block) {
   const uint across = blocks_across(width, wide);
   block->index = (uint)get_global_id(0);
   block->left = (int)(block->index % across) << wide;
@@ -42,19 +42,19 @@ typedef struct {
   uint changes;    // bit i: pixel base + i begins another stretch
 } walk_t;
 
-inline walk_t begin_walk(global const uint* row, global const uint* other, int left, int right) {
+static inline walk_t begin_walk(global const uint* row, global const uint* other, int left, int right) {
   const walk_t walk = {row, other, left, right, left, left, left, left + 1, 0u};
   return walk;
 }
 
 // Bit i: pixel i of a run has another label than the one before it.
-inline uint changes_of_run(global const uint* pixels) {
+static inline uint changes_of_run(global const uint* pixels) {
   return lane_sum(select((uint_run)0, (uint_run)1 << LANES, LOAD_RUN(pixels) != LOAD_RUN(pixels - 1)));
 }
 
 // Goes to the next stretch; false at the end of the row. All changes of a run are found at once: a CPU would mispredict
 // a branch for every stretch.
-__attribute__((always_inline)) inline bool next_stretch(walk_t* walk) {
+__attribute__((always_inline)) static inline bool next_stretch(walk_t* walk) {
   walk->from = walk->to;
   if (walk->from >= walk->right) return false;
   while (walk->changes == 0) {
@@ -81,4 +81,4 @@ __attribute__((always_inline)) inline bool next_stretch(walk_t* walk) {
 }
 
 // The label of the present stretch.
-inline uint stretch_label(const walk_t* walk) { return walk->row[walk->to - 1]; }
+static inline uint stretch_label(const walk_t* walk) { return walk->row[walk->to - 1]; }

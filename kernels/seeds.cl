@@ -3,30 +3,33 @@
 #include "philox.cl"
 #include "position.cl"
 
-// Points in pixel units to packed positions. A bad point leaves its index, if it is the first one, and no seed.
-kernel void snap_points(global const float2* restrict points, global uint* restrict positions, uint count,
-                        int width, int height, global uint* restrict first_bad) {
+// Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and its
+// point is not looked at. `found` holds the least index of a bad point, the bits of its x and y, and how many are absent.
+kernel void snap_points(global const float2* restrict points, global const uchar* restrict marks, int marked,
+                        global uint* restrict positions, uint count, int width, int height,
+                        global uint* restrict found) {
   const uint id = (uint)get_global_id(0);
-  if (id == count) positions[id] = EMPTY;
-  if (id >= count) return;
+  if (id > count) return;
+  positions[id] = EMPTY;
+  if (id == count) return;
+  if (marked && marks[id] == 0) {
+    atomic_inc(found + 3);
+    return;
+  }
   const float2 point = points[id];
   // Written so that a NaN fails.
   if (point.x >= 0.0f && point.x < (float)width && point.y >= 0.0f && point.y < (float)height) {
     positions[id] = pack((int)point.x, (int)point.y);
   } else {
-    positions[id] = EMPTY;
-    atomic_min(first_bad, id);
+    atomic_min(found, id);
   }
 }
 
-// Keeps the first bad point of the first list that has one: 1, its index, and the bits of its x and y.
-kernel void keep_bad_point(global const float2* restrict points, global const uint* restrict first_bad,
-                           global uint* restrict kept) {
-  if (get_global_id(0) > 0 || kept[0] != 0 || *first_bad == NO_LABEL) return;
-  kept[0] = 1;
-  kept[1] = *first_bad;
-  kept[2] = as_uint(points[*first_bad].x);
-  kept[3] = as_uint(points[*first_bad].y);
+// Notes the coordinates of the bad point, for its buffer is the caller's and may change.
+kernel void note_bad_point(global const float2* restrict points, global uint* restrict found) {
+  if (get_global_id(0) > 0 || found[0] == NO_LABEL) return;
+  found[1] = as_uint(points[found[0]].x);
+  found[2] = as_uint(points[found[0]].y);
 }
 
 kernel void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {

@@ -10,15 +10,6 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   largest[id] = -1;
 }
 
-inline int distance_of(int x, int y, int seed_x, int seed_y) {
-  const int dx = (int)abs_diff(x, seed_x), dy = (int)abs_diff(y, seed_y);
-#ifdef VOROCL_EUCLIDEAN
-  return dx * dx + dy * dy;
-#else
-  return dx + dy;
-#endif
-}
-
 // What a row cannot decide is left to the others: a stretch adds to a side of its cell's box, or to the largest distance,
 // only if the pixel next to its end in the row above or below, which would add more, is not in the cell. That leaves a
 // few atomics of the many that the cells' borders would need.
@@ -49,8 +40,12 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
       const int seed_x = packed_x(positions[label]), seed_y = packed_y(positions[label]);
       const int away = y < seed_y ? -width : width;
       const bool ends = y < seed_y ? !above : !below;
-      if (ends || row[first + away] != label) atomic_max(largest + label, distance_of(first, y, seed_x, seed_y));
-      if (ends || row[last + away] != label) atomic_max(largest + label, distance_of(last, y, seed_x, seed_y));
+      if (ends || row[first + away] != label) {
+        atomic_max(largest + label, (int)distance_of_offset(first - seed_x, y - seed_y));
+      }
+      if (ends || row[last + away] != label) {
+        atomic_max(largest + label, (int)distance_of_offset(last - seed_x, y - seed_y));
+      }
     }
   }
 }

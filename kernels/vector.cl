@@ -49,16 +49,20 @@ typedef struct __attribute__((packed)) {
 
 // Stores the table's values at the run's indices, lane by lane: a CPU has them in scalar registers anyway. (Given a
 // pointer instead of an index, PoCL's compiler builds a vector of them first, which costs a quarter of a wave.)
-inline void store_looked_up_1(global const uint* table, uint at, global uint* out, int first) { out[first] = table[at]; }
+static inline void store_looked_up_1(global const uint* table, uint at, global uint* out, int first) {
+  out[first] = table[at];
+}
 #define LANE(i) out[first + 0x##i] = table[at.s##i]
-inline void store_looked_up_2(global const uint* table, uint2 at, global uint* out, int first) { LANE(0), LANE(1); }
-inline void store_looked_up_4(global const uint* table, uint4 at, global uint* out, int first) {
+static inline void store_looked_up_2(global const uint* table, uint2 at, global uint* out, int first) {
+  LANE(0), LANE(1);
+}
+static inline void store_looked_up_4(global const uint* table, uint4 at, global uint* out, int first) {
   LANE(0), LANE(1), LANE(2), LANE(3);
 }
-inline void store_looked_up_8(global const uint* table, uint8 at, global uint* out, int first) {
+static inline void store_looked_up_8(global const uint* table, uint8 at, global uint* out, int first) {
   LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7);
 }
-inline void store_looked_up_16(global const uint* table, uint16 at, global uint* out, int first) {
+static inline void store_looked_up_16(global const uint* table, uint16 at, global uint* out, int first) {
   LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7);
   LANE(8), LANE(9), LANE(a), LANE(b), LANE(c), LANE(d), LANE(e), LANE(f);
 }
@@ -67,18 +71,21 @@ inline void store_looked_up_16(global const uint* table, uint16 at, global uint*
 
 // The values of a table, itself a run, at a run of indices modulo VOROCL_WIDTH. (PoCL's shuffle() works lane by lane;
 // its compiler makes a permutation of this.)
-inline uint permute_1(uint table, uint at) {
+static inline uint permute_1(uint table, uint at) {
   (void)at;
   return table;
 }
-inline uint2 permute_2(uint2 table, uint2 at) { at &= 1u; return (uint2)(table[at.s0], table[at.s1]); }
-inline uint4 permute_4(uint4 table, uint4 at) { at &= 3u; return (uint4)(table[at.s0], table[at.s1], table[at.s2], table[at.s3]); }
-inline uint8 permute_8(uint8 table, uint8 at) {
+static inline uint2 permute_2(uint2 table, uint2 at) { at &= 1u; return (uint2)(table[at.s0], table[at.s1]); }
+static inline uint4 permute_4(uint4 table, uint4 at) {
+  at &= 3u;
+  return (uint4)(table[at.s0], table[at.s1], table[at.s2], table[at.s3]);
+}
+static inline uint8 permute_8(uint8 table, uint8 at) {
   at &= 7u;
   return (uint8)(table[at.s0], table[at.s1], table[at.s2], table[at.s3], table[at.s4], table[at.s5], table[at.s6],
                  table[at.s7]);
 }
-inline uint16 permute_16(uint16 table, uint16 at) {
+static inline uint16 permute_16(uint16 table, uint16 at) {
   at &= 15u;
   return (uint16)(table[at.s0], table[at.s1], table[at.s2], table[at.s3], table[at.s4], table[at.s5], table[at.s6],
                   table[at.s7], table[at.s8], table[at.s9], table[at.sa], table[at.sb], table[at.sc], table[at.sd],
@@ -87,9 +94,9 @@ inline uint16 permute_16(uint16 table, uint16 at) {
 #define permute JOIN(permute_, VOROCL_WIDTH)
 
 // The values at the indices in a table of 1, 2, 3 or 4 runs.
-inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_RUN(table), at); }
+static inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_RUN(table), at); }
 #define DEFINE_LOOK_UP(name, name_of_one_less, runs)                                        \
-  inline uint_run name(const uint* table, uint_run at) {                                    \
+  static inline uint_run name(const uint* table, uint_run at) {                             \
     const uint_run last = permute(LOAD_RUN(table + (runs - 1) * VOROCL_WIDTH), at); \
     return select(name_of_one_less(table, at), last, at >= (uint)((runs - 1) * VOROCL_WIDTH)); \
   }
@@ -98,27 +105,27 @@ DEFINE_LOOK_UP(look_up_in_3, look_up_in_2, 3)
 DEFINE_LOOK_UP(look_up_in_4, look_up_in_3, 4)
 
 // The sum of a run's lanes.
-inline uint lane_sum_1(uint values) { return values; }
-inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }
-inline uint lane_sum_4(uint4 values) { return lane_sum_2(values.lo + values.hi); }
-inline uint lane_sum_8(uint8 values) { return lane_sum_4(values.lo + values.hi); }
-inline uint lane_sum_16(uint16 values) { return lane_sum_8(values.lo + values.hi); }
+static inline uint lane_sum_1(uint values) { return values; }
+static inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }
+static inline uint lane_sum_4(uint4 values) { return lane_sum_2(values.lo + values.hi); }
+static inline uint lane_sum_8(uint8 values) { return lane_sum_4(values.lo + values.hi); }
+static inline uint lane_sum_16(uint16 values) { return lane_sum_8(values.lo + values.hi); }
 #define lane_sum JOIN(lane_sum_, VOROCL_WIDTH)
 
 // The least of a run's lanes.
-inline uint lane_min_1(uint values) { return values; }
-inline uint lane_min_2(uint2 values) { return min(values.lo, values.hi); }
-inline uint lane_min_4(uint4 values) { return lane_min_2(min(values.lo, values.hi)); }
-inline uint lane_min_8(uint8 values) { return lane_min_4(min(values.lo, values.hi)); }
-inline uint lane_min_16(uint16 values) { return lane_min_8(min(values.lo, values.hi)); }
+static inline uint lane_min_1(uint values) { return values; }
+static inline uint lane_min_2(uint2 values) { return min(values.lo, values.hi); }
+static inline uint lane_min_4(uint4 values) { return lane_min_2(min(values.lo, values.hi)); }
+static inline uint lane_min_8(uint8 values) { return lane_min_4(min(values.lo, values.hi)); }
+static inline uint lane_min_16(uint16 values) { return lane_min_8(min(values.lo, values.hi)); }
 #define lane_min JOIN(lane_min_, VOROCL_WIDTH)
 
 // Whether this work-item has a run at all: the launch is rounded up to whole work-groups.
-inline bool has_run(int width, int height) {
+static inline bool has_run(int width, int height) {
   return (int)get_global_id(0) * VOROCL_WIDTH < width && (int)get_global_id(1) < height;
 }
 
 // The first pixel of this work-item's run. The last run of a row is moved left so that it ends with the row:
 // it computes some pixels a second time, to the same values.
-inline int run_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
-inline int run_y(void) { return (int)get_global_id(1); }
+static inline int run_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
+static inline int run_y(void) { return (int)get_global_id(1); }

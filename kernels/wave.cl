@@ -6,20 +6,20 @@
 #include "position.cl"
 
 // Of the values of a run that starts at x, those whose pixel is in the row; `outside` in the other lanes.
-inline uint_run inside_row(int x, int width, uint_run values, uint_run outside) {
+static inline uint_run inside_row(int x, int width, uint_run values, uint_run outside) {
   return select(outside, values, (uint)x + LANES < (uint_run)(uint)width);
 }
 
 // The labels of a run that starts at (x, y); pixels outside the grid are empty. All tests but the last one are
 // the same for the whole run.
-inline uint_run load_labels(global const uint* image, int x, int y, int width, int height) {
+static inline uint_run load_labels(global const uint* image, int x, int y, int width, int height) {
   if (y < 0 || y >= height || x <= -VOROCL_WIDTH || x >= width) return EMPTY;
   uint_run labels = LOAD_RUN(image + VOROCL_GUARD + y * width + x);
   if (x < 0 || x + VOROCL_WIDTH > width) return inside_row(x, width, labels, (uint_run)EMPTY);
   return labels;
 }
 
-inline void store_labels(uint_run labels, global uint* image, int x, int y, int width) {
+static inline void store_labels(uint_run labels, global uint* image, int x, int y, int width) {
   STORE_RUN(labels, image + VOROCL_GUARD + y * width + x);
 }
 
@@ -30,7 +30,7 @@ constant int neighbour_y[9] = {0, -1, 0, 0, 1, -1, -1, 1, 1};
 
 // The labels of the run at (x, y) after a wave. First the least distance of all candidates, then the first position
 // among those that have it: that keeps the tie rule at one masked minimum a candidate.
-inline uint_run nearest_label(global const uint* image, int x, int y, int width, int height, int step) {
+static inline uint_run nearest_label(global const uint* image, int x, int y, int width, int height, int step) {
   uint_run label[VOROCL_NEIGHBOURS], distance[VOROCL_NEIGHBOURS];
   if (x >= step && x + VOROCL_WIDTH + step <= width && y >= step && y + step < height) {
     // All neighbours are inside the grid: without the tests a wave of a small step takes an eighth less time.

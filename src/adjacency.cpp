@@ -1,6 +1,6 @@
 #include "vorocl/adjacency.hpp"
 
-#include <algorithm>
+#include <utility>
 
 #include "buffer.hpp"
 #include "measurement.hpp"
@@ -26,83 +26,100 @@ std::size_t first_slots(std::size_t seeds) {
 
 }  // namespace
 
+struct AdjacencyState : Measured {
+  std::size_t pairs = 0;
+  cl::Buffer pair_list, neighbours, perimeters;
+  cl::Buffer slots, lengths, overflow, first, placed;  // while they are made: see adjacency.cl
+};
+
+AdjacencyResult::AdjacencyResult() = default;
+AdjacencyResult::~AdjacencyResult() = default;
+AdjacencyResult::AdjacencyResult(AdjacencyResult&& other) noexcept = default;
+AdjacencyResult& AdjacencyResult::operator=(AdjacencyResult&& other) noexcept = default;
+std::size_t AdjacencyResult::pairs() const { return state_ && state_->seeds ? state_->pairs : 0; }
+const cl::Buffer& AdjacencyResult::pair_list() const { return state_ ? state_->pair_list : no_buffer(); }
+const cl::Buffer& AdjacencyResult::neighbours() const { return state_ ? state_->neighbours : no_buffer(); }
+const cl::Buffer& AdjacencyResult::perimeters() const { return state_ ? state_->perimeters : no_buffer(); }
+
 void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result) {
-  diagram.check_fits(seeds);
+  AdjacencyState& found = Internal::result(result);
+  found.seeds.reset();
+  auto measured = frame_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const std::size_t cells = seeds.size(), word = sizeof(cl_uint);
   const auto count = static_cast<cl_uint>(cells);
   const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
-    Kernel(device, "adjacency.cl", name, grid).over_items(items, arguments...);
+    found.kernels.get(device, "adjacency.cl", name, grid).over_items(items, arguments...);
   };
 
-  make_room(result.overflow_, device, word);
+  make_room(found.overflow, device, word);
   const Blocks blocks(device, grid);
   std::size_t slots = first_slots(cells);
   for (;; slots *= 2) {
-    make_room(result.slots_, device, slots * word);
-    make_room(result.lengths_, device, slots * word);
-    fill(device, result.slots_, empty_slot, slots);
-    fill(device, result.lengths_, cl_uint{0}, slots);
-    fill(device, result.overflow_, cl_uint{0}, 1);
-    blocks.run("adjacency.cl", "find_borders", diagram.labels(), count, grid.width(), grid.height(),
-               blocks.wide(), blocks.high(), static_cast<cl_uint>(slots - 1), result.slots_, result.lengths_,
-               result.overflow_);
-    if (download<cl_uint>(device, result.overflow_, 1).front() == 0) break;
+    make_room(found.slots, device, slots * word);
+    make_room(found.lengths, device, slots * word);
+    fill(device, found.slots, empty_slot, slots);
+    fill(device, found.lengths, cl_uint{0}, slots);
+    fill(device, found.overflow, cl_uint{0}, 1);
+    blocks.run(found.kernels, "adjacency.cl", "find_borders", {}, diagram.labels(), count, grid.width(),
+               grid.height(), blocks.wide(), blocks.high(), static_cast<cl_uint>(slots - 1), found.slots,
+               found.lengths, found.overflow);
+    if (download<cl_uint>(device, found.overflow, 1).front() == 0) break;
     if (slots == most_slots) throw Error("the cells of the diagram have more neighbours than can be counted");
   }
 
-  make_room(result.neighbours_, device, cells * word);
-  make_room(result.perimeters_, device, cells * word);
-  make_room(result.placed_, device, cells * word);
-  make_room(result.first_, device, (cells + 1) * word);
-  const cl::Buffer* const zeros[] = {&result.neighbours_, &result.perimeters_, &result.placed_};
+  make_room(found.neighbours, device, cells * word);
+  make_room(found.perimeters, device, cells * word);
+  make_room(found.placed, device, cells * word);
+  make_room(found.first, device, (cells + 1) * word);
+  const cl::Buffer* const zeros[] = {&found.neighbours, &found.perimeters, &found.placed};
   if (cells > 0) {
     for (const cl::Buffer* const buffer : zeros) fill(device, *buffer, cl_uint{0}, cells);
   }
-  fill(device, result.first_, cl_uint{0}, cells + 1);
+  fill(device, found.first, cl_uint{0}, cells + 1);
   const auto slot_count = static_cast<cl_uint>(slots);
-  run("count_neighbours", slots, diagram.labels(), grid.width(), slot_count, result.slots_, result.lengths_,
-      result.first_, result.neighbours_, result.perimeters_);
+  run("count_neighbours", slots, diagram.labels(), grid.width(), slot_count, found.slots, found.lengths,
+      found.first, found.neighbours, found.perimeters);
 
   // The list's size must come to the host in any case, to allocate it: the running sum is made there too.
-  std::vector<cl_uint> first = download<cl_uint>(device, result.first_, cells + 1);
+  std::vector<cl_uint> first = download<cl_uint>(device, found.first, cells + 1);
   cl_uint pairs = 0;
   for (cl_uint& entry : first) {
     const cl_uint here = entry;
     entry = pairs;
     pairs += here;
   }
-  upload(device, result.first_, first);
-  make_room(result.pair_list_, device, pairs * words_per_pair * word);
-  run("place_pairs", slots, diagram.labels(), grid.width(), slot_count, result.slots_, result.lengths_,
-      result.first_, result.placed_, result.pair_list_);
-  run("sort_pairs", cells, count, result.first_, result.pair_list_);
+  upload(device, found.first, first);
+  make_room(found.pair_list, device, pairs * words_per_pair * word);
+  run("place_pairs", slots, diagram.labels(), grid.width(), slot_count, found.slots, found.lengths,
+      found.first, found.placed, found.pair_list);
+  run("sort_pairs", cells, count, found.first, found.pair_list);
   diagram.wait();
-  seeds.check();
-  result.pairs_ = pairs;
-  result.seeds_ = seeds;
+  measured->check();
+  found.pairs = pairs;
+  found.seeds = std::move(measured);
 }
 
 std::vector<CellPair> AdjacencyResult::read_pairs() const {
-  if (!seeds_) return {};
-  const auto words = download<cl_uint>(seeds_->device(), pair_list_, pairs_ * words_per_pair);
-  std::vector<CellPair> pairs;
-  pairs.reserve(pairs_);
+  if (pairs() == 0) return {};
+  const auto words = download<cl_uint>(state_->seeds->device, state_->pair_list, pairs() * words_per_pair);
+  std::vector<CellPair> list;
+  list.reserve(pairs());
   for (std::size_t i = 0; i < words.size(); i += words_per_pair) {
-    pairs.push_back({words[i], words[i + 1], words[i + 2]});
+    list.push_back({words[i], words[i + 1], words[i + 2]});
   }
-  return pairs;
+  return list;
 }
 
 std::vector<std::uint32_t> AdjacencyResult::read_neighbours() const {
-  if (!seeds_) return {};
-  return download<std::uint32_t>(seeds_->device(), neighbours_, seeds_->size());
+  if (!state_ || state_->size() == 0) return {};
+  return download<std::uint32_t>(state_->seeds->device, state_->neighbours, state_->size());
 }
 
 std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
-  if (!seeds_) return {};
-  return download<std::uint32_t>(seeds_->device(), perimeters_, seeds_->size());
+  if (!state_ || state_->size() == 0) return {};
+  return download<std::uint32_t>(state_->seeds->device, state_->perimeters, state_->size());
 }
 
 std::size_t count_vertices(const Diagram& diagram) {

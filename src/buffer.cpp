@@ -24,15 +24,24 @@ cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& 
   // Asked here, because drivers allocate lazily: what does not fit would fail at some later launch.
   if (bytes > largest || held + bytes > all) {
     throw Error("too little device memory for " + purpose + ": it needs " + readable(bytes) +
-                (held > 0 ? " besides the " + readable(held) + " in use" : "") + ", and " + device.name() +
-                " has " + readable(all) + ", at most " + readable(largest) +
-                " in one buffer; use a smaller grid or another device");
+                    (held > 0 ? " besides the " + readable(held) + " in use" : "") + ", and " +
+                    device.name() + " has " + readable(all) + ", at most " + readable(largest) +
+                    " in one buffer; use a smaller grid or another device",
+                ErrorKind::device_memory);
   }
   cl_int code = CL_SUCCESS;
   cl::Buffer buffer(
       clCreateBuffer(device.context()(), CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 4), nullptr, &code));
-  check(code, "allocating " + readable(bytes) + " for " + purpose + " on " + device.name());
+  check(code, [&] { return "allocating " + readable(bytes) + " for " + purpose + " on " + device.name(); });
   return buffer;
+}
+
+cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes) {
+  cl::Event event;
+  check(clEnqueueCopyBuffer(device.queue()(), from(), to(), 0, 0, bytes, 0, nullptr, &event()),
+        "copying a buffer");
+  Internal::state(device).enqueued(event);
+  return event;
 }
 
 std::size_t size_of(const cl::Buffer& buffer) {

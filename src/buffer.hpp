@@ -1,11 +1,11 @@
 // Device memory: allocation that says how much is needed and there is, and typed transfers.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstddef>
 #include <string>
 #include <vector>
 
+#include "device_state.hpp"
 #include "opencl_error.hpp"
 #include "vorocl/device.hpp"
 
@@ -34,8 +34,12 @@ cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::siz
   check(clEnqueueFillBuffer(device.queue()(), buffer(), &value, sizeof(T), 0, count * sizeof(T), 0, nullptr,
                             &event()),
         "filling a buffer");
+  Internal::state(device).enqueued(event);
   return event;
 }
+
+/// Copies the first `bytes` of a buffer to another one; returns the command's event.
+cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes);
 
 /// Copies to the device. Waits, so that the caller may reuse the values.
 template <typename T>
@@ -46,16 +50,18 @@ void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>
         "writing a buffer");
 }
 
-/// Copies `count` values from the device, from the one at `first` on. Waits.
+/// Copies `count` values from the device to where they fit, or to a vector. Waits.
 template <typename T>
-std::vector<T> download(const Device& device, const cl::Buffer& buffer, std::size_t count,
-                        std::size_t first = 0) {
+void download(const Device& device, const cl::Buffer& buffer, std::size_t count, T* values) {
+  if (count == 0) return;
+  check(clEnqueueReadBuffer(device.queue()(), buffer(), CL_TRUE, 0, count * sizeof(T), values, 0, nullptr,
+                            nullptr),
+        "reading a buffer");
+}
+template <typename T>
+std::vector<T> download(const Device& device, const cl::Buffer& buffer, std::size_t count) {
   std::vector<T> values(count);
-  if (count > 0) {
-    check(clEnqueueReadBuffer(device.queue()(), buffer(), CL_TRUE, first * sizeof(T), count * sizeof(T),
-                              values.data(), 0, nullptr, nullptr),
-          "reading a buffer");
-  }
+  download(device, buffer, count, values.data());
   return values;
 }
 

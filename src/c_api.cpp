@@ -1,6 +1,7 @@
 // The C functions that make, read and free objects.
 #include "c_api.hpp"
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace {
 thread_local std::string last_message;
 }
 
-vorocl_status fail(vorocl_status status, const char* what, const char* more) noexcept {
+vorocl_status report_failure(vorocl_status status, const char* what, const char* more) noexcept {
   try {
     last_message = std::string(what) + more;
   } catch (const std::bad_alloc&) {
@@ -166,7 +167,10 @@ vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points,
                   std::to_string(count));
     }
     if (count > 0) given(points, "points");
-    for (const Point& point : of(seeds).read()) *points++ = {point.x, point.y};
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    for (const std::optional<Point>& point : of(seeds).read()) {
+      *points++ = point ? vorocl_point{point->x, point->y} : vorocl_point{none, none};
+    }
   });
 }
 

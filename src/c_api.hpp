@@ -28,7 +28,7 @@ struct NullArgument {
 };
 
 /// Keeps the message for vorocl_error_message(), and returns the status.
-vorocl_status fail(vorocl_status status, const char* what, const char* more = "") noexcept;
+vorocl_status report_failure(vorocl_status status, const char* what, const char* more = "") noexcept;
 
 /// Runs a function's body; no exception leaves it, for its caller may be C.
 template <typename Body>
@@ -37,11 +37,11 @@ vorocl_status guarded(Body body) noexcept {
     body();
     return VOROCL_SUCCESS;
   } catch (const NullArgument& argument) {
-    return fail(VOROCL_NULL_ARGUMENT, argument.name, " is NULL");
+    return report_failure(VOROCL_NULL_ARGUMENT, argument.name, " is NULL");
   } catch (const std::bad_alloc&) {
-    return fail(VOROCL_OUT_OF_HOST_MEMORY, "out of host memory");
+    return report_failure(VOROCL_OUT_OF_HOST_MEMORY, "out of host memory");
   } catch (const std::exception& error) {
-    return fail(VOROCL_ERROR, error.what());
+    return report_failure(VOROCL_ERROR, error.what());
   }
 }
 

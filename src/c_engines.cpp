@@ -57,10 +57,9 @@ vorocl_status vorocl_dynamic_jump_flooding(const vorocl_seeds* seeds, vorocl_dia
   return guarded([&] {
     vorocl_diagram& to = given(diagram, "diagram");
     const auto& from = given(options, "options");
-    const DynamicPlanOptions plan = {from.max_step, to_mix(from.neighbourhood), from.von_neumann_waves,
-                                     from.extra_waves};
-    to.report =
-        dynamic_jump_flooding(of(seeds), to.diagram, {to_metric(from.metric), plan, from.refresh_interval});
+    const DynamicPlanOptions plan = {to_mix(from.neighbourhood), from.von_neumann_waves, from.extra_waves};
+    to.report = dynamic_jump_flooding(of(seeds), to.diagram, from.max_step,
+                                      {to_metric(from.metric), plan, from.refresh_interval});
   });
 }
 

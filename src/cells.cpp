@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "buffer.hpp"
 #include "measurement.hpp"
@@ -14,6 +15,35 @@ namespace {
 constexpr std::size_t cells_per_item = 1024;
 }  // namespace
 
+struct CellSumsState : Measured {
+  cl::Buffer area, sum_x, sum_y;
+  cl::Buffer home, home_sums;  // while the sums are made: see cells.cl
+  cl::Buffer partial;          // of the statistics
+};
+
+struct CellShapesState : Measured {
+  cl::Buffer boxes, distances;
+};
+
+CellSumsResult::CellSumsResult() = default;
+CellSumsResult::~CellSumsResult() = default;
+CellSumsResult::CellSumsResult(CellSumsResult&& other) noexcept = default;
+CellSumsResult& CellSumsResult::operator=(CellSumsResult&& other) noexcept = default;
+std::size_t CellSumsResult::size() const { return state_ ? state_->size() : 0; }
+const cl::Buffer& CellSumsResult::area() const { return state_ ? state_->area : no_buffer(); }
+const cl::Buffer& CellSumsResult::sum_x() const { return state_ ? state_->sum_x : no_buffer(); }
+const cl::Buffer& CellSumsResult::sum_y() const { return state_ ? state_->sum_y : no_buffer(); }
+
+CellShapesResult::CellShapesResult() = default;
+CellShapesResult::~CellShapesResult() = default;
+CellShapesResult::CellShapesResult(CellShapesResult&& other) noexcept = default;
+CellShapesResult& CellShapesResult::operator=(CellShapesResult&& other) noexcept = default;
+std::size_t CellShapesResult::size() const { return state_ ? state_->size() : 0; }
+const cl::Buffer& CellShapesResult::boxes() const { return state_ ? state_->boxes : no_buffer(); }
+const cl::Buffer& CellShapesResult::largest_distances() const {
+  return state_ ? state_->distances : no_buffer();
+}
+
 Point CellSums::centroid() const {
   const double none = std::numeric_limits<double>::quiet_NaN();
   if (area == 0) return {none, none};
@@ -22,40 +52,41 @@ Point CellSums::centroid() const {
 
 Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result) {
   const Stopwatch stopwatch;
-  diagram.check_fits(seeds);
+  CellSumsState& sums = Internal::result(result);
+  sums.seeds.reset();
+  auto measured = frame_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
-  make_room(result.area_, device, count * sizeof(cl_uint));
-  make_room(result.sum_x_, device, count * sizeof(cl_ulong));
-  make_room(result.sum_y_, device, count * sizeof(cl_ulong));
-  make_room(result.home_, device, count * sizeof(cl_ushort));
-  make_room(result.home_sums_, device, count * sizeof(cl_ulong));
-  result.seeds_ = seeds;
+  make_room(sums.area, device, count * sizeof(cl_uint));
+  make_room(sums.sum_x, device, count * sizeof(cl_ulong));
+  make_room(sums.sum_y, device, count * sizeof(cl_ulong));
+  make_room(sums.home, device, count * sizeof(cl_ushort));
+  make_room(sums.home_sums, device, count * sizeof(cl_ulong));
 
   const Blocks blocks(device, grid);
   const int width = grid.width(), wide = blocks.wide(), high = blocks.high();
   const auto run_over_cells = [&](const char* name, const auto&... arguments) {
-    return Kernel(device, "cells.cl", name, grid).over_items(count, arguments...);
+    return sums.kernels.get(device, "cells.cl", name, grid).over_items(count, arguments...);
   };
-  const cl::Event first =
-      run_over_cells("clear_sums", seeds.positions(), count, width, wide, high, result.area_, result.sum_x_,
-                     result.sum_y_, result.home_, result.home_sums_);
-  const cl::Event sums =
-      blocks.run("cells.cl", "add_sums", diagram.labels(), count, width, grid.height(), wide, high,
-                 result.area_, result.sum_x_, result.sum_y_, result.home_, result.home_sums_);
-  const cl::Event last = run_over_cells("join_sums", count, width, wide, high, result.area_, result.sum_x_,
-                                        result.sum_y_, result.home_, result.home_sums_);
-  return stopwatch.report(device, count > 0 ? first : sums, count > 0 ? last : sums);
+  const cl::Event first = run_over_cells("clear_sums", seeds.positions(), count, width, wide, high, sums.area,
+                                         sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
+  const cl::Event added =
+      blocks.run(sums.kernels, "cells.cl", "add_sums", {}, diagram.labels(), count, width, grid.height(),
+                 wide, high, sums.area, sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
+  const cl::Event last = run_over_cells("join_sums", count, width, wide, high, sums.area, sums.sum_x,
+                                        sums.sum_y, sums.home, sums.home_sums);
+  sums.seeds = std::move(measured);
+  return report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
 }
 
 std::vector<CellSums> CellSumsResult::read() const {
-  if (!seeds_) return {};
-  seeds_->check();
-  const Device& device = seeds_->device();
-  const auto area = download<cl_uint>(device, area_, size());
-  const auto sum_x = download<cl_ulong>(device, sum_x_, size()),
-             sum_y = download<cl_ulong>(device, sum_y_, size());
+  if (size() == 0) return {};
+  state_->seeds->check();
+  const Device& device = state_->seeds->device;
+  const auto area = download<cl_uint>(device, state_->area, size());
+  const auto sum_x = download<cl_ulong>(device, state_->sum_x, size());
+  const auto sum_y = download<cl_ulong>(device, state_->sum_y, size());
   std::vector<CellSums> cells;
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) cells.push_back({area[id], sum_x[id], sum_y[id]});
@@ -64,34 +95,37 @@ std::vector<CellSums> CellSumsResult::read() const {
 
 Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result, Metric metric) {
   const Stopwatch stopwatch;
-  diagram.check_fits(seeds);
+  CellShapesState& shapes = Internal::result(result);
+  shapes.seeds.reset();
+  auto measured = frame_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
-  make_room(result.boxes_, device, count * sizeof(cl_int4));
-  make_room(result.distances_, device, count * sizeof(cl_int));
-  result.seeds_ = seeds;
+  make_room(shapes.boxes, device, count * sizeof(cl_int4));
+  make_room(shapes.distances, device, count * sizeof(cl_int));
 
   const Blocks blocks(device, grid);
-  const cl::Event first = Kernel(device, "shapes.cl", "clear_shapes", grid, {metric})
-                              .over_items(count, count, result.boxes_, result.distances_);
-  const cl::Event last =
-      blocks.run(metric, "shapes.cl", "add_shapes", diagram.labels(), seeds.positions(), count, grid.width(),
-                 grid.height(), blocks.wide(), blocks.high(), result.boxes_, result.distances_);
-  return stopwatch.report(device, count > 0 ? first : last, last);
+  const cl::Event first = shapes.kernels.get(device, "shapes.cl", "clear_shapes", grid, {metric})
+                              .over_items(count, count, shapes.boxes, shapes.distances);
+  const cl::Event last = blocks.run(shapes.kernels, "shapes.cl", "add_shapes", {metric}, diagram.labels(),
+                                    seeds.positions(), count, grid.width(), grid.height(), blocks.wide(),
+                                    blocks.high(), shapes.boxes, shapes.distances);
+  shapes.seeds = std::move(measured);
+  return report_of(stopwatch, device, count > 0 ? first : last, last);
 }
 
 std::vector<CellShape> CellShapesResult::read() const {
-  if (!seeds_) return {};
-  seeds_->check();
-  const Grid& grid = seeds_->grid();
-  const auto boxes = download<cl_int4>(seeds_->device(), boxes_, size());
-  const auto distances = download<cl_int>(seeds_->device(), distances_, size());
+  if (size() == 0) return {};
+  const SeedsFrame& seeds = *state_->seeds;
+  seeds.check();
+  const auto boxes = download<cl_int4>(seeds.device, state_->boxes, size());
+  const auto distances = download<cl_int>(seeds.device, state_->distances, size());
   std::vector<CellShape> cells;
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) {
     const int left = boxes[id].s[0], top = boxes[id].s[1], right = boxes[id].s[2], bottom = boxes[id].s[3];
-    const bool touches = left == 0 || top == 0 || right == grid.width() - 1 || bottom == grid.height() - 1;
+    const bool touches =
+        left == 0 || top == 0 || right == seeds.grid.width() - 1 || bottom == seeds.grid.height() - 1;
     cells.push_back({left, top, right, bottom, distances[id], touches});
   }
   return cells;
@@ -104,25 +138,27 @@ CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram) {
   return cell_statistics(sums);
 }
 
-CellStatistics cell_statistics(CellSumsResult& sums) {
+CellStatistics cell_statistics(CellSumsResult& result) {
   CellStatistics statistics;
-  if (!sums.seeds_) return statistics;
-  const Seeds& seeds = *sums.seeds_;
-  const Device& device = seeds.device();
-  const std::size_t items = (seeds.size() + cells_per_item - 1) / cells_per_item;
-  make_room(sums.partial_, device, items * sizeof(cl_ulong4));
-  Kernel(device, "statistics.cl", "sum_areas", seeds.grid())
-      .over_items(items, sums.area(), seeds.positions(), static_cast<cl_uint>(seeds.size()),
-                  static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items), sums.partial_);
-  device.finish();
+  if (result.size() == 0) return statistics;
+  CellSumsState& sums = Internal::result(result);
+  const SeedsFrame& seeds = *sums.seeds;
+  const std::size_t items = (seeds.size + cells_per_item - 1) / cells_per_item;
+  make_room(sums.partial, seeds.device, items * sizeof(cl_ulong4));
+  sums.kernels.get(seeds.device, "statistics.cl", "sum_areas", seeds.grid)
+      .over_items(items, sums.area, static_cast<cl_uint>(seeds.size), static_cast<cl_uint>(cells_per_item),
+                  static_cast<cl_uint>(items), sums.partial);
+  seeds.device.finish();
   seeds.check();
   std::uint64_t squares = 0;
-  for (const cl_ulong4& some : download<cl_ulong4>(device, sums.partial_, items)) {
-    statistics.cells += some.s[0];
-    statistics.empty_cells += some.s[1];
-    statistics.pixels += some.s[2];
-    squares += some.s[3];
+  std::size_t cells_with_pixels = 0;
+  for (const cl_ulong4& some : download<cl_ulong4>(seeds.device, sums.partial, items)) {
+    cells_with_pixels += some.s[0];
+    statistics.pixels += some.s[1];
+    squares += some.s[2];
   }
+  statistics.cells = seeds.alive();
+  statistics.empty_cells = statistics.cells - std::min(statistics.cells, cells_with_pixels);
   if (statistics.cells > 0) {
     const auto cells = static_cast<double>(statistics.cells);
     statistics.mean_area = static_cast<double>(statistics.pixels) / cells;

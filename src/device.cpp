@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <mutex>
 #include <optional>
@@ -163,27 +164,50 @@ Tuning default_tuning(cl_device_id device) {
 
 }  // namespace
 
+void DeviceState::enqueued(const cl::Event& command) {
+  cl::Event older;
+  {
+    const std::lock_guard<std::mutex> lock(flight_mutex_);
+    if (++commands_ < batch) return;
+    commands_ = 0;
+    older = end_of_batch_;
+    end_of_batch_ = command;
+  }
+  if (older() == nullptr) return;
+  const auto start = std::chrono::steady_clock::now();
+  check(clWaitForEvents(1, &older()), "waiting for earlier commands");
+  milliseconds_waited() +=
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+double& DeviceState::milliseconds_waited() {
+  thread_local double milliseconds = 0;
+  return milliseconds;
+}
+
 Device Device::select(const std::string& request) {
   const std::vector<Candidate> candidates = find_candidates();
   if (candidates.empty()) {
     throw Error(
         "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
         "Debian and "
-        "Ubuntu: apt-get install pocl-opencl-icd)");
+        "Ubuntu: apt-get install pocl-opencl-icd)",
+        ErrorKind::device);
   }
   const std::string wanted = effective_request(request);
   const std::optional<Candidate> chosen = choose(candidates, wanted);
   if (!chosen) {
     throw Error((wanted.empty() ? "no OpenCL device can be used"
                                 : "no usable OpenCL device matches \"" + wanted + "\"") +
-                "; there is " + listing(candidates));
+                    "; there is " + listing(candidates),
+                ErrorKind::device);
   }
   cl_int code = CL_SUCCESS;
   const cl::Context context(clCreateContext(nullptr, 1, &chosen->device, nullptr, nullptr, &code));
-  check(code, "making a context on " + chosen->description.name);
+  check(code, [&] { return "making a context on " + chosen->description.name; });
   const cl::CommandQueue queue(
       clCreateCommandQueue(context(), chosen->device, CL_QUEUE_PROFILING_ENABLE, &code));
-  check(code, "making a queue on " + chosen->description.name);
+  check(code, [&] { return "making a queue on " + chosen->description.name; });
   return Device(context, queue);
 }
 
@@ -199,7 +223,7 @@ std::vector<DeviceDescription> Device::list(const std::string& request) {
 }
 
 Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
-    : state_(std::make_shared<State>()) {
+    : state_(std::make_shared<DeviceState>()) {
   if (context() == nullptr || queue() == nullptr)
     throw Error("a Device needs a context and a queue; one is null");
   if (info<cl_context>(clGetCommandQueueInfo, queue(), CL_QUEUE_CONTEXT) != context()) {
@@ -249,7 +273,9 @@ Device Device::with_tuning(const Tuning& tuning) const {
   return tuned;
 }
 
-void Device::finish() const { check(clFinish(queue()()), "waiting for " + name()); }
+void Device::finish() const {
+  check(clFinish(queue()()), [&] { return "waiting for " + name(); });
+}
 
 void Device::wait_for(const std::vector<cl::Event>& events) const {
   std::vector<cl_event> handles;
@@ -263,7 +289,7 @@ void Device::wait_for(const std::vector<cl::Event>& events) const {
   if (handles.empty()) return;
   check(
       clEnqueueBarrierWithWaitList(queue()(), static_cast<cl_uint>(handles.size()), handles.data(), nullptr),
-      "enqueueing a wait on " + name());
+      [&] { return "enqueueing a wait on " + name(); });
 }
 
 }  // namespace vorocl

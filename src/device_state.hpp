@@ -1,22 +1,35 @@
 // What all copies of a Device share.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <map>
 #include <mutex>
 #include <string>
 
-#include "vorocl/device.hpp"
+#include "internal.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-struct Device::State {
+struct DeviceState {
   cl::Context context;
   cl::CommandQueue queue;
   cl::Device device;
 
   std::mutex programs_mutex;                    // held while a program is looked up or built
   std::map<std::string, cl::Program> programs;  // by file and build options
+
+  /// To be told of each command that was enqueued. Waits until no more than two batches of commands are in
+  /// flight: PoCL takes longer to enqueue a command the more there are, and the host may run ahead by hours.
+  void enqueued(const cl::Event& command);
+
+  /// The time that this thread has spent in such waits: it is none of an engine's.
+  static double& milliseconds_waited();
+
+ private:
+  static constexpr int batch = 64;
+  std::mutex flight_mutex_;
+  int commands_ = 0;        // of the present batch
+  cl::Event end_of_batch_;  // the last command of the batch before it
 };
 
 }  // namespace vorocl

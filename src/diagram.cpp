@@ -1,60 +1,122 @@
 #include "vorocl/diagram.hpp"
 
+#include <string>
+#include <utility>
+
 #include "buffer.hpp"
+#include "diagram_state.hpp"
+#include "opencl_info.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
-Diagram::Diagram(const Device& device, const Grid& grid)
-    : device_(device), grid_(grid), scratch_(static_cast<std::size_t>(Scratch::count_)) {
-  labels_ = allocate(device, grid.pixels() * sizeof(std::uint32_t), "the label image");
-  fill(device, labels_, no_label, grid.pixels());
+namespace {
+
+std::size_t bytes_of(const Grid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
+
+std::string size_text(const Grid& grid) {
+  return std::to_string(grid.width()) + " x " + std::to_string(grid.height());
 }
 
-Diagram::Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels)
-    : device_(device), grid_(grid), labels_(labels), scratch_(static_cast<std::size_t>(Scratch::count_)) {
-  check_foreign_buffer(device, labels, grid.pixels() * sizeof(std::uint32_t), "the buffer of labels",
-                       Access::read_and_write);
+}  // namespace
+
+// --- what a diagram holds ---
+
+DiagramState::DiagramState(const Device& device_of_diagram, const Grid& grid_of_diagram,
+                           const cl::Buffer& label_image)
+    : device(device_of_diagram),
+      grid(grid_of_diagram),
+      labels(label_image),
+      held_(bytes_of(grid_of_diagram)) {}
+
+void DiagramState::reserve(cl::Buffer& buffer, std::size_t bytes) {
+  const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
+  if (present > 0 && present >= bytes) return;
+  held_ -= present;
+  buffer = cl::Buffer();
+  buffer = allocate(device, bytes, "a diagram's working memory", held_);
+  held_ += size_of(buffer);
+}
+
+void DiagramState::check_fits(const Seeds& seeds) const {
+  if (!seeds.device().same_as(device)) throw Error("the seeds and the diagram belong to different devices");
+  if (seeds.grid() != grid) {
+    throw Error("the seeds' grid is " + size_text(seeds.grid()) + ", the diagram's " + size_text(grid));
+  }
+}
+
+void DiagramState::wait() {
+  device.finish();
+  if (!contents) return;
+  if (contents->last() != nullptr &&
+      info<cl_int>(clGetEventInfo, contents->last(), CL_EVENT_COMMAND_EXECUTION_STATUS) < 0) {
+    contents.reset();
+    throw Error(device.name() + " failed to fill a diagram; its driver may have said more",
+                ErrorKind::device);
+  }
+  if (contents->seeds) contents->seeds->check();
+}
+
+Filling::Filling(const Seeds& seeds, Diagram& diagram)
+    : diagram_(Internal::state(diagram)), previous_(std::exchange(diagram_.contents, std::nullopt)) {
+  diagram_.check_fits(seeds);
+  seeds_ = Internal::state(seeds).frame();
+}
+
+Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age) {
+  check(clFlush(diagram_.device.queue()()), "starting the diagram");
+  diagram_.contents = DiagramContents{seeds_, age, last};
+  return {waves, first, last, stopwatch_.milliseconds()};
+}
+
+// --- Diagram ---
+
+Diagram::Diagram(const Device& device, const Grid& grid)
+    : state_(
+          std::make_unique<DiagramState>(device, grid, allocate(device, bytes_of(grid), "the label image"))) {
+  fill(device, labels(), no_label, grid.pixels());
+}
+
+Diagram::Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels) {
+  check_foreign_buffer(device, labels, bytes_of(grid), "the buffer of labels", Access::read_and_write);
+  state_ = std::make_unique<DiagramState>(device, grid, labels);
+}
+
+Diagram::~Diagram() = default;
+Diagram::Diagram(Diagram&& other) noexcept = default;
+Diagram& Diagram::operator=(Diagram&& other) noexcept = default;
+
+DiagramState& Diagram::state() const {
+  if (!state_) throw Error("this diagram was moved from, and has no labels; use the one it was moved to");
+  return *state_;
+}
+
+const Device& Diagram::device() const { return state().device; }
+const Grid& Diagram::grid() const { return state().grid; }
+const cl::Buffer& Diagram::labels() const { return state().labels; }
+
+void Diagram::write(const std::vector<std::uint32_t>& labels) {
+  if (labels.size() != grid().pixels()) {
+    throw Error("there are " + std::to_string(labels.size()) + " labels to write, and the diagram has " +
+                std::to_string(grid().pixels()) + " pixels");
+  }
+  state().contents.reset();
+  upload(device(), this->labels(), labels);
+  state().contents.emplace();
+}
+
+void Diagram::write(const cl::Buffer& labels) {
+  check_foreign_buffer(device(), labels, bytes_of(grid()), "the buffer of labels to write", Access::read);
+  state().contents.reset();
+  const cl::Event copied = copy(device(), labels, this->labels(), bytes_of(grid()));
+  state().contents = DiagramContents{nullptr, 0, copied};
 }
 
 std::vector<std::uint32_t> Diagram::read() const {
   wait();
-  return download<std::uint32_t>(device_, labels_, grid_.pixels());
+  return download<std::uint32_t>(device(), labels(), grid().pixels());
 }
 
-void Diagram::wait() const {
-  device_.finish();
-  if (seeds_) seeds_->check();
-}
-
-const cl::Buffer& Diagram::scratch(Scratch use, std::size_t bytes) {
-  cl::Buffer& buffer = scratch_[static_cast<std::size_t>(use)];
-  if (buffer() == nullptr || size_of(buffer) < bytes) {
-    buffer = cl::Buffer();
-    std::size_t held = size_of(labels_);
-    for (const cl::Buffer& other : scratch_) held += other() == nullptr ? 0 : size_of(other);
-    buffer = allocate(device_, bytes, "a diagram's working memory", held);
-  }
-  return buffer;
-}
-
-void Diagram::check_fits(const Seeds& seeds) const {
-  if (!seeds.device().same_as(device_)) throw Error("the seeds and the diagram belong to different devices");
-  if (seeds.grid() != grid_) {
-    throw Error("the seeds' grid is " + std::to_string(seeds.grid().width()) + " x " +
-                std::to_string(seeds.grid().height()) + ", the diagram's " + std::to_string(grid_.width()) +
-                " x " + std::to_string(grid_.height()));
-  }
-}
-
-void Diagram::begin(const Seeds& seeds) {
-  check_fits(seeds);
-  seeds_ = seeds;
-  age_ = 0;
-}
-
-bool Diagram::holds_labels_of(const Seeds& seeds) const {
-  return seeds_ && seeds_->alive() > 0 && seeds_->positions()() == seeds.positions()() &&
-         seeds_->vanishings() == seeds.vanishings();
-}
+void Diagram::wait() const { state().wait(); }
 
 }  // namespace vorocl

@@ -1,5 +1,7 @@
 #include "vorocl/error.hpp"
 
+#include <cmath>
+
 #include "opencl_error.hpp"
 
 namespace vorocl {
@@ -37,11 +39,32 @@ std::string error_name(cl_int code) {
   }
 }
 
+ErrorKind kind_of(cl_int code) {
+  switch (code) {
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+    case CL_OUT_OF_RESOURCES:
+      return ErrorKind::device_memory;
+    case CL_OUT_OF_HOST_MEMORY:
+      return ErrorKind::host_memory;
+    default:
+      return ErrorKind::device;
+  }
+}
+
 }  // namespace
 
-void check(cl_int code, const std::string& what) {
-  if (code == CL_SUCCESS) return;
-  throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")");
+void fail(cl_int code, const std::string& what) {
+  throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
 }
+
+BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
+    : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
+                std::to_string(point.y) + ") is " +
+                (std::isfinite(point.x) && std::isfinite(point.y) ? "outside the grid" : "not finite") +
+                "; x must be in [0, " + std::to_string(grid.width()) + ") and y in [0, " +
+                std::to_string(grid.height()) + ")",
+            ErrorKind::bad_point),
+      index_(index),
+      point_(point) {}
 
 }  // namespace vorocl

@@ -1,25 +1,50 @@
 #include "vorocl/fields.hpp"
 
+#include <optional>
+#include <utility>
+
 #include "buffer.hpp"
 #include "measurement.hpp"
 
 namespace vorocl {
 
+template <typename T>
+struct FieldState : Measured {
+  // A mask has no seeds, so the field keeps these itself.
+  std::optional<Device> device;
+  std::size_t pixels = 0;  // 0: it is empty
+  cl::Buffer values;
+};
+
 namespace {
+
+/// Fills a field by one kernel: `launch` gets the kernel and the values.
+template <typename T, typename Launch>
+Report fill_field(const Diagram& diagram, std::shared_ptr<const SeedsFrame> seeds, Field<T>& field,
+                  const char* name, const KernelOptions& options, Launch launch) {
+  const Stopwatch stopwatch;
+  FieldState<T>& state = Internal::result(field);
+  state.pixels = 0;
+  const Device& device = diagram.device();
+  const Grid& grid = diagram.grid();
+  make_room(state.values, device, grid.pixels() * sizeof(T));
+  const cl::Event event = launch(state.kernels.get(device, "fields.cl", name, grid, options), state.values);
+  state.device = device;
+  state.seeds = std::move(seeds);
+  state.pixels = grid.pixels();
+  return report_of(stopwatch, device, event, event);
+}
 
 template <typename T>
 Report fill_distances(const Seeds& seeds, const Diagram& diagram, Field<T>& field, Metric metric,
-                      const char* kernel) {
-  const Stopwatch stopwatch;
-  diagram.check_fits(seeds);
-  const Device& device = diagram.device();
+                      const char* name) {
   const Grid& grid = diagram.grid();
-  field.prepare(device, grid, seeds);
-  const cl::Event event =
-      Kernel(device, "fields.cl", kernel, grid, {metric})
-          .over_grid(diagram.labels(), seeds.positions(), static_cast<cl_uint>(seeds.size()), field.values(),
-                     grid.width(), grid.height());
-  return stopwatch.report(device, event, event);
+  return fill_field(diagram, frame_of(seeds, diagram), field, name, {metric},
+                    [&](Kernel& kernel, const cl::Buffer& values) {
+                      return kernel.over_grid(diagram.labels(), seeds.positions(),
+                                              static_cast<cl_uint>(seeds.size()), values, grid.width(),
+                                              grid.height());
+                    });
 }
 
 }  // namespace
@@ -33,28 +58,32 @@ Report distance_field(const Seeds& seeds, const Diagram& diagram, Field<float>& 
 }
 
 Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
-  const Stopwatch stopwatch;
-  const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
-  mask.prepare(device, grid, std::nullopt);
-  const cl::Event event = Kernel(device, "fields.cl", "mark_borders", grid)
-                              .over_grid(diagram.labels(), mask.values(), grid.width(), grid.height());
-  return stopwatch.report(device, event, event);
+  return fill_field(diagram, nullptr, mask, "mark_borders", {},
+                    [&](Kernel& kernel, const cl::Buffer& values) {
+                      return kernel.over_grid(diagram.labels(), values, grid.width(), grid.height());
+                    });
 }
 
 template <typename T>
-void Field<T>::prepare(const Device& device, const Grid& grid, const std::optional<Seeds>& seeds) {
-  make_room(values_, device, grid.pixels() * sizeof(T));
-  device_ = device;
-  seeds_ = seeds;
-  pixels_ = grid.pixels();
+Field<T>::Field() = default;
+template <typename T>
+Field<T>::~Field() = default;
+template <typename T>
+Field<T>::Field(Field&& other) noexcept = default;
+template <typename T>
+Field<T>& Field<T>::operator=(Field&& other) noexcept = default;
+
+template <typename T>
+const cl::Buffer& Field<T>::values() const {
+  return state_ ? state_->values : no_buffer();
 }
 
 template <typename T>
 std::vector<T> Field<T>::read() const {
-  if (!device_) return {};
-  if (seeds_) seeds_->check();
-  return download<T>(*device_, values_, pixels_);
+  if (!state_ || state_->pixels == 0) return {};
+  if (state_->seeds) state_->seeds->check();
+  return download<T>(*state_->device, state_->values, state_->pixels);
 }
 
 template class Field<std::int32_t>;

@@ -1,76 +1,98 @@
 #include "flood.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "buffer.hpp"
-#include "kernel.hpp"
 
 namespace vorocl {
 
 Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric)
-    : seeds_(seeds), diagram_(diagram), metric_(metric) {
-  const std::size_t pixels = diagram.grid().pixels() + 2 * guard;
-  front_ = diagram.scratch(Diagram::Scratch::packed_front, pixels * sizeof(std::uint32_t));
-  back_ = diagram.scratch(Diagram::Scratch::packed_back, pixels * sizeof(std::uint32_t));
-  seeded_ = diagram.scratch(Diagram::Scratch::seeded, pixels);
-  diagram.begin(seeds);  // last: a diagram that there is no memory for keeps what it holds
+    : seeds_(seeds),
+      diagram_(Internal::state(diagram)),
+      filling_(seeds, diagram),
+      metric_(metric),
+      memory_(diagram_.workspace<FloodWorkspace>()) {
+  const std::size_t pixels = diagram_.grid.pixels() + 2 * guard;
+  diagram_.reserve(memory_.front, pixels * sizeof(std::uint32_t));
+  diagram_.reserve(memory_.back, pixels * sizeof(std::uint32_t));
+  diagram_.reserve(memory_.seeded, pixels);
+  diagram_.reserve(memory_.flag, sizeof(cl_int));
+}
+
+void Flood::begins_with(const cl::Event& event) {
+  if (first_event_() == nullptr) first_event_ = event;
 }
 
 void Flood::first_wave(const Wave& wave) {
-  const Device& device = diagram_.device();
-  const Grid& grid = diagram_.grid();
-  first_event_ = fill(device, seeded_, cl_uchar{0}, grid.pixels() + 2 * guard);
-  Kernel(device, "seeds.cl", "mark_seeds", grid)
-      .over_items(seeds_.size(), seeds_.positions(), static_cast<cl_uint>(seeds_.size()), seeded_,
-                  grid.width());
-  last_event_ = Kernel(device, "jump_flooding.cl", "seed_wave", grid, {metric_, wave.neighbourhood})
-                    .over_grid(seeded_, front_, grid.width(), grid.height(), wave.step);
+  const Grid& grid = diagram_.grid;
+  const auto count = static_cast<cl_uint>(seeds_.size());
+  begins_with(fill(diagram_.device, memory_.seeded, cl_uchar{0}, grid.pixels() + 2 * guard));
+  diagram_.kernel("seeds.cl", "mark_seeds")
+      .over_items(count, seeds_.positions(), count, memory_.seeded, grid.width());
+  last_event_ = diagram_.kernel("jump_flooding.cl", "seed_wave", {metric_, wave.neighbourhood})
+                    .over_grid(memory_.seeded, memory_.front, grid.width(), grid.height(), wave.step);
 }
 
 void Flood::advance_labels() {
-  const Device& device = diagram_.device();
-  const Grid& grid = diagram_.grid();
+  const Grid& grid = diagram_.grid;
   const auto count = static_cast<cl_uint>(seeds_.size());
-  first_event_ =
-      Kernel(device, "dynamic_jump_flooding.cl", "advance_labels", grid)
-          .over_grid(diagram_.labels(), seeds_.positions(), count, front_, grid.width(), grid.height());
-  Kernel(device, "dynamic_jump_flooding.cl", "stamp_positions", grid)
-      .over_items(count, seeds_.positions(), count, front_, grid.width());
+  begins_with(
+      diagram_.kernel("dynamic_jump_flooding.cl", "advance_labels")
+          .over_grid(diagram_.labels, seeds_.positions(), count, memory_.front, grid.width(), grid.height()));
+  diagram_.kernel("dynamic_jump_flooding.cl", "stamp_positions")
+      .over_items(count, seeds_.positions(), count, memory_.front, grid.width());
 }
 
 void Flood::wave(const Wave& wave) {
-  const Grid& grid = diagram_.grid();
-  last_event_ = Kernel(diagram_.device(), "jump_flooding.cl", "wave", grid, {metric_, wave.neighbourhood})
-                    .over_grid(front_, back_, grid.width(), grid.height(), wave.step);
-  std::swap(front_, back_);
+  const Grid& grid = diagram_.grid;
+  last_event_ = diagram_.kernel("jump_flooding.cl", "wave", {metric_, wave.neighbourhood})
+                    .over_grid(memory_.front, memory_.back, grid.width(), grid.height(), wave.step);
+  std::swap(memory_.front, memory_.back);
 }
 
-void Flood::reporting_wave(Neighbourhood neighbourhood, int number, const cl::Buffer& last_change) {
-  const Grid& grid = diagram_.grid();
+void Flood::clear_last_change() { fill(diagram_.device, memory_.flag, cl_int{0}, 1); }
+
+void Flood::reporting_wave(Neighbourhood neighbourhood, int number) {
+  const Grid& grid = diagram_.grid;
   last_event_ =
-      Kernel(diagram_.device(), "standard_flooding.cl", "reporting_wave", grid, {metric_, neighbourhood})
-          .over_grid(front_, back_, grid.width(), grid.height(), number, last_change);
-  std::swap(front_, back_);
+      diagram_.kernel("standard_flooding.cl", "reporting_wave", {metric_, neighbourhood})
+          .over_grid(memory_.front, memory_.back, grid.width(), grid.height(), number, memory_.flag);
+  std::swap(memory_.front, memory_.back);
 }
+
+int Flood::last_change() { return download<cl_int>(diagram_.device, memory_.flag, 1).front(); }
 
 void Flood::last_wave(const Wave& wave) {
-  const Device& device = diagram_.device();
-  const Grid& grid = diagram_.grid();
-  // The back image is free now: it takes the ids that the wave looks up, behind the label of an empty pixel.
-  fill(device, back_, no_label, 1);
+  const Grid& grid = diagram_.grid;
   const auto count = static_cast<cl_uint>(seeds_.size());
+  // The back image is free now: it takes the ids that the wave looks up, behind the label of an empty pixel.
+  fill(diagram_.device, memory_.back, no_label, 1);
   for (const char* const name : {"clear_ids", "stamp_ids"}) {
-    Kernel(device, "seeds.cl", name, grid).over_items(count, seeds_.positions(), count, back_, grid.width());
+    diagram_.kernel("seeds.cl", name)
+        .over_items(count, seeds_.positions(), count, memory_.back, grid.width());
   }
-  last_event_ = Kernel(device, "jump_flooding.cl", "last_wave", grid, {metric_, wave.neighbourhood})
-                    .over_grid(front_, back_, diagram_.labels(), grid.width(), grid.height(), wave.step);
+  last_event_ =
+      diagram_.kernel("jump_flooding.cl", "last_wave", {metric_, wave.neighbourhood})
+          .over_grid(memory_.front, memory_.back, diagram_.labels, grid.width(), grid.height(), wave.step);
 }
 
-Report Flood::report(int waves) const {
-  check(clFlush(diagram_.device().queue()()), "starting the diagram");
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
-  return {waves, first_event_, last_event_, host.count()};
+bool Flood::some_unlabelled() {
+  fill(diagram_.device, memory_.flag, cl_int{0}, 1);
+  diagram_.kernel("dynamic_jump_flooding.cl", "find_unlabelled")
+      .over_grid(diagram_.labels, diagram_.grid.width(), diagram_.grid.height(), memory_.flag);
+  return download<cl_int>(diagram_.device, memory_.flag, 1).front() != 0;
+}
+
+void Flood::run(const Plan& plan) {
+  // A plan of less than two waves has none to fuse the stamping or the ids with.
+  const Wave none = {no_step(), Neighbourhood::von_neumann};
+  first_wave(plan.empty() ? none : plan.front());
+  for (std::size_t i = 1; i + 1 < plan.size(); ++i) wave(plan[i]);
+  last_wave(plan.size() < 2 ? none : plan.back());
+}
+
+Report Flood::commit(std::size_t waves, int age) {
+  return filling_.commit(static_cast<int>(waves), first_event_, last_event_, age);
 }
 
 }  // namespace vorocl

@@ -1,26 +1,32 @@
 // The waves of one diagram, enqueued one after the other: what all flooding engines are made of.
 #pragma once
 
-#include <chrono>
-#include <string>
+#include <optional>
 
-#include "vorocl/diagram.hpp"
+#include "diagram_state.hpp"
 #include "vorocl/plan.hpp"
-#include "vorocl/report.hpp"
-#include "vorocl/seeds.hpp"
 
 namespace vorocl {
+
+/// The working memory of flooding: 9 bytes per pixel.
+struct FloodWorkspace {
+  cl::Buffer front, back;  // images of packed positions, which change places with every wave
+  cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
+  cl::Buffer flag;         // one word, for kernels that report
+};
 
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
 /// the back one, then they change places.
 class Flood {
  public:
-  /// Checks that seeds and diagram fit together and that the device has the memory, before anything is
-  /// enqueued.
+  /// Checks that seeds and diagram fit together and makes the working memory. Enqueues nothing.
   Flood(const Seeds& seeds, Diagram& diagram, Metric metric);
 
+  /// What the diagram held before.
+  const std::optional<DiagramContents>& previous() const { return filling_.previous(); }
+
   /// A step that leads out of the grid from every pixel: such a wave keeps each pixel's own label.
-  int no_step() const { return diagram_.grid().longest_side(); }
+  int no_step() const { return diagram_.grid.longest_side(); }
 
   /// Stamps the seeds on an empty image, and runs a first wave over it.
   void first_wave(const Wave& wave);
@@ -30,20 +36,32 @@ class Flood {
 
   void wave(const Wave& wave);
 
-  /// A wave of step 1 that stores `number` in `last_change` if it changes a label.
-  void reporting_wave(Neighbourhood neighbourhood, int number, const cl::Buffer& last_change);
+  /// Clears the number of the last wave that changed a label; a wave of step 1 that stores its number there
+  /// if it changes one; the number. The last one waits.
+  void clear_last_change();
+  void reporting_wave(Neighbourhood neighbourhood, int number);
+  int last_change();
 
   /// Runs a last wave and writes the ids of its labels into the diagram.
   void last_wave(const Wave& wave);
 
-  Report report(int waves) const;
+  /// Whether a pixel was left without a label. Waits.
+  bool some_unlabelled();
+
+  /// All waves of a plan, from the seeds alone.
+  void run(const Plan& plan);
+
+  /// Says that the diagram is filled: see Filling::commit().
+  Report commit(std::size_t waves, int age = 0);
 
  private:
+  void begins_with(const cl::Event& event);
+
   const Seeds& seeds_;
-  Diagram& diagram_;
+  DiagramState& diagram_;
+  Filling filling_;
   Metric metric_;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-  cl::Buffer front_, back_, seeded_;
+  FloodWorkspace& memory_;
   cl::Event first_event_, last_event_;
 };
 

@@ -1,21 +1,22 @@
 #include "kernel.hpp"
 
-#include <algorithm>
+#include <cstring>
 
+#include "device_state.hpp"
 #include "program.hpp"
 
 namespace vorocl {
 
 namespace {
 
-int run_width_for(const Device& device, const Grid& grid) {
+int vector_width_for(const Device& device, const Grid& grid) {
   int width = device.tuning().vector_width;
   while (width > grid.width()) width /= 2;
   return width;
 }
 
-std::string build_options(int run_width, const KernelOptions& options) {
-  return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(run_width) +
+std::string build_options(int vector_width, const KernelOptions& options) {
+  return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(vector_width) +
          " -DVOROCL_GUARD=" + std::to_string(guard) +
          (options.metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
@@ -34,27 +35,42 @@ std::size_t group_size(std::size_t wanted, std::size_t count) {
 
 }  // namespace
 
-Kernel::Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
+Kernel::Kernel(const Device& device, const char* file, const char* name, const Grid& grid,
                const KernelOptions& options)
-    : device_(device), name_(name), grid_(grid), run_width_(run_width_for(device, grid)) {
+    : device_(device),
+      file_(file),
+      name_(name),
+      grid_(grid),
+      options_(options),
+      vector_width_(vector_width_for(device, grid)) {
+  const cl::Program program = program_for(device, file, build_options(vector_width_, options));
   cl_int code = CL_SUCCESS;
-  kernel_ = cl::Kernel(
-      clCreateKernel(program_for(device, file, build_options(run_width_, options))(), name.c_str(), &code));
-  check(code, "making the kernel " + name);
+  kernel_ = cl::Kernel(clCreateKernel(program(), name, &code));
+  check(code, [&] { return "making the kernel " + std::string(name_); });
+}
+
+void Kernel::set_argument(std::size_t index, const void* value, std::size_t size) {
+  Argument& argument = arguments_[index];
+  if (argument.size == size && std::memcmp(argument.bytes.data(), value, size) == 0) return;
+  argument.size = 0;  // until it is set: a failure leaves it unknown
+  check(clSetKernelArg(kernel_(), static_cast<cl_uint>(index), size, value),
+        [&] { return "setting argument " + std::to_string(index) + " of " + name_; });
+  std::memcpy(argument.bytes.data(), value, size);
+  argument.size = size;
 }
 
 cl::Event Kernel::enqueue_over_grid() {
   const Tuning& tuning = device_.tuning();
-  const auto width = static_cast<std::size_t>(run_width_);
-  const std::size_t runs = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
+  const auto width = static_cast<std::size_t>(vector_width_);
+  const std::size_t vectors = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
   const auto rows = static_cast<std::size_t>(grid_.height());
-  const std::size_t local[] = {group_size(tuning.group_width, runs), group_size(tuning.group_height, rows)};
-  const std::size_t global[] = {round_up(runs, local[0]), round_up(rows, local[1])};
+  const std::size_t local[] = {group_size(tuning.group_width, vectors),
+                               group_size(tuning.group_height, rows)};
+  const std::size_t global[] = {round_up(vectors, local[0]), round_up(rows, local[1])};
   return enqueue(2, global, local);
 }
 
 cl::Event Kernel::enqueue_over_items(std::size_t count) {
-  if (count == 0) return {};
   const std::size_t usual = device_.tuning().group_width * device_.tuning().group_height;
   const std::size_t local = group_ != 0 ? group_ : group_size(usual, count);
   const std::size_t global = round_up(count, local);
@@ -65,8 +81,27 @@ cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const s
   cl::Event event;
   check(clEnqueueNDRangeKernel(device_.queue()(), kernel_(), dimensions, nullptr, global, local, 0, nullptr,
                                &event()),
-        "launching " + name_ + " on " + device_.name());
+        [&] { return "launching " + std::string(name_) + " on " + device_.name(); });
+  Internal::state(device_).enqueued(event);
   return event;
+}
+
+bool Kernel::is_for(const Device& device, const Grid& grid) const {
+  const Tuning &own = device_.tuning(), &other = device.tuning();
+  return grid_ == grid && device_.same_as(device) && own.vector_width == other.vector_width &&
+         own.group_width == other.group_width && own.group_height == other.group_height;
+}
+
+Kernel& KernelSet::get(const Device& device, const char* file, const char* name, const Grid& grid,
+                       const KernelOptions& options) {
+  for (Kernel& kernel : kernels_) {
+    if (std::strcmp(kernel.name_, name) != 0 || std::strcmp(kernel.file_, file) != 0) continue;
+    if (!(kernel.options_ == options)) continue;
+    if (!kernel.is_for(device, grid)) kernel = Kernel(device, file, name, grid, options);
+    return kernel;
+  }
+  kernels_.emplace_back(device, file, name, grid, options);
+  return kernels_.back();
 }
 
 }  // namespace vorocl

@@ -1,14 +1,18 @@
-// A kernel ready to launch: over the runs of a grid, or over a list of items.
+// Kernels ready to launch, over the vectors of a grid or over a list of items, and the sets of them that
+// objects keep.
 #pragma once
 
-#include <CL/opencl.hpp>
+#include <array>
 #include <cstddef>
+#include <deque>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "opencl_error.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/grid.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
@@ -20,14 +24,19 @@ constexpr std::size_t guard = 16;
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
+
+  friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
+    return a.metric == b.metric && a.neighbourhood == b.neighbourhood;
+  }
 };
 
-/// Made per call, never shared between threads: an OpenCL kernel object holds its arguments.
+/// One kernel with its arguments, of which a launch sets those that have changed since the last one. Never
+/// shared between threads: an OpenCL kernel object holds its arguments.
 class Kernel {
  public:
   /// The kernel `name` of a kernel file, built for the device's vector width, or less where a row is shorter
-  /// than that.
-  Kernel(const Device& device, const std::string& file, const std::string& name, const Grid& grid,
+  /// than that. The texts must outlive the kernel.
+  Kernel(const Device& device, const char* file, const char* name, const Grid& grid,
          const KernelOptions& options = {});
 
   /// Work-groups of this many items for over_items(), however few the items are. (PoCL
@@ -37,7 +46,7 @@ class Kernel {
     return *this;
   }
 
-  /// Enqueues one work-item a run of every row, with these arguments. Work-items outside the grid must
+  /// Enqueues one work-item per vector of every row, with these arguments. Work-items outside the grid must
   /// return.
   template <typename... Arguments>
   cl::Event over_grid(const Arguments&... arguments) {
@@ -49,35 +58,62 @@ class Kernel {
   /// Enqueues nothing for a count of 0.
   template <typename... Arguments>
   cl::Event over_items(std::size_t count, const Arguments&... arguments) {
+    if (count == 0) return {};
     set_arguments(0, arguments...);
     return enqueue_over_items(count);
   }
 
  private:
-  void set_arguments(cl_uint) {}
+  friend class KernelSet;
+
+  /// An argument as it was set. Of a buffer it holds the handle, so that no other buffer can have its
+  /// address.
+  struct Argument {
+    std::array<unsigned char, 16> bytes = {};
+    std::size_t size = 0;  // 0: not set yet
+    cl::Buffer buffer;
+  };
+
+  bool is_for(const Device& device, const Grid& grid) const;
+  void set_arguments(std::size_t) {}
   template <typename First, typename... Rest>
-  void set_arguments(cl_uint index, const First& first, const Rest&... rest) {
-    check(set_argument(index, first), "setting argument " + std::to_string(index) + " of " + name_);
+  void set_arguments(std::size_t index, const First& first, const Rest&... rest) {
+    if (index == arguments_.size()) arguments_.emplace_back();
+    if constexpr (std::is_same_v<First, cl::Buffer>) {
+      set_argument(index, &first(), sizeof(cl_mem));
+      arguments_[index].buffer = first;
+    } else {
+      static_assert(std::is_arithmetic_v<First> || std::is_union_v<First>,
+                    "a number or a vector such as cl_uint2");
+      set_argument(index, &first, sizeof(First));
+    }
     set_arguments(index + 1, rest...);
   }
-  cl_int set_argument(cl_uint index, const cl::Buffer& buffer) {
-    return clSetKernelArg(kernel_(), index, sizeof(cl_mem), &buffer());
-  }
-  template <typename T>
-  cl_int set_argument(cl_uint index, const T& value) {
-    static_assert(std::is_arithmetic_v<T> || std::is_union_v<T>, "a number or a vector such as cl_uint2");
-    return clSetKernelArg(kernel_(), index, sizeof(T), &value);
-  }
+  void set_argument(std::size_t index, const void* value, std::size_t size);
   cl::Event enqueue_over_grid();
   cl::Event enqueue_over_items(std::size_t count);
   cl::Event enqueue(cl_uint dimensions, const std::size_t* global, const std::size_t* local);
 
   Device device_;
-  std::string name_;
+  const char* file_;
+  const char* name_;
   Grid grid_;
-  int run_width_;          // pixels that one work-item computes
+  KernelOptions options_;
+  int vector_width_;       // pixels that one work-item computes
   std::size_t group_ = 0;  // work-items of a group over items; 0: the usual ones, less for few items
   cl::Kernel kernel_;
+  std::vector<Argument> arguments_;
+};
+
+/// The kernels that an object launches again and again.
+class KernelSet {
+ public:
+  /// The kernel, made at its first use, and anew when the device or the grid is another than the last time.
+  Kernel& get(const Device& device, const char* file, const char* name, const Grid& grid,
+              const KernelOptions& options = {});
+
+ private:
+  std::deque<Kernel> kernels_;  // references to its elements stay valid
 };
 
 }  // namespace vorocl

@@ -2,6 +2,7 @@
 
 #include "buffer.hpp"
 #include "opencl_info.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
@@ -31,6 +32,16 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   buffer = allocate(device, bytes, "the measures of a diagram");
 }
 
+std::shared_ptr<const SeedsFrame> frame_of(const Seeds& seeds, const Diagram& diagram) {
+  Internal::state(diagram).check_fits(seeds);
+  return Internal::state(seeds).frame();
+}
+
+const cl::Buffer& no_buffer() {
+  static const cl::Buffer none;
+  return none;
+}
+
 Blocks::Blocks(const Device& device, const Grid& grid)
     : device_(with_groups_for_blocks(device)),
       grid_(grid),
@@ -38,10 +49,10 @@ Blocks::Blocks(const Device& device, const Grid& grid)
       high_(bits_of_height(device)),
       count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
 
-Report Stopwatch::report(const Device& device, const cl::Event& first, const cl::Event& last) const {
+Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
+                 const cl::Event& last) {
   check(clFlush(device.queue()()), "starting a measurement");
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started_;
-  return {0, first, last, host.count()};
+  return {0, first, last, stopwatch.milliseconds()};
 }
 
 }  // namespace vorocl

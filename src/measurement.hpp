@@ -2,21 +2,33 @@
 // walk through (see runs.cl).
 #pragma once
 
-#include <CL/opencl.hpp>
-#include <chrono>
 #include <string>
 
-#include "kernel.hpp"
-#include "vorocl/diagram.hpp"
+#include "diagram_state.hpp"
+#include "vorocl/opencl.hpp"
 #include "vorocl/report.hpp"
-#include "vorocl/seeds.hpp"
 
 namespace vorocl {
 
 /// Makes the buffer of a result, unless there is one of this device that is large enough.
 void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes);
 
-/// The blocks of a grid, one a work-item.
+/// What all results hold: the frame of the seeds that was measured, and the kernels that measured it. Null
+/// before the first measurement, and while one is being made: a result that failed is empty.
+struct Measured {
+  std::shared_ptr<const SeedsFrame> seeds;
+  KernelSet kernels;
+
+  std::size_t size() const { return seeds ? seeds->size : 0; }
+};
+
+/// The frame of seeds that fit the diagram. Throws Error if they do not.
+std::shared_ptr<const SeedsFrame> frame_of(const Seeds& seeds, const Diagram& diagram);
+
+/// What an accessor of an empty result returns.
+const cl::Buffer& no_buffer();
+
+/// The blocks of a grid, one per work-item.
 class Blocks {
  public:
   Blocks(const Device& device, const Grid& grid);
@@ -28,14 +40,9 @@ class Blocks {
 
   /// Enqueues a kernel that starts with take_block().
   template <typename... Arguments>
-  cl::Event run(const char* file, const char* name, const Arguments&... arguments) const {
-    return Kernel(device_, file, name, grid_).over_items(count_, arguments...);
-  }
-
-  /// As above, for a metric.
-  template <typename... Arguments>
-  cl::Event run(Metric metric, const char* file, const char* name, const Arguments&... arguments) const {
-    return Kernel(device_, file, name, grid_, {metric}).over_items(count_, arguments...);
+  cl::Event run(KernelSet& kernels, const char* file, const char* name, const KernelOptions& options,
+                const Arguments&... arguments) const {
+    return kernels.get(device_, file, name, grid_, options).over_items(count_, arguments...);
   }
 
  private:
@@ -45,13 +52,8 @@ class Blocks {
   std::size_t count_;
 };
 
-/// Runs from its making to the report of what was enqueued in between.
-class Stopwatch {
- public:
-  Report report(const Device& device, const cl::Event& first, const cl::Event& last) const;
-
- private:
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
-};
+/// Starts what was enqueued since the stopwatch was made, and reports it.
+Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
+                 const cl::Event& last);
 
 }  // namespace vorocl

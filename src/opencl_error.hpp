@@ -6,14 +6,24 @@
 // of them, which may throw cl::Error, or the other way round. Handles are the same whatever the settings.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <string>
 
 #include "vorocl/error.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-/// Throws Error("<what> failed: ...") unless the code is CL_SUCCESS.
-void check(cl_int code, const std::string& what);
+/// Throws Error("<what> failed: ...") of the code's kind.
+[[noreturn]] void fail(cl_int code, const std::string& what);
+
+/// Throws as fail() unless the code is CL_SUCCESS. `what` is a text, or a function that makes it where that
+/// would cost time on each call.
+inline void check(cl_int code, const char* what) {
+  if (code != CL_SUCCESS) fail(code, what);
+}
+template <typename Describe, typename = decltype(std::string(std::declval<Describe>()()))>
+void check(cl_int code, Describe what) {
+  if (code != CL_SUCCESS) fail(code, what());
+}
 
 }  // namespace vorocl

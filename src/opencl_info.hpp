@@ -1,18 +1,18 @@
 // Asks OpenCL about its objects.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <string>
 #include <type_traits>
 
 #include "opencl_error.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
 /// What a clGet...Info function (`ask`) tells about an object: a number or handle of the type T that OpenCL
 /// documents, or a text. Throws Error if it tells nothing.
-template <typename T, typename Ask, typename Object, typename Name>
-T info(Ask ask, const Object& object, Name name) {
+template <typename T, typename Ask, typename Object>
+T info(Ask ask, const Object& object, cl_uint name) {
   T value{};
   if constexpr (std::is_same_v<T, std::string>) {
     std::size_t size = 0;

@@ -51,8 +51,6 @@ cv::Vec3b color_of(std::uint32_t id) {
   return from_oklab(0.60 + 0.28 * lightness, 0.055 + 0.065 * chroma, hue);
 }
 
-bool is_present(const Point& seed) { return !std::isnan(seed.x); }
-
 /// Calls on_run(begin, end) for each run of pixels with one label: cells are made of few runs.
 template <typename OnRun>
 void for_each_run(const std::vector<std::uint32_t>& labels, OnRun on_run) {
@@ -211,11 +209,15 @@ void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double
 }
 
 void draw_points(cv::Mat& picture, const std::vector<Point>& seeds) {
+  draw_points(picture, std::vector<std::optional<Point>>(seeds.begin(), seeds.end()));
+}
+
+void draw_points(cv::Mat& picture, const std::vector<std::optional<Point>>& seeds) {
   check_picture(picture);
   std::vector<cv::Point> pixels;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
-    const Point& seed = seeds[id];
-    if (!is_present(seed)) continue;
+    if (!seeds[id]) continue;
+    const Point& seed = *seeds[id];
     if (!(seed.x >= 0 && seed.x < picture.cols && seed.y >= 0 && seed.y < picture.rows)) {
       throw Error("seed " + std::to_string(id) + " at (" + std::to_string(seed.x) + ", " +
                   std::to_string(seed.y) + ") is outside the picture of " +

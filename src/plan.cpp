@@ -10,9 +10,9 @@ namespace vorocl {
 
 namespace {
 
-void check_options(const DynamicPlanOptions& options) {
-  if (!std::isfinite(options.max_step) || options.max_step < 0) {
-    throw Error("the longest motion of a seed is " + std::to_string(options.max_step) +
+void check_options(double max_displacement, const DynamicPlanOptions& options) {
+  if (!std::isfinite(max_displacement) || max_displacement < 0) {
+    throw Error("the greatest displacement of a seed is " + std::to_string(max_displacement) +
                 "; it must be 0 pixels or more");
   }
   if (options.von_neumann_waves < 0 || options.von_neumann_waves > 2) {
@@ -26,11 +26,11 @@ void check_options(const DynamicPlanOptions& options) {
 
 /// The least power of two that is at least 2 L and d_max, or the grid's first step if that is less. 2 L is
 /// compared in integers: step >= 2 sqrt(pixels / seeds), squared.
-int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_step) {
+int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_displacement) {
   const int most = std::max(first_step(grid), 1);
   const auto covers = [&](int step) {
     const auto square = static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(step);
-    return square * seeds >= 4 * static_cast<std::uint64_t>(grid.pixels()) && step >= max_step;
+    return square * seeds >= 4 * static_cast<std::uint64_t>(grid.pixels()) && step >= max_displacement;
   };
   int step = 1;
   while (step < most && !covers(step)) step *= 2;
@@ -60,13 +60,14 @@ Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant, Neighbour
   return plan;
 }
 
-Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, const DynamicPlanOptions& options) {
-  check_options(options);
+Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, double max_displacement,
+                                const DynamicPlanOptions& options) {
+  check_options(max_displacement, options);
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan;
   if (first_step(grid) == 0) return plan;
-  for (int step = dynamic_first_step(grid, seeds, options.max_step); step >= 1; step /= 2)
+  for (int step = dynamic_first_step(grid, seeds, max_displacement); step >= 1; step /= 2)
     plan.push_back({step, rest});
   append_extra_waves(plan, options.extra_waves, rest);
   if (options.neighbourhood == NeighbourhoodMix::mixed) {

@@ -1,5 +1,10 @@
 #include "program.hpp"
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
 #include <set>
 #include <sstream>
 
@@ -11,12 +16,31 @@ namespace vorocl {
 
 namespace {
 
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// The text of a kernel file: the embedded one, or that in the folder that VOROCL_KERNEL_DIR names.
+std::string source_of(const std::string& file) {
+  const std::string folder = environment("VOROCL_KERNEL_DIR");
+  if (folder.empty()) return kernel_sources().at(file);
+  std::ifstream stream(folder + '/' + file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || !(text << stream.rdbuf())) {
+    throw Error("cannot read the kernel " + folder + '/' + file +
+                    " (the folder is VOROCL_KERNEL_DIR): " + std::strerror(errno),
+                ErrorKind::file);
+  }
+  return text.str();
+}
+
 /// Appends a file with its #include "..." lines resolved, each file once. #line keeps the compiler's messages
 /// true.
 void append_source(const std::string& file, std::set<std::string>& included, std::string& text) {
   if (!included.insert(file).second) return;
   const std::string include = "#include \"";
-  std::istringstream lines(kernel_sources().at(file));
+  std::istringstream lines(source_of(file));
   std::string line;
   text += "#line 1 \"" + file + "\"\n";
   for (int number = 1; std::getline(lines, line); ++number) {
@@ -29,35 +53,70 @@ void append_source(const std::string& file, std::set<std::string>& included, std
   }
 }
 
+/// Writes a file into the folder that VOROCL_DUMP_DIR names, if it names one.
+void dump(const std::string& name, const std::string& content) {
+  const std::string folder = environment("VOROCL_DUMP_DIR");
+  if (folder.empty()) return;
+  std::ofstream stream(folder + '/' + name, std::ios::binary);
+  if (!(stream << content).flush()) {
+    throw Error(
+        "cannot write " + folder + '/' + name + " (the folder is VOROCL_DUMP_DIR): " + std::strerror(errno),
+        ErrorKind::file);
+  }
+}
+
+/// "exact-diagram-1a2b...": the same in every process, another for every set of options.
+std::string dump_name(const std::string& file, const std::string& options) {
+  std::ostringstream name;
+  for (const char c : file.substr(0, file.rfind('.'))) name << (c == '/' ? '-' : c);
+  name << '-' << std::hex << std::hash<std::string>()(options);
+  return name.str();
+}
+
+/// The binary of the program's only device.
+std::string binary_of(const cl::Program& program) {
+  std::string binary(info<std::size_t>(clGetProgramInfo, program(), CL_PROGRAM_BINARY_SIZES), '\0');
+  auto* bytes = reinterpret_cast<unsigned char*>(binary.data());
+  check(clGetProgramInfo(program(), CL_PROGRAM_BINARIES, sizeof(bytes), &bytes, nullptr),
+        "asking for a program's binary");
+  return binary;
+}
+
 cl::Program build(const Device& device, const std::string& file, const std::string& options) {
   std::string source;
   std::set<std::string> included;
   append_source(file, included, source);
+  const std::string name = dump_name(file, options);
+  dump(name + ".cl", "// " + device.name() + ": " + options + '\n' + source);
   const char* text = source.c_str();
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
   cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
-  check(code, "making the program " + file);
+  check(code, [&] { return "making the program " + file; });
   if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
-    const auto ask = [id](const cl::Program& of, cl_program_build_info name, std::size_t size, void* value,
+    const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
                           std::size_t* used) {
-      return clGetProgramBuildInfo(of(), id, name, size, value, used);
+      return clGetProgramBuildInfo(of(), id, wanted, size, value, used);
     };
     throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" +
-                info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG));
+                    info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
+                ErrorKind::kernel_build);
   }
+  dump(name + ".bin", binary_of(program));
   return program;
 }
 
 }  // namespace
 
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
-  Device::State& state = device.state();
+  DeviceState& state = Internal::state(device);
   const std::lock_guard<std::mutex> lock(state.programs_mutex);
   const std::string key = file + ' ' + options;
   const auto found = state.programs.find(key);
   if (found != state.programs.end()) return found->second;
-  return state.programs.emplace(key, build(device, file, options)).first->second;
+  const std::string more = environment("VOROCL_BUILD_OPTIONS");
+  cl::Program program = build(device, file, more.empty() ? options : options + ' ' + more);
+  return state.programs.emplace(key, program).first->second;
 }
 
 }  // namespace vorocl

@@ -1,13 +1,12 @@
 #include "vorocl/seeds.hpp"
 
-#include <cmath>
-#include <cstring>
-#include <limits>
+#include <algorithm>
+#include <atomic>
 #include <string>
 #include <utility>
 
 #include "buffer.hpp"
-#include "kernel.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
@@ -15,65 +14,176 @@ namespace {
 
 constexpr std::size_t most_seeds = Grid::max_pixels;  // ids are uint32, and work-item ids must not wrap
 
-std::string describe_bad_point(std::size_t index, double x, double y, const Grid& grid) {
-  return "point " + std::to_string(index) + " (" + std::to_string(x) + ", " + std::to_string(y) + ") is " +
-         (std::isfinite(x) && std::isfinite(y) ? "outside the grid" : "not finite") + "; x must be in [0, " +
-         std::to_string(grid.width()) + ") and y in [0, " + std::to_string(grid.height()) + ")";
-}
-
 std::uint32_t pack(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
 }
 
-constexpr std::uint32_t absent = 0x80008000u;  // EMPTY of position.cl
-
 std::uint32_t snap(const Grid& grid, std::size_t index, const Point& point) {
   // Written so that a NaN fails.
   if (!(point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height())) {
-    throw Error(describe_bad_point(index, point.x, point.y, grid));
+    throw BadPoint(index, point, grid);
   }
   return pack(static_cast<int>(point.x), static_cast<int>(point.y));
 }
 
-std::size_t checked_count(std::size_t count) {
+std::uint32_t snap(const Grid& grid, std::size_t index, const std::optional<Point>& point) {
+  return point ? snap(grid, index, *point) : absent_position;
+}
+
+template <typename MaybePoint>
+std::vector<std::uint32_t> snap_all(const Grid& grid, const std::vector<MaybePoint>& points) {
+  std::vector<std::uint32_t> positions;
+  positions.reserve(points.size() + 1);  // one more is added when they are uploaded
+  for (const MaybePoint& point : points) positions.push_back(snap(grid, positions.size(), point));
+  return positions;
+}
+
+void check_count(std::size_t count) {
   if (count > most_seeds) {
     throw Error(std::to_string(count) + " seeds are too many; at most 2^30 are possible");
   }
-  return count;
 }
 
-void check_points_buffer(const Device& device, const cl::Buffer& points, std::size_t count) {
-  check_foreign_buffer(device, points, checked_count(count) * sizeof(cl_float2),
-                       "the buffer of " + std::to_string(count) + " points", Access::read);
+void check_buffers(const Device& device, const cl::Buffer& points, std::size_t count,
+                   const cl::Buffer& marks) {
+  check_count(count);
+  const std::string number = std::to_string(count);
+  check_foreign_buffer(device, points, count * sizeof(cl_float2), "the buffer of " + number + " points",
+                       Access::read);
+  if (marks() != nullptr) {
+    check_foreign_buffer(device, marks, count,
+                         "the buffer that says which of " + number + " seeds are present", Access::read);
+  }
+}
+
+std::uint64_t next_owner() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 }  // namespace
 
-/// The verdict on points that only the device has seen, read at each wait. It stays: a bad point is never
-/// forgotten.
-struct Seeds::DeferredCheck {
-  cl::Buffer first_bad;  // one uint32: the least index of a bad point, or no_label
-  cl::Buffer kept;       // four uint32: whether there was one, its index, and the bits of its x and y
-};
+// --- what a Seeds object holds ---
 
-Seeds::Seeds(const Device& device, const Grid& grid, std::size_t size) : device_(device), grid_(grid) {
-  resize(size);
+SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid_of_seeds)
+    : device(device_of_seeds),
+      grid(grid_of_seeds),
+      frame_(std::make_shared<const SeedsFrame>(SeedsFrame{device, grid, 0, 0, next_owner(), 0, nullptr})) {}
+
+const std::shared_ptr<const SeedsFrame>& SeedsState::frame() const {
+  if (moving_)
+    throw Error("the device failed while these seeds were moved; move them again", ErrorKind::device);
+  return frame_;
+}
+
+SeedsFrame SeedsState::next_frame(std::size_t size, bool vanished) const {
+  check_count(size);
+  return {device, grid, size, 0, frame_->owner, frame_->vanishings + (vanished ? 1 : 0), nullptr};
+}
+
+cl::Buffer SeedsState::room_for(std::size_t count) const {
+  const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
+  return positions() != nullptr && size_of(positions) >= bytes ? positions
+                                                               : allocate(device, bytes, "the seeds");
+}
+
+void SeedsState::place(std::vector<std::uint32_t> packed) {
+  std::vector<bool> there(packed.size());
+  for (std::size_t id = 0; id < packed.size(); ++id) there[id] = packed[id] != absent_position;
+  bool vanished = there.size() < present.size();
+  for (std::size_t id = 0; id < std::min(there.size(), present.size()); ++id) {
+    vanished = vanished || (present[id] && !there[id]);
+  }
+  SeedsFrame next = next_frame(there.size(), vanished);
+  next.absent = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));
+  auto made = std::make_shared<const SeedsFrame>(next);
+  const cl::Buffer room = room_for(there.size());
+  packed.push_back(absent_position);
+  moving_ = true;
+  upload(device, room, packed);
+  positions = room;
+  present = std::move(there);
+  frame_ = std::move(made);
+  moving_ = false;
+}
+
+void SeedsState::place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks) {
+  check_buffers(device, points, count, marks);
+  const bool marked = marks() != nullptr;
+  SeedsFrame next = next_frame(count, marked || count < size());  // which are present, only the device knows
+  const std::shared_ptr<PointCheck> check = unused_check();
+  next.points = check;
+  auto made = std::make_shared<const SeedsFrame>(next);
+  std::vector<bool> there(count, true);
+  const cl::Buffer room = room_for(count);
+  Kernel& snap_points = kernels.get(device, "seeds.cl", "snap_points", grid);
+  Kernel& note_bad_point = kernels.get(device, "seeds.cl", "note_bad_point", grid);
+  moving_ = true;
+  check->reset();
+  snap_points.over_items(count + 1, points, marked ? marks : points, cl_int{marked}, room,
+                         static_cast<cl_uint>(count), grid.width(), grid.height(), check->found());
+  note_bad_point.over_items(1, points, check->found());
+  positions = room;
+  present = std::move(there);
+  frame_ = std::move(made);
+  moving_ = false;
+}
+
+void SeedsState::place_on_device(std::size_t count) {
+  auto made = std::make_shared<const SeedsFrame>(next_frame(count, count < size()));
+  positions = room_for(count);
+  present.assign(count, true);
+  frame_ = std::move(made);
+}
+
+void SeedsState::moved() { frame_ = std::make_shared<const SeedsFrame>(*frame_); }
+
+void SeedsState::copy_from(const SeedsState& other) {
+  SeedsFrame copied = *other.frame();
+  copied.owner = frame_->owner;
+  const std::size_t bytes = (other.size() + 1) * sizeof(std::uint32_t);
+  positions = allocate(device, bytes, "the seeds");
+  copy(device, other.positions, positions, bytes);
+  present = other.present;
+  frame_ = std::make_shared<const SeedsFrame>(std::move(copied));
+}
+
+/// One that no frame remembers any more: a loop over frames makes two or three in all.
+std::shared_ptr<PointCheck> SeedsState::unused_check() {
+  for (const std::shared_ptr<PointCheck>& check : checks_) {
+    if (check.use_count() == 1) return check;
+  }
+  checks_.push_back(std::make_shared<PointCheck>(device, grid));
+  return checks_.back();
+}
+
+// --- Seeds ---
+
+Seeds::Seeds(std::unique_ptr<SeedsState> state) : state_(std::move(state)) {}
+Seeds::~Seeds() = default;
+Seeds::Seeds(Seeds&& other) noexcept = default;
+Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
+
+SeedsState& Seeds::state() const {
+  if (!state_)
+    throw Error("these seeds were moved from, and have no points; use the ones they were moved to");
+  return *state_;
 }
 
 Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points)
-    : device_(device), grid_(grid) {
-  std::vector<std::uint32_t> positions;
-  positions.reserve(points.size() + 1);
-  for (const Point& point : points) positions.push_back(snap(grid, positions.size(), point));
-  resize(points.size());
-  upload(std::move(positions));
+    : state_(std::make_unique<SeedsState>(device, grid)) {
+  state_->place(snap_all(grid, points));
 }
 
-Seeds::Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count)
-    : device_(device), grid_(grid) {
-  check_points_buffer(device, points, count);
-  resize(count);
-  snap_on_device(points);
+Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points)
+    : state_(std::make_unique<SeedsState>(device, grid)) {
+  state_->place(snap_all(grid, points));
+}
+
+Seeds::Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count,
+             const cl::Buffer& present)
+    : state_(std::make_unique<SeedsState>(device, grid)) {
+  state_->place(points, count, present);
 }
 
 Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector<std::uint8_t>& mask) {
@@ -88,97 +198,51 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
       if (mask[i++] != 0) positions.push_back(pack(x, y));
     }
   }
-  Seeds seeds(device, grid, positions.size());
-  seeds.upload(std::move(positions));
-  return seeds;
+  auto state = std::make_unique<SeedsState>(device, grid);
+  state->place(std::move(positions));
+  return Seeds(std::move(state));
 }
 
 Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, std::uint64_t rng_seed) {
-  Seeds seeds(device, grid, count);
+  auto state = std::make_unique<SeedsState>(device, grid);
+  state->place_on_device(count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
   Kernel(device, "seeds.cl", "random_positions", grid)
-      .over_items(count + 1, seeds.positions_, static_cast<cl_uint>(count), grid.width(), grid.height(), key);
-  return seeds;
+      .over_items(count + 1, state->positions, static_cast<cl_uint>(count), grid.width(), grid.height(), key);
+  return Seeds(std::move(state));
+}
+
+Seeds Seeds::clone() const {
+  auto copied = std::make_unique<SeedsState>(device(), grid());
+  copied->copy_from(state());
+  return Seeds(std::move(copied));
 }
 
 void Seeds::move_to(const std::vector<std::optional<Point>>& points) {
-  std::vector<std::uint32_t> positions;
-  positions.reserve(points.size() + 1);
-  for (const std::optional<Point>& point : points) {
-    positions.push_back(point ? snap(grid_, positions.size(), *point) : absent);
-  }
-  const std::vector<bool> before = present_;
-  const std::size_t size_before = size_;
-  resize(points.size());
-  bool vanished = size_ < size_before;
-  for (std::size_t id = 0; id < size_; ++id) {
-    present_[id] = points[id].has_value();
-    vanished = vanished || (!present_[id] && id < size_before && before[id]);
-    alive_ -= present_[id] ? 0 : 1;
-  }
-  vanishings_ += vanished ? 1 : 0;
-  upload(std::move(positions));
+  state().place(snap_all(grid(), points));
 }
 
-void Seeds::move_to(const cl::Buffer& points, std::size_t count) {
-  check_points_buffer(device_, points, count);
-  vanishings_ += count < size_ ? 1 : 0;
-  resize(count);
-  snap_on_device(points);
+void Seeds::move_to(const cl::Buffer& points, std::size_t count, const cl::Buffer& present) {
+  state().place(points, count, present);
 }
 
-/// Makes room for the positions; all seeds count as present until some are said to be absent.
-void Seeds::resize(std::size_t size) {
-  const std::size_t bytes = (checked_count(size) + 1) * sizeof(std::uint32_t);
-  if (positions_() == nullptr || size_of(positions_) < bytes) {
-    positions_ = allocate(device_, bytes, "the seeds");
-  }
-  size_ = alive_ = size;
-  present_.assign(size, true);
-}
+const Device& Seeds::device() const { return state().device; }
+const Grid& Seeds::grid() const { return state().grid; }
+std::size_t Seeds::size() const { return state().size(); }
+std::size_t Seeds::alive() const { return state().frame()->alive(); }
+const cl::Buffer& Seeds::positions() const { return state().positions; }
+void Seeds::check() const { state().frame()->check(); }
 
-void Seeds::upload(std::vector<std::uint32_t> positions) {
-  positions.push_back(absent);
-  vorocl::upload(device_, positions_, positions);
-}
-
-void Seeds::snap_on_device(const cl::Buffer& points) {
-  if (!deferred_) {
-    deferred_ = std::make_shared<DeferredCheck>();
-    deferred_->first_bad = allocate(device_, sizeof(std::uint32_t), "the seeds");
-    fill(device_, deferred_->first_bad, no_label, 1);
-    deferred_->kept = allocate(device_, 4 * sizeof(std::uint32_t), "the seeds");
-    fill(device_, deferred_->kept, cl_uint{0}, 4);
-  }
-  Kernel(device_, "seeds.cl", "snap_points", grid_)
-      .over_items(size_ + 1, points, positions_, static_cast<cl_uint>(size_), grid_.width(), grid_.height(),
-                  deferred_->first_bad);
-  Kernel(device_, "seeds.cl", "keep_bad_point", grid_)
-      .over_items(1, points, deferred_->first_bad, deferred_->kept);
-}
-
-std::vector<Point> Seeds::read() const {
+std::vector<std::optional<Point>> Seeds::read() const {
   check();
-  std::vector<Point> points;
-  points.reserve(size_);
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const std::uint32_t position : download<std::uint32_t>(device_, positions_, size_)) {
-    points.push_back(position == absent ? Point{none, none}
-                                        : Point{(position & 0xffff) + 0.5, (position >> 16) + 0.5});
+  std::vector<std::optional<Point>> points;
+  points.reserve(size());
+  for (const std::uint32_t position : download<std::uint32_t>(device(), positions(), size())) {
+    points.push_back(position == absent_position
+                         ? std::nullopt
+                         : std::optional<Point>({(position & 0xffff) + 0.5, (position >> 16) + 0.5}));
   }
   return points;
-}
-
-void Seeds::check() const {
-  if (!deferred_) return;
-  const auto kept = download<std::uint32_t>(device_, deferred_->kept, 4);
-  if (kept[0] == 0) return;
-  const auto coordinate = [&](std::size_t i) {
-    float value = 0;
-    std::memcpy(&value, &kept[i], sizeof value);
-    return static_cast<double>(value);
-  };
-  throw Error(describe_bad_point(kept[1], coordinate(2), coordinate(3), grid_));
 }
 
 }  // namespace vorocl

@@ -6,8 +6,17 @@ cd "$(dirname "$0")/.."
 
 kernel_files() { find kernels tools -name '*.cl' | sort; }
 
+# Under C99, which OpenCL C follows, a driver may leave a call to a plain `inline` function undefined.
+refuse_plain_inline() {
+  if grep -nE '\<inline\>' $(kernel_files) | grep -vE '\<static inline\>|//.*\<inline\>'; then
+    echo "These functions are to be static inline"
+    exit 1
+  fi
+}
+
 strict_compile() {
   command -v clang >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
+  refuse_plain_inline
   local kernel width metric neighbours
   for kernel in $(kernel_files); do
     for width in 1 2 4 8 16; do

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Builds VoroCL and draws the regions of the world's cities. The last word it prints is the picture's name.
+# Builds the command and draws the regions of the world's cities. The last word it prints is the picture's name.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-tools/build.sh
+tools/setup.sh build
+[ -f build/CMakeCache.txt ] || cmake --preset release -DVOROCL_BUILD_TESTS=OFF >/dev/null # Boost.Test may not be there
+cmake --build --preset release --target vorocl_tool
 mkdir -p output
-build/tools/vorocl render --points samples/cities-5000.csv --bounds 0,0,360,180 --size 1800x900 --method jfa \
+build/tools/vorocl render --points samples/cities-5000.csv --bounds 0,0,360,180 --size 1800x900 --method exact \
   --edges -o output/cities.png
 echo "The regions of 5,000 cities, each pixel in the colour of its nearest one: output/cities.png"

@@ -1,16 +1,22 @@
 #!/usr/bin/env bash
-# Installs what VoroCL needs on Debian or Ubuntu: the OpenCL loader, PoCL, OpenCV, Boost.Test, the command's libraries
-# and Matplotlib for its plots. Does nothing where all is there.
+# Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
+# The groups are build (the libraries and the command), test (their tests) and check (what .ci/run checks with besides).
+# Without any: build and test.
 set -euo pipefail
+[ $# -gt 0 ] || set -- build test
 
-packages=(
-  g++ cmake ninja-build
-  ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-  libopencv-dev libtiff-dev
-  libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
-  libboost-test-dev
-  python3-matplotlib
-)
+packages=()
+for group in "$@"; do
+  case $group in
+  build)
+    packages+=(g++ cmake ninja-build ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
+      libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev)
+    ;;
+  test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
+  check) packages+=(clang clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9 python3-numpy) ;;
+  *) echo "setup.sh: there is no group \"$group\", but build, test and check" >&2; exit 2 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

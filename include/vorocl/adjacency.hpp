@@ -1,16 +1,18 @@
 // Which cells of a diagram touch: the Delaunay neighbours in raster form.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
+
+struct AdjacencyState;
 
 /// Two cells that share a pixel edge.
 struct CellPair {
@@ -23,31 +25,30 @@ struct CellPair {
 };
 
 /// What adjacency() found, on the device. Finding it again allocates nothing unless there is more of it.
+/// Empty before the first time, and after it was moved from or adjacency() threw. One thread at a time.
 class VOROCL_API AdjacencyResult {
  public:
+  AdjacencyResult();
+  ~AdjacencyResult();
+  AdjacencyResult(AdjacencyResult&& other) noexcept;
+  AdjacencyResult& operator=(AdjacencyResult&& other) noexcept;
+
   /// How many pairs of cells share a pixel edge.
-  std::size_t pairs() const { return pairs_; }
+  std::size_t pairs() const;
 
   /// uint32 a, b, length of each pair, sorted by a and then b; each pair once, a < b.
-  const cl::Buffer& pair_list() const { return pair_list_; }
+  const cl::Buffer& pair_list() const;
 
-  const cl::Buffer& neighbours() const {
-    return neighbours_;
-  }  ///< uint32 a cell: the cells it shares an edge with
-  const cl::Buffer& perimeters() const {
-    return perimeters_;
-  }  ///< uint32 a cell: the pixel edges it shares with them
+  const cl::Buffer& neighbours() const;  ///< uint32 per cell: the cells it shares an edge with
+  const cl::Buffer& perimeters() const;  ///< uint32 per cell: the pixel edges it shares with them
 
   std::vector<CellPair> read_pairs() const;
   std::vector<std::uint32_t> read_neighbours() const;
   std::vector<std::uint32_t> read_perimeters() const;
 
  private:
-  friend void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result);
-  std::optional<Seeds> seeds_;
-  std::size_t pairs_ = 0;
-  cl::Buffer pair_list_, neighbours_, perimeters_;
-  cl::Buffer slots_, lengths_, overflow_, first_, placed_;
+  friend struct Internal;
+  std::unique_ptr<AdjacencyState> state_;
 };
 
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
@@ -55,8 +56,9 @@ class VOROCL_API AdjacencyResult {
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
-/// table on the device, and sorting the pairs; about 100 bytes of device memory a seed. Waits. Throws Error
-/// if seeds and diagram do not fit together, the device has too little memory or the seeds had a bad point.
+/// table on the device, and sorting the pairs; about 100 bytes of device memory per seed. Waits. Throws Error
+/// if seeds and diagram do not fit together or the device has too little memory, BadPoint if the seeds had
+/// one.
 VOROCL_API void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result);
 
 /// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the grid's edge

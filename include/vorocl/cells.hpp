@@ -1,17 +1,20 @@
 // Measures of the cells of a diagram: area, centroid, extent.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
+
+struct CellSumsState;
+struct CellShapesState;
 
 /// What cell_sums() knows of a cell: exact integers, the same on every device.
 struct CellSums {
@@ -30,47 +33,53 @@ struct CellShape {
   bool touches_border = false;                   ///< it has a pixel in the first or last row or column
 };
 
-struct CellStatistics;
-
-/// The buffers of a measurement with one entry a seed, by id. Measuring into them again allocates nothing
-/// unless there are more seeds.
+/// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
+/// allocates nothing unless there are more seeds. Empty before the first time, and after it was moved from or
+/// cell_sums() threw. One thread at a time.
 class VOROCL_API CellSumsResult {
  public:
-  std::size_t size() const { return seeds_ ? seeds_->size() : 0; }
-  const cl::Buffer& area() const { return area_; }    ///< uint32 a cell
-  const cl::Buffer& sum_x() const { return sum_x_; }  ///< uint64 a cell
-  const cl::Buffer& sum_y() const { return sum_y_; }  ///< uint64 a cell
+  CellSumsResult();
+  ~CellSumsResult();
+  CellSumsResult(CellSumsResult&& other) noexcept;
+  CellSumsResult& operator=(CellSumsResult&& other) noexcept;
 
-  /// Waits. Throws Error if the seeds had a bad point.
+  std::size_t size() const;
+  const cl::Buffer& area() const;   ///< uint32 per cell
+  const cl::Buffer& sum_x() const;  ///< uint64 per cell
+  const cl::Buffer& sum_y() const;  ///< uint64 per cell
+
+  /// Waits. Throws BadPoint if the seeds had one.
   std::vector<CellSums> read() const;
 
  private:
-  friend Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result);
-  friend CellStatistics cell_statistics(CellSumsResult& sums);
-  std::optional<Seeds> seeds_;
-  cl::Buffer area_, sum_x_, sum_y_, home_, home_sums_, partial_;
+  friend struct Internal;
+  std::unique_ptr<CellSumsState> state_;
 };
 
+/// What cell_shapes() found, as CellSumsResult.
 class VOROCL_API CellShapesResult {
  public:
-  std::size_t size() const { return seeds_ ? seeds_->size() : 0; }
-  const cl::Buffer& boxes() const { return boxes_; }  ///< int32 left, top, right, bottom a cell
-  const cl::Buffer& largest_distances() const { return distances_; }  ///< int32 a cell
+  CellShapesResult();
+  ~CellShapesResult();
+  CellShapesResult(CellShapesResult&& other) noexcept;
+  CellShapesResult& operator=(CellShapesResult&& other) noexcept;
 
-  /// Waits. Throws Error if the seeds had a bad point.
+  std::size_t size() const;
+  const cl::Buffer& boxes() const;              ///< int32 left, top, right, bottom per cell
+  const cl::Buffer& largest_distances() const;  ///< int32 per cell
+
+  /// Waits. Throws BadPoint if the seeds had one.
   std::vector<CellShape> read() const;
 
  private:
-  friend Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result,
-                            Metric metric);
-  std::optional<Seeds> seeds_;
-  cl::Buffer boxes_, distances_;
+  friend struct Internal;
+  std::unique_ptr<CellShapesState> state_;
 };
 
 /// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
 /// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
-/// with few seeds as with many; 30 bytes of device memory a seed. Enqueues and returns. Throws Error if seeds
-/// and diagram do not fit together or the device has too little memory.
+/// with few seeds as with many; 30 bytes of device memory per seed. Enqueues and returns. Throws Error if
+/// seeds and diagram do not fit together or the device has too little memory.
 VOROCL_API Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result);
 
 /// Finds the extent of every cell: its bounding box, whether it touches the grid's border, and how far its
@@ -90,8 +99,8 @@ struct CellStatistics {
 /// Counts the cells and the spread of their areas, on the device. Waits. Throws as cell_sums().
 VOROCL_API CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram);
 
-/// As above, of sums that have been made; the seeds must not have moved since. Allocates nothing if it did
-/// for as many seeds before. Nothing but zeros if nothing has been summed.
+/// As above, of sums that have been made. Allocates nothing if it did for as many seeds before. Nothing but
+/// zeros if nothing has been summed.
 VOROCL_API CellStatistics cell_statistics(CellSumsResult& sums);
 
 /// The pixels whose labels differ between two diagrams. Waits. Throws as similarity().

@@ -1,15 +1,17 @@
 // The OpenCL device that everything else runs on: selection, tuning, and the cache of built programs.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
+
+struct DeviceState;
 
 /// How kernels are shaped for a device. Results never depend on it, only speed does.
 struct Tuning {
@@ -35,8 +37,17 @@ struct DeviceDescription {
   std::string reason;              ///< ... and why
 };
 
-/// A context, an in-order queue and the programs built for them. Copies share all of it. Safe to use from
-/// several threads, as far as each thread has its own Seeds and Diagram.
+/// A context, an in-order queue and the programs built for them.
+///
+/// Threads: copies share all of it, and several threads may use it and its copies at once, as long as each
+/// has its own Seeds, Diagrams and results.
+///
+/// Lifetime: everything made on a device keeps what it needs of it.
+///
+/// Ordering: all work goes to the one queue, in the order of the calls. At most 128 commands are in flight:
+/// a call that would enqueue more waits until older ones are done, because drivers slow down as their queues
+/// grow. So do not hold the queue back (by wait_for()) with an event that the same thread completes only
+/// after it has enqueued many frames.
 class VOROCL_API Device {
  public:
   /// Picks a device: the `request` if it is not empty, else the environment variable VOROCL_DEVICE, else an
@@ -53,6 +64,11 @@ class VOROCL_API Device {
   /// not belong together or if the queue is out of order. Device times are 0 unless the queue has profiling
   /// enabled.
   Device(const cl::Context& context, const cl::CommandQueue& queue);
+
+  // Without moves: a device is never empty.
+  Device(const Device&) = default;
+  Device& operator=(const Device&) = default;
+  ~Device() = default;
 
   const cl::Context& context() const;
   const cl::CommandQueue& queue() const;
@@ -77,12 +93,9 @@ class VOROCL_API Device {
   /// True if both use one queue (whatever their tuning).
   bool same_as(const Device& other) const { return queue()() == other.queue()(); }
 
-  struct State;
-  /// For the library's own sources.
-  State& state() const { return *state_; }
-
  private:
-  std::shared_ptr<State> state_;
+  friend struct Internal;
+  std::shared_ptr<DeviceState> state_;
   Tuning tuning_;
 };
 

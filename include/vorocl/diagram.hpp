@@ -1,20 +1,32 @@
 // The diagram: the image of labels, kept on the device.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "vorocl/device.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/grid.hpp"
-#include "vorocl/seeds.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-/// A label image of width * height uint32, row-major, and every buffer that an engine needs to fill it:
-/// engines allocate theirs at their first use of a diagram, later frames of a moving run allocate nothing.
+struct DiagramState;
+
+/// A label image of width * height uint32, row-major, which engines fill. Engines make their working memory
+/// and their kernels at their first use of a diagram and keep them there: later frames of a moving run
+/// allocate nothing.
+///
+/// An engine either fills a diagram or throws. After an exception the labels are undefined, and the diagram
+/// counts as never filled: a method that goes on from the last labels starts anew.
+///
+/// Threads: one thread at a time. Two threads may fill two diagrams of one device.
+///
+/// Lifetime: a diagram keeps its device, and remembers the frame of the seeds that it was made from. A
+/// diagram that was moved from throws Error whatever it is asked.
+///
+/// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API Diagram {
  public:
   /// All labels are no_label. Throws Error if the device cannot hold the label image.
@@ -25,73 +37,36 @@ class VOROCL_API Diagram {
   /// writable by kernels.
   Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels);
 
-  // Copies would share the images that engines overwrite.
-  Diagram(const Diagram&) = delete;
-  Diagram& operator=(const Diagram&) = delete;
-  Diagram(Diagram&&) = default;
-  Diagram& operator=(Diagram&&) = default;
+  ~Diagram();
+  Diagram(Diagram&& other) noexcept;
+  Diagram& operator=(Diagram&& other) noexcept;
 
-  const Device& device() const { return device_; }
-  const Grid& grid() const { return grid_; }
+  const Device& device() const;
+  const Grid& grid() const;
 
-  /// The labels, for use in OpenCL without a copy: row-major uint32, valid once the queue gets there, or once
-  /// an engine's Report::event() is complete.
-  const cl::Buffer& labels() const { return labels_; }
+  /// The labels, for use in OpenCL without a copy: row-major uint32, valid for commands that are enqueued
+  /// behind the engine's, or once its Report::event() is complete.
+  const cl::Buffer& labels() const;
 
-  /// The labels on the host, size width * height. Waits. Throws Error if the seeds had a bad point.
+  /// Writes labels of the caller's: width * height, row-major. An engine that goes on from the last labels
+  /// goes on from these; a label that is no seed's id counts as none. Waits until they are copied. Throws
+  /// Error if the size is another.
+  void write(const std::vector<std::uint32_t>& labels);
+
+  /// As above, from a buffer of the same context (which may be a sub-buffer). Enqueues and returns.
+  void write(const cl::Buffer& labels);
+
+  /// The labels on the host, size width * height. Waits. Throws as wait().
   std::vector<std::uint32_t> read() const;
 
-  /// Waits for the queue. Throws Error if the seeds had a bad point.
+  /// Waits for the queue. Throws BadPoint if the frame of seeds that the diagram was made from had a bad
+  /// point, and Error if the device failed.
   void wait() const;
 
-  /// For engines: what a scratch buffer is for.
-  enum class Scratch {
-    packed_front,
-    packed_back,
-    seeded,
-    flags,
-    exact_bits,
-    exact_word_starts,
-    exact_starts,
-    exact_list,
-    exact_ids,
-    exact_pyramid,
-    exact_labelled,
-    exact_candidates,
-    exact_counts,
-    exact_places,
-    exact_late,
-    exact_listed,
-    count_
-  };
-
-  /// For engines: the scratch buffer of this use, made at its first use or when more bytes are asked for than
-  /// it has. Throws Error, saying how much is needed and there is, if the device cannot hold it.
-  const cl::Buffer& scratch(Scratch use, std::size_t bytes);
-
-  /// Throws Error unless seeds and diagram have one device and one grid.
-  void check_fits(const Seeds& seeds) const;
-
-  /// For engines, at their start: check_fits(), and remembers the seeds, so that a bad point among them is
-  /// reported at the next wait.
-  void begin(const Seeds& seeds);
-
-  /// For engines that go on from the labels of the last frame: whether there was one, and whether all of its
-  /// seeds are still there, so that every label names one. Asked before begin().
-  bool filled() const { return seeds_.has_value(); }
-  bool holds_labels_of(const Seeds& seeds) const;
-
-  /// For engines: the frames since the labels were last made from nothing.
-  int age() const { return age_; }
-  void set_age(int age) { age_ = age; }
-
  private:
-  Device device_;
-  Grid grid_;
-  cl::Buffer labels_;
-  std::vector<cl::Buffer> scratch_;
-  std::optional<Seeds> seeds_;  // of the last engine that ran, as they were then
-  int age_ = 0;
+  friend struct Internal;
+  DiagramState& state() const;
+  std::unique_ptr<DiagramState> state_;
 };
 
 }  // namespace vorocl

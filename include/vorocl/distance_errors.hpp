@@ -1,10 +1,10 @@
-// Errors of a diagram against the truth: which labels are wrong, and by how many pixels.
+// Errors of a diagram against the exact one: which labels are wrong, and by how many pixels.
 #pragma once
 
 #include <cstddef>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {

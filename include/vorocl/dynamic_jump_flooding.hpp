@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/plan.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
@@ -11,21 +11,24 @@ namespace vorocl {
 
 struct DynamicJumpFloodingOptions {
   Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
-  DynamicPlanOptions plan =
-      {};                    ///< the waves; plan.max_step must cover the seeds' motion since the last frame
-  int refresh_interval = 0;  ///< every how many frames a full JFA runs instead; 0: only for frame 0
+  DynamicPlanOptions plan = {};       ///< the waves
+  int refresh_interval = 0;           ///< every how many frames a full JFA runs instead; 0: only for frame 0
 };
 
 /// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
 /// seed is looked up at its new position, the seeds are stamped at their new pixels, and waves from a step
-/// that covers a cell and the motion mend the rest. A diagram that nothing has filled yet gets a JFA.
+/// that covers a cell and the motion mend the rest. `max_displacement` is the paper's d_max: no seed may have
+/// moved farther along an axis since the diagram was last filled, in pixels. A diagram that counts as never
+/// filled gets a JFA.
 ///
 /// Approximate; close to JFA where seeds are spread evenly (the paper's assumption), worse where they are
 /// not. Seeds may appear and vanish: a label of a vanished seed counts as none, and if a pixel is left
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
-/// device memory a pixel. Enqueues and returns, except that after a seed has vanished (or the seeds have a
-/// new buffer) it waits to see whether pixels are left. Throws as jump_flooding().
-VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
+/// device memory per pixel. Enqueues and returns, with two exceptions. After a seed has vanished, or if the
+/// labels are of other seeds or were written by the caller, it waits to see whether pixels are left. If the
+/// last frame's points came in the caller's buffer, it waits until these have been checked, for labels made
+/// from a bad point cannot be gone on from. Throws as jump_flooding(), and if an option is out of its range.
+VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
                                         const DynamicJumpFloodingOptions& options = {});
 
 }  // namespace vorocl

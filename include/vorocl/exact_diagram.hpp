@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -20,8 +20,8 @@ struct ExactOptions {
 /// each row and then the best row is taken (as in separable distance transforms); where they are not, those
 /// seeds near that no other one beats at all four corners of a cell are tried; where they are sparse, these
 /// candidates are searched from coarse cells to fine ones. Cost: in proportion to the pixels, whatever the
-/// distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes of device memory a
-/// pixel, the labels included, and 16 a seed besides its position. Throws Error if seeds and diagram do not
+/// distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes of device memory per
+/// pixel, the labels included, and 16 per seed besides its position. Throws Error if seeds and diagram do not
 /// fit together or the device has too little memory.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 

@@ -1,39 +1,47 @@
 // Images that follow from a diagram: distances to the nearest seed, borders of the cells.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
 
+template <typename T>
+struct FieldState;
+
 /// What distance_field() says of a pixel without a label; infinity in the field of floats.
 constexpr std::int32_t no_distance = 0x7fffffff;
 
-/// One value a pixel, row-major, on the device. Filling it again allocates nothing.
+/// One value per pixel, row-major, on the device: int32, float or uint8. Filling it again allocates nothing.
+/// Empty before the first time, and after it was moved from or filling it threw. One thread at a time.
 template <typename T>
-class Field {
+class VOROCL_API Field {
  public:
-  const cl::Buffer& values() const { return values_; }
+  Field();
+  ~Field();
+  Field(Field&& other) noexcept;
+  Field& operator=(Field&& other) noexcept;
 
-  /// Waits. Throws Error if the seeds had a bad point.
-  VOROCL_API std::vector<T> read() const;
+  const cl::Buffer& values() const;
 
-  /// For the functions that fill it: readies it for this grid of the seeds or diagram.
-  VOROCL_API void prepare(const Device& device, const Grid& grid, const std::optional<Seeds>& seeds);
+  /// Waits. Throws BadPoint if the seeds had one.
+  std::vector<T> read() const;
 
  private:
-  std::optional<Device> device_;
-  std::optional<Seeds> seeds_;
-  std::size_t pixels_ = 0;
-  cl::Buffer values_;
+  friend struct Internal;
+  std::unique_ptr<FieldState<T>> state_;
 };
+
+extern template class Field<std::int32_t>;
+extern template class Field<float>;
+extern template class Field<std::uint8_t>;
 
 /// Each pixel's distance to the seed of its label, between pixel centres: squared if Euclidean. Exact
 /// integers. Enqueues and returns. Throws Error if seeds and diagram do not fit together or the device has

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 
 namespace vorocl {
 

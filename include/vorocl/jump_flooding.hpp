@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/plan.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
@@ -19,7 +19,7 @@ struct JumpFloodingOptions {
 ///
 /// Approximate: with Moore waves every pixel gets a seed, nearly always its nearest; von Neumann waves alone
 /// give wrong regions (the paper's Fig. 5) and may leave pixels without a label. Cost: log2(N) waves,
-/// whatever the number of seeds; 13 bytes of device memory a pixel, the labels included. Throws Error if
+/// whatever the number of seeds; 13 bytes of device memory per pixel, the labels included. Throws Error if
 /// seeds and diagram do not fit together or the device has too little memory.
 VOROCL_API Report jump_flooding(const Seeds& seeds, Diagram& diagram,
                                 const JumpFloodingOptions& options = {});

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
@@ -14,10 +14,10 @@ enum class Border {
   periodic,  ///< it comes in on the other side
 };
 
-/// Moves each seed by (dx, dy) pixels, each uniform in [-most, most], on the device. The numbers come from
-/// Philox-4x32-10 keyed by the rng seed, the seed's id and the frame: the same on every device. Enqueues and
-/// returns. Throws Error unless `most` is in [0, Grid::max_side].
-VOROCL_API void random_step(Seeds& seeds, int most, Border border, std::uint64_t rng_seed,
+/// Moves each seed by (dx, dy) pixels, each uniform in [-max_displacement, max_displacement], on the device.
+/// The numbers come from Philox-4x32-10 keyed by the rng seed, the seed's id and the frame: the same on every
+/// device. Enqueues and returns. Throws Error unless `max_displacement` is in [0, Grid::max_side].
+VOROCL_API void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_t rng_seed,
                             std::uint32_t frame);
 
 }  // namespace vorocl

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
@@ -73,9 +73,10 @@ VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& l
 /// distance. Throws Error unless there is one distance a pixel and the interval is positive and finite.
 VOROCL_API void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval);
 
-/// Draws a dot on each seed that is not absent (NaN) into a picture: dark with a light rim where there is
-/// room for it, down to one pixel where seeds are dense. Throws Error if a point is outside the picture.
+/// Draws a dot on each seed that is not absent into a picture: dark with a light rim where there is room for
+/// it, down to one pixel where seeds are dense. Throws Error if a point is outside the picture.
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<Point>& seeds);
+VOROCL_API void draw_points(cv::Mat& picture, const std::vector<std::optional<Point>>& seeds);
 
 /// What a colour bar says.
 struct ColorBar {

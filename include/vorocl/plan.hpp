@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
@@ -48,16 +48,16 @@ enum class NeighbourhoodMix {
 };
 
 struct DynamicPlanOptions {
-  double max_step = 0;  ///< d_max: the longest motion of a seed along an axis since the last frame, in pixels
   NeighbourhoodMix neighbourhood = NeighbourhoodMix::mixed;
   int von_neumann_waves = 2;  ///< 0, 1 or 2: how many waves of a mixed plan are von Neumann
   int extra_waves = 0;        ///< 0, 1 or 2: one more wave of step 1, or two of steps 2 and 1
 };
 
-/// The waves of dynamic jump flooding for a number of seeds that are alive: steps delta_1, half of it, ..., 1
-/// and the extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width *
-/// height / seeds), from 1 to first_step(grid). Throws Error if an option is out of its range.
-VOROCL_API Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds,
+/// The waves of dynamic jump flooding for a number of seeds that are alive and have moved by at most
+/// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
+/// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
+/// seeds), from 1 to first_step(grid). Throws Error if the displacement or an option is out of its range.
+VOROCL_API Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, double max_displacement,
                                            const DynamicPlanOptions& options = {});
 
 /// The steps, each von Neumann wave marked: "32v 16v 8 4 2 1".

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/seeds.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -24,7 +24,7 @@ struct Relaxation {
   int rounds() const { return static_cast<int>(energies.size()) - 1; }
 };
 
-/// Is shown the diagram of the start (0 rounds so far) and of each round; says whether to go on.
+/// Called with the diagram at the start (0 rounds so far) and after each round. Returns whether to go on.
 using RelaxationObserver =
     std::function<bool(const Seeds& seeds, const Diagram& diagram, const Relaxation& so_far)>;
 

@@ -1,13 +1,13 @@
 // What an engine reports of one diagram: its waves and its times.
 #pragma once
 
-#include <CL/opencl.hpp>
-
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-/// Engines enqueue and return; their report can be asked later.
+/// Engines enqueue and return; their report can be asked later, from any thread, also when seeds and diagram
+/// are gone.
 class VOROCL_API Report {
  public:
   Report() = default;
@@ -24,7 +24,7 @@ class VOROCL_API Report {
   /// gaps between them. Waits for it. 0 if the queue does not profile.
   double milliseconds() const;
 
-  /// The host's time to enqueue the diagram.
+  /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device).
   double host_milliseconds() const { return host_milliseconds_; }
 
   /// One report of two engines that ran one after the other for one diagram.

@@ -1,32 +1,48 @@
 // Seeds: points snapped to the pixels of a grid, on the device.
 #pragma once
 
-#include <CL/opencl.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "vorocl/device.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/grid.hpp"
+#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
-/// The seeds of a diagram. A seed's id is its index in the caller's list. Seeds that share a pixel are
-/// allowed: the lowest id owns the cell, the others have empty cells. Needs 4 bytes of device memory a seed.
-/// Copies share the positions: random_step() moves them all; move_to() leaves the others' counts behind, so
-/// call it for one of them alone.
+struct SeedsState;
+
+/// The seeds of a diagram, in their present frame. A seed's id is its index in the caller's list. A seed may
+/// be absent: it has an id and no cell. Seeds that share a pixel are allowed: the lowest id owns the cell,
+/// the others have empty cells. Needs 4 bytes of device memory per seed.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: diagrams and results remember the frame that they were made from, not the object: it may be
+/// moved, changed or destroyed at once after an engine was called. Seeds that were moved from throw Error
+/// whatever they are asked.
+///
+/// Ordering: points are read, and seeds moved, in the order of the calls on the device's queue.
 class VOROCL_API Seeds {
  public:
-  /// From points in pixel units. Throws Error naming the first point that is NaN, infinite or outside the
+  /// From points in pixel units. Throws BadPoint naming the first point that is NaN, infinite or outside the
   /// grid (a point at x = width is outside), before any device work. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points);
 
-  /// From `count` pairs (x, y) of float in pixel units in the caller's buffer, which is read when the queue
-  /// gets there. Throws Error if the buffer is null, too small or of another context. The points are checked
-  /// on the device: the Error that names a bad one comes at the next wait (Diagram::read(), Diagram::wait()).
-  Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count);
+  /// As above; a seed without a point is absent.
+  Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points);
+
+  /// From `count` pairs (x, y) of float in pixel units in the caller's buffer. `present` says which seeds
+  /// there are: one byte per seed, 0 for a seed that is absent, whose point is not looked at; a null buffer
+  /// says that all are there. Both buffers are read when the device comes to it. Throws Error if a buffer is
+  /// too small, of another context or not readable by kernels, or the points' buffer is null. The points are
+  /// checked on the device: the BadPoint that names a bad one comes at the wait of every diagram and result
+  /// that is made from this frame.
+  Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count,
+        const cl::Buffer& present = cl::Buffer());
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
   static Seeds from_mask(const Device& device, const Grid& grid, const std::vector<std::uint8_t>& mask);
@@ -35,49 +51,44 @@ class VOROCL_API Seeds {
   /// id): the same on every device. Several seeds may fall on one pixel.
   static Seeds random(const Device& device, const Grid& grid, std::size_t count, std::uint64_t rng_seed);
 
-  /// Moves the seeds to new points, for the diagrams that follow. A seed without a point is absent until it
-  /// gets one again. The number of seeds may change: ids past the end are absent. Checks as the constructor.
+  ~Seeds();
+  Seeds(Seeds&& other) noexcept;
+  Seeds& operator=(Seeds&& other) noexcept;
+
+  /// The same seeds once more, to be moved on their own. Copies on the device. Enqueues and returns.
+  Seeds clone() const;
+
+  /// Moves the seeds to new points: a new frame. A seed without a point is absent until it gets one again.
+  /// The number of seeds may change: ids past the end are absent. Checks as the constructor, and leaves the
+  /// seeds as they were if a point is bad.
   void move_to(const std::vector<std::optional<Point>>& points);
 
-  /// As above, from `count` pairs of float in the caller's buffer; no seed is absent.
-  void move_to(const cl::Buffer& points, std::size_t count);
+  /// As above, from buffers as the constructor takes them.
+  void move_to(const cl::Buffer& points, std::size_t count, const cl::Buffer& present = cl::Buffer());
 
-  const Device& device() const { return device_; }
-  const Grid& grid() const { return grid_; }
-  std::size_t size() const { return size_; }
+  const Device& device() const;
+  const Grid& grid() const;
+  std::size_t size() const;
 
-  /// The seeds that are not absent.
-  std::size_t alive() const { return alive_; }
+  /// The seeds that are not absent. Where a buffer said which are present, this waits for the device.
+  std::size_t alive() const;
 
-  /// How often a move_to() has made a seed absent that was there before.
-  std::uint64_t vanishings() const { return vanishings_; }
-
-  /// One uint32 a seed: y << 16 | x of its pixel, or 0x80008000 if it is absent; and one more such value at
+  /// One uint32 per seed: y << 16 | x of its pixel, or 0x80008000 if it is absent; and one more such value at
   /// the end.
-  const cl::Buffer& positions() const { return positions_; }
+  const cl::Buffer& positions() const;
 
-  /// The centres of the seeds' pixels, (NaN, NaN) for a seed that is absent. Waits. Throws Error if a point
-  /// of the caller's buffer was bad.
-  std::vector<Point> read() const;
+  /// The centres of the seeds' pixels; none for a seed that is absent. Waits. Throws BadPoint if a point of
+  /// the caller's buffer was bad.
+  std::vector<std::optional<Point>> read() const;
 
-  /// Throws Error if a point of the caller's buffer was bad. Waits for it.
+  /// Throws BadPoint if a point of the caller's buffer was bad. Waits for it.
   void check() const;
 
  private:
-  struct DeferredCheck;
-  Seeds(const Device& device, const Grid& grid, std::size_t size);
-  void resize(std::size_t size);
-  void upload(std::vector<std::uint32_t> positions);
-  void snap_on_device(const cl::Buffer& points);
-
-  Device device_;
-  Grid grid_;
-  std::size_t size_ = 0;
-  std::size_t alive_ = 0;
-  std::uint64_t vanishings_ = 0;
-  cl::Buffer positions_;
-  std::vector<bool> present_;                // by id
-  std::shared_ptr<DeferredCheck> deferred_;  // null unless the points came in the caller's buffer
+  friend struct Internal;
+  explicit Seeds(std::unique_ptr<SeedsState> state);
+  SeedsState& state() const;
+  std::unique_ptr<SeedsState> state_;
 };
 
 }  // namespace vorocl

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 
 namespace vorocl {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -14,22 +14,23 @@ namespace vorocl {
 
 /// Owns the frame counter, the seeds and a diagram for each engine, so that engines can be compared on one
 /// motion. Nothing is allocated on the device after frame 0 (while the number of seeds stays), and nothing
-/// waits unless an engine or the caller reads.
+/// waits unless an engine or the caller reads. One thread at a time. If step() throws, the simulation can go
+/// on with the next one: the frame that failed counts, and its diagrams count as never filled.
 class VOROCL_API Simulation {
  public:
-  /// Moves the seeds on to a frame (from 1 on) and returns d_max: the longest motion of a seed along an axis,
-  /// in pixels.
+  /// Moves the seeds on to a frame (from 1 on) and returns the greatest displacement of a seed along an axis,
+  /// in pixels (the paper's d_max).
   using Motion = std::function<double(Seeds& seeds, int frame)>;
 
-  /// Fills the diagram of a frame. d_max is what the motion returned, 0 for frame 0.
-  using Engine = std::function<Report(const Seeds& seeds, Diagram& diagram, double d_max)>;
+  /// Fills the diagram of a frame. max_displacement is what the motion returned, 0 for frame 0.
+  using Engine = std::function<Report(const Seeds& seeds, Diagram& diagram, double max_displacement)>;
 
   Simulation(Seeds seeds, Motion motion);
 
   /// Adds an engine, before the first step; returns its number.
   std::size_t add_engine(Engine engine);
 
-  /// Makes the next frame's diagrams: frame 0 of the seeds as they are, then one motion a frame.
+  /// Makes the next frame's diagrams: frame 0 of the seeds as they are, then one motion per frame.
   void step();
 
   /// The frame that the last step() made, -1 before the first.
@@ -55,6 +56,7 @@ class VOROCL_API Simulation {
     std::vector<Report> untimed;  // frames whose device time has not been asked for
     double milliseconds = 0;
     double host_milliseconds = 0;
+    double max_displacement = 0;  // since the diagram was last filled
   };
 
   Seeds seeds_;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "vorocl/diagram.hpp"
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
@@ -18,7 +18,7 @@ struct StandardFloodingOptions {
 /// diagram.
 ///
 /// Approximate, but wrong only where a region is thinner than a pixel. Cost: as many waves as the largest
-/// Chebyshev distance of a pixel to its seed (up to N); 13 bytes of device memory a pixel. Throws as
+/// Chebyshev distance of a pixel to its seed (up to N); 13 bytes of device memory per pixel. Throws as
 /// jump_flooding().
 VOROCL_API Report standard_flooding(const Seeds& seeds, Diagram& diagram,
                                     const StandardFloodingOptions& options = {});

@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "vorocl/export.hpp"
+#include "vorocl/export.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -1,127 +1,156 @@
-// Where seeds are dense: the nearest seed of each row, found among the row's bits, and then the best of the rows.
+// Labelling a bin where seeds are dense: the nearest seed of each row, found among the row's bits, and then the best of
+// the rows.
 //
-// A row of a cell is one vector of CELL lanes here, whatever VOROCL_WIDTH is. Rows up to REACH above and below the cell
-// take part, and in each row the cells to the left and right: a seed at REACH or nearer is among those.
+// A row of a bin is one vector of BIN lanes here, whatever VOROCL_WIDTH is. Rows up to REACH above and below the bin take
+// part, and in each row the bins to the left and right.
 
-#include "exact/cells.cl"
+#ifndef VOROCL_EXACT_ROWS
+#define VOROCL_EXACT_ROWS
 
-#define REACH (CELL - 1)
-#define ROWS_IN_REACH (PAIR * CELL + 2 * REACH)
-#define CELL_LANES ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+#include "exact/box.cl"
+
+#if BIN_BITS != 4
+#error "A row of a bin is not a vector of 16 lanes"
+#endif
+#if REACH >= 1 << BIN_BITS
+#error "A seed within reach of a bin may lie beyond the bins next to it"
+#endif
+#define ROWS_IN_REACH (PAIR * BIN + 2 * REACH)
+#define BIN_LANES ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
 // A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits how far down the row is,
 // so that of rows at equal distances the upper one has the least key.
 #define OFFSET_BITS 5
 #define ROW_KEY(distance, offset) (((distance) << OFFSET_BITS) + (offset) + REACH)
-// What stands for the distance to the seed of a row that has none near: more than any other, and the key fits.
+// What stands for the part along x where a row has no seed near: more than the distance to any seed that rows find, which
+// is in the bin or next to it.
 #define NO_SEED_NEAR 1250
+#define MOST_ALONG_X ((2 << BIN_BITS) - 1)
+#if NO_SEED_NEAR <= MOST_ALONG_X * MOST_ALONG_X + REACH * REACH
+#error "A row without a seed near may win against one with a seed"
+#endif
+#if 2 * REACH >= 1 << OFFSET_BITS || ((NO_SEED_NEAR + REACH * REACH) << OFFSET_BITS) + 2 * REACH > 0xffff
+#error "A row key does not fit in a ushort"
+#endif
 
-// The ids of a row: of the last seed in the cell at the left, of the seeds in the row of the cell, of the first one in
-// the cell at the right.
-#define IDS_OF_ROW (CELL + 2)
+// The ids of a row: of the last seed in the bin at the left, of the seeds in the row of the bin, of the first one in the
+// bin at the right.
+#define IDS_OF_ROW (BIN + 2)
+#if ((PAIR << BIN_BITS) + 2 * REACH) * ((1 << BIN_BITS) + 2) > 0xffff
+#error "A place among the ids of all rows does not fit in a ushort"
+#endif
 
-// The nearest seeds in the rows of a pair of cells and around it.
+// The nearest seeds in the rows of a pair of bins and around it.
 typedef struct {
-  const Listing* all;
-  int cell_x, top;                   // the pair's column of cells; the row of the grid that is row 0 here
+  const SeedIndex* index;
+  int bin_x, top;                    // the pair's column of bins; the row of the grid that is row 0 here
   int begin, end;                    // the rows that have been found
   ushort16 along_x[ROWS_IN_REACH];   // the part along x of a row key
   ushort16 nearest[ROWS_IN_REACH];   // the row's nearest seed, as a place in:
   uint ids[ROWS_IN_REACH * IDS_OF_ROW];
 } NearestInRows;
 
-inline void begin_rows(NearestInRows* rows, const Listing* all, int cell_x, int cell_y) {
-  rows->all = all;
-  rows->cell_x = cell_x;
-  rows->top = cell_y * CELL - REACH;
+static inline void begin_rows(NearestInRows* rows, const SeedIndex* index, int bin_x, int bin_y) {
+  rows->index = index;
+  rows->bin_x = bin_x;
+  rows->top = bin_y * BIN - REACH;
   rows->begin = rows->end = 0;
 }
 
 // The place of the only bit, or of the highest one of 16, that is set in each lane, by the exponent of a float; -127
 // where none is.
-inline short16 place_of_bit(int8 first, int8 last) {
+static inline short16 place_of_bit(int8 first, int8 last) {
   const int8 first_places = as_int8(convert_float8(first)) >> 23, last_places = as_int8(convert_float8(last)) >> 23;
   return (short16)(as_short16(first_places).even, as_short16(last_places).even) - (short)127;
 }
 
 // How many of the lowest 1, 2, ... 8 bits are set, a byte each: they are spread to bytes, and a product sums those.
 #define ONES 0x0101010101010101ul
-inline ulong count_up(uint bits) {
+static inline ulong count_up(uint bits) {
   const ulong spread = (((bits & 0xffu) * ONES & 0x8040201008040201ul) + 0x7f * ONES) >> 7 & ONES;
   return spread * ONES;
 }
 
-// The seeds in a row of a cell, given the word that holds it, and the places in the list of the first and last one, any
+// The seeds in a row of a bin, given the word that holds it, and the places in the list of the first and last one, any
 // places if there is none. The mask stands for a condition, of which compilers make a branch.
 typedef struct {
   uint bits, first, last;
-} RowOfCell;
-inline RowOfCell row_of_cell(const Listing* all, int word, int y, bool in_grid) {
+} RowOfBin;
+static inline RowOfBin row_of_bin(const SeedIndex* index, int word, int y, bool in_grid) {
   const int at = in_grid ? word : 0;
-  const uint bits = all->bits[at], above = bits & ((1u << y % ROWS_OF_WORD * CELL) - 1);
-  RowOfCell row;
+  const uint bits = index->bits[at], above = bits & ((1u << y % ROWS_OF_WORD * BIN) - 1);
+  RowOfBin row;
   row.bits = in_grid ? row_bits(bits, y) : 0;
   const uint any = (uint)(-(int)row.bits >> 31);
-  row.first = (all->word_starts[at] + popcount(above)) & any;
+  row.first = (index->word_starts[at] + popcount(above)) & any;
   row.last = row.first + popcount(row.bits) + any;
   return row;
 }
 
-// A row's nearest seeds, of two the left one: a pixel's is the last one up to it or the first one behind it. Without a
-// branch or a loop, which would go one way as often as the other. Of the cells at the left and right only the seed next
-// to this cell counts, and one far away if there is none; the right one's last pixel is out of reach.
+// A row's nearest seeds, of two the left one, which the tie rule says: a pixel's is the last one up to it or the first one
+// behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the left and right
+// only the seed next to this bin counts, and one FAR_AWAY if there is none; the right one's last pixel is out of reach.
 #define FAR_AWAY 128
+#if FAR_AWAY < 3 << BIN_BITS
+#error "A seed that is not there may be nearer than one in the bin at the other side"
+#endif
+#if FAR_AWAY - (1 << BIN_BITS) <= MOST_ALONG_X + REACH
+#error "A seed that is not there may win against one in another row"
+#endif
+#if (FAR_AWAY + (1 << BIN_BITS)) * (FAR_AWAY + (1 << BIN_BITS)) > 0x7fff
+#error "The square of the way to a seed that is not there does not fit in a short"
+#endif
 #define UP_TO_FIRST_LANES ((int8)(0x1, 0x3, 0x7, 0xf, 0x1f, 0x3f, 0x7f, 0xff))
 #define UP_TO_LAST_LANES (UP_TO_FIRST_LANES << 8 | 0xff)
-inline void find_row(NearestInRows* rows, int row) {
-  const Listing* const all = rows->all;
+static inline void find_row(NearestInRows* rows, int row) {
+  const SeedIndex* const index = rows->index;
   const int y = rows->top + row;
-  if (y < 0 || y >= all->height) {
+  if (y < 0 || y >= index->height) {
     rows->along_x[row] = (ushort16)(NO_SEED_NEAR << OFFSET_BITS);
     return;
   }
-  const int word = ((y >> CELL_BITS) * all->columns + rows->cell_x) * WORDS + y % CELL / ROWS_OF_WORD;
-  const RowOfCell own = row_of_cell(all, word, y, true);
-  const RowOfCell before = row_of_cell(all, word - WORDS, y, rows->cell_x > 0);
-  const RowOfCell behind = row_of_cell(all, word + WORDS, y, rows->cell_x < all->columns - 1);
-  const int last_before = before.bits == 0 ? -FAR_AWAY : 31 - (int)clz(before.bits) - CELL;
+  const int word = ((y >> BIN_BITS) * index->columns + rows->bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
+  const RowOfBin own = row_of_bin(index, word, y, true);
+  const RowOfBin before = row_of_bin(index, word - WORDS, y, rows->bin_x > 0);
+  const RowOfBin behind = row_of_bin(index, word + WORDS, y, rows->bin_x < index->columns - 1);
+  const int last_before = before.bits == 0 ? -FAR_AWAY : 31 - (int)clz(before.bits) - BIN;
   const int8 up_to_first = (int)own.bits & UP_TO_FIRST_LANES, up_to_last = (int)own.bits & UP_TO_LAST_LANES;
   const short16 left = max(place_of_bit(up_to_first, up_to_last), (short16)(short)last_before);
-  const int to_come = (int)(own.bits | (behind.bits & ALL_BITS >> 1) << CELL);
+  const int to_come = (int)(own.bits | (behind.bits & ALL_BITS >> 1) << BIN);
   const int8 behind_first = to_come & ~UP_TO_FIRST_LANES, behind_last = to_come & ~UP_TO_LAST_LANES;
   const ushort16 place = as_ushort16(place_of_bit(behind_first & -behind_first, behind_last & -behind_last));
   const short16 right = as_short16(min(place, (ushort16)FAR_AWAY));
-  const short16 nearer = CELL_LANES * (short)2 > left + right;
-  const short16 offset = select(left, right, nearer) - CELL_LANES;
+  const short16 nearer = BIN_LANES * (short)2 > left + right;
+  const short16 offset = select(left, right, nearer) - BIN_LANES;
   rows->along_x[row] = as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)OFFSET_BITS;
 
   const ulong2 counts = (ulong2)(count_up(own.bits), count_up(own.bits >> 8) + popcount(own.bits & 0xffu) * ONES);
   const short16 up_to = convert_short16(as_uchar16(counts));
   rows->nearest[row] = as_ushort16(up_to - nearer) + (ushort)(row * IDS_OF_ROW);
   uint* const ids = rows->ids + row * IDS_OF_ROW;
-  ids[0] = all->ids[before.last];
-  vstore8(vload8(0, all->ids + own.first), 0, ids + 1);
-  vstore8(vload8(1, all->ids + own.first), 1, ids + 1);
-  ids[1 + popcount(own.bits)] = all->ids[behind.first];
+  ids[0] = index->ids[before.last];
+  vstore8(vload8(0, index->ids + own.first), 0, ids + 1);
+  vstore8(vload8(1, index->ids + own.first), 1, ids + 1);
+  ids[1 + popcount(own.bits)] = index->ids[behind.first];
 }
 
 // Whether some lane is not below a limit.
-inline bool any_from(ushort16 values, ushort limit) {
+static inline bool any_from(ushort16 values, ushort limit) {
   const ulong4 lanes = as_ulong4(values >= (ushort16)limit);
   return (lanes.s0 | lanes.s1 | lanes.s2 | lanes.s3) != 0;
 }
 
-// Finds a row unless the pair's first cell did: the rows that have been found follow each other.
-inline void need_row(NearestInRows* rows, int row) {
+// Finds a row unless the pair's first bin did: the rows that have been found follow each other.
+static inline void need_row(NearestInRows* rows, int row) {
   if (rows->begin <= row && row < rows->end) return;
   find_row(rows, row);
   rows->begin = min(rows->begin, row);
   rows->end = max(rows->end, row + 1);
 }
 
-// Finds the least row keys of the `count` rows of a cell, which begin at row `first`, going from each row up and down
+// Finds the least row keys of the `count` rows of a bin, which begin at row `first`, going from each row up and down
 // until no row farther away can have a nearer seed. False if that would go beyond the reach.
-inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushort16* least) {
+static inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushort16* least) {
   if (rows->end < first) rows->begin = rows->end = first;
   ushort16 worst = (ushort16)0;
   for (int y = 0; y < count; ++y) {
@@ -144,3 +173,30 @@ inline bool find_least_row_keys(NearestInRows* rows, int first, int count, ushor
   }
   return true;
 }
+
+// Labels a bin of the rows' pair by the best of the rows' nearest seeds; false if there is a pixel that has none within
+// reach.
+static inline bool label_by_rows(NearestInRows* rows, int bin_y, global uint* labels) {
+  const SeedIndex* const index = rows->index;
+  const int left = rows->bin_x * BIN, top = bin_y * BIN;
+  const int count = min(BIN, index->height - top);
+  ushort16 least[BIN];
+  if (!find_least_row_keys(rows, top - rows->top, count, least)) return false;
+  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)BIN;
+  // Gathered first and stored in vectors then, the labels fit in a CPU's store buffer, and it need not wait for memory.
+  uint label[BIN * BIN];
+  for (int y = 0; y < count; ++y) {
+    const ushort* const nearest = (const ushort*)(rows->nearest + (top - rows->top + y - REACH));
+    const ushort* const row = (const ushort*)(least + y);
+#pragma unroll
+    for (int x = 0; x < BIN; ++x) label[y * BIN + x] = rows->ids[nearest[row[x] + x]];
+  }
+  for (int y = 0; y < count; ++y) {
+    for (int x = 0; x < BIN; x += VOROCL_WIDTH) {
+      store_in_row(LOAD_RUN(label + y * BIN + x), labels, left + x, top + y, index->width);
+    }
+  }
+  return true;
+}
+
+#endif

@@ -1,22 +1,48 @@
-// Sizes of the exact engine, for its kernels and for the host that makes their buffers.
+// Sizes and limits of the exact engine, for its kernels and for the host that makes their buffers.
 
-// The sides of a cell of level 0 in pixels, and of a cell in cells of the level below it, as powers of two. (A row of a
-// cell of level 0 is a vector of 16 lanes in many places.)
-#define CELL_BITS 4
+// A bin is a square of pixels in the index of the seeds. The sides of a bin of level 0 in pixels, and of a bin of a
+// higher level in bins of the level below, as powers of two.
+#define BIN_BITS 4
 #define FAN_BITS 2
 
-// Cells that are labelled together, one above the other: so many bits say which of them are.
+// Bins of level 0 that are labelled together, one above the other: so many bits say which of them are labelled.
 #define PAIR 2
 
-// Lists of candidates are made for tiles, the cells of level 1, from those of regions, the cells of level 2.
+// Lists of candidates are made for tiles, the bins of level 1, from those of regions, the bins of level 2.
 #define TILE 1
 #define REGION 2
+#if (1 << FAN_BITS) % PAIR != 0
+#error "A pair of bins does not lie in one tile"
+#endif
 
-// The top of the pyramid has at most so many cells.
-#define TOP_CELLS 64
+// The top of the pyramid has at most so many bins.
+#define TOP_BINS 64
 
-// How many cells are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
+// How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
 #ifndef MOST_PARENTS
 #define MOST_PARENTS 64
 #define MOST_CANDIDATES 1024
 #endif
+
+// WHO LABELS A BIN. First by the number of seeds near its pair, in its two bins and the ten around them: a pair with
+// less than SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is labelled as
+// a whole. Then by the number near the bin, in it and the eight around it: one with DENSE or more is labelled by rows.
+// Measured: at these numbers the two ways take the same time.
+#define SPARSE 5
+#define MEDIUM 24
+#define DENSE 56
+
+// Rows look for seeds up to so many pixels away along each axis.
+#define REACH ((1 << BIN_BITS) - 1)
+
+// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere (see collect.cl), so the bin itself has
+// to be labelled by rows. That is possible if every pixel has one of its seeds within REACH: the pixel that has the most
+// pixels of its bin out of reach is a corner, by the Manhattan metric, with a triangle of OUT_OF_REACH pixels.
+#define OUT_OF_REACH (REACH * (REACH + 1) / 2)
+#define CROWDED 160
+#if CROWDED <= OUT_OF_REACH || CROWDED < DENSE || CROWDED < MEDIUM
+#error "A crowded bin is not always labelled by rows"
+#endif
+
+// A region of more seeds gets no list: its tiles search for themselves.
+#define MOST_OF_REGION 64

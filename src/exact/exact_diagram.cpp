@@ -1,12 +1,10 @@
 #include "vorocl/exact_diagram.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <string>
 
 #include "buffer.hpp"
+#include "diagram_state.hpp"
 #include "exact/lists.hpp"
-#include "kernel.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
@@ -14,12 +12,13 @@ namespace vorocl {
 
 namespace {
 
-constexpr std::size_t pixels_of_cell = std::size_t{1} << 2 * CELL_BITS;
+constexpr std::size_t pixels_of_cell = std::size_t{1} << 2 * BIN_BITS;
 constexpr std::size_t most_lanes = 16;
 constexpr std::size_t most_items_for_late = 4096;  // there are seldom any seeds that share a pixel
+constexpr std::size_t word = sizeof(std::uint32_t);
 
 std::size_t cells_along(int pixels, int level) {
-  const int bits = CELL_BITS + FAN_BITS * level;
+  const int bits = BIN_BITS + FAN_BITS * level;
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
@@ -29,9 +28,25 @@ std::size_t cells(const Grid& grid, int level) {
 
 int top_level(const Grid& grid) {
   int level = 0;
-  while (cells(grid, level) > TOP_CELLS) ++level;
+  while (cells(grid, level) > TOP_BINS) ++level;
   return level;
 }
+
+std::size_t cells_of_all_levels(const Grid& grid) {
+  std::size_t all = 0;
+  for (int level = 0; level <= top_level(grid); ++level) all += cells(grid, level);
+  return all;
+}
+
+/// The engine's working memory.
+struct ExactWorkspace {
+  // the index of the seeds
+  cl::Buffer bits, word_starts, starts, list, ids, listed;
+  cl::Buffer places, late, late_count;  // while the index is made
+  cl::Buffer pyramid;
+  // what is labelled already, and the candidates of what is not
+  cl::Buffer labelled, lists, counts;
+};
 
 }  // namespace
 
@@ -41,52 +56,54 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
 
 Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
                                 ListLength length) {
-  const auto started = std::chrono::steady_clock::now();
-  diagram.begin(seeds);
-  const Device& device = diagram.device();
-  const Grid& grid = diagram.grid();
-  const int top = top_level(grid);
-  std::size_t all_cells = 0;
-  for (int level = 0; level <= top; ++level) all_cells += cells(grid, level);
-
-  using Scratch = Diagram::Scratch;
-  constexpr std::size_t word = sizeof(std::uint32_t);
-  const std::size_t bit_words = cells(grid, 0) * pixels_of_cell / 32;
-  const std::size_t starts_count = cells(grid, 0) + cells_along(grid.height(), 0);
-  const std::size_t across = cells_along(grid.width(), 0), down = cells_along(grid.height(), 0);
-  const std::size_t pairs = across * ((down - 1) / PAIR + 1);
-  const std::size_t list_count = cells(grid, TILE) + cells(grid, REGION);
-  // Lists are read in whole runs, ids in rows of a cell.
-  const std::size_t list_room = seeds.size() + most_lanes;
-  const cl::Buffer bits = diagram.scratch(Scratch::exact_bits, bit_words * word);
-  const cl::Buffer word_starts = diagram.scratch(Scratch::exact_word_starts, bit_words * word);
-  const cl::Buffer starts = diagram.scratch(Scratch::exact_starts, starts_count * word);
-  const cl::Buffer list = diagram.scratch(Scratch::exact_list, list_room * word);
-  const cl::Buffer ids = diagram.scratch(Scratch::exact_ids, list_room * word);
-  const cl::Buffer places = diagram.scratch(Scratch::exact_places, seeds.size() * word);
-  const cl::Buffer late = diagram.scratch(Scratch::exact_late, seeds.size() * word);
-  const cl::Buffer late_count = diagram.scratch(Scratch::flags, word);
-  const cl::Buffer listed = diagram.scratch(Scratch::exact_listed, word);
-  const cl::Buffer pyramid = diagram.scratch(Scratch::exact_pyramid, all_cells * word);
-  const cl::Buffer labelled = diagram.scratch(Scratch::exact_labelled, pairs * word);
-  const cl::Buffer lists = diagram.scratch(Scratch::exact_candidates, list_count * MOST_CANDIDATES * word);
-  const cl::Buffer counts = diagram.scratch(Scratch::exact_counts, list_count * word);
-
-  const std::string file = length == ListLength::full ? "exact/diagram.cl" : "exact/short_lists.cl";
-  const std::size_t group = device.tuning().group_width * device.tuning().group_height;
-  const auto kernel = [&](const char* name) {
-    return Kernel(device, file, name, grid, {options.metric}).in_groups_of(group);
-  };
-  const auto count = static_cast<cl_uint>(seeds.size());
+  Filling filling(seeds, diagram);
+  DiagramState& state = Internal::state(diagram);
+  const Device& device = state.device;
+  const Grid& grid = state.grid;
   const int width = grid.width(), height = grid.height();
+  const int top = top_level(grid);
+  const auto count = static_cast<cl_uint>(seeds.size());
+  const std::size_t across = cells_along(width, 0), down = cells_along(height, 0);
+  const std::size_t pairs = across * ((down - 1) / PAIR + 1);
+
+  ExactWorkspace& memory = state.workspace<ExactWorkspace>();
+  const std::size_t bit_words = cells(grid, 0) * pixels_of_cell / 32;
+  const std::size_t list_count = cells(grid, TILE) + cells(grid, REGION);
+  // Lists are read in whole vectors, ids in rows of a cell.
+  const std::size_t list_room = seeds.size() + most_lanes;
+  state.reserve(memory.bits, bit_words * word);
+  state.reserve(memory.word_starts, bit_words * word);
+  state.reserve(memory.starts, (cells(grid, 0) + down) * word);
+  state.reserve(memory.list, list_room * word);
+  state.reserve(memory.ids, list_room * word);
+  state.reserve(memory.listed, word);
+  state.reserve(memory.places, seeds.size() * word);
+  state.reserve(memory.late, seeds.size() * word);
+  state.reserve(memory.late_count, word);
+  state.reserve(memory.pyramid, cells_of_all_levels(grid) * word);
+  state.reserve(memory.labelled, pairs * word);
+  state.reserve(memory.lists, list_count * MOST_CANDIDATES * word);
+  state.reserve(memory.counts, list_count * word);
+
+  const char* const file = length == ListLength::full ? "exact/diagram.cl" : "exact/short_lists.cl";
+  const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+  const auto kernel = [&](const char* name) -> Kernel& {
+    return state.kernel(file, name, {options.metric}).in_groups_of(group);
+  };
+  // Work-items that do much each: small groups spread them over the compute units.
+  const auto heavy = [&](const char* name, std::size_t most) -> Kernel& {
+    return kernel(name).in_groups_of(std::min(group, most));
+  };
+  const auto& [bits, word_starts, starts, list, ids, listed, places, late, late_count, pyramid, labelled,
+               lists, counts] = memory;
 
   const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
   fill(device, late_count, cl_uint{0}, 1);
   fill(device, listed, cl_uint{0}, 1);
   kernel("set_bits").over_items(count, seeds.positions(), count, bits, places, late, late_count, width);
-  kernel("name_seeds").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
+  kernel("find_representatives").over_items(cells(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
-    kernel("name_seeds_above").over_items(cells(grid, level), pyramid, width, height, level);
+    kernel("find_representatives_above").over_items(cells(grid, level), pyramid, width, height, level);
   }
   kernel("share_out_list").over_items(down, starts, listed, width, height);
   kernel("start_words").over_items(cells(grid, 0), bits, starts, word_starts, width, height);
@@ -94,23 +111,17 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   kernel("keep_lowest_ids")
       .over_items(std::min(seeds.size(), most_items_for_late), seeds.positions(), late, late_count, bits,
                   word_starts, ids, width);
-  // Work-items that do much each: small groups spread them over the compute units.
-  const auto heavy = [&](const char* name, std::size_t most) {
-    return kernel(name).in_groups_of(std::min(group, most));
-  };
   heavy("label_near", 64)
-      .over_items(pairs, bits, starts, word_starts, list, ids, width, height, diagram.labels(), labelled);
+      .over_items(pairs, bits, starts, word_starts, list, ids, width, height, state.labels, labelled);
   for (const int level : {REGION, TILE}) {
     heavy("list_candidates", 8)
         .over_items(cells(grid, level), bits, starts, word_starts, list, ids, width, height, level, labelled,
-                    pyramid, top, lists, counts, diagram.labels());
+                    pyramid, top, lists, counts, state.labels);
   }
   const cl::Event last = heavy("label_far", 64)
                              .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
-                                         pyramid, top, lists, counts, diagram.labels());
-  check(clFlush(device.queue()()), "starting the diagram");
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - started;
-  return {0, first, last, host.count()};
+                                         pyramid, top, lists, counts, state.labels);
+  return filling.commit(0, first, last);
 }
 
 }  // namespace vorocl

@@ -9,7 +9,7 @@ trouble=0
 may_include() {
   local folder=$1 allowed found
   allowed=$(printf '%s/|' "$@")
-  found=$(grep -rnE '^#include "' "$folder" --include='*.?pp' | grep -vE "#include \"(vorocl/|methods.hpp|${allowed%|})" || true)
+  found=$(grep -rnE '^#include "' "$folder" --include='*.?pp' | grep -vE "#include \"(vorocl/|${allowed%|})" || true)
   [ -z "$found" ] && return
   echo "$folder/ may not include:"
   echo "$found"

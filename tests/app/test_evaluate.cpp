@@ -50,8 +50,7 @@ std::vector<Row> rows_of(const std::string& path) {
   return rows;
 }
 
-const Row& find(const std::vector<Row>& rows, const Row& like, const std::string& method,
-                const std::string& metric) {
+const Row& find(const std::vector<Row>& rows, const Row& like, const char* method, const char* metric) {
   const auto found = std::find_if(rows.begin(), rows.end(), [&](const Row& row) {
     return row.key() == like.configuration() + " " + method + " " + metric;
   });

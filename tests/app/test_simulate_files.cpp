@@ -46,8 +46,7 @@ BOOST_AUTO_TEST_CASE(films_have_every_frame_and_even_sides) {
     BOOST_TEST((result.error.find("note: a.mp4") != std::string::npos) == (even != size));
     cv::VideoCapture film(folder / "a.mp4");
     BOOST_TEST(film.get(cv::CAP_PROP_FPS) == 12.5);
-    BOOST_TEST(film.get(cv::CAP_PROP_FOURCC) == cv::VideoWriter::fourcc('a', 'v', 'c', '1'));
-    BOOST_TEST(content_of(folder / "a.mp4").find("avcC") != std::string::npos);  // H.264
+    BOOST_TEST(content_of(folder / "a.mp4").find("avcC") != std::string::npos);  // H.264's own box of MP4
     const std::vector<cv::Mat> pictures = pictures_of(folder / "a.mp4");
     BOOST_REQUIRE(pictures.size() == 13u);
     for (int frame = 0; frame <= 12; ++frame) {

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {
   Diagram diagram(test_device(), grid, part);
   BOOST_TEST(diagram.read().front() == mark);  // nothing is written before an engine runs
   for (int frame = 0; frame < 2; ++frame) {
-    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram);
+    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram, 0);
     BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), 0)));
   }
   BOOST_TEST((content_of(whole, 0, before / 4) == std::vector<std::uint32_t>(before / 4, mark)));

@@ -19,7 +19,7 @@ std::vector<std::optional<Point>> present(const std::vector<Pixel>& pixels) {
 
 std::vector<Pixel> pixels_of(const Seeds& seeds) {
   std::vector<Pixel> pixels;
-  for (const Point& point : seeds.read())
+  for (const Point& point : points_of(seeds))
     pixels.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
   return pixels;
 }
@@ -40,10 +40,8 @@ Simulation random_walk(const Grid& grid, std::size_t count, int most, Border bor
 }
 
 Simulation::Engine djfa(Metric metric, DynamicPlanOptions plan = {}, int refresh_interval = 0) {
-  return [=](const Seeds& seeds, Diagram& diagram, double d_max) {
-    DynamicPlanOptions with_motion = plan;
-    with_motion.max_step = d_max;
-    return dynamic_jump_flooding(seeds, diagram, {metric, with_motion, refresh_interval});
+  return [=](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    return dynamic_jump_flooding(seeds, diagram, max_displacement, {metric, plan, refresh_interval});
   };
 }
 
@@ -74,7 +72,7 @@ BOOST_AUTO_TEST_CASE(every_frame_equals_a_reference) {
     for (const Grid& grid : {Grid(61, 47), Grid(16, 33), Grid(130, 3), Grid(1, 1)}) {
       for (const NeighbourhoodMix mix : mixes) {
         for (const int extra_waves : {0, 1, 2}) {
-          const DynamicPlanOptions plan = {0, mix, 2, extra_waves};
+          const DynamicPlanOptions plan = {mix, 2, extra_waves};
           Simulation simulation = random_walk(grid, 60, 3);
           simulation.add_engine(djfa(metric, plan));
           simulation.step();
@@ -82,7 +80,7 @@ BOOST_AUTO_TEST_CASE(every_frame_equals_a_reference) {
           for (int frame = 1; frame <= 5; ++frame) {
             simulation.step();
             const auto seeds = pixels_of(simulation.seeds());
-            const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), {3, mix, 2, extra_waves});
+            const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), 3, plan);
             expected = reference_flood(grid, seeds, waves, metric, owners(expected, seeds));
             BOOST_TEST((simulation.diagram().read() == expected),
                        grid.width() << " x " << grid.height() << ", " << name_of(metric) << ", waves "
@@ -129,7 +127,7 @@ BOOST_AUTO_TEST_CASE(the_same_film_for_every_kernel_shape) {
     Seeds seeds = Seeds::random(test_device().with_tuning(shape), grid, 200, 3);
     Diagram diagram(test_device().with_tuning(shape), grid);
     for (std::size_t frame = 0; frame < 10; ++frame) {
-      dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {4}, 0});
+      dynamic_jump_flooding(seeds, diagram, 4);
       if (expected.size() <= frame) expected.push_back(diagram.read());
       BOOST_TEST((diagram.read() == expected[frame]),
                  "vector width " << shape.vector_width << ", frame " << frame);
@@ -156,7 +154,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   auto points = present(pixels);
   Seeds seeds(test_device(), grid, centres(pixels));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   // All seeds on the left vanish: a hole far wider than 2 L, which only the full JFA that follows can fill.
   std::vector<Pixel> left;
   std::vector<std::uint32_t> ids;
@@ -170,7 +168,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   }
   seeds.move_to(points);
   BOOST_TEST(seeds.alive() == left.size());
-  const Report report = dynamic_jump_flooding(seeds, diagram);
+  const Report report = dynamic_jump_flooding(seeds, diagram, 0);
   const auto labels = diagram.read();
   const auto truth = brute_force(grid, left, Metric::euclidean);
   std::size_t wrong = 0;
@@ -179,7 +177,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   BOOST_TEST(report.waves() > static_cast<int>(jump_flooding_plan(grid).size()));
 
   seeds.move_to(std::vector<std::optional<Point>>(pixels.size()));
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), no_label)));
 
   // Out of nothing, and only in a corner: again farther than the first wave reaches.
@@ -187,7 +185,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   for (std::size_t id = 0; id < 100; ++id)
     corner[id] = Point{static_cast<double>(id % 10), static_cast<double>(id / 10)};
   seeds.move_to(corner);
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   const auto from_corner = diagram.read();
   BOOST_TEST(std::count(from_corner.begin(), from_corner.end(), no_label) == 0);
 }
@@ -199,7 +197,7 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
   const std::vector<Pixel> pixels = random_pixels(grid, 200, 22);
   Seeds seeds(test_device(), grid, centres(pixels));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   std::size_t wrong = 0;
   for (std::uint32_t frame = 1; frame <= 10; ++frame) {
     auto points = present(pixels);
@@ -214,7 +212,7 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
       }
     }
     seeds.move_to(points);
-    dynamic_jump_flooding(seeds, diagram);
+    dynamic_jump_flooding(seeds, diagram, 0);
     const auto labels = diagram.read();
     const auto truth = brute_force(grid, alive, Metric::euclidean);
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -232,11 +230,11 @@ BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
   const Grid grid(90, 70);
   Seeds seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   for (const unsigned count : {80u, 20u, 1u, 300u}) {
     const auto pixels = random_pixels(grid, count, count);
     seeds.move_to(present(pixels));
-    dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {90}, 0});
+    dynamic_jump_flooding(seeds, diagram, 90);
     const auto truth = brute_force(grid, pixels, Metric::euclidean);
     const Verdict verdict = judge(grid, pixels, Metric::euclidean, diagram.read(), truth);
     BOOST_TEST(verdict.unlabelled + verdict.invalid == 0u);
@@ -248,11 +246,11 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
   const Grid grid(64, 64);
   Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram);
+  dynamic_jump_flooding(seeds, diagram, 0);
   const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
   seeds.move_to(buffer, 2);
-  dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {64}, 0});
+  dynamic_jump_flooding(seeds, diagram, 64);
   BOOST_TEST((diagram.read() == brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean)));
 }
 
@@ -261,11 +259,35 @@ BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   const Seeds seeds(test_device(), grid, {{1, 1}});
   Diagram diagram(test_device(), grid);
   const NeighbourhoodMix mixed = NeighbourhoodMix::mixed;
-  const auto run = [&](const DynamicPlanOptions& plan, int refresh) {
-    dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, plan, refresh});
+  const auto run = [&](double max_displacement, const DynamicPlanOptions& plan, int refresh) {
+    dynamic_jump_flooding(seeds, diagram, max_displacement, {Metric::euclidean, plan, refresh});
   };
-  check_error([&] { run({-1}, 0); }, {"-1.0"});
-  check_error([&] { run({0, mixed, 3, 0}, 0); }, {"3 von Neumann waves"});
-  check_error([&] { run({0, mixed, 2, -1}, 0); }, {"-1 extra waves"});
-  check_error([&] { run({}, -2); }, {"-2 frames"});
+  check_error([&] { run(-1, {}, 0); }, {"-1.0"});
+  check_error([&] { run(0, {mixed, 3, 0}, 0); }, {"3 von Neumann waves"});
+  check_error([&] { run(0, {mixed, 2, -1}, 0); }, {"-1 extra waves"});
+  check_error([&] { run(0, {}, -2); }, {"-2 frames"});
+}
+
+// An engine that did not run in a frame starts from an older one: it is told how far seeds moved since then.
+BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
+  Simulation simulation(Seeds::random(test_device(), Grid(30, 20), 5, 1), [](Seeds&, int) { return 3.0; });
+  int calls = 0;
+  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double) {
+    if (++calls == 3) throw Error("no more");
+    return exact_diagram(seeds, diagram);
+  });
+  std::vector<double> displacements;
+  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    displacements.push_back(max_displacement);
+    return exact_diagram(seeds, diagram);
+  });
+  for (int frame = 0; frame < 5; ++frame) {
+    if (frame == 2) {
+      check_error([&] { simulation.step(); }, {"no more"});
+    } else {
+      simulation.step();
+    }
+  }
+  BOOST_TEST(simulation.frame() == 4);
+  BOOST_TEST(displacements == (std::vector<double>{0, 3, 6, 3}), boost::test_tools::per_element());
 }

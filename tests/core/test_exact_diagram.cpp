@@ -1,15 +1,16 @@
-// The exact engine: no wrong pixel, tie rule included, on any input; judged by brute force and a k-d tree.
+// The exact engine: no wrong pixel, tie rule included, on any input; judged by brute force on the host, by
+// the reference kernel and by a k-d tree.
 #define BOOST_TEST_MODULE exact_diagram
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nanoflann.hpp>
 #include <numeric>
 
-#include "app/sources/seed_input.hpp"
 #include "exact/lists.hpp"
+#include "exact/reference.hpp"
 #include "fixture.hpp"
-#include "measured_cases.hpp"
+#include "samples.hpp"
+#include "seed_tree.hpp"
 
 using namespace vorocl;
 
@@ -30,68 +31,10 @@ Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pi
   return diagram.read();
 }
 
-/// The seeds as nanoflann reads them, in the order of the tie rule.
-struct SeedCloud {
-  std::vector<Pixel> seeds;
-  std::size_t kdtree_get_point_count() const { return seeds.size(); }
-  double kdtree_get_pt(std::size_t i, std::size_t axis) const { return axis == 0 ? seeds[i].x : seeds[i].y; }
-  template <typename Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
-/// Keeps the first of the nearest seeds. Distances are integers, so that half of one lets ties in.
-struct FirstNearest {
-  double least = std::numeric_limits<double>::max();
-  std::size_t first = 0;
-  bool addPoint(double distance, std::size_t index) {
-    if (distance < least || (distance == least && index < first)) {
-      least = distance;
-      first = index;
-    }
-    return true;
-  }
-  double worstDist() const { return least + 0.5; }
-  bool full() const { return true; }
-  void init() {}
-  std::size_t size() const { return 1; }
-};
-
-template <typename Norm>
-Labels search_tree(const Grid& grid, const std::vector<Pixel>& seeds) {
-  std::vector<std::uint32_t> ids(seeds.size());
-  std::iota(ids.begin(), ids.end(), 0u);
-  std::stable_sort(ids.begin(), ids.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return seeds[a] < seeds[b]; });
-  // Without the seeds that share another one's pixel: thousands of equal points make the tree's leaves
-  // overflow.
-  const auto same = [&](std::uint32_t a, std::uint32_t b) {
-    return !(seeds[a] < seeds[b]) && !(seeds[b] < seeds[a]);
-  };
-  ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
-  SeedCloud cloud;
-  for (const std::uint32_t id : ids) cloud.seeds.push_back(seeds[id]);
-  nanoflann::KDTreeSingleIndexAdaptor<Norm, SeedCloud, 2> tree(2, cloud);
-  tree.buildIndex();
-  Labels labels;
-  labels.reserve(grid.pixels());
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
-      FirstNearest nearest;
-      const double pixel[] = {static_cast<double>(x), static_cast<double>(y)};
-      tree.findNeighbors(nearest, pixel, nanoflann::SearchParams());
-      labels.push_back(ids[nearest.first]);
-    }
-  }
-  return labels;
-}
-
-/// The exact labels by a k-d tree.
-Labels tree_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
-  return metric == Metric::euclidean
-             ? search_tree<nanoflann::L2_Simple_Adaptor<double, SeedCloud>>(grid, seeds)
-             : search_tree<nanoflann::L1_Adaptor<double, SeedCloud>>(grid, seeds);
+Labels reference_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
+  Diagram diagram(test_device(), grid);
+  reference_diagram(Seeds(test_device(), grid, centres(seeds)), diagram, metric);
+  return diagram.read();
 }
 
 std::size_t count_differences(const Labels& a, const Labels& b) {
@@ -100,7 +43,7 @@ std::size_t count_differences(const Labels& a, const Labels& b) {
   return differences;
 }
 
-/// Sets that starve some cells of seeds and flood others.
+/// Sets that starve some bins of seeds and flood others.
 std::vector<Case> hurtful_cases(const Grid& grid) {
   const int w = grid.width(), h = grid.height();
   std::vector<Pixel> clusters, corner, row, column, diagonal, ring, checkers, blocks, stacked, patches;
@@ -148,21 +91,24 @@ void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metri
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
+BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : edge_cases()) {
-      const Labels truth = brute_force(c.grid, c.seeds, metric);
+      const Labels expected = brute_force(c.grid, c.seeds, metric);
+      BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", reference") {
+        BOOST_TEST(count_differences(reference_labels(c.grid, c.seeds, metric), expected) == 0);
+      }
       for (const ListLength lists : both_lengths) {
         BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << name_of(lists)) {
           const Labels labels = exact_labels(test_device(), c.grid, c.seeds, metric, lists);
-          BOOST_TEST(count_differences(labels, truth) == 0);
+          BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
+BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
   std::mt19937 rng(1);
   const auto below = [&](std::size_t n) { return static_cast<int>(rng() % n); };
   for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
@@ -178,7 +124,9 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force) {
     const Metric metric = both_metrics[rng() % 2];
     const ListLength lists = both_lengths[rng() % 4 == 0 ? 1 : 0];
     const Labels labels = exact_labels(test_device(), grid, seeds, metric, lists);
-    const std::size_t wrong = count_differences(labels, brute_force(grid, seeds, metric));
+    const Labels expected = brute_force(grid, seeds, metric);
+    BOOST_TEST(count_differences(reference_labels(grid, seeds, metric), expected) == 0);
+    const std::size_t wrong = count_differences(labels, expected);
     BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
                                    << grid.height() << " with " << count << " seeds, "
                                    << vorocl::name_of(metric) << ", " << name_of(lists));
@@ -218,18 +166,9 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
 BOOST_AUTO_TEST_CASE(real_seeds_against_a_tree) {
   const Grid map(1440, 720);
   for (const Metric metric : both_metrics) check_against_tree(map, cities(map), metric);
-  for (const char* file : {"/lj-clusters.lammpstrj", "/lj-melt.lammpstrj"}) {
-    command::SeedOptions options;
-    options.trajectory = std::string(VOROCL_SAMPLES) + file;
-    options.frame = 4;
-    options.width = 600;
-    const command::Input input = command::read_input(options);
-    std::vector<Pixel> particles;
-    for (const Point& point : input.place(test_device()).read()) {
-      particles.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
-    }
-    BOOST_TEST(particles.size() > 1000);
-    for (const Metric metric : both_metrics) check_against_tree(input.grid, particles, metric);
+  const Grid box(600, 500);
+  for (const char* dump : {"lj-clusters.lammpstrj", "lj-melt.lammpstrj"}) {
+    for (const Metric metric : both_metrics) check_against_tree(box, particles(dump, box), metric);
   }
 }
 
@@ -282,9 +221,9 @@ BOOST_AUTO_TEST_CASE(lowest_id_of_a_shared_pixel) {
   std::vector<Pixel> seeds = random_pixels(grid, 60000, 51);
   const std::vector<Pixel> reverse(seeds.rbegin(), seeds.rend());
   seeds.insert(seeds.end(), reverse.begin(), reverse.end());
-  const Labels truth = tree_labels(grid, seeds, Metric::euclidean);
+  const Labels expected = tree_labels(grid, seeds, Metric::euclidean);
   for (int attempt = 0; attempt < 50; ++attempt) {
-    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds), truth) == 0);
+    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds), expected) == 0);
   }
 }
 

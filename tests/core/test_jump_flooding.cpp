@@ -1,9 +1,7 @@
 // Jump flooding: against brute force, the paper's example, and the same result whatever the kernels' shape.
 #define BOOST_TEST_MODULE jump_flooding
 #include <algorithm>
-#include <cmath>
 #include <numeric>
-#include <opencv2/imgproc.hpp>
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
@@ -141,27 +139,6 @@ BOOST_AUTO_TEST_CASE(the_same_cells_for_a_permuted_list) {
   auto labels = labels_of(test_device(), grid, permuted);
   for (std::uint32_t& label : labels) label = order[label];
   BOOST_TEST((labels == labels_of(test_device(), grid, seeds)));
-}
-
-BOOST_AUTO_TEST_CASE(distances_against_opencv) {
-  const Grid grid(1000, 700);
-  const auto seeds = random_pixels(grid, 3000, 9);
-  cv::Mat free(grid.height(), grid.width(), CV_8U, cv::Scalar(255)), expected;
-  for (const Pixel& seed : seeds) free.at<std::uint8_t>(seed.y, seed.x) = 0;
-  cv::distanceTransform(free, expected, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  const auto labels = labels_of(test_device(), grid, seeds);
-  std::size_t wrong = 0, too_near = 0, i = 0;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x, ++i) {
-      const double found =
-          std::sqrt(static_cast<double>(distance({x, y}, seeds[labels[i]], Metric::euclidean)));
-      const double difference = found - static_cast<double>(expected.at<float>(y, x));
-      wrong += difference > 1e-3 ? 1 : 0;
-      too_near += difference < -1e-3 ? 1 : 0;
-    }
-  }
-  BOOST_TEST(too_near == 0);
-  BOOST_TEST(wrong < grid.pixels() / 2000);  // measured: 0.01 %
 }
 
 BOOST_AUTO_TEST_CASE(the_largest_coordinates) {

@@ -34,7 +34,7 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c, std::array<s
 
 BOOST_AUTO_TEST_CASE(points_are_snapped_to_the_pixel_that_contains_them) {
   const Seeds seeds(test_device(), Grid(10, 8), {{0, 0}, {9.999, 7.999}, {3.0, 2.999}, {0.5, 5}});
-  const std::vector<Point> centres = seeds.read();
+  const std::vector<Point> centres = points_of(seeds);
   const std::vector<Point> expected = {{0.5, 0.5}, {9.5, 7.5}, {3.5, 2.5}, {0.5, 5.5}};
   BOOST_REQUIRE(centres.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(points_in_the_callers_buffer) {
     values.push_back({{static_cast<float>(pixel.x) + 0.75f, static_cast<float>(pixel.y) + 0.25f}});
   }
   const Seeds seeds(test_device(), grid, buffer_of(values), values.size());
-  const std::vector<Point> read = seeds.read();
+  const std::vector<Point> read = points_of(seeds);
   BOOST_REQUIRE(read.size() == values.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     BOOST_TEST(read[i].x == std::floor(values[i].s[0]) + 0.5);
@@ -79,10 +79,105 @@ BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_w
   check_error([&] { seeds.read(); }, {"point 41", "nan"});
 }
 
-BOOST_AUTO_TEST_CASE(the_first_bad_point_stays_the_one_that_is_named) {
-  Seeds seeds(test_device(), {30, 20}, buffer_of({{{1, 1}}, {{2, 99}}, {{3, 3}}}), 3);
+// Whatever was made from the bad frame throws, and nothing that was made from a good one.
+BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
+  const Grid grid(30, 20);
+  const std::vector<cl_float2> good = {{{1, 1}}, {{2, 9}}, {{3, 3}}}, bad = {{{1, 1}}, {{2, 99}}, {{3, 3}}};
+  Seeds seeds(test_device(), grid, buffer_of(bad), 3);
+  Diagram of_bad(test_device(), grid), of_good(test_device(), grid);
+  exact_diagram(seeds, of_bad);
+  CellSumsResult sums_of_bad, sums_of_good;
+  cell_sums(seeds, of_bad, sums_of_bad);
+  seeds.move_to(buffer_of(good), 3);
+  exact_diagram(seeds, of_good);
+  cell_sums(seeds, of_good, sums_of_good);
   seeds.move_to(buffer_of({{{-7, 4}}, {{5, 5}}, {{6, 6}}}), 3);
-  check_error([&] { seeds.read(); }, {"point 1", "99"});
+  check_error([&] { seeds.read(); }, {"point 0", "-7"});
+
+  of_good.wait();
+  BOOST_TEST(sums_of_good.read().size() == 3u);
+  for (int wait = 0; wait < 2; ++wait) {
+    check_error([&] { of_bad.wait(); }, {"point 1", "99"});
+    check_error([&] { of_bad.read(); }, {"point 1", "99"});
+    check_error([&] { sums_of_bad.read(); }, {"point 1", "99"});
+  }
+  seeds.move_to(buffer_of(good), 3);
+  exact_diagram(seeds, of_bad);
+  BOOST_TEST((of_bad.read() == of_good.read()));
+  BOOST_TEST(points_of(seeds)[1].y == 9.5);
+
+  try {
+    Seeds(test_device(), grid, buffer_of(bad), 3).check();
+    BOOST_ERROR("nothing was thrown");
+  } catch (const BadPoint& error) {
+    BOOST_TEST(error.index() == 1u);
+    BOOST_TEST(error.point().y == 99.0);
+    BOOST_TEST((error.kind() == ErrorKind::bad_point));
+  }
+}
+
+// dJFA goes on from labels: not from those that a bad point may have left holes in.
+BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
+  const Grid grid(64, 64);
+  const std::vector<cl_float2> good = {{{1, 1}}, {{60, 60}}};
+  Seeds seeds(test_device(), grid, buffer_of(good), 2);
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram, 0);
+  seeds.move_to(buffer_of({{{1, 1}}, {{99, 60}}}), 2);
+  dynamic_jump_flooding(seeds, diagram, 1);
+  seeds.move_to(buffer_of(good), 2);
+  const Report report = dynamic_jump_flooding(seeds, diagram, 1);
+  BOOST_TEST(report.waves() == static_cast<int>(jump_flooding_plan(grid).size()));
+  BOOST_TEST((diagram.read() == brute_force(grid, {{1, 1}, {60, 60}}, Metric::euclidean)));
+}
+
+// The three ways to say that a seed is absent.
+BOOST_AUTO_TEST_CASE(absent_seeds) {
+  const Grid grid(20, 10);
+  const std::vector<std::optional<Point>> points = {Point{3, 4}, std::nullopt, Point{15, 5}, std::nullopt};
+  const Seeds constructed(test_device(), grid, points);
+  Seeds moved(test_device(), grid, std::vector<Point>{{1, 1}, {2, 2}, {3, 3}, {4, 4}});
+  moved.move_to(points);
+  const std::vector<cl_float2> values = {{{3, 4}}, {{-1, 0}}, {{15, 5}}, {{1, 1}}};
+  const std::vector<cl_uchar> marks = {1, 0, 255, 0};
+  const cl::Buffer present(test_device().queue(), marks.begin(), marks.end(), true);
+  const Seeds in_buffers(test_device(), grid, buffer_of(values), 4, present);
+  for (const Seeds* const seeds : std::initializer_list<const Seeds*>{&constructed, &moved, &in_buffers}) {
+    BOOST_TEST(seeds->size() == 4u);
+    BOOST_TEST(seeds->alive() == 2u);
+    const auto read = seeds->read();
+    for (std::size_t id = 0; id < 4; ++id) {
+      BOOST_REQUIRE(read[id].has_value() == points[id].has_value());
+      if (read[id]) BOOST_TEST(read[id]->x == points[id]->x + 0.5);
+    }
+    Diagram diagram(test_device(), grid);
+    exact_diagram(*seeds, diagram);
+    CellSumsResult sums;
+    cell_sums(*seeds, diagram, sums);
+    BOOST_TEST(cell_statistics(sums).cells == 2u);
+    BOOST_TEST(cell_statistics(sums).empty_cells == 0u);
+    BOOST_TEST(sums.read()[1].area == 0u);
+  }
+  const cl::Buffer few(test_device().context(), CL_MEM_READ_WRITE, 3);
+  check_error([&] { Seeds(test_device(), grid, buffer_of(values), 4, few); },
+              {"4 seeds are present", "3 bytes"});
+}
+
+BOOST_AUTO_TEST_CASE(a_clone_moves_on_its_own) {
+  const Grid grid(20, 10);
+  const std::vector<std::optional<Point>> points = {Point{3, 4}, std::nullopt, Point{15, 5}};
+  Seeds seeds(test_device(), grid, points);
+  Seeds copy = seeds.clone();
+  seeds.move_to({Point{1, 1}, Point{2, 2}, Point{3, 3}, Point{4, 4}});
+  random_step(seeds, 3, Border::reflect, 1, 1);
+  BOOST_TEST(copy.size() == 3u);
+  BOOST_TEST(copy.alive() == 2u);
+  BOOST_TEST(copy.read()[2]->x == 15.5);
+  copy.move_to({Point{9, 9}});
+  BOOST_TEST(seeds.alive() == 4u);
+  const Seeds taken = std::move(seeds);
+  BOOST_TEST(taken.size() == 4u);
+  check_error([&] { seeds.size(); }, {"moved from"});  // NOLINT(bugprone-use-after-move)
 }
 
 BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
@@ -97,7 +192,7 @@ BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
 BOOST_AUTO_TEST_CASE(a_mask_gives_ids_in_row_major_order) {
   const Grid grid(4, 3);
   const Seeds seeds = Seeds::from_mask(test_device(), grid, {0, 1, 0, 0, 9, 0, 0, 255, 0, 0, 1, 0});
-  const std::vector<Point> read = seeds.read();
+  const std::vector<Point> read = points_of(seeds);
   const std::vector<Point> expected = {{1.5, 0.5}, {0.5, 1.5}, {3.5, 1.5}, {2.5, 2.5}};
   BOOST_REQUIRE(read.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -121,7 +216,7 @@ BOOST_AUTO_TEST_CASE(philox_has_its_published_answers) {
 BOOST_AUTO_TEST_CASE(random_seeds_are_philox_numbers) {
   const Grid grid(1000, 37);
   const std::uint64_t rng_seed = 0x123456789abcdef0;
-  const std::vector<Point> read = Seeds::random(test_device(), grid, 5000, rng_seed).read();
+  const std::vector<Point> read = points_of(Seeds::random(test_device(), grid, 5000, rng_seed));
   for (std::uint32_t id = 0; id < read.size(); ++id) {
     const auto bits = philox({id, 0, 0, 0}, {0x9abcdef0, 0x12345678});
     BOOST_REQUIRE(read[id].x == static_cast<double>((bits[0] * std::uint64_t{1000}) >> 32) + 0.5);
@@ -134,7 +229,7 @@ BOOST_AUTO_TEST_CASE(random_seeds_are_uniform) {
   const Grid grid(512, 512);
   const std::size_t count = 64000;
   std::array<double, 64> blocks{};
-  for (const Point& point : Seeds::random(test_device(), grid, count, 7).read()) {
+  for (const Point& point : points_of(Seeds::random(test_device(), grid, count, 7))) {
     blocks[static_cast<std::size_t>(point.y / 64) * 8 + static_cast<std::size_t>(point.x / 64)] += 1;
   }
   double chi_squared = 0;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <boost/test/unit_test.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "vorocl/vorocl.hpp"
 
@@ -13,6 +15,13 @@ namespace vorocl {
 inline const Device& test_device() {
   static const Device device = Device::select();
   return device;
+}
+
+/// The points of seeds that are all present.
+inline std::vector<Point> points_of(const Seeds& seeds) {
+  std::vector<Point> points;
+  for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
+  return points;
 }
 
 /// Checks that an Error is thrown whose text holds all of these parts.

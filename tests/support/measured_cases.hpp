@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string>
@@ -11,23 +10,9 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "samples.hpp"
 
 namespace vorocl {
-
-/// The world's cities, from degrees (x in 0 to 360, y in 0 to 180) to the grid.
-inline std::vector<Pixel> cities(const Grid& grid) {
-  std::ifstream file(VOROCL_SAMPLES "/cities-5000.csv");
-  std::string line;
-  std::getline(file, line);
-  std::vector<Pixel> pixels;
-  for (double x = 0, y = 0; std::getline(file, line);) {
-    BOOST_TEST_REQUIRE(std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2);
-    pixels.push_back({std::min(static_cast<int>(x * grid.width() / 360), grid.width() - 1),
-                      std::min(static_cast<int>(y * grid.height() / 180), grid.height() - 1)});
-  }
-  BOOST_TEST_REQUIRE(pixels.size() == 5000);
-  return pixels;
-}
 
 /// Seeds in a few dense heaps, which leave most of the grid to cells on their rims.
 inline std::vector<Pixel> clusters(const Grid& grid, std::size_t count) {

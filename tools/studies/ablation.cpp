@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "methods.hpp"
 #include "studies/in_place_scatter.hpp"
 #include "studies/random_motion.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/similarity.hpp"
 
 namespace vorocl::command {
@@ -15,8 +15,8 @@ namespace {
 
 constexpr int engines_side_by_side = 3;  // a variant twice, and the exact method
 
-Simulation::Engine engine_of(const std::string& method, const MethodOptions& options = {}) {
-  return engine(vorocl::command::method(method), options);
+Simulation::Engine engine_of(const std::string& name, const MethodOptions& options = {}) {
+  return engine(method(name), options);
 }
 
 /// The studies of dJFA's own options.

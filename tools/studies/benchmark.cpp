@@ -1,9 +1,7 @@
 #include "studies/benchmark.hpp"
 
-#include <cmath>
 #include <functional>
 #include <memory>
-#include <optional>
 
 #include "studies/ground_truth.hpp"
 #include "studies/opencv_baseline.hpp"
@@ -15,7 +13,7 @@ namespace vorocl::command {
 
 namespace {
 
-/// How far seeds have moved since the diagram that a dynamic method starts from: the paper's step length.
+/// How far seeds have moved since the diagram that djfa starts from: the paper's step length.
 constexpr int step_length = 5;
 
 /// A method as it is measured: `run` is what is timed, after `prepare`; `labels` are those of its last run.
@@ -26,8 +24,8 @@ struct Contender {
 };
 
 /// All methods share the diagram and its buffers.
-Contender static_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                        const MethodOptions& options) {
+Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram,
+                       const MethodOptions& options) {
   const auto run = [&method, &seeds, &diagram, options] {
     method.run(seeds, diagram, 0, options);
     seeds.device().finish();
@@ -35,23 +33,12 @@ Contender static_method(const Method& method, const Seeds& seeds, Diagram& diagr
   return {[] {}, run, [&diagram] { return diagram.read(); }};
 }
 
-/// Points of Seeds::read() to move_to().
-std::vector<std::optional<Point>> present(const std::vector<Point>& points) {
-  std::vector<std::optional<Point>> present;
-  present.reserve(points.size());
-  for (const Point& point : points) {
-    present.push_back(std::isnan(point.x) ? std::nullopt : std::optional<Point>(point));
-  }
-  return present;
-}
-
-Contender dynamic_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                         const MethodOptions& options) {
-  const auto now = present(seeds.read());
-  const auto moving = std::make_shared<Seeds>(seeds.device(), seeds.grid(), std::vector<Point>{});
-  moving->move_to(now);
+Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& diagram,
+                            const MethodOptions& options) {
+  const auto now = seeds.read();
+  const auto moving = std::make_shared<Seeds>(seeds.clone());
   random_step(*moving, step_length, Border::reflect, 1, 0);
-  const auto before = present(moving->read());
+  const auto before = moving->read();
   const auto prepare = [moving, before, now, &diagram, options] {
     moving->move_to(before);
     jump_flooding(*moving, diagram, {options.metric});
@@ -73,8 +60,8 @@ Contender opencv(const Seeds& seeds, Metric metric) {
 Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
                     const MethodOptions& options) {
   if (!method.run) return opencv(seeds, options.metric);
-  return method.dynamic ? dynamic_method(method, seeds, diagram, options)
-                        : static_method(method, seeds, diagram, options);
+  return method.continues ? continuing_method(method, seeds, diagram, options)
+                          : other_method(method, seeds, diagram, options);
 }
 
 double milliseconds_of(const Contender& contender) {
@@ -87,7 +74,7 @@ double milliseconds_of(const Contender& contender) {
 }  // namespace
 
 const Method& opencv_method() {
-  static const Method method = {"opencv", false, nullptr};
+  static const Method method = {"opencv", false, false, nullptr, nullptr};
   return method;
 }
 

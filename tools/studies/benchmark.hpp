@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "methods.hpp"
 #include "studies/samples.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {

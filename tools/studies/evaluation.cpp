@@ -4,10 +4,10 @@
 #include <map>
 #include <utility>
 
-#include "methods.hpp"
 #include "studies/random_motion.hpp"
 #include "vorocl/cells.hpp"
 #include "vorocl/error.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 

@@ -9,7 +9,7 @@
 #include "formats/csv.hpp"
 #include "formats/files.hpp"
 #include "formats/numbers.hpp"
-#include "methods.hpp"
+#include "studies/metric_name.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -47,12 +47,12 @@ void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) 
 
 }  // namespace
 
-GroundTruth::GroundTruth(const Grid& grid, const std::vector<Point>& seeds, Metric metric)
+GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
     : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
-    if (std::isnan(seeds[id].x)) continue;  // absent
-    seeds_[id] = Position{static_cast<int>(seeds[id].x), static_cast<int>(seeds[id].y)};
+    if (!seeds[id]) continue;
+    seeds_[id] = Position{static_cast<int>(seeds[id]->x), static_cast<int>(seeds[id]->y)};
     cloud.points.push_back({static_cast<double>(seeds_[id]->x), static_cast<double>(seeds_[id]->y)});
   }
   // Thousands of seeds on one pixel would make a leaf of the tree that every query goes through.

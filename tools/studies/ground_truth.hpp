@@ -15,7 +15,7 @@ class GroundTruth {
  public:
   /// `seeds` holds the points by id, as Seeds::read() gives them. Finds the least distance of every pixel:
   /// about a microsecond per pixel and core, and 4 bytes per pixel.
-  GroundTruth(const Grid& grid, const std::vector<Point>& seeds, Metric metric);
+  GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.
   std::size_t wrong_pixels(const std::vector<std::uint32_t>& labels) const;

@@ -10,7 +10,7 @@ constant int neighbour_x[8] = {1, 1, 0, -1, -1, -1, 0, 1};
 constant int neighbour_y[8] = {0, 1, 1, 1, 0, -1, -1, -1};
 
 // The squared distance of a pixel to the seed of a label; a label that names no seed is farthest.
-inline uint distance_to(global const uint* positions, uint count, uint label, int x, int y) {
+static inline uint distance_to(global const uint* positions, uint count, uint label, int x, int y) {
   const uint position = positions[min(label, count)];
   if (position & EMPTY_BIT) return 0xffffffffu;
   const int dx = (int)(position & 0xffffu) - x, dy = (int)(position >> 16) - y;

@@ -69,7 +69,6 @@ Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram,
   const cl::Buffer &labels = diagram.labels(), &positions = seeds.positions();
   const auto count = static_cast<cl_uint>(seeds.size());
   const cl_int width = grid.width(), height = grid.height();
-  diagram.begin(seeds);
   cl::Event first, last;
   if (stamping == Stamping::seeds) {
     const std::size_t items[] = {seeds.size()};
@@ -91,12 +90,12 @@ Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram,
 }  // namespace
 
 Simulation::Engine in_place_scatter(const Device& device, Stamping stamping) {
-  return [program = build(device), stamping](const Seeds& seeds, Diagram& diagram, double d_max) {
-    if (!diagram.filled()) return jump_flooding(seeds, diagram);
-    DynamicPlanOptions options;
-    options.max_step = d_max;
+  // A copy of the engine counts its own frames.
+  return [program = build(device), stamping, frame = 0](const Seeds& seeds, Diagram& diagram,
+                                                        double max_displacement) mutable {
+    if (frame++ == 0) return jump_flooding(seeds, diagram);
     return scatter(program, seeds, diagram,
-                   dynamic_jump_flooding_plan(diagram.grid(), seeds.alive(), options), stamping);
+                   dynamic_jump_flooding_plan(diagram.grid(), seeds.alive(), max_displacement), stamping);
   };
 }
 

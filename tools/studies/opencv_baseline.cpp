@@ -1,23 +1,21 @@
 #include "studies/opencv_baseline.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace vorocl::command {
 
 namespace {
 
-bool is_present(const Point& seed) { return !std::isnan(seed.x); }
-
 cv::Point pixel_of(const Point& seed) { return {static_cast<int>(seed.x), static_cast<int>(seed.y)}; }
 
 }  // namespace
 
-OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<Point>& seeds, Metric metric)
+OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds,
+                               Metric metric)
     : seeds_(seeds), metric_(metric), image_(grid.height(), grid.width(), CV_8U, cv::Scalar(255)) {
-  for (const Point& seed : seeds_) {
-    if (is_present(seed)) image_.at<std::uint8_t>(pixel_of(seed)) = 0;
+  for (const std::optional<Point>& seed : seeds_) {
+    if (seed) image_.at<std::uint8_t>(pixel_of(*seed)) = 0;
   }
 }
 
@@ -31,8 +29,8 @@ std::vector<std::uint32_t> OpenCvBaseline::labels() const {
   // OpenCV numbers the zero pixels in an order of its own, from 1; each holds its own number.
   std::vector<std::uint32_t> id_of(image_.total() + 1, no_label);
   for (std::size_t id = 0; id < seeds_.size(); ++id) {
-    if (!is_present(seeds_[id])) continue;
-    std::uint32_t& entry = id_of[static_cast<std::size_t>(labels_.at<int>(pixel_of(seeds_[id])))];
+    if (!seeds_[id]) continue;
+    std::uint32_t& entry = id_of[static_cast<std::size_t>(labels_.at<int>(pixel_of(*seeds_[id])))];
     entry = std::min(entry, static_cast<std::uint32_t>(id));
   }
   std::vector<std::uint32_t> ids(labels_.total());

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "vorocl/grid.hpp"
@@ -12,7 +13,7 @@ namespace vorocl::command {
 class OpenCvBaseline {
  public:
   /// `seeds` holds the points by id, as Seeds::read() gives them.
-  OpenCvBaseline(const Grid& grid, const std::vector<Point>& seeds, Metric metric);
+  OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// One cv::distanceTransform with DIST_LABEL_PIXEL from the image of the seeds to its labels, with the
   /// finest mask that it has for the metric's labels: 5 x 5 for euclidean, 3 x 3 for manhattan.
@@ -22,7 +23,7 @@ class OpenCvBaseline {
   std::vector<std::uint32_t> labels() const;
 
  private:
-  std::vector<Point> seeds_;
+  std::vector<std::optional<Point>> seeds_;
   Metric metric_;
   cv::Mat image_;  // 0 at the seeds, 255 elsewhere
   cv::Mat distances_;

@@ -62,7 +62,8 @@ void draw(const cl::Context& context, const cl::Device& cl_device) {
   require(diagram.labels()() == labels(), "the labels are in the program's buffer");
 
   // ... and one to return: the program's queue goes on from it.
-  const cl::Program program(context, std::string(own_source), true);
+  const cl::Program program(context, std::string(own_source));
+  program.build();  // a constructor that builds would ask for OpenCL C 2.0, which not every device has
   cl::Kernel kernel(program, "distances");
   kernel.setArg(0, labels);
   kernel.setArg(1, points);

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds a C program against an installed copy as pkg-config says, and runs it: pkg_config.sh LIBDIR VERSION CC FILE.c
+# Builds a C program against an installed copy as pkg-config says, and runs it: pkg_config.sh LIBDIR VERSION FILE.c COMPILER...
 # Exits with 77 where pkg-config is not installed.
 set -euo pipefail
-libdir=$1 version=$2 cc=$3 source=$4
+libdir=$1 version=$2 source=$3
+shift 3
 command -v pkg-config >/dev/null || { echo "pkg-config is not installed: skipped"; exit 77; }
 
 export PKG_CONFIG_PATH=$libdir/pkgconfig
@@ -12,5 +13,5 @@ if [ -f "$libdir/pkgconfig/vorocl-picture.pc" ]; then pkg-config --exists --prin
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # shellcheck disable=SC2046
-"$cc" -std=c99 -DCL_TARGET_OPENCL_VERSION=120 "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program"
+"$@" -std=c99 -DCL_TARGET_OPENCL_VERSION=120 "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program"
 LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$folder/program"

@@ -11,6 +11,7 @@
 #include "app/options/seed_options.hpp"
 #include "app/terminal/json.hpp"
 #include "studies/benchmark.hpp"
+#include "studies/metric_name.hpp"
 
 namespace vorocl::command {
 
@@ -89,9 +90,9 @@ void add_bench(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    const auto is_dynamic = [](const Method& method) { return method.dynamic; };
+    const auto is_djfa = [](const Method& method) { return method.continues; };
     check_method_options(command, options->method_options,
-                         std::any_of(options->methods.begin(), options->methods.end(), is_dynamic));
+                         std::any_of(options->methods.begin(), options->methods.end(), is_djfa));
     run(*options);
   });
 }

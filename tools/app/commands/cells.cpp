@@ -11,6 +11,7 @@
 #include "app/options/seed_options.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
+#include "studies/metric_name.hpp"
 
 namespace vorocl::command {
 
@@ -18,7 +19,7 @@ namespace {
 
 struct CellsOptions {
   SeedOptions seeds;
-  Method method = vorocl::command::method("exact");
+  Method method = vorocl::method("exact");
   MethodOptions method_options;
   std::string device;
   std::vector<FileRequest> files = {{cells_kind(), ""},
@@ -112,7 +113,7 @@ void add_cells(CommandLine& line) {
   for (FileRequest& request : options->files) add_file_option(command, request);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    check_method_options(command, options->method_options, options->method.dynamic);
+    check_method_options(command, options->method_options, options->method.continues);
     run(*options);
   });
 }

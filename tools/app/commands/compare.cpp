@@ -66,11 +66,11 @@ Comparison compare_files(const CompareOptions& options) {
 /// that is no particle's.
 std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
                                        const std::vector<std::uint32_t>& ids,
-                                       const std::vector<Point>& seeds) {
+                                       const std::vector<std::optional<Point>>& seeds) {
   if (ids.empty()) return labels;
   std::unordered_map<std::uint32_t, std::uint32_t> index_of;
   for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (!std::isnan(seeds[i].x)) index_of.emplace(ids.at(i), static_cast<std::uint32_t>(i));
+    if (seeds[i]) index_of.emplace(ids.at(i), static_cast<std::uint32_t>(i));
   }
   for (std::uint32_t& label : labels) {
     const auto found = index_of.find(label);
@@ -90,13 +90,10 @@ Comparison compare_with_exact(const CompareOptions& options) {
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram exact(device, input.grid);
-  const Diagram diagram(device, input.grid);
+  Diagram diagram(device, input.grid);
   exact_diagram(seeds, exact, {options.metric});
   const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids, seeds.read());
-  if (device.queue().enqueueWriteBuffer(diagram.labels(), CL_TRUE, 0, labels.size() * sizeof(std::uint32_t),
-                                        labels.data()) != CL_SUCCESS) {
-    throw Error("the labels could not be copied to " + device.name());
-  }
+  diagram.write(labels);
   Comparison comparison = compare({input.grid, labels}, {input.grid, exact.read()});
   comparison.errors = distance_errors(seeds, diagram, exact, options.metric);
   return comparison;

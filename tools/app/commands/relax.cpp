@@ -75,6 +75,13 @@ Outputs open_outputs(const RelaxOptions& options) {
   return outputs;
 }
 
+/// The points of seeds none of which is absent.
+std::vector<Point> points_of(const Seeds& seeds) {
+  std::vector<Point> points;
+  for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
+  return points;
+}
+
 void write_energies(const std::string& path, const Relaxation& relaxation) {
   std::ofstream file = open_to_write(path);
   file << "round,energy,moved\n";
@@ -110,7 +117,7 @@ void write_end(const Outputs& outputs, const RelaxOptions& options, const Input&
     outputs.labels->write([&](const std::string& path) { options.labels.kind.write(path, measures); });
   }
   if (outputs.points) {
-    outputs.points->write([&](const std::string& path) { write_points(path, seeds.read(), input.ids); });
+    outputs.points->write([&](const std::string& path) { write_points(path, points_of(seeds), input.ids); });
   }
   if (outputs.energy) {
     outputs.energy->write([&](const std::string& path) { write_energies(path, relaxation); });

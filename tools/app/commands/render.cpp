@@ -15,6 +15,7 @@
 #include "app/terminal/usage_error.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
+#include "studies/metric_name.hpp"
 #include "vorocl/jump_flooding.hpp"
 
 namespace vorocl::command {
@@ -23,7 +24,7 @@ namespace {
 
 struct RenderOptions {
   SeedOptions seeds;
-  Method method;
+  Method method = {};
   MethodOptions method_options;
   std::string device;
   std::string picture_path;
@@ -52,7 +53,7 @@ Outputs open_outputs(const RenderOptions& options) {
     throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both, or --waves PICTURES");
   }
   if (!options.waves_pattern.empty() && !options.method.plan) {
-    throw UsageError("--waves: the method " + options.method.name + " has no waves");
+    throw UsageError("--waves: the method " + std::string(options.method.name) + " has no waves");
   }
   check_outputs(requested_files(options));
   if (options.draws()) check_picture_options(options.picture);
@@ -149,7 +150,7 @@ void add_render(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
-    check_method_options(command, options->method_options, options->method.dynamic);
+    check_method_options(command, options->method_options, options->method.continues);
     options->seeds.value_column = options->picture.color.column;
     run(*options);
   });

@@ -15,6 +15,7 @@
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "studies/error_samples.hpp"
+#include "studies/metric_name.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -30,7 +31,7 @@ constexpr std::size_t main_engine = 0, other_engine = 1;
 struct SimulateOptions {
   SeedOptions seeds;
   MotionOptions motion;
-  Method method;
+  Method method = {};
   MethodOptions method_options;
   std::optional<Method> compare_with;
   std::optional<Metric> compare_metric;
@@ -52,33 +53,23 @@ struct Course {
   std::string trouble;   // what ended it too early; empty: nothing
 };
 
-/// The other method is the reference: it runs with its own waves, whatever those of the first are.
-std::vector<Simulation::Engine> make_engines(const SimulateOptions& options) {
-  std::vector<Simulation::Engine> engines = {engine(options.method, options.method_options)};
+Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& source, const Device& device) {
+  Seeds seeds = source.place(device);
+  const Grid grid = seeds.grid();
+  const std::size_t count = seeds.size();
+  Simulation simulation(std::move(seeds), [&source](Seeds& moving, int) { return source.move(moving); });
+  // Kernels are built before: this must not count as time of the first frames.
+  const auto add = [&](const Method& method, const MethodOptions& method_options) {
+    prepare(method, device, grid, count, method_options);
+    simulation.add_engine(engine(method, method_options));
+  };
+  add(options.method, options.method_options);
   if (options.compare_with) {
+    // The reference: it runs with its own waves, whatever those of the first method are.
     MethodOptions other;
     other.metric = options.other_metric();
-    engines.push_back(engine(*options.compare_with, other));
+    add(*options.compare_with, other);
   }
-  return engines;
-}
-
-/// Drivers build a kernel when it first runs: this must not count as time of the first frames.
-void warm_up(const std::vector<Simulation::Engine>& engines, const Seeds& seeds) {
-  for (const Simulation::Engine& engine : engines) {
-    Diagram diagram(seeds.device(), seeds.grid());
-    engine(seeds, diagram, 0);
-    engine(seeds, diagram, 0);  // from the labels of the first run, if it is dynamic
-    diagram.wait();
-  }
-}
-
-Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& source, const Device& device) {
-  const Seeds seeds = source.place(device);
-  const std::vector<Simulation::Engine> engines = make_engines(options);
-  warm_up(engines, seeds);
-  Simulation simulation(seeds, [&source](Seeds& moving, int) { return source.move(moving); });
-  for (const Simulation::Engine& engine : engines) simulation.add_engine(engine);
   return simulation;
 }
 
@@ -246,7 +237,7 @@ void add_simulate(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
-    check_method_options(command, options->method_options, options->method.dynamic);
+    check_method_options(command, options->method_options, options->method.continues);
     options->seeds.value_column = options->output.picture.color.column;
     run(*options);
   });

@@ -1,6 +1,6 @@
 #include "app/options/common_options.hpp"
 
-#include "methods.hpp"
+#include "studies/metric_name.hpp"
 
 namespace vorocl::command {
 

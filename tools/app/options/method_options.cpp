@@ -41,8 +41,8 @@ void add_method_options(Command& command, MethodOptions& options) {
       .default_is_value();
 }
 
-void check_method_options(const Command& command, const MethodOptions& options, bool has_dynamic) {
-  if (has_dynamic) return;
+void check_method_options(const Command& command, const MethodOptions& options, bool has_djfa) {
+  if (has_djfa) return;
   if (options.neighbourhood == NeighbourhoodMix::mixed) {
     throw UsageError("--neighbourhood mixed is for the method djfa");
   }

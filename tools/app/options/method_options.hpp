@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/options/command_line.hpp"
-#include "methods.hpp"
+#include "vorocl/method.hpp"
 
 namespace vorocl::command {
 
@@ -13,6 +13,6 @@ Choices<Method> method_choices();
 void add_method_options(Command& command, MethodOptions& options);
 
 /// Throws UsageError for options that only djfa has, if none of the methods is djfa.
-void check_method_options(const Command& command, const MethodOptions& options, bool has_dynamic);
+void check_method_options(const Command& command, const MethodOptions& options, bool has_djfa);
 
 }  // namespace vorocl::command

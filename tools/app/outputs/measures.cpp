@@ -21,7 +21,7 @@ const LabelImage& Measures::labels_by_id() {
   return *labels_by_id_;
 }
 
-const std::vector<Point>& Measures::seeds() {
+const std::vector<std::optional<Point>>& Measures::seeds() {
   if (!points_) points_ = seeds_.read();
   return *points_;
 }
@@ -46,9 +46,9 @@ std::vector<CellMeasures> Measures::cells() {
   std::vector<CellMeasures> cells;
   cells.reserve(seeds_.alive());
   for (std::size_t label = 0; label < seeds_.size(); ++label) {
-    const Point& seed = seeds()[label];
-    if (std::isnan(seed.x)) continue;  // absent
-    cells.push_back({id_of(label), seed, sums[label], shapes[label], neighbours[label], perimeters[label]});
+    const std::optional<Point>& seed = seeds()[label];
+    if (!seed) continue;
+    cells.push_back({id_of(label), *seed, sums[label], shapes[label], neighbours[label], perimeters[label]});
   }
   std::sort(cells.begin(), cells.end(),
             [](const CellMeasures& a, const CellMeasures& b) { return a.id < b.id; });

@@ -47,7 +47,7 @@ class Measures {
 
   /// By label, absent seeds included: where it is, as Seeds::read() gives it; the pixels of its cell; the
   /// cells that share a pixel edge with that.
-  const std::vector<Point>& seeds();
+  const std::vector<std::optional<Point>>& seeds();
   std::vector<double> areas();
   std::vector<double> neighbours();
 
@@ -78,7 +78,7 @@ class Measures {
   bool has_adjacency_ = false;
   std::optional<LabelImage> labels_;
   std::optional<LabelImage> labels_by_id_;
-  std::optional<std::vector<Point>> points_;
+  std::optional<std::vector<std::optional<Point>>> points_;
   std::optional<std::vector<float>> distances_;
 };
 

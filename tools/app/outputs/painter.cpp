@@ -30,8 +30,10 @@ std::vector<T> enlarged(std::vector<T> image, const Grid& grid, int factor) {
   return {result.ptr<T>(), result.ptr<T>() + result.total()};
 }
 
-std::vector<Point> enlarged(std::vector<Point> points, int factor) {
-  for (Point& point : points) point = {point.x * factor, point.y * factor};
+std::vector<std::optional<Point>> enlarged(std::vector<std::optional<Point>> points, int factor) {
+  for (std::optional<Point>& point : points) {
+    if (point) point = {point->x * factor, point->y * factor};
+  }
   return points;
 }
 

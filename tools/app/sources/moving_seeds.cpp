@@ -44,9 +44,7 @@ class Trajectory : public MovingSeeds {
       : particles_(seeds), frames_(frames), bytes_(particles_.bytes_left()) {}
 
   Grid grid() const override { return particles_.grid(); }
-  Seeds place(const Device& device) const override {
-    return vorocl::command::place(device, grid(), particles_.points());
-  }
+  Seeds place(const Device& device) const override { return Seeds(device, grid(), particles_.points()); }
   bool next() override {
     if (frame_ == frames_ || !particles_.next()) return false;
     ++frame_;

@@ -69,9 +69,7 @@ Input input_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const Grid grid = particles.grid();
   return {grid,
-          [grid, points = particles.points()](const Device& device) {
-            return vorocl::command::place(device, grid, points);
-          },
+          [grid, points = particles.points()](const Device& device) { return Seeds(device, grid, points); },
           particles.ids(), particles.values()};
 }
 

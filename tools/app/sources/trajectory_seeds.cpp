@@ -134,10 +134,4 @@ void TrajectorySeeds::check_inside(const Bounds& bounds) const {
   }
 }
 
-Seeds place(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points) {
-  Seeds seeds(device, grid, std::vector<Point>{});
-  seeds.move_to(points);
-  return seeds;
-}
-
 }  // namespace vorocl::command

@@ -74,7 +74,4 @@ class TrajectorySeeds {
   double longest_step_ = 0;
 };
 
-/// Seeds some of which may be absent.
-Seeds place(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points);
-
 }  // namespace vorocl::command

@@ -1,0 +1,114 @@
+// Making the index of the seeds and its pyramid, kernel by kernel in the order of their launches.
+
+#include "exact/seed_index.cl"
+
+// Sets the seeds' bits, and keeps their indices. Of the seeds on one pixel the first one that comes sets it; the others
+// are duplicates, which get NO_BIT and queue up.
+#define NO_BIT 0xffffffffu
+kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
+                     global uint* restrict bit_of_seed, global uint* restrict duplicates,
+                     global uint* restrict duplicate_count, int width) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  bit_of_seed[id] = NO_BIT;
+  if (positions[id] & EMPTY_BIT) return;
+  const uint index = BIT_INDEX(positions[id], bins_along(width, 0)), bit = 1u << index % 32;
+  if (atomic_or(bits + index / 32, bit) & bit) {
+    duplicates[atomic_inc(duplicate_count)] = id;
+  } else {
+    bit_of_seed[id] = index;
+  }
+}
+
+// The pixel of a word's bit, as an offset from the word's first pixel.
+static inline uint pixel_of_bit(uint bit) { return pack((int)(bit % BIN), (int)(bit / BIN)); }
+
+// Level 0 of the pyramid: the first seed of each bin. And how many seeds the bin has.
+kernel void find_representatives(global const uint* restrict bits, global uint* restrict pyramid,
+                                 global uint* restrict starts, int width, int height) {
+  const int bin = (int)get_global_id(0), columns = bins_along(width, 0);
+  if (bin >= columns * bins_along(height, 0)) return;
+  const int x = bin % columns, y = bin / columns;
+  uint representative = EMPTY, count = 0, any = 0;
+  for (int word = 0; word < WORDS; ++word) any |= bits[bin * WORDS + word];
+  if (any != 0) {
+    for (int word = WORDS - 1; word >= 0; --word) {
+      const uint seeds = bits[bin * WORDS + word];
+      const uint first_pixel = pack(x * BIN, y * BIN + word * ROWS_OF_WORD);
+      representative = seeds == 0 ? representative : first_pixel + pixel_of_bit(lowest_bit(seeds));
+      count += popcount(seeds);
+    }
+    representative |= count > 1 ? MORE : 0;
+  }
+  pyramid[bin] = representative;
+  starts[start_of(x, y, columns)] = count;
+}
+
+// A level above 0: one of the representatives of a bin's FAN x FAN parts.
+kernel void find_representatives_above(global uint* pyramid, int width, int height, int level) {
+  const int bin = (int)get_global_id(0), columns = bins_along(width, level);
+  if (bin >= columns * bins_along(height, level)) return;
+  const int x = bin % columns, y = bin / columns, start = level_start(width, height, level);
+  const int parts_across = bins_along(width, level - 1), parts_down = bins_along(height, level - 1);
+  const int below = level_start(width, height, level - 1);
+  uint representative = EMPTY, more = 0;
+  for (int part_y = y * FAN; part_y < min((y + 1) * FAN, parts_down); ++part_y) {
+    for (int part_x = x * FAN; part_x < min((x + 1) * FAN, parts_across); ++part_x) {
+      const uint of_part = pyramid[below + part_y * parts_across + part_x];
+      more |= representative != EMPTY && of_part != EMPTY ? MORE : 0;
+      representative = min(representative, of_part);
+    }
+  }
+  pyramid[start + bin] = representative | more;
+}
+
+// Gives each row of bins its part of the list, in the order in which the rows come, and each bin its start.
+kernel void share_out_list(global uint* restrict starts, global uint* restrict end, int width, int height) {
+  const int y = (int)get_global_id(0), columns = bins_along(width, 0);
+  if (y >= bins_along(height, 0)) return;
+  global uint* const row = starts + start_of(0, y, columns);
+  uint seeds = 0;
+  for (int x = 0; x < columns; ++x) seeds += row[x];
+  uint start = atomic_add(end, seeds);
+  for (int x = 0; x < columns; ++x) {
+    const uint count = row[x];
+    row[x] = start;
+    start += count;
+  }
+  row[columns] = start;
+}
+
+// Says where the seeds of each word of a bin begin in the list.
+kernel void start_words(global const uint* restrict bits, global const uint* restrict starts,
+                        global uint* restrict word_starts, int width, int height) {
+  const int bin = (int)get_global_id(0), columns = bins_along(width, 0);
+  if (bin >= columns * bins_along(height, 0)) return;
+  const int start = start_of(bin % columns, bin / columns, columns);
+  uint at = starts[start];
+  if (at == starts[start + 1]) return;
+  for (int word = 0; word < WORDS; ++word) {
+    word_starts[bin * WORDS + word] = at;
+    at += popcount(bits[bin * WORDS + word]);
+  }
+}
+
+// Lists the seeds and their ids, but not the duplicates ...
+kernel void list_seeds(global const uint* restrict positions, global const uint* restrict bit_of_seed, uint count,
+                       global const uint* restrict bits, global const uint* restrict word_starts,
+                       global uint* restrict list, global uint* restrict ids) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || bit_of_seed[id] == NO_BIT) return;
+  const uint at = list_index(bits, word_starts, bit_of_seed[id]);
+  list[at] = positions[id];
+  ids[at] = id;
+}
+
+// ... of which one with a lower id takes the seed's place.
+kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict duplicates,
+                            global const uint* restrict duplicate_count, global const uint* restrict bits,
+                            global const uint* restrict word_starts, global uint* restrict ids, int width) {
+  for (uint i = (uint)get_global_id(0); i < *duplicate_count; i += (uint)get_global_size(0)) {
+    const uint id = duplicates[i];
+    atomic_min(ids + list_index(bits, word_starts, BIT_INDEX(positions[id], bins_along(width, 0))), id);
+  }
+}

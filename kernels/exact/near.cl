@@ -1,0 +1,93 @@
+// The first tiers: pairs of bins that have seeds near are labelled by rows, or by candidates from the bins around them.
+// What that cannot do is left to far.cl.
+
+#ifndef VOROCL_EXACT_NEAR
+#define VOROCL_EXACT_NEAR
+
+#include "exact/collect.cl"
+#include "exact/keys.cl"
+#include "exact/rows.cl"
+
+// The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end. The
+// bins of a row, one beside the other, are added at once.
+#define MOST_AWAY 2
+#define MOST_NEAR MOST_CANDIDATES
+typedef struct {
+  Box box;
+  Dominators dominators;
+  int count;
+  uint seeds[MOST_NEAR + (2 * MOST_AWAY + 1) * BIN * BIN + VOROCL_WIDTH];
+} Near;
+
+// Takes the seeds of so many bins, one above the other, and of those up to so many bins away; false if that makes too
+// many.
+static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, int bins, int away) {
+  near->count = 0;
+  for (int row = y - away; row < y + bins + away; ++row) {
+    near->count = add_seeds(index, x - away, x + away, row, near->seeds, near->count);
+    if (near->count <= MOST_NEAR) continue;
+    pad(near->seeds, near->count);
+    improve_dominator(&near->dominators, 0, near->seeds, near->count);
+    near->count = drop_dominated(&near->dominators, near->seeds, near->count);
+    if (near->count > MOST_NEAR) return false;
+  }
+  pad(near->seeds, near->count);
+  return true;
+}
+
+// Labels so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No pixel
+// of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is within
+// that reach of some pixel.
+static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
+  Near near;
+  near.box = box_of(x * BIN, y * BIN, BIN, bins * BIN, index->width, index->height);
+  no_dominators(&near.dominators, near.box);
+  if (!take_near(&near, index, x, y, bins, 1) || near.count == 0) return false;
+  improve_dominator(&near.dominators, 0, near.seeds, near.count);
+  int reach = 0;
+  for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near.dominators.distance[0][corner]);
+  if (reach > ALONG(MOST_AWAY * BIN)) return false;
+  if (reach > ALONG(BIN) && !take_near(&near, index, x, y, bins, MOST_AWAY)) return false;
+  near.count = drop_dominated(&near.dominators, near.seeds, near.count);
+  if (near.count > MOST_KEYS) return false;
+  label_by_list(index, &near.dominators, near.seeds, near.count, near.box, labels);
+  return true;
+}
+
+static inline uint seeds_near(const SeedIndex* index, int x, int y, int bins) {
+  uint seeds = 0;
+  for (int row = y - 1; row <= y + bins; ++row) seeds += count_seeds(index, x - 1, x + 1, row);
+  return seeds;
+}
+
+static inline int pairs_down(const SeedIndex* index) { return (index->rows - 1) / PAIR + 1; }
+
+// Labels a pair of bins, and says by a bit each which of them it could: the upper bin's is UPPER, the lower bin's LOWER.
+#define UPPER 1
+#define LOWER 2
+#define BOTH (UPPER | LOWER)
+#if PAIR != 2
+#error "UPPER and LOWER are not the bits of a pair"
+#endif
+static inline uint label_pair(const SeedIndex* index, int x, int y, global uint* labels) {
+  const uint seeds = seeds_near(index, x, y, PAIR);
+  if (seeds < SPARSE) return 0;
+  if (seeds < MEDIUM) return label_by_near(index, x, y, PAIR, labels) ? BOTH : 0;
+  NearestInRows rows;
+  begin_rows(&rows, index, x, y);
+  uint labelled = BOTH;
+  for (int i = 0; i < min(PAIR, index->rows - y); ++i) {
+    if (seeds_near(index, x, y + i, 1) >= DENSE && label_by_rows(&rows, y + i, labels)) continue;
+    if (!label_by_near(index, x, y + i, 1, labels)) labelled ^= 1u << i;
+  }
+  return labelled;
+}
+
+RUN_KERNEL void label_near(SEED_INDEX_PARAMETERS, global uint* restrict labels, global uint* restrict labelled) {
+  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
+  const int pair = (int)get_global_id(0);
+  if (pair >= index.columns * pairs_down(&index)) return;
+  labelled[pair] = label_pair(&index, pair % index.columns, pair / index.columns * PAIR, labels);
+}
+
+#endif

@@ -1,0 +1,27 @@
+// The way in, for the library's own sources, to what its public classes hold behind a pointer.
+#pragma once
+
+#include <memory>
+
+#include "vorocl/device.hpp"
+#include "vorocl/diagram.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl {
+
+struct Internal {
+  static DeviceState& state(const Device& device) { return *device.state_; }
+
+  /// Throws Error if the object was moved from.
+  static SeedsState& state(const Seeds& seeds) { return seeds.state(); }
+  static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
+
+  /// What a result holds; made at its first use.
+  template <typename Result>
+  static auto& result(Result& result) {
+    if (!result.state_) result.state_ = std::make_unique<typename decltype(result.state_)::element_type>();
+    return *result.state_;
+  }
+};
+
+}  // namespace vorocl

@@ -1,0 +1,94 @@
+#include "vorocl/method.hpp"
+
+#include "vorocl/dynamic_jump_flooding.hpp"
+#include "vorocl/error.hpp"
+#include "vorocl/exact_diagram.hpp"
+#include "vorocl/jump_flooding.hpp"
+#include "vorocl/standard_flooding.hpp"
+
+namespace vorocl {
+
+namespace {
+
+/// For methods whose waves all have one neighbourhood.
+Neighbourhood neighbourhood(const MethodOptions& options) {
+  return options.neighbourhood == NeighbourhoodMix::von_neumann ? Neighbourhood::von_neumann
+                                                                : Neighbourhood::moore;
+}
+
+Report run_standard_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return standard_flooding(seeds, diagram, {options.metric, neighbourhood(options)});
+}
+
+template <JumpFloodingVariant variant>
+Report run_jump_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return jump_flooding(seeds, diagram, {options.metric, neighbourhood(options), variant});
+}
+
+Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
+                                 const MethodOptions& options) {
+  const DynamicPlanOptions plan = {options.neighbourhood.value_or(NeighbourhoodMix::mixed),
+                                   options.von_neumann_waves, options.extra_waves};
+  return dynamic_jump_flooding(seeds, diagram, max_displacement,
+                               {options.metric, plan, options.refresh_interval});
+}
+
+Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  return exact_diagram(seeds, diagram, {options.metric});
+}
+
+Plan plan_standard_flooding(const Grid&, int waves, const MethodOptions& options) {
+  return Plan(static_cast<std::size_t>(waves), {1, neighbourhood(options)});
+}
+
+template <JumpFloodingVariant variant>
+Plan plan_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
+  return jump_flooding_plan(grid, variant, neighbourhood(options));
+}
+
+template <JumpFloodingVariant variant>
+Method of_jump_flooding(const char* name) {
+  return {name, false, false, run_jump_flooding<variant>, plan_jump_flooding<variant>};
+}
+
+}  // namespace
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = {
+      {"standard-flooding", false, false, run_standard_flooding, plan_standard_flooding},
+      of_jump_flooding<JumpFloodingVariant::jfa>("jfa"),
+      of_jump_flooding<JumpFloodingVariant::jfa_plus_1>("jfa+1"),
+      of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
+      of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
+      {"djfa", false, true, run_dynamic_jump_flooding, plan_jump_flooding<JumpFloodingVariant::jfa>},
+      {"exact", true, false, run_exact, nullptr},
+  };
+  return all;
+}
+
+const Method& method(const std::string& name) {
+  std::string names;
+  for (const Method& method : methods()) {
+    if (method.name == name) return method;
+    names += (names.empty() ? "" : ", ") + method.name;
+  }
+  throw Error("there is no method \"" + name + "\"; there are " + names);
+}
+
+Simulation::Engine engine(const Method& method, const MethodOptions& options) {
+  return [run = method.run, options](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    return run(seeds, diagram, max_displacement, options);
+  };
+}
+
+void prepare(const Method& method, const Device& device, const Grid& grid, std::size_t seeds,
+             const MethodOptions& options) {
+  Diagram diagram(device, grid);
+  method.run(Seeds::random(device, grid, seeds, 1), diagram, 0, options);
+  // Goes on with the most waves, and to other seeds: then it looks for pixels without a label too.
+  const double farthest = grid.longest_side();
+  if (method.continues) method.run(Seeds::random(device, grid, seeds, 2), diagram, farthest, options);
+  diagram.wait();
+}
+
+}  // namespace vorocl

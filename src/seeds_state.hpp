@@ -1,0 +1,56 @@
+// What a Seeds object holds.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "internal.hpp"
+#include "kernel.hpp"
+#include "seeds_frame.hpp"
+
+namespace vorocl {
+
+/// The position of a seed that is absent: EMPTY of position.cl.
+constexpr std::uint32_t absent_position = 0x80008000u;
+
+struct SeedsState {
+  SeedsState(const Device& device, const Grid& grid);
+
+  Device device;
+  Grid grid;
+  cl::Buffer positions;
+  std::vector<bool> present;  // by id, as far as the host knows
+  KernelSet kernels;
+
+  std::size_t size() const { return present.size(); }
+
+  /// The present frame. Throws Error if the device failed in the middle of the last move.
+  const std::shared_ptr<const SeedsFrame>& frame() const;
+
+  /// Makes the next frame of seeds that the host has placed.
+  void place(std::vector<std::uint32_t> packed);
+
+  /// Makes the next frame from the caller's buffers. `marks` may be null.
+  void place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks);
+
+  /// Makes the next frame, of seeds that a kernel places: room for so many, all present.
+  void place_on_device(std::size_t count);
+
+  /// Makes the next frame: the same seeds, which a kernel has moved.
+  void moved();
+
+  /// Takes the frame and the positions of another object, on the device.
+  void copy_from(const SeedsState& other);
+
+ private:
+  /// The next frame of so many seeds, still without what is known of their points.
+  SeedsFrame next_frame(std::size_t size, bool vanished) const;
+  cl::Buffer room_for(std::size_t count) const;
+  std::shared_ptr<PointCheck> unused_check();
+
+  std::shared_ptr<const SeedsFrame> frame_;
+  bool moving_ = false;  // positions have been written and the frame has not: set while that goes on
+  std::vector<std::shared_ptr<PointCheck>> checks_;  // in use where a frame holds one too
+};
+
+}  // namespace vorocl

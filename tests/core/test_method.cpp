@@ -1,0 +1,107 @@
+// The registry of methods: each by its name does what its function does, and prepare() leaves nothing to
+// build.
+#define BOOST_TEST_MODULE method
+#include <dlfcn.h>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+int builds = 0;
+}
+
+/// Stands before the OpenCL loader's function and counts its calls.
+extern "C" __attribute__((visibility("default"))) cl_int CL_API_CALL
+clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+               void(CL_CALLBACK* notify)(cl_program, void*), void* data) {
+  static const auto next = reinterpret_cast<decltype(&clBuildProgram)>(dlsym(RTLD_NEXT, "clBuildProgram"));
+  ++builds;
+  return next(program, count, devices, options, notify, data);
+}
+
+BOOST_AUTO_TEST_CASE(methods_by_name) {
+  std::string names;
+  for (const Method& each : methods()) {
+    BOOST_TEST(&method(each.name) == &each);
+    names += each.name + ' ';
+  }
+  BOOST_TEST(names == "standard-flooding jfa jfa+1 jfa+2 1+jfa djfa exact ");
+  check_error([] { method("jfa+3"); }, {"\"jfa+3\"", "standard-flooding", "1+jfa", "exact"});
+}
+
+// What a method says of itself is so: its waves, whether it is exact, whether it goes on from the last
+// labels.
+BOOST_AUTO_TEST_CASE(methods_are_what_they_say) {
+  const Grid grid(90, 61);
+  const std::vector<Pixel> pixels = random_pixels(grid, 400, 5);
+  const Seeds seeds(test_device(), grid, centres(pixels));
+  for (const Metric metric : both_metrics) {
+    const std::vector<std::uint32_t> ground_truth = brute_force(grid, pixels, metric);
+    for (const Method& each : methods()) {
+      BOOST_TEST_CONTEXT(each.name << ", " << name_of(metric)) {
+        Diagram diagram(test_device(), grid);
+        const Report report = engine(each, {metric})(seeds, diagram, 0);
+        const double percent = similarity(diagram.read(), ground_truth);
+        BOOST_TEST(percent >= 99.0);
+        if (each.exact) BOOST_TEST(percent == 100.0);
+        BOOST_TEST((each.plan == nullptr) == (report.waves() == 0));
+        if (each.plan) {
+          BOOST_TEST(each.plan(grid, report.waves(), {metric}).size() ==
+                     static_cast<std::size_t>(report.waves()));
+        }
+        // Labels that are all of one seed: a method that starts anew does not see them.
+        diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0));
+        const Report again = each.run(seeds, diagram, 0, {metric});
+        BOOST_TEST((similarity(diagram.read(), ground_truth) != percent) == each.continues);
+        BOOST_TEST((again.waves() < report.waves()) == each.continues);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(after_prepare_nothing_is_built) {
+  const Grid grid(130, 70);
+  for (const Method& each : methods()) {
+    const Device device = Device::select();  // with no program yet
+    prepare(each, device, grid, 50, {Metric::manhattan});
+    Seeds seeds = Seeds::random(device, grid, 50, 3);
+    Diagram diagram(device, grid);
+    const int before = builds;
+    BOOST_TEST(before > 0);
+    for (int frame = 0; frame < 3; ++frame) {
+      each.run(seeds, diagram, 5, {Metric::manhattan});
+      seeds.move_to({Point{1, 1}, Point{2, 2}});
+    }
+    diagram.wait();
+    BOOST_TEST(builds == before, each.name << " built a program");
+  }
+}
+
+// Labels written from a buffer are copied on the device; the wrong size is refused, and nothing is lost.
+BOOST_AUTO_TEST_CASE(labels_are_written) {
+  const Grid grid(40, 30);
+  Diagram diagram(test_device(), grid), other(test_device(), grid);
+  std::vector<std::uint32_t> labels(grid.pixels());
+  for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = static_cast<std::uint32_t>(i * 7);
+  diagram.write(labels);
+  BOOST_TEST((diagram.read() == labels));
+  other.write(diagram.labels());
+  BOOST_TEST((other.read() == labels));
+  check_error([&] { diagram.write(std::vector<std::uint32_t>{1, 2, 3}); }, {"3 labels", "1200 pixels"});
+  check_error([&] { diagram.write(cl::Buffer()); }, {"labels to write", "null"});
+  BOOST_TEST((diagram.read() == labels));
+
+  // dJFA goes on from them: with the right ones it has nothing to mend.
+  const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
+  const std::vector<std::uint32_t> ground_truth = brute_force(grid, pixels, Metric::euclidean);
+  diagram.write(ground_truth);
+  const Report report = dynamic_jump_flooding(Seeds(test_device(), grid, centres(pixels)), diagram, 0);
+  BOOST_TEST((diagram.read() == ground_truth));
+  BOOST_TEST(report.waves() == static_cast<int>(dynamic_jump_flooding_plan(grid, pixels.size(), 0).size()));
+
+  const Diagram taken = std::move(diagram);
+  BOOST_TEST((taken.read() == ground_truth));
+  check_error([&] { diagram.read(); }, {"moved from"});  // NOLINT(bugprone-use-after-move)
+}

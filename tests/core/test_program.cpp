@@ -1,0 +1,109 @@
+// Programs: kernels from a folder, build options and dumps, as the environment says.
+#define BOOST_TEST_MODULE program
+#include <cstdlib>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+#include "kernel_sources.hpp"
+#include "program.hpp"
+#include "temporary_folder.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+/// Sets a variable of the environment for as long as it lives.
+class Variable {
+ public:
+  Variable(const char* name, const std::string& value) : name_(name) { setenv(name, value.c_str(), 1); }
+  ~Variable() { unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+const Grid grid(24, 16);
+const std::vector<Pixel> pixels = random_pixels(grid, 5, 1);
+
+/// The exact labels by a new device, whose programs are built anew.
+std::vector<std::uint32_t> labels() {
+  const Device device = Device::select();
+  Diagram diagram(device, grid);
+  exact_diagram(Seeds(device, grid, centres(pixels)), diagram);
+  return diagram.read();
+}
+
+std::vector<std::uint32_t> true_labels() { return brute_force(grid, pixels, Metric::euclidean); }
+
+/// Writes the embedded kernels into a folder.
+void write_kernels(const TemporaryFolder& folder) {
+  for (const auto& [file, source] : kernel_sources()) {
+    std::filesystem::create_directories(std::filesystem::path(folder / file).parent_path());
+    folder.file(file, source);
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(kernels_of_a_folder_replace_the_embedded_ones) {
+  const TemporaryFolder folder;
+  write_kernels(folder);
+  const Variable variable("VOROCL_KERNEL_DIR", folder / "");
+  BOOST_TEST((labels() == true_labels()));
+  folder.file("position.cl", "#error position.cl of the folder\n");
+  check_error([] { labels(); }, {"position.cl of the folder", "exact/diagram.cl"});
+}
+
+BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
+  const TemporaryFolder folder;
+  write_kernels(folder);
+  std::filesystem::remove(folder / "position.cl");
+  const Variable variable("VOROCL_KERNEL_DIR", folder / "");
+  check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "No such file"});
+  const Variable missing("VOROCL_KERNEL_DIR", "/no/such/folder");
+  check_error([] { labels(); }, {"/no/such/folder/", "VOROCL_KERNEL_DIR", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
+  const TemporaryFolder folder;
+  write_kernels(folder);
+  folder.file("position.cl",
+              "#ifdef BROKEN\n#error BROKEN is defined\n#endif\n" + kernel_sources().at("position.cl"));
+  const Variable kernels("VOROCL_KERNEL_DIR", folder / "");
+  BOOST_TEST((labels() == true_labels()));
+  const Variable options("VOROCL_BUILD_OPTIONS", "-DBROKEN");
+  check_error([] { labels(); }, {"BROKEN is defined", "-DBROKEN"});
+}
+
+BOOST_AUTO_TEST_CASE(programs_are_dumped) {
+  const TemporaryFolder folder;
+  {
+    const Variable variable("VOROCL_DUMP_DIR", folder / "");
+    BOOST_TEST((labels() == true_labels()));
+  }
+  std::string source;
+  std::size_t sources = 0, binaries = 0;
+  for (const std::string& name : folder.names()) {
+    BOOST_TEST(!content_of(folder / name).empty());
+    sources += name.find(".cl") != std::string::npos ? 1 : 0;
+    binaries += name.find(".bin") != std::string::npos ? 1 : 0;
+    if (name.rfind("exact-diagram-", 0) == 0 && name.find(".cl") != std::string::npos) source = name;
+  }
+  BOOST_TEST(sources == binaries);
+  BOOST_TEST_REQUIRE(source != "");
+
+  // What was dumped can be edited and built: it has no #include left.
+  BOOST_TEST(content_of(folder / source).find("#include") == std::string::npos);
+  const TemporaryFolder kernels;
+  write_kernels(kernels);
+  kernels.file("exact/diagram.cl", content_of(folder / source));
+  const Variable variable("VOROCL_KERNEL_DIR", kernels / "");
+  BOOST_TEST((labels() == true_labels()));
+}
+
+BOOST_AUTO_TEST_CASE(a_dump_that_cannot_be_written_is_an_error) {
+  const Variable variable("VOROCL_DUMP_DIR", "/no/such/folder");
+  check_error([] { labels(); }, {"/no/such/folder", "VOROCL_DUMP_DIR", "No such file"});
+}

@@ -1,0 +1,52 @@
+// The points in samples/, as pixels of a grid.
+#pragma once
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "brute_force.hpp"
+
+namespace vorocl {
+
+/// The pixel of a point (x in 0 to width, y in 0 to height, or a little outside).
+inline Pixel pixel_in(const Grid& grid, double x, double y, double width, double height) {
+  return {std::clamp(static_cast<int>(x * grid.width() / width), 0, grid.width() - 1),
+          std::clamp(static_cast<int>(y * grid.height() / height), 0, grid.height() - 1)};
+}
+
+/// The world's cities, from degrees (x in 0 to 360, y in 0 to 180) to the grid.
+inline std::vector<Pixel> cities(const Grid& grid) {
+  std::ifstream file(VOROCL_SAMPLES "/cities-5000.csv");
+  std::string line;
+  std::getline(file, line);
+  std::vector<Pixel> pixels;
+  for (double x = 0, y = 0; std::getline(file, line);) {
+    BOOST_TEST_REQUIRE(std::sscanf(line.c_str(), "%lf,%lf", &x, &y) == 2);
+    pixels.push_back(pixel_in(grid, x, y, 360, 180));
+  }
+  BOOST_TEST_REQUIRE(pixels.size() == 5000);
+  return pixels;
+}
+
+/// The particles of the last frame of a LAMMPS dump in samples/, whose box begins at 0, 0.
+inline std::vector<Pixel> particles(const std::string& name, const Grid& grid) {
+  std::ifstream file(VOROCL_SAMPLES "/" + name);
+  std::vector<Pixel> pixels;
+  double width = 0, height = 0, x = 0, y = 0;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("ITEM: BOX BOUNDS", 0) == 0) {
+      file >> x >> width >> y >> height;
+      pixels.clear();
+    } else if (std::sscanf(line.c_str(), "%*d %*d %lf %lf", &x, &y) == 2) {
+      pixels.push_back(pixel_in(grid, x, y, width, height));
+    }
+  }
+  BOOST_TEST_REQUIRE(pixels.size() > 1000);
+  return pixels;
+}
+
+}  // namespace vorocl
