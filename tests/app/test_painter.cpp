@@ -34,10 +34,10 @@ struct Drawn {
 
   /// The next picture of a film, or the only one.
   cv::Mat by(Painter& painter) const {
-    AnalysisBuffers buffers;
+    MeasureBuffers buffers;
     const std::vector<std::uint32_t> no_ids;
-    Analysis analysis(seeds, diagram, no_ids, metric, buffers);
-    return painter.draw(analysis, values);
+    Measures measures(seeds, diagram, no_ids, metric, buffers);
+    return painter.draw(measures, values);
   }
   cv::Mat with(const PictureOptions& options) const {
     Painter painter(options);

@@ -29,7 +29,7 @@ Columns parse_columns(const std::string& text);
 
 struct CsvPoints {
   std::vector<Point> points;
-  std::vector<double> values;  ///< of the value column, a point each; empty without one
+  std::vector<double> values;  ///< of the value column, one per point; empty without one
 };
 
 /// The points of a CSV file with commas, in its order. A first line without any number is a header. Without

@@ -7,10 +7,9 @@
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
-#include <regex>
 #include <system_error>
 
-#include "app/terminal/usage_error.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -18,13 +17,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The pattern without the number's width: %d for %05d.
+std::string without_width(std::string path) {
+  for (std::size_t at = path.find("%0"); at != std::string::npos; at = path.find("%0", at + 1)) {
+    if (at + 3 < path.size() && path[at + 2] >= '1' && path[at + 2] <= '9' && path[at + 3] == 'd') {
+      path.erase(at + 1, 2);
+    }
+  }
+  return path;
+}
+
 /// Where a path leads from here; empty: nowhere. Patterns that differ in the number's width alone are the
 /// same.
 std::string whole_path(const std::string& path) {
   if (path.empty()) return path;
   std::error_code ignored;
-  return fs::weakly_canonical(fs::absolute(std::regex_replace(path, std::regex("%0[1-9]d"), "%d")), ignored)
-      .string();
+  return fs::weakly_canonical(fs::absolute(without_width(path)), ignored).string();
 }
 
 /// Whether a pattern with %d in place of a number gives the path.
@@ -39,10 +47,6 @@ bool gives(const std::string& pattern, const std::string& path) {
   const auto number = path.begin() + static_cast<std::ptrdiff_t>(before.size());
   return std::all_of(number, path.end() - static_cast<std::ptrdiff_t>(behind.size()),
                      [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-bool may_be_one_file(const std::string& a, const std::string& b) {
-  return !a.empty() && (a == b || gives(a, b) || gives(b, a));
 }
 
 std::string reason(int code) { return std::generic_category().message(code); }
@@ -76,7 +80,7 @@ void check_extension(const std::string& path, const std::vector<std::string>& ex
   if (std::find(extensions.begin(), extensions.end(), extension_of(path)) != extensions.end()) return;
   std::string list;
   for (const std::string& extension : extensions) list += (list.empty() ? "" : ", ") + extension;
-  throw UsageError(path + ": the name must end in one of " + list);
+  throw Error(path + ": the name must end in one of " + list);
 }
 
 std::ifstream open_to_read(const std::string& path) {
@@ -136,15 +140,9 @@ void GrowingFile::finish() {
   file_.commit();
 }
 
-void check_distinct(const std::vector<NamedOutput>& outputs) {
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (may_be_one_file(whole_path(outputs[i].path), whole_path(outputs[j].path))) {
-        throw UsageError(outputs[i].path + ": " + outputs[j].option + " and " + outputs[i].option +
-                         " cannot write one file");
-      }
-    }
-  }
+bool may_be_one_file(const std::string& a, const std::string& b) {
+  const std::string whole_a = whole_path(a), whole_b = whole_path(b);
+  return !whole_a.empty() && (whole_a == whole_b || gives(whole_a, whole_b) || gives(whole_b, whole_a));
 }
 
 std::ofstream open_to_write(const std::string& path) { return open(path, std::ios::trunc); }

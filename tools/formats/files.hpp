@@ -11,13 +11,13 @@ namespace vorocl::command {
 /// The path's extension in lower case, with its dot: ".npy".
 std::string extension_of(const std::string& path);
 
-/// Throws UsageError unless the path's extension is one of these (with their dots).
+/// Throws Error unless the path's extension is one of these (with their dots).
 void check_extension(const std::string& path, const std::vector<std::string>& extensions);
 
 /// Throws Error, with the reason, if the file is missing, a folder or not readable.
 std::ifstream open_to_read(const std::string& path);
 
-/// A file that is to be written later.
+/// A file that will be written later.
 class OutputFile {
  public:
   /// Throws Error if the folder does not exist or cannot be written: construct it before the work whose
@@ -61,17 +61,13 @@ class GrowingFile {
   std::ofstream stream_;
 };
 
-/// An option and the path or numbered pattern it was given; empty: none.
-struct NamedOutput {
-  std::string option;
-  std::string path;
-};
+/// Whether two paths lead to one file. Either may be a pattern with a place for a number, such as
+/// frames/%05d.png: then whether the files that it gives may include the other's. An empty path leads
+/// nowhere.
+bool may_be_one_file(const std::string& a, const std::string& b);
 
-/// Throws UsageError if two of the outputs would be one file.
-void check_distinct(const std::vector<NamedOutput>& outputs);
-
-/// A stream to a file, new or to go on with, that throws Error when it cannot be opened, and check_written()
-/// where writing failed.
+/// A stream to a new file, or to the end of one. Throw Error if it cannot be opened; check_written() throws
+/// Error if writing failed.
 std::ofstream open_to_write(const std::string& path);
 std::ofstream open_to_append(const std::string& path);
 void check_written(std::ofstream& stream, const std::string& path);

@@ -8,13 +8,14 @@
 
 namespace vorocl::command {
 
-/// The extensions of files that labels can be written to.
+/// The extensions of files that labels can be read from, and written to.
+const std::vector<std::string>& readable_label_extensions();
 const std::vector<std::string>& label_extensions();
 
-/// Throws Error if the file cannot be read or holds something else.
+/// Throws Error if the file cannot be read or holds something else, or its name ends in no such extension.
 LabelImage read_labels(const std::string& path);
 
-/// Throws UsageError if the name is none of those, Error if the file cannot be written.
+/// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const std::string& path, const LabelImage& image);
 
 }  // namespace vorocl::command

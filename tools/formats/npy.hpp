@@ -16,8 +16,8 @@ std::vector<Point> read_npy_points(const std::string& path);
 /// Labels: uint32, shape (height, width). Throws Error if the file is something else.
 LabelImage read_npy_labels(const std::string& path);
 
-/// One value a pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws Error
-/// if the file cannot be written.
+/// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
+/// Error if the file cannot be written.
 template <typename T>
 void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values);
 

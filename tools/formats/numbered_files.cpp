@@ -2,28 +2,39 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <regex>
 #include <system_error>
 
-#include "app/terminal/usage_error.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace fs = std::filesystem;
 
-NumberedFiles::NumberedFiles(const std::string& pattern) {
-  std::smatch parts;
-  if (!std::regex_match(pattern, parts, std::regex("([^%]*)%(0([1-9]))?d([^%/]*)"))) {
-    throw UsageError(pattern + ": the name must have one place for a number, such as %05d" +
-                     extension_of(pattern));
+NumberedName::NumberedName(const std::string& pattern) {
+  const Error error(pattern + ": the name must have one place for a number, such as %05d" +
+                    extension_of(pattern));
+  const std::size_t place = pattern.find('%');
+  if (place == std::string::npos) throw error;
+  std::size_t end = place + 1;
+  if (pattern.compare(end, 1, "0") == 0) {
+    const char digit = end + 1 < pattern.size() ? pattern[end + 1] : '0';
+    if (digit < '1' || digit > '9') throw error;
+    width = digit - '0';
+    end += 2;
   }
-  before_ = parts[1];
-  width_ = parts[3].matched ? parts[3].str()[0] - '0' : 1;
-  after_ = parts[4];
+  if (pattern.compare(end, 1, "d") != 0) throw error;
+  before = pattern.substr(0, place);
+  after = pattern.substr(end + 1);
+  if (after.find_first_of("%/") != std::string::npos) throw error;
+}
 
-  const fs::path folder = fs::path(path(0)).parent_path();
+std::string NumberedName::with(int number) const {
+  return fmt::format("{}{:0{}d}{}", before, number, width, after);
+}
+
+NumberedFiles::NumberedFiles(const std::string& pattern) : name_(pattern) {
+  const fs::path folder = fs::path(name_.with(0)).parent_path();
   std::error_code ignored;
   if (!folder.empty() && fs::create_directory(folder, ignored)) made_folder_ = folder.string();
   file(0);
@@ -32,10 +43,6 @@ NumberedFiles::NumberedFiles(const std::string& pattern) {
 NumberedFiles::~NumberedFiles() {
   std::error_code ignored;
   if (!made_folder_.empty()) fs::remove(made_folder_, ignored);
-}
-
-std::string NumberedFiles::path(int number) const {
-  return fmt::format("{}{:0{}d}{}", before_, number, width_, after_);
 }
 
 }  // namespace vorocl::command

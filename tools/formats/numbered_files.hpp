@@ -1,4 +1,4 @@
-// Files of a frame or a wave each, whose names are numbered.
+// Files with numbered names, one per frame, round or wave.
 #pragma once
 
 #include <string>
@@ -7,10 +7,23 @@
 
 namespace vorocl::command {
 
+/// A name with one place for a number: %d or, with zeros to a width, %05d.
+struct NumberedName {
+  std::string before;
+  int width = 1;
+  std::string after;
+
+  /// Throws Error if the pattern has no such place or more than one, or one that is not in the last part of
+  /// the path.
+  explicit NumberedName(const std::string& pattern);
+
+  std::string with(int number) const;
+};
+
 class NumberedFiles {
  public:
-  /// The pattern has one place for the number, %d or, with zeros to a width, %05d. Makes the folder, if only
-  /// that is missing. Throws UsageError for another pattern, Error if no file can be made there.
+  /// Makes the folder, if only that is missing. Throws Error for a pattern that is no NumberedName, and if no
+  /// file can be made there.
   explicit NumberedFiles(const std::string& pattern);
 
   /// Removes the folder it made, if that is empty.
@@ -18,14 +31,10 @@ class NumberedFiles {
   NumberedFiles(const NumberedFiles&) = delete;
   NumberedFiles& operator=(const NumberedFiles&) = delete;
 
-  OutputFile file(int number) const { return OutputFile(path(number)); }
+  OutputFile file(int number) const { return OutputFile(name_.with(number)); }
 
  private:
-  std::string path(int number) const;
-
-  std::string before_;
-  int width_ = 0;
-  std::string after_;
+  NumberedName name_;
   std::string made_folder_;  // empty: none
 };
 

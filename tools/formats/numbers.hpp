@@ -14,8 +14,8 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
-/// The number that the text is, blanks around it apart; "nan" and "inf" are numbers too. None if it is not
-/// one, if anything follows it, or if it does not fit the type.
+/// The number that the text is, without the blanks around it; "nan" and "inf" are numbers too. None if it is
+/// not one, if anything follows it, or if it does not fit the type.
 template <typename T>
 std::optional<T> parse_number(std::string_view text) {
   text = trimmed(text);

@@ -19,7 +19,7 @@ struct Close {
 using File = std::unique_ptr<TIFF, Close>;
 
 File open(const std::string& path, const char* mode) {
-  // The library prints to stderr by itself; what went wrong is said by the exceptions here.
+  // The library would print to stderr; here the exceptions say what went wrong.
   TIFFSetErrorHandler(nullptr);
   TIFFSetWarningHandler(nullptr);
   return File(TIFFOpen(path.c_str(), mode));
@@ -47,7 +47,7 @@ LabelImage read_tiff_labels(const std::string& path) {
   const File file = open(path, "r");
   if (!file) throw Error(path + " is no TIFF file");
   if (!holds_labels(file))
-    throw Error(path + " holds no labels: these are one 32-bit integer a pixel, in strips");
+    throw Error(path + " holds no labels: these are one 32-bit integer per pixel, in strips");
   const auto width = field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
   const auto height = field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
   LabelImage image{Grid(width, height), {}};
@@ -62,7 +62,7 @@ LabelImage read_tiff_labels(const std::string& path) {
 
 template <typename T>
 void write_tiff(const std::string& path, const Grid& grid, const std::vector<T>& values) {
-  static_assert(sizeof(T) == 4, "one 32-bit sample a pixel");
+  static_assert(sizeof(T) == 4, "one 32-bit sample per pixel");
   constexpr std::size_t room_for_tags = 1 << 20;
   const bool big = values.size() * sizeof(T) + room_for_tags > 0xffffffffu;
   File file = open(path, big ? "w8" : "w");

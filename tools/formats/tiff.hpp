@@ -1,4 +1,4 @@
-// Images of one 32-bit value a pixel as TIFF files.
+// Images of one 32-bit value per pixel as TIFF files.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace vorocl::command {
 /// damaged.
 LabelImage read_tiff_labels(const std::string& path);
 
-/// One value a pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
+/// One value per pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
 /// some readers (OpenCV 4) refuse unsigned ones: labels from 2^31 on, and no_label, look negative there.
 /// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written.
 template <typename T>

@@ -9,10 +9,11 @@
 
 namespace vorocl::command {
 
-/// One value a pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells are
-/// the pixels: spacing 1, the origin at the lower left corner of the picture and y upwards, so that the first
-/// row is on top as in a picture. What is at (x, y) in pixel units is at (x, height - y) there. The values
-/// are raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be written.
+/// One value per pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells
+/// are the pixels: spacing 1, the origin at the lower left corner of the picture and y upwards, so that the
+/// first row is on top as in a picture. What is at (x, y) in pixel units is at (x, height - y) there. The
+/// values are raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be
+/// written.
 template <typename T>
 void write_vti(const std::string& path, const std::string& name, const Grid& grid,
                const std::vector<T>& values);

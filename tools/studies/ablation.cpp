@@ -48,8 +48,8 @@ Simulation walk(const Device& device, const Configuration& configuration, const 
                 const Variant& variant) {
   const Grid grid(configuration.side, configuration.side);
   const Device tuned = variant.one_pixel_a_work_item ? device.with_tuning(Tuning{}) : device;
-  return random_walk(spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
-                     variant.step_length, settings.rng_seed);
+  return {spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
+          RandomMotion{variant.step_length, settings.rng_seed}};
 }
 
 void measure_accuracy(Simulation simulation, const Variant& variant, int frames, VariantResult& result,

@@ -25,8 +25,8 @@ struct Variant {
 
 /// In the Euclidean metric.
 struct VariantResult {
-  Samples milliseconds;            ///< the device's, of the diagrams of a timed run; one value a run
-  Samples waves;                   ///< one value a frame, as the two that follow
+  Samples milliseconds;            ///< the device's, of the diagrams of a timed run; one value per run
+  Samples waves;                   ///< one value per frame, as the two that follow
   Samples similarity_to_exact;     ///< in percent
   Samples differing_between_runs;  ///< the pixels that two runs side by side have different labels for, in
                                    ///< percent

@@ -1,4 +1,4 @@
-// Errors of a method's diagrams against the truth, frame by frame.
+// Errors of a method's diagrams against the exact diagrams, frame by frame.
 #pragma once
 
 #include "studies/samples.hpp"

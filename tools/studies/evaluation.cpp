@@ -24,8 +24,8 @@ Simulation::Engine engine_of(const MethodResult& result) {
 Simulation walk(const Device& device, const Configuration& configuration,
                 const EvaluationSettings& settings) {
   const Grid grid(configuration.side, configuration.side);
-  return random_walk(Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
-                     settings.step_length, settings.rng_seed);
+  return {Seeds::random(device, grid, configuration.seeds, settings.rng_seed),
+          RandomMotion{settings.step_length, settings.rng_seed}};
 }
 
 /// The similarities of a frame's diagrams, each pair compared once.

@@ -1,5 +1,5 @@
 // The paper's experiment for one grid size and one number of seeds: how near dJFA comes to JFA and to the
-// truth, and how long each method takes.
+// exact diagram, and how long each method takes.
 #pragma once
 
 #include <cstdint>
@@ -42,9 +42,9 @@ struct MethodResult {
   std::string method;  ///< "jfa", "djfa" or "exact"
   Metric metric = Metric::euclidean;
   int waves = 0;                        ///< of the last frame
-  Samples milliseconds;                 ///< the device's, of the diagrams of a timed run; one value a run
+  Samples milliseconds;                 ///< the device's, of the diagrams of a timed run; one value per run
   Samples host_milliseconds;            ///< the host's, to enqueue the same
-  Samples similarity_to_euclidean_jfa;  ///< in percent, as the two that follow; one value a frame
+  Samples similarity_to_euclidean_jfa;  ///< in percent, as the two that follow; one value per frame
   Samples similarity_to_jfa;            ///< of the same metric
   Samples similarity_to_exact;          ///< of the same metric
   ErrorSamples errors;

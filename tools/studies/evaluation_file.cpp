@@ -1,20 +1,16 @@
 #include "studies/evaluation_file.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
-#include <iterator>
 #include <map>
 
-#include "app/options/options.hpp"
-#include "app/terminal/console.hpp"
 #include "formats/csv.hpp"
 #include "formats/files.hpp"
 #include "formats/numbers.hpp"
-#include "vorocl/version.hpp"
+#include "studies/metric_name.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -31,65 +27,42 @@ struct Row {
   std::string speedup_over(const std::string& other, Metric metric) const {
     return text(result.of(other, metric).milliseconds.median() / method.milliseconds.median());
   }
-  static std::string text(double value) { return fmt::format("{}", value); }
 };
 
-struct Column {
-  const char* name;
-  std::string (*value)(const Row& row);
-};
-
-const Column columns[] = {
+const Column<Row> columns[] = {
     {"date", [](const Row& row) { return row.date; }},
     {"n", [](const Row& row) { return std::to_string(row.configuration.side); }},
     {"seeds", [](const Row& row) { return std::to_string(row.configuration.seeds); }},
     {"pixels_per_seed",
      [](const Row& row) {
-       return Row::text(static_cast<double>(row.configuration.pixels()) /
-                        static_cast<double>(row.configuration.seeds));
+       return text(static_cast<double>(row.configuration.pixels()) /
+                   static_cast<double>(row.configuration.seeds));
      }},
     {"coincident_seeds", [](const Row& row) { return std::to_string(row.result.coincident_seeds); }},
     {"method", [](const Row& row) { return row.method.method; }},
     {"metric", [](const Row& row) { return to_string(row.method.metric); }},
     {"waves", [](const Row& row) { return std::to_string(row.method.waves); }},
-    {"milliseconds_median", [](const Row& row) { return Row::text(row.method.milliseconds.median()); }},
-    {"milliseconds_least", [](const Row& row) { return Row::text(row.method.milliseconds.least()); }},
-    {"milliseconds_greatest", [](const Row& row) { return Row::text(row.method.milliseconds.greatest()); }},
-    {"host_milliseconds_median",
-     [](const Row& row) { return Row::text(row.method.host_milliseconds.median()); }},
+    {"milliseconds_median", [](const Row& row) { return text(row.method.milliseconds.median()); }},
+    {"milliseconds_least", [](const Row& row) { return text(row.method.milliseconds.least()); }},
+    {"milliseconds_greatest", [](const Row& row) { return text(row.method.milliseconds.greatest()); }},
+    {"host_milliseconds_median", [](const Row& row) { return text(row.method.host_milliseconds.median()); }},
     {"speedup_over_jfa", [](const Row& row) { return row.speedup_over("jfa", Metric::euclidean); }},
     {"speedup_over_djfae", [](const Row& row) { return row.speedup_over("djfa", Metric::euclidean); }},
     {"similarity_to_euclidean_jfa_mean",
-     [](const Row& row) { return Row::text(row.method.similarity_to_euclidean_jfa.mean()); }},
+     [](const Row& row) { return text(row.method.similarity_to_euclidean_jfa.mean()); }},
     {"similarity_to_euclidean_jfa_least",
-     [](const Row& row) { return Row::text(row.method.similarity_to_euclidean_jfa.least()); }},
-    {"similarity_to_jfa_mean", [](const Row& row) { return Row::text(row.method.similarity_to_jfa.mean()); }},
-    {"similarity_to_jfa_least",
-     [](const Row& row) { return Row::text(row.method.similarity_to_jfa.least()); }},
-    {"similarity_to_exact_mean",
-     [](const Row& row) { return Row::text(row.method.similarity_to_exact.mean()); }},
+     [](const Row& row) { return text(row.method.similarity_to_euclidean_jfa.least()); }},
+    {"similarity_to_jfa_mean", [](const Row& row) { return text(row.method.similarity_to_jfa.mean()); }},
+    {"similarity_to_jfa_least", [](const Row& row) { return text(row.method.similarity_to_jfa.least()); }},
+    {"similarity_to_exact_mean", [](const Row& row) { return text(row.method.similarity_to_exact.mean()); }},
     {"similarity_to_exact_least",
-     [](const Row& row) { return Row::text(row.method.similarity_to_exact.least()); }},
-    {"wrong_percent_mean", [](const Row& row) { return Row::text(row.method.errors.wrong_percent.mean()); }},
+     [](const Row& row) { return text(row.method.similarity_to_exact.least()); }},
+    {"wrong_percent_mean", [](const Row& row) { return text(row.method.errors.wrong_percent.mean()); }},
     {"wrong_percent_greatest",
-     [](const Row& row) { return Row::text(row.method.errors.wrong_percent.greatest()); }},
-    {"largest_excess", [](const Row& row) { return Row::text(row.method.errors.largest_excess.greatest()); }},
-    {"mean_excess", [](const Row& row) { return Row::text(row.method.errors.mean_excess.mean()); }},
+     [](const Row& row) { return text(row.method.errors.wrong_percent.greatest()); }},
+    {"largest_excess", [](const Row& row) { return text(row.method.errors.largest_excess.greatest()); }},
+    {"mean_excess", [](const Row& row) { return text(row.method.errors.mean_excess.mean()); }},
 };
-
-std::string header_of(const Origin& origin) {
-  std::vector<std::string> names;
-  for (const auto& shared : origin) names.push_back(shared.first);
-  for (const Column& column : columns) names.emplace_back(column.name);
-  return to_csv(names);
-}
-
-std::string line_of(const Origin& origin, const Row& row) {
-  std::vector<std::string> fields;
-  for (const auto& shared : origin) fields.push_back(shared.second);
-  for (const Column& column : columns) fields.push_back(column.value(row));
-  return to_csv(fields);
-}
 
 /// The lines of a file, without their ends.
 struct Lines {
@@ -148,7 +121,7 @@ Configuration configuration_of(const std::string& place, Values& values) {
 using Rows = std::vector<std::pair<Configuration, std::vector<std::string>>>;
 
 Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) {
-  const std::string header = header_of(origin);
+  const std::string header = header_of(origin, columns);
   const bool is_evaluation = lines.whole.empty()
                                  ? header.rfind(lines.cut_off, 0) == 0
                                  : lines.whole.front().rfind(origin.front().first + ",", 0) == 0;
@@ -172,23 +145,6 @@ Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) 
 
 }  // namespace
 
-std::string utc_now() {
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
-}
-
-Origin origin_of(const Device& device, const EvaluationSettings& settings) {
-  return {{"version", VOROCL_VERSION},
-          {"platform", device.platform_name()},
-          {"device", device.name()},
-          {"driver", device.driver_version()},
-          {"rng_seed", std::to_string(settings.rng_seed)},
-          {"step_length", std::to_string(settings.step_length)},
-          {"frames", std::to_string(settings.frames)},
-          {"timed_frames", std::to_string(settings.timed_frames)},
-          {"repeats", std::to_string(settings.repeats)}};
-}
-
 EvaluationFile::EvaluationFile(const std::string& path, bool resume) : path_(path) {
   check_extension(path, {".csv"});
   const OutputFile can_be_written(path);
@@ -198,22 +154,24 @@ EvaluationFile::EvaluationFile(const std::string& path, bool resume) : path_(pat
   }
 }
 
-void EvaluationFile::begin(const Origin& origin) {
+std::vector<std::string> EvaluationFile::begin(const Origin& origin) {
   origin_ = origin;
-  std::string kept = header_of(origin) + "\n";
+  std::vector<std::string> dropped;
+  std::string kept = header_of(origin, columns) + "\n";
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored)) {
     const Lines lines = lines_of(path_);
     const Rows all_rows = rows_of(path_, lines, origin);
-    if (!lines.cut_off.empty()) print_note(path_ + ": the last line was cut off and is dropped");
+    if (!lines.cut_off.empty()) dropped.push_back(path_ + ": the last line was cut off and is dropped");
     for (const auto& [configuration, rows] : all_rows) {
       if (rows.size() == 2 * evaluated_methods().size()) {
         complete_.insert(configuration);
         for (const std::string& row : rows) kept += row + "\n";
       } else {
-        print_note(fmt::format("{}: {} x {} pixels with {} seeds have {} rows of {}, which are dropped",
-                               path_, configuration.side, configuration.side, configuration.seeds,
-                               rows.size(), 2 * evaluated_methods().size()));
+        dropped.push_back(
+            fmt::format("{}: {} x {} pixels with {} seeds have {} rows of {}, which are dropped", path_,
+                        configuration.side, configuration.side, configuration.seeds, rows.size(),
+                        2 * evaluated_methods().size()));
       }
     }
   }
@@ -223,13 +181,14 @@ void EvaluationFile::begin(const Origin& origin) {
     check_written(file, path_);
   });
   rows_ = open_to_append(path_);
+  return dropped;
 }
 
 void EvaluationFile::add(const Configuration& configuration, const ConfigurationResult& result) {
   const std::string date = utc_now();
   std::string lines;
   for (const MethodResult& method : result.methods) {
-    lines += line_of(origin_, {date, configuration, result, method}) + "\n";
+    lines += line_of(origin_, columns, Row{date, configuration, result, method}) + "\n";
   }
   rows_ << lines << std::flush;
   if (!rows_) throw Error("writing " + path_ + " failed: is the disk full?");

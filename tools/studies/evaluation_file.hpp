@@ -4,33 +4,26 @@
 #include <fstream>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "studies/evaluation.hpp"
+#include "studies/table.hpp"
 
 namespace vorocl::command {
 
-/// What all rows of a file share, by column: version, device, settings.
-using Origin = std::vector<std::pair<std::string, std::string>>;
-
-/// "2026-01-31T12:00:00Z"
-std::string utc_now();
-
-Origin origin_of(const Device& device, const EvaluationSettings& settings);
-
 /// Not renamed at its end, as other files are: rows are added when a configuration is complete, so that an
-/// evaluation which ends early can go on.
+/// evaluation which ends early can be continued.
 class EvaluationFile {
  public:
-  /// Throws Error if no file can be made there, or if there is one and it is not to be gone on with
+  /// Throws Error if the name is not that of a .csv file, if no file can be made there, or if there is one
+  /// and it is not to be continued
   /// (`resume`).
   EvaluationFile(const std::string& path, bool resume);
 
-  /// Takes over the configurations that are complete in the file, if there is one, and says on standard error
-  /// what it drops: a last line that was cut off, a configuration with rows missing. Throws Error if the file
-  /// is none of an evaluation or has another origin.
-  void begin(const Origin& origin);
+  /// Takes over the configurations that are complete in the file, if there is one, and drops the rest: a last
+  /// line that was cut off, a configuration with rows missing. Returns a sentence for each thing that it
+  /// drops. Throws Error if the file is none of an evaluation or has another origin.
+  std::vector<std::string> begin(const Origin& origin);
 
   bool has(const Configuration& configuration) const { return complete_.count(configuration) > 0; }
 

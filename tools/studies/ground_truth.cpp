@@ -47,7 +47,7 @@ void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) 
 
 }  // namespace
 
-Truth::Truth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
+GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
     : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
@@ -73,7 +73,7 @@ Truth::Truth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, M
   }
 }
 
-std::size_t Truth::wrong_pixels(const std::vector<std::uint32_t>& labels) const {
+std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) const {
   std::size_t wrong = 0, i = 0;
   for (int y = 0; y < grid_.height(); ++y) {
     for (int x = 0; x < grid_.width(); ++x, ++i) {
@@ -84,7 +84,7 @@ std::size_t Truth::wrong_pixels(const std::vector<std::uint32_t>& labels) const 
   return wrong;
 }
 
-std::uint32_t Truth::distance(const Position& seed, int x, int y) const {
+std::uint32_t GroundTruth::distance(const Position& seed, int x, int y) const {
   const int dx = std::abs(seed.x - x), dy = std::abs(seed.y - y);
   return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? dx * dx + dy * dy : dx + dy);
 }

@@ -1,5 +1,5 @@
-// The judge of bench: the true distances, by an exact method that shares nothing with the engines (a k-d
-// tree).
+// The ground truth of bench: the least distances, by an exact method that shares nothing with the engines (a
+// k-d tree).
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace vorocl::command {
 
-class Truth {
+class GroundTruth {
  public:
   /// `seeds` holds the points by id, as Seeds::read() gives them. Finds the least distance of every pixel:
-  /// about a microsecond a pixel and core, and 4 bytes a pixel.
-  Truth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
+  /// about a microsecond per pixel and core, and 4 bytes per pixel.
+  GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.
   std::size_t wrong_pixels(const std::vector<std::uint32_t>& labels) const;

@@ -1,16 +1,16 @@
 #include "studies/in_place_scatter.hpp"
 
-#include <chrono>
 #include <map>
 #include <string>
 
+#include "studies/stopwatch.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/jump_flooding.hpp"
 #include "vorocl/plan.hpp"
 
 namespace vorocl {
 
-/// Written at build time, from tools/in_place_scatter.cl.
+/// Written at build time, from in_place_scatter.cl.
 const std::map<std::string, std::string>& evaluation_kernel_sources();
 
 namespace command {
@@ -64,7 +64,7 @@ cl::Event enqueue(const Device& device, const cl::Kernel& kernel, cl_uint dimens
 /// Lets the diagram's labels go through the waves, each scattered in place.
 Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram, const Plan& plan,
                Stamping stamping) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch host;
   const Grid& grid = diagram.grid();
   const cl::Buffer &labels = diagram.labels(), &positions = seeds.positions();
   const auto count = static_cast<cl_uint>(seeds.size());
@@ -84,8 +84,7 @@ Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram,
                 2, items);
     if (first() == nullptr) first = last;
   }
-  const std::chrono::duration<double, std::milli> host = std::chrono::steady_clock::now() - start;
-  return {static_cast<int>(plan.size()), first, last, host.count()};
+  return {static_cast<int>(plan.size()), first, last, host.milliseconds()};
 }
 
 }  // namespace

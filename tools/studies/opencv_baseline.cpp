@@ -11,20 +11,21 @@ cv::Point pixel_of(const Point& seed) { return {static_cast<int>(seed.x), static
 
 }  // namespace
 
-OpenCvPeer::OpenCvPeer(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
+OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds,
+                               Metric metric)
     : seeds_(seeds), metric_(metric), image_(grid.height(), grid.width(), CV_8U, cv::Scalar(255)) {
   for (const std::optional<Point>& seed : seeds_) {
     if (seed) image_.at<std::uint8_t>(pixel_of(*seed)) = 0;
   }
 }
 
-void OpenCvPeer::run() {
+void OpenCvBaseline::run() {
   const bool euclidean = metric_ == Metric::euclidean;
   cv::distanceTransform(image_, distances_, labels_, euclidean ? cv::DIST_L2 : cv::DIST_L1,
                         euclidean ? cv::DIST_MASK_5 : cv::DIST_MASK_3, cv::DIST_LABEL_PIXEL);
 }
 
-std::vector<std::uint32_t> OpenCvPeer::labels() const {
+std::vector<std::uint32_t> OpenCvBaseline::labels() const {
   // OpenCV numbers the zero pixels in an order of its own, from 1; each holds its own number.
   std::vector<std::uint32_t> id_of(image_.total() + 1, no_label);
   for (std::size_t id = 0; id < seeds_.size(); ++id) {

@@ -1,19 +1,19 @@
-// OpenCV's labelled distance transform, as a peer of the engines in bench.
+// OpenCV's labelled distance transform, as a baseline for the methods in bench.
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <vector>
 
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
 
-class OpenCvPeer {
+class OpenCvBaseline {
  public:
   /// `seeds` holds the points by id, as Seeds::read() gives them.
-  OpenCvPeer(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
+  OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// One cv::distanceTransform with DIST_LABEL_PIXEL from the image of the seeds to its labels, with the
   /// finest mask that it has for the metric's labels: 5 x 5 for euclidean, 3 x 3 for manhattan.

@@ -1,9 +1,5 @@
 #include "studies/random_motion.hpp"
 
-#include <utility>
-
-#include "vorocl/motion.hpp"
-
 namespace vorocl::command {
 
 namespace {
@@ -13,11 +9,9 @@ constexpr int most_frames_ahead = 16;
 
 }  // namespace
 
-Simulation random_walk(Seeds seeds, int step_length, std::uint64_t rng_seed) {
-  return {std::move(seeds), [step_length, rng_seed](Seeds& moving, int frame) {
-            random_step(moving, step_length, Border::reflect, rng_seed, static_cast<std::uint32_t>(frame));
-            return step_length;
-          }};
+double RandomMotion::operator()(Seeds& seeds, int frame) const {
+  random_step(seeds, step_length, border, rng_seed, static_cast<std::uint32_t>(frame));
+  return step_length;
 }
 
 RunTimes timed_run(Simulation simulation, const Simulation::Engine& engine, int frames,

@@ -1,15 +1,23 @@
-// The paper's experiment, seeds that move at random, and the time of its diagrams.
+// The paper's model of motion, seeds that move at random, and the time of the diagrams.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 
+#include "vorocl/motion.hpp"
 #include "vorocl/simulation.hpp"
 
 namespace vorocl::command {
 
-/// A simulation of seeds that move by up to `step_length` pixels along each axis in a frame, within the grid.
-Simulation random_walk(Seeds seeds, int step_length, std::uint64_t rng_seed);
+/// Uniform steps: in each frame every seed moves by up to `step_length` pixels along x and y.
+struct RandomMotion {
+  int step_length = 0;
+  std::uint64_t rng_seed = 1;
+  Border border = Border::reflect;
+
+  /// Moves the seeds to the frame, and returns the longest motion along an axis, in pixels.
+  double operator()(Seeds& seeds, int frame) const;
+};
 
 struct RunTimes {
   double milliseconds = 0;       ///< the device's

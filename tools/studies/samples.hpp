@@ -1,4 +1,4 @@
-// Values of one quantity, a frame or a round each.
+// Values of one quantity, one per frame or round.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@ class Samples {
   void add(double value) { values_.push_back(value); }
   bool empty() const { return values_.empty(); }
 
-  // None of these may be asked for while there are no values.
+  // Each of these needs at least one value.
   double mean() const;
   double median() const;
   double least() const;

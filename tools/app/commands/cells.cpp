@@ -2,15 +2,16 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
+#include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
-#include "app/outputs/diagram_files.hpp"
-#include "app/sources/seed_input.hpp"
+#include "app/options/output_options.hpp"
+#include "app/options/seed_options.hpp"
+#include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
-#include "formats/files.hpp"
+#include "studies/metric_name.hpp"
 
 namespace vorocl::command {
 
@@ -34,90 +35,85 @@ struct Output {
   OutputFile file;
 };
 
-/// All that can be said about the outputs before there is anything to put in.
-std::vector<Output> check_outputs(const std::vector<FileRequest>& requests) {
-  std::vector<NamedOutput> names;
-  std::string all;
-  for (const FileRequest& request : requests) {
-    all += (all.empty() ? "" : ", ") + request.kind.option;
-    if (request.path.empty()) continue;
-    check_extension(request.path, request.kind.extensions);
-    names.push_back({request.kind.option, request.path});
-  }
-  if (names.empty()) throw UsageError("nothing to write: give at least one of " + all);
-  check_distinct(names);
+std::vector<RequestedFile> requested_files(const CellsOptions& options) {
+  std::vector<RequestedFile> files;
+  for (const FileRequest& request : options.files) files.push_back(requested(request));
+  return files;
+}
+
+std::vector<Output> open_outputs(const CellsOptions& options) {
+  check_outputs(requested_files(options));
   std::vector<Output> outputs;
-  for (const FileRequest& request : requests) {
+  std::string all;
+  for (const FileRequest& request : options.files) {
+    all += (all.empty() ? "" : ", ") + request.kind.option;
     if (!request.path.empty()) outputs.push_back({request.kind, OutputFile(request.path)});
   }
+  if (outputs.empty()) throw UsageError("nothing to write: give at least one of " + all);
   return outputs;
 }
 
-void print_json(const CellsOptions& options, const Seeds& seeds, const Report& report, Analysis& analysis) {
-  const CellStatistics statistics = analysis.statistics();
-  const nlohmann::ordered_json result = {{"method", options.method.name},
-                                         {"metric", to_string(options.method_options.metric)},
-                                         {"device", seeds.device().name()},
-                                         {"width", seeds.grid().width()},
-                                         {"height", seeds.grid().height()},
-                                         {"cells", statistics.cells},
-                                         {"empty_cells", statistics.empty_cells},
-                                         {"mean_area", statistics.mean_area},
-                                         {"area_deviation", statistics.area_deviation},
-                                         {"vertices", analysis.vertices()},
-                                         {"pairs", analysis.pair_count()},
-                                         {"waves", report.waves()},
-                                         {"milliseconds", report.milliseconds()},
-                                         {"host_milliseconds", report.host_milliseconds()}};
-  fmt::print("{}\n", result.dump());
-}
-
-void print_text(const CellsOptions& options, const Seeds& seeds, const Report& report, Analysis& analysis) {
-  const CellStatistics statistics = analysis.statistics();
+void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report, Measures& measures) {
+  const CellStatistics statistics = measures.statistics();
+  if (options.json) {
+    print_json({{"method", options.method.name},
+                {"metric", to_string(options.method_options.metric)},
+                {"device", seeds.device().name()},
+                {"width", seeds.grid().width()},
+                {"height", seeds.grid().height()},
+                {"cells", statistics.cells},
+                {"empty_cells", statistics.empty_cells},
+                {"mean_area", statistics.mean_area},
+                {"area_deviation", statistics.area_deviation},
+                {"vertices", measures.vertices()},
+                {"pairs", measures.pair_count()},
+                {"waves", report.waves()},
+                {"milliseconds", report.milliseconds()},
+                {"host_milliseconds", report.host_milliseconds()}});
+    return;
+  }
   fmt::print(
       "{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
       options.method.name, statistics.cells, seeds.grid().width(), seeds.grid().height(),
       report.milliseconds(), report.waves(), seeds.device().name());
   fmt::print("{} cells are empty; the mean area is {:.2f} pixels, with a deviation of {:.2f}\n",
              statistics.empty_cells, statistics.mean_area, statistics.area_deviation);
-  fmt::print("{} vertices, {} pairs of cells that touch\n", analysis.vertices(), analysis.pair_count());
-  for (const FileRequest& request : options.files) {
-    if (!request.path.empty()) fmt::print("wrote {}\n", request.path);
-  }
+  fmt::print("{} vertices, {} pairs of cells that touch\n", measures.vertices(), measures.pair_count());
+  print_written(requested_files(options));
 }
 
 void run(const CellsOptions& options) {
-  const std::vector<Output> outputs = check_outputs(options.files);
+  const std::vector<Output> outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
-  AnalysisBuffers buffers;
-  Analysis analysis(seeds, diagram, input.ids, options.method_options.metric, buffers);
+  MeasureBuffers buffers;
+  Measures measures(seeds, diagram, input.ids, options.method_options.metric, buffers);
   for (const Output& output : outputs) {
-    output.file.write([&](const std::string& path) { output.kind.write(path, analysis); });
+    output.file.write([&](const std::string& path) { output.kind.write(path, measures); });
   }
-  options.json ? print_json(options, seeds, report, analysis) : print_text(options, seeds, report, analysis);
+  print_result(options, seeds, report, measures);
 }
 
 }  // namespace
 
-void add_cells(CLI::App& app) {
+void add_cells(CommandLine& line) {
   const auto options = std::make_shared<CellsOptions>();
-  CLI::App* const command = app.add_subcommand(
-      "cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
-  add_seed_options(*command, options->seeds);
-  add_frame_option(*command, options->seeds);
-  add_choice(*command, "--method", options->method, method_choices(), "How to make the diagram")
-      ->default_str(options->method.name);
-  add_method_options(*command, options->method_options);
-  add_device_option(*command, options->device);
-  add_file_options(*command, options->files);
-  add_json_option(*command, options->json);
-  command->callback([command, options] {
-    check_method_options(*command, options->method_options, options->method.continues);
+  Command command =
+      line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
+  add_seed_options(command, options->seeds);
+  add_frame_option(command, options->seeds);
+  command.add_choice("--method", options->method, method_choices(), "How to make the diagram")
+      .default_text(options->method.name);
+  add_method_options(command, options->method_options);
+  add_device_option(command, options->device);
+  for (FileRequest& request : options->files) add_file_option(command, request);
+  add_json_option(command, options->json);
+  command.set_work([command, options] {
+    check_method_options(command, options->method_options, options->method.continues);
     run(*options);
   });
 }

@@ -2,18 +2,18 @@
 // work throws Error (exit code 1) or UsageError (exit code 2).
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "app/options/command_line.hpp"
 
 namespace vorocl::command {
 
-void add_devices(CLI::App& app);
-void add_render(CLI::App& app);
-void add_simulate(CLI::App& app);
-void add_cells(CLI::App& app);
-void add_relax(CLI::App& app);
-void add_compare(CLI::App& app);
-void add_bench(CLI::App& app);
-void add_evaluate(CLI::App& app);
-void add_ablation(CLI::App& app);
+void add_devices(CommandLine& line);
+void add_render(CommandLine& line);
+void add_simulate(CommandLine& line);
+void add_cells(CommandLine& line);
+void add_relax(CommandLine& line);
+void add_compare(CommandLine& line);
+void add_bench(CommandLine& line);
+void add_evaluate(CommandLine& line);
+void add_ablation(CommandLine& line);
 
 }  // namespace vorocl::command

@@ -1,19 +1,20 @@
-// vorocl compare: the similarity of two label files, or of one and the truth.
+// vorocl compare: the similarity of two label files, or of one and the exact diagram of seeds.
 #include <fmt/format.h>
 
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
-#include "app/options/options.hpp"
-#include "app/sources/seed_input.hpp"
+#include "app/options/common_options.hpp"
+#include "app/options/seed_options.hpp"
+#include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
+#include "formats/files.hpp"
 #include "formats/label_files.hpp"
 #include "vorocl/distance_errors.hpp"
 #include "vorocl/exact_diagram.hpp"
@@ -31,7 +32,7 @@ struct CompareOptions {
   std::string device;
   bool json = false;
 
-  bool with_truth() const {
+  bool has_seeds() const {
     return seeds.random > 0 || !seeds.points.empty() || !seeds.mask.empty() || !seeds.trajectory.empty();
   }
 };
@@ -46,7 +47,7 @@ struct Comparison {
   double similarity;
   std::size_t pixels;
   std::size_t different_pixels;
-  std::optional<DistanceErrors> errors;  // against the truth
+  std::optional<DistanceErrors> errors;  // against the exact diagram
 };
 
 Comparison compare(const LabelImage& a, const LabelImage& b) {
@@ -78,7 +79,7 @@ std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
   return labels;
 }
 
-Comparison compare_with_truth(const CompareOptions& options) {
+Comparison compare_with_exact(const CompareOptions& options) {
   const LabelImage image = read_labels(options.a);
   SeedOptions seed_options = options.seeds;
   if (!seed_options.size && seed_options.width == 0) seed_options.size = image.grid;
@@ -98,23 +99,24 @@ Comparison compare_with_truth(const CompareOptions& options) {
   return comparison;
 }
 
-void print_json(const Comparison& comparison) {
-  nlohmann::ordered_json result = {{"similarity", comparison.similarity},
-                                   {"pixels", comparison.pixels},
-                                   {"different_pixels", comparison.different_pixels}};
-  if (comparison.errors) {
-    result["errors"] = {{"wrong_pixels", comparison.errors->wrong_pixels},
-                        {"unlabelled_pixels", comparison.errors->unlabelled_pixels},
-                        {"largest_excess", comparison.errors->largest_excess},
-                        {"mean_excess", comparison.errors->mean_excess}};
+void print_result(const CompareOptions& options, const Comparison& comparison) {
+  const auto& errors = comparison.errors;
+  if (options.json) {
+    Json::Members result = {{"similarity", comparison.similarity},
+                            {"pixels", comparison.pixels},
+                            {"different_pixels", comparison.different_pixels}};
+    if (errors) {
+      result.emplace_back("errors", Json::Members{{"wrong_pixels", errors->wrong_pixels},
+                                                  {"unlabelled_pixels", errors->unlabelled_pixels},
+                                                  {"largest_excess", errors->largest_excess},
+                                                  {"mean_excess", errors->mean_excess}});
+    }
+    print_json(result);
+    return;
   }
-  fmt::print("{}\n", result.dump());
-}
-
-void print_text(const Comparison& comparison) {
   fmt::print("similarity {:.6f} %: {} of {} pixels differ\n", comparison.similarity,
              comparison.different_pixels, comparison.pixels);
-  if (const auto& errors = comparison.errors) {
+  if (errors) {
     fmt::print(
         "{} pixels are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} pixels, "
         "largest {:.3f}\n",
@@ -124,30 +126,33 @@ void print_text(const Comparison& comparison) {
 }
 
 void run(const CompareOptions& options) {
-  if (options.with_truth() != options.b.empty()) {
+  if (options.has_seeds() != options.b.empty()) {
     throw UsageError(
-        "compare needs another label file or, to judge by the truth, the seeds (such as --random)");
+        "compare needs another label file or, to compare with their exact diagram, the seeds (such as "
+        "--random)");
   }
-  const Comparison comparison = options.with_truth() ? compare_with_truth(options) : compare_files(options);
-  options.json ? print_json(comparison) : print_text(comparison);
+  for (const std::string& path : {options.a, options.b}) {
+    if (!path.empty()) as_usage([&] { check_extension(path, readable_label_extensions()); });
+  }
+  const Comparison comparison = options.has_seeds() ? compare_with_exact(options) : compare_files(options);
+  print_result(options, comparison);
 }
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
+void add_compare(CommandLine& line) {
   const auto options = std::make_shared<CompareOptions>();
-  CLI::App* const command = app.add_subcommand("compare",
-                                               "Similarity of two label files: the share of pixels with "
-                                               "equal labels; or of one and the exact diagram of seeds");
-  command->add_option("a", options->a, "Labels, .npy or .tif")->required();
-  command->add_option("b", options->b, "Labels of the same size");
-  add_seed_options(*command, options->seeds);
-  command->get_option_group("Seeds")->require_option(0, 1);
-  add_frame_option(*command, options->seeds);
-  add_metric_option(*command, options->metric);
-  add_device_option(*command, options->device);
-  add_json_option(*command, options->json);
-  command->callback([options] { run(*options); });
+  Command command = line.add("compare",
+                             "Similarity of two label files: the share of pixels with "
+                             "equal labels; or of one and the exact diagram of seeds");
+  command.add("a", options->a, "Labels, .npy or .tif").required();
+  command.add("b", options->b, "Labels of the same size");
+  add_seed_options(command, options->seeds, 0);
+  add_frame_option(command, options->seeds);
+  add_metric_option(command, options->metric);
+  add_device_option(command, options->device);
+  add_json_option(command, options->json);
+  command.set_work([options] { run(*options); });
 }
 
 }  // namespace vorocl::command

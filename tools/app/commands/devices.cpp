@@ -1,11 +1,11 @@
-// vorocl devices: what there is, what would be picked, and why.
+// vorocl devices: the OpenCL devices, which of them would be picked, and why.
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
-#include "app/options/options.hpp"
+#include "app/options/common_options.hpp"
+#include "app/terminal/json.hpp"
 #include "vorocl/device.hpp"
 
 namespace vorocl::command {
@@ -17,22 +17,22 @@ struct DevicesOptions {
   bool json = false;
 };
 
-void print_json(const std::vector<DeviceDescription>& devices) {
-  auto list = nlohmann::ordered_json::array();
+Json list_of(const std::vector<DeviceDescription>& devices) {
+  std::vector<Json> list;
   for (const DeviceDescription& device : devices) {
-    list.push_back({{"index", fmt::format("{}:{}", device.platform_index, device.device_index)},
-                    {"platform", device.platform},
-                    {"name", device.name},
-                    {"type", device.type},
-                    {"opencl_version", device.opencl_version},
-                    {"driver_version", device.driver_version},
-                    {"compute_units", device.compute_units},
-                    {"global_memory", device.global_memory},
-                    {"max_allocation", device.max_allocation},
-                    {"selected", device.selected},
-                    {"reason", device.selected ? device.reason : device.why_not}});
+    list.push_back(Json::Members{{"index", fmt::format("{}:{}", device.platform_index, device.device_index)},
+                                 {"platform", device.platform},
+                                 {"name", device.name},
+                                 {"type", device.type},
+                                 {"opencl_version", device.opencl_version},
+                                 {"driver_version", device.driver_version},
+                                 {"compute_units", device.compute_units},
+                                 {"global_memory", device.global_memory},
+                                 {"max_allocation", device.max_allocation},
+                                 {"selected", device.selected},
+                                 {"reason", device.selected ? device.reason : device.why_not}});
   }
-  fmt::print("{}\n", nlohmann::ordered_json{{"devices", list}}.dump());
+  return list;
 }
 
 void print_text(const DeviceDescription& device) {
@@ -49,10 +49,10 @@ void print_text(const DeviceDescription& device) {
 }
 
 void run(const DevicesOptions& options) {
-  Device::select(options.device);  // for its reasons where there is nothing to select
+  Device::select(options.device);  // throws, with the reason, if no device can be used
   const std::vector<DeviceDescription> devices = Device::list(options.device);
   if (options.json) {
-    print_json(devices);
+    print_json({{"devices", list_of(devices)}});
   } else {
     for (const DeviceDescription& device : devices) print_text(device);
   }
@@ -60,13 +60,12 @@ void run(const DevicesOptions& options) {
 
 }  // namespace
 
-void add_devices(CLI::App& app) {
+void add_devices(CommandLine& line) {
   const auto options = std::make_shared<DevicesOptions>();
-  CLI::App* const command =
-      app.add_subcommand("devices", "List the OpenCL devices and the one that would be used");
-  add_device_option(*command, options->device);
-  add_json_option(*command, options->json);
-  command->callback([options] { run(*options); });
+  Command command = line.add("devices", "List the OpenCL devices and the one that would be used");
+  add_device_option(command, options->device);
+  add_json_option(command, options->json);
+  command.set_work([options] { run(*options); });
 }
 
 }  // namespace vorocl::command

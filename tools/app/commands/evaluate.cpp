@@ -2,26 +2,26 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
-#include "app/options/options.hpp"
+#include "app/options/common_options.hpp"
+#include "app/options/study_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
+#include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
-#include "studies/evaluation.hpp"
+#include "app/terminal/usage_error.hpp"
+#include "formats/files.hpp"
 #include "studies/evaluation_file.hpp"
-#include "studies/evaluation_plan.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
 struct EvaluateOptions {
-  std::vector<int> sides;  // empty: the usual ones
-  std::vector<SeedCount> seeds;
+  StudyOptions study;
   bool full = false;
-  EvaluationSettings settings;
   std::string path;
   bool resume = false;
   std::string device;
@@ -30,14 +30,14 @@ struct EvaluateOptions {
 
 /// Up to the paper's largest grid with --full; without it, what two cores do in some minutes.
 std::vector<int> sides_of(const EvaluateOptions& options) {
-  if (!options.sides.empty()) return options.sides;
+  if (!options.study.sides.empty()) return options.study.sides;
   if (options.full) return {1000, 2000, 5000, 10000, 15000, 20000};
   return {500, 1000, 2000};
 }
 
-/// From 20,000 to 16 pixels a seed.
+/// From 20,000 to 16 pixels per seed.
 std::vector<SeedCount> seeds_of(const EvaluateOptions& options) {
-  if (!options.seeds.empty()) return options.seeds;
+  if (!options.study.seeds.empty()) return options.study.seeds;
   std::vector<SeedCount> counts;
   for (const char* text : {"0.005%", "0.01%", "0.05%", "0.1%", "0.5%", "1%", "3%", "6.25%"}) {
     counts.push_back(parse_seed_count(text));
@@ -103,15 +103,15 @@ std::vector<Configuration> missing(const std::vector<Configuration>& wanted, con
   return missing;
 }
 
-/// Four diagrams of flooding (13 bytes a pixel) and two exact ones (5.3) are there at a time, and the sum is
-/// not known to the driver, which may promise more than there is. Throws Error that names the first grid too
+/// Four diagrams of flooding (13 bytes per pixel) and two exact ones (5.3) exist at a time. The driver does
+/// not know their sum, and may promise more memory than there is. Throws Error that names the first grid too
 /// large.
 void check_memory(const Device& device, const std::vector<Configuration>& wanted) {
-  constexpr double bytes_a_pixel = 64;
+  constexpr double bytes_per_pixel = 64;
   cl_ulong there = 0;
   clGetDeviceInfo(device.cl_device()(), CL_DEVICE_GLOBAL_MEM_SIZE, sizeof there, &there, nullptr);
   for (const Configuration& configuration : wanted) {
-    const double needed = bytes_a_pixel * static_cast<double>(configuration.pixels());
+    const double needed = bytes_per_pixel * static_cast<double>(configuration.pixels());
     if (needed <= static_cast<double>(there)) continue;
     throw Error(fmt::format(
         "too little device memory for {0} x {0} pixels: the methods together need {1:.1f} GiB, "
@@ -123,23 +123,26 @@ void check_memory(const Device& device, const std::vector<Configuration>& wanted
 void evaluate_all(const EvaluateOptions& options, const std::vector<Configuration>& todo,
                   const Device& device, EvaluationFile& file) {
   if (!options.json && !todo.empty()) print_table_head();
-  Course course(todo, options.settings);
+  Course course(todo, options.study.settings);
   for (const Configuration& configuration : todo) {
-    const ConfigurationResult result = evaluate(device, configuration, options.settings,
+    const ConfigurationResult result = evaluate(device, configuration, options.study.settings,
                                                 [&](int diagrams) { course.made(configuration, diagrams); });
     file.add(configuration, result);
     course.erase_progress();
-    if (!options.json) print_table_row(configuration, options.settings, result);
+    if (!options.json) print_table_row(configuration, options.study.settings, result);
   }
 }
 
 void run(const EvaluateOptions& options) {
-  const std::vector<Configuration> wanted = configurations(sides_of(options), seeds_of(options));
+  const std::vector<Configuration> wanted =
+      as_usage([&] { return configurations(sides_of(options), seeds_of(options)); });
+  as_usage([&] { check_extension(options.path, {".csv"}); });
   EvaluationFile file(options.path, options.resume);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   check_memory(device, wanted);
-  file.begin(origin_of(device, options.settings));
+  for (const std::string& dropped : file.begin(origin_of(device, options.study.settings)))
+    print_note(dropped);
   const std::vector<Configuration> todo = missing(wanted, file);
   const auto complete = [&] { return wanted.size() - missing(wanted, file).size(); };
   try {
@@ -150,11 +153,10 @@ void run(const EvaluateOptions& options) {
                     error.what(), wanted.size(), complete(), file.path()));
   }
   if (options.json) {
-    const nlohmann::ordered_json result = {{"device", device.name()},
-                                           {"configurations", wanted.size()},
-                                           {"made_before", wanted.size() - todo.size()},
-                                           {"file", file.path()}};
-    fmt::print("{}\n", result.dump());
+    print_json({{"device", device.name()},
+                {"configurations", wanted.size()},
+                {"made_before", wanted.size() - todo.size()},
+                {"file", file.path()}});
   } else {
     fmt::print("{} configurations, {} of them made before, on {}: wrote {}\n", wanted.size(),
                wanted.size() - todo.size(), device.name(), file.path());
@@ -163,30 +165,23 @@ void run(const EvaluateOptions& options) {
 
 }  // namespace
 
-void add_evaluate(CLI::App& app) {
+void add_evaluate(CommandLine& line) {
   const auto options = std::make_shared<EvaluateOptions>();
-  CLI::App* const command = app.add_subcommand(
-      "evaluate",
-      "The paper's experiment: JFA, dJFA and exact diagrams of moving seeds, in accuracy and time");
-  command->add_option("-o", options->path, "Table to write: a .csv file that grows with each configuration")
-      ->type_name("FILE")
-      ->required();
-  command->add_flag("--resume", options->resume, "Go on with the file where it is there already");
-  add_list(*command, "--sizes", options->sides, parse_side, "Grids, of n x n pixels")
-      ->type_name("n,...")
-      ->default_str("500,1000,2000");
-  add_list(*command, "--seeds", options->seeds, parse_seed_count,
-           "Numbers of seeds, or percentages of the pixels")
-      ->type_name("S|P%,...")
-      ->default_str("eight from 0.005% to 6.25%");
-  command->add_flag("--full", options->full,
-                    "The paper's range, for a GPU: grids up to 20000 x 20000 pixels, timed over all frames");
-  add_settings_options(*command, options->settings);
-  add_device_option(*command, options->device);
-  add_json_option(*command, options->json);
-  command->callback([command, options] {
-    if (options->full && command->count("--timed-frames") == 0) {
-      options->settings.timed_frames = options->settings.frames;
+  Command command =
+      line.add("evaluate",
+               "The paper's experiment: JFA, dJFA and exact diagrams of moving seeds, in accuracy and time");
+  command.add("-o", options->path, "Table to write: a .csv file that grows with each configuration")
+      .value_name("FILE")
+      .required();
+  command.add("--resume", options->resume, "Continue the file if it exists");
+  command.add("--full", options->full,
+              "The paper's range, for a GPU: grids up to 20000 x 20000 pixels, timed over all frames");
+  add_study_options(command, options->study, "500,1000,2000", "eight from 0.005% to 6.25%");
+  add_device_option(command, options->device);
+  add_json_option(command, options->json);
+  command.set_work([command, options] {
+    if (options->full && !command.has("--timed-frames")) {
+      options->study.settings.timed_frames = options->study.settings.frames;
     }
     run(*options);
   });

@@ -2,19 +2,19 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
-#include "app/options/options.hpp"
-#include "app/outputs/diagram_files.hpp"
-#include "app/outputs/frame_writer.hpp"
-#include "app/outputs/painter.hpp"
-#include "app/sources/seed_input.hpp"
+#include "app/options/common_options.hpp"
+#include "app/options/output_options.hpp"
+#include "app/options/picture_options.hpp"
+#include "app/options/seed_options.hpp"
 #include "app/terminal/interruption.hpp"
+#include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
-#include "formats/npy.hpp"
+#include "formats/images/pictures.hpp"
+#include "formats/point_files.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/relaxation.hpp"
 
@@ -27,7 +27,7 @@ struct RelaxOptions {
   int rounds = 0;
   std::string device;
   FrameWriterOptions pictures;  // -o: a film or pictures of the rounds, or one picture
-  std::vector<FileRequest> files = {{labels_kind(), ""}};
+  FileRequest labels = {labels_kind(), ""};
   std::string points_path;
   std::string energy_path;
   bool json = false;
@@ -39,11 +39,17 @@ struct RelaxOptions {
   }
 };
 
-std::vector<NamedOutput> outputs_of(const RelaxOptions& options) {
-  return {{options.files[0].kind.option, options.files[0].path},
-          {"--relaxed-points", options.points_path},
-          {"--energy", options.energy_path},
-          {"-o", options.pictures.picture_path}};
+std::vector<RequestedFile> requested_files(const RelaxOptions& options) {
+  std::vector<RequestedFile> files = {requested(options.labels),
+                                      {"--relaxed-points", options.points_path, {".csv", ".npy"}},
+                                      {"--energy", options.energy_path, {".csv"}}};
+  if (options.shows_rounds()) {
+    const std::vector<RequestedFile> of_rounds = requested_files(options.pictures);
+    files.insert(files.end(), of_rounds.begin(), of_rounds.end());
+  } else {
+    files.push_back({"-o", options.pictures.picture_path, picture_extensions()});
+  }
+  return files;
 }
 
 struct Outputs {
@@ -54,41 +60,26 @@ struct Outputs {
   std::optional<OutputFile> energy;
 };
 
-/// All that can be said about the outputs before there is anything to put in.
-Outputs check_outputs(const RelaxOptions& options) {
-  check_distinct(outputs_of(options));
-  Outputs outputs;
-  const auto open = [](std::optional<OutputFile>& file, const std::string& path,
-                       const std::vector<std::string>& extensions) {
-    if (path.empty()) return;
-    check_extension(path, extensions);
-    file.emplace(path);
-  };
+Outputs open_outputs(const RelaxOptions& options) {
+  check_outputs(requested_files(options));
   check_picture_options(options.pictures.picture);
+  Outputs outputs;
   if (options.shows_rounds()) {  // first: it makes the folder of numbered pictures
     outputs.rounds = std::make_unique<FrameWriter>(options.pictures);
   } else {
-    open(outputs.picture, options.pictures.picture_path, picture_extensions());
+    outputs.picture = open_output(options.pictures.picture_path);
   }
-  open(outputs.labels, options.files[0].path, options.files[0].kind.extensions);
-  open(outputs.points, options.points_path, {".csv", ".npy"});
-  open(outputs.energy, options.energy_path, {".csv"});
+  outputs.labels = open_output(options.labels.path);
+  outputs.points = open_output(options.points_path);
+  outputs.energy = open_output(options.energy_path);
   return outputs;
 }
 
-void write_points(const std::string& path, const Seeds& seeds, const std::vector<std::uint32_t>& ids) {
+/// The points of seeds none of which is absent.
+std::vector<Point> points_of(const Seeds& seeds) {
   std::vector<Point> points;
   for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
-  if (extension_of(path) == ".npy") {
-    write_npy_points(path, points);
-    return;
-  }
-  std::ofstream file = open_to_write(path);
-  file << "id,x,y\n";
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    file << fmt::format("{},{},{}\n", ids.empty() ? i : ids[i], points[i].x, points[i].y);
-  }
-  check_written(file, path);
+  return points;
 }
 
 void write_energies(const std::string& path, const Relaxation& relaxation) {
@@ -104,13 +95,13 @@ void write_energies(const std::string& path, const Relaxation& relaxation) {
 Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& seeds, Diagram& diagram,
                       const Interruption& interruption, FrameWriter* writer) {
   Progress progress("rounds");
-  AnalysisBuffers buffers;
+  MeasureBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled, double) { return exact_diagram(at, filled); };
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
     const int round = so_far.rounds();
     if (writer != nullptr) {
-      Analysis analysis(at, filled, input.ids, Metric::euclidean, buffers);
-      writer->add({round, round, 0}, analysis, input.values);
+      Measures measures(at, filled, input.ids, Metric::euclidean, buffers);
+      writer->add({round, round, 0}, measures, input.values);
     }
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
     return !interruption.came();
@@ -120,51 +111,48 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
 
 void write_end(const Outputs& outputs, const RelaxOptions& options, const Input& input, const Seeds& seeds,
                const Diagram& diagram, const Relaxation& relaxation) {
-  AnalysisBuffers buffers;
-  Analysis analysis(seeds, diagram, input.ids, Metric::euclidean, buffers);
+  MeasureBuffers buffers;
+  Measures measures(seeds, diagram, input.ids, Metric::euclidean, buffers);
   if (outputs.labels) {
-    outputs.labels->write([&](const std::string& path) { options.files[0].kind.write(path, analysis); });
+    outputs.labels->write([&](const std::string& path) { options.labels.kind.write(path, measures); });
   }
   if (outputs.points) {
-    outputs.points->write([&](const std::string& path) { write_points(path, seeds, input.ids); });
+    outputs.points->write([&](const std::string& path) { write_points(path, points_of(seeds), input.ids); });
   }
   if (outputs.energy) {
     outputs.energy->write([&](const std::string& path) { write_energies(path, relaxation); });
   }
   if (outputs.picture) {
-    const cv::Mat picture = Painter(options.pictures.picture).draw(analysis, input.values);
+    const cv::Mat picture = Painter(options.pictures.picture).draw(measures, input.values);
     outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
   }
   if (outputs.rounds) outputs.rounds->finish();
 }
 
-void print_json(const Seeds& seeds, const Relaxation& relaxation) {
-  const nlohmann::ordered_json result = {{"device", seeds.device().name()},
-                                         {"width", seeds.grid().width()},
-                                         {"height", seeds.grid().height()},
-                                         {"seeds", seeds.alive()},
-                                         {"rounds", relaxation.rounds()},
-                                         {"settled", relaxation.converged},
-                                         {"energy_at_start", relaxation.energies.front()},
-                                         {"energy_at_end", relaxation.energies.back()}};
-  fmt::print("{}\n", result.dump());
-}
-
-void print_text(const RelaxOptions& options, const Seeds& seeds, const Relaxation& relaxation) {
+void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxation& relaxation) {
+  if (options.json) {
+    print_json({{"device", seeds.device().name()},
+                {"width", seeds.grid().width()},
+                {"height", seeds.grid().height()},
+                {"seeds", seeds.alive()},
+                {"rounds", relaxation.rounds()},
+                {"settled", relaxation.converged},
+                {"energy_at_start", relaxation.energies.front()},
+                {"energy_at_end", relaxation.energies.back()}});
+    return;
+  }
   fmt::print("{} seeds on {} x {} pixels, {} rounds, {}, on {}\n", seeds.alive(), seeds.grid().width(),
              seeds.grid().height(), relaxation.rounds(),
              relaxation.converged ? "settled: no seed moves any more" : "not settled yet",
              seeds.device().name());
   fmt::print("energy: {} at the start, {} at the end\n", relaxation.energies.front(),
              relaxation.energies.back());
-  for (const NamedOutput& output : outputs_of(options)) {
-    if (!output.path.empty()) fmt::print("wrote {}\n", output.path);
-  }
+  print_written(requested_files(options));
 }
 
 void run(const RelaxOptions& options) {
   const Interruption interruption;  // before there are files
-  const Outputs outputs = check_outputs(options);
+  const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
   check_picture_size(options.pictures.picture, input.grid);
   const Device device = Device::select(options.device);
@@ -178,41 +166,41 @@ void run(const RelaxOptions& options) {
     throw Error(
         fmt::format("interrupted after {} rounds; the files show the last of them", relaxation.rounds()));
   }
-  options.json ? print_json(seeds, relaxation) : print_text(options, seeds, relaxation);
+  print_result(options, seeds, relaxation);
 }
 
 }  // namespace
 
-void add_relax(CLI::App& app) {
+void add_relax(CommandLine& line) {
   const auto options = std::make_shared<RelaxOptions>();
-  CLI::App* const command =
-      app.add_subcommand("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
-  add_seed_options(*command, options->seeds);
-  add_frame_option(*command, options->seeds);
-  command->add_option("--rounds", options->rounds, "Rounds to make at most; ends sooner when no seed moves")
-      ->type_name("K")
-      ->check(CLI::Range(0, 1000000000))
-      ->required();
-  add_device_option(*command, options->device);
+  Command command = line.add("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
+  add_seed_options(command, options->seeds);
+  add_frame_option(command, options->seeds);
+  command
+      .add("--rounds", options->rounds,
+           "Greatest number of rounds; the relaxation ends sooner when no seed moves")
+      .value_name("K")
+      .in_range(0, 1000000000)
+      .required();
+  add_device_option(command, options->device);
   add_film_options(
-      *command, options->pictures,
+      command, options->pictures, "PICTURE|FILM|PICTURES",
       "Picture of the end, such as a.png; or of all rounds from the start: a film, .mp4 (H.264), "
       "or numbered pictures, such as rounds/%05d.png");
-  command->get_option("-o")->type_name("PICTURE|FILM|PICTURES");
-  add_file_options(*command, options->files);
+  add_file_option(command, options->labels);
   command
-      ->add_option("--relaxed-points", options->points_path,
-                   "Points to write, in pixels: .csv (id, x, y) or .npy (N, 2); on a grid of W x H, --points "
-                   "reads them back with --bounds 0,0,W,H")
-      ->type_name("FILE");
+      .add("--relaxed-points", options->points_path,
+           "Points to write, in pixels: .csv (id, x, y) or .npy (N, 2); on a grid of W x H, --points "
+           "reads them back with --bounds 0,0,W,H")
+      .value_name("FILE");
   command
-      ->add_option("--energy", options->energy_path,
-                   "A .csv file with a row a round: the sum of the squared distances of all pixels to their "
-                   "seeds, and how many seeds the round moved")
-      ->type_name("FILE");
-  add_json_option(*command, options->json);
-  command->callback([command, options] {
-    if (options->pictures.picture_path.empty()) refuse_picture_options(*command, "-o");
+      .add("--energy", options->energy_path,
+           "A .csv file with one row per round: the sum of the squared distances of all pixels to their "
+           "seeds, and how many seeds the round moved")
+      .value_name("FILE");
+  add_json_option(command, options->json);
+  command.set_work([command, options] {
+    if (options->pictures.picture_path.empty()) refuse_picture_options(command, "-o");
     options->seeds.value_column = options->pictures.picture.color.column;
     run(*options);
   });

@@ -2,17 +2,20 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/commands.hpp"
 #include "app/commands/finish_at_end.hpp"
+#include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
-#include "app/outputs/frame_writer.hpp"
-#include "app/sources/moving_seeds.hpp"
+#include "app/options/output_options.hpp"
+#include "app/options/picture_options.hpp"
+#include "app/options/seed_options.hpp"
 #include "app/terminal/interruption.hpp"
+#include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "studies/error_samples.hpp"
+#include "studies/metric_name.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -37,7 +40,7 @@ struct SimulateOptions {
   bool json = false;
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
-  bool other_is_truth() const {
+  bool other_is_exact() const {
     return compare_with && compare_with->exact && other_metric() == method_options.metric;
   }
 };
@@ -46,7 +49,7 @@ struct SimulateOptions {
 struct Course {
   int frames = 0;        // that are complete, with all that is written of them
   Samples similarities;  // of the frames after frame 0, where all methods start from nothing
-  ErrorSamples errors;   // the same, where the other method is the truth
+  ErrorSamples errors;   // the same, where the other method is exact
   std::string trouble;   // what ended it too early; empty: nothing
 };
 
@@ -76,7 +79,7 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
   const Diagram& other = simulation.diagram(other_engine);
   const double percent = similarity(diagram, other);
   std::optional<DistanceErrors> errors;
-  if (options.other_is_truth()) {
+  if (options.other_is_exact()) {
     errors = distance_errors(simulation.seeds(), diagram, other, options.method_options.metric);
     course.errors.add(*errors);
   }
@@ -85,20 +88,20 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
 }
 
 void write(const SimulateOptions& options, const MovingSeeds& source, const Simulation& simulation,
-           AnalysisBuffers& buffers, FrameWriter& writer) {
+           MeasureBuffers& buffers, FrameWriter& writer) {
   const int frame = simulation.frame();
-  Analysis analysis(simulation.seeds(), simulation.diagram(main_engine), source.ids(),
+  Measures measures(simulation.seeds(), simulation.diagram(main_engine), source.ids(),
                     options.method_options.metric, buffers);
   const FrameFacts facts = {frame, source.timestep().value_or(frame),
                             simulation.report(main_engine).milliseconds()};
-  writer.add(facts, analysis, source.values());
+  writer.add(facts, measures, source.values());
 }
 
 /// All frames, or those before a signal or an error.
 Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
                    const Interruption& interruption, FrameWriter& writer) {
   Progress progress;
-  AnalysisBuffers buffers;
+  MeasureBuffers buffers;
   Course course;
   try {
     do {
@@ -123,47 +126,47 @@ Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulati
   return course;
 }
 
-nlohmann::ordered_json times(const std::string& method, Metric metric, Simulation& simulation,
-                             std::size_t engine) {
-  return {{"method", method},
-          {"metric", to_string(metric)},
-          {"waves", simulation.report(engine).waves()},
-          {"milliseconds", simulation.milliseconds(engine)},
-          {"host_milliseconds", simulation.host_milliseconds(engine)}};
-}
-
 /// A value of the frames after frame 0: null if there are none.
-nlohmann::ordered_json value(const Samples& samples, double (Samples::*of)() const) {
-  return samples.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json((samples.*of)());
+Json value(const Samples& samples, double (Samples::*of)() const) {
+  return samples.empty() ? Json() : Json((samples.*of)());
 }
 
-void print_json(const SimulateOptions& options, Simulation& simulation, const Course& course) {
+Json::Members json_of(const SimulateOptions& options, Simulation& simulation, const Course& course) {
   const Seeds& seeds = simulation.seeds();
-  nlohmann::ordered_json result = {
-      {"method", options.method.name},   {"metric", to_string(options.method_options.metric)},
-      {"device", seeds.device().name()}, {"width", seeds.grid().width()},
-      {"height", seeds.grid().height()}, {"seeds", seeds.alive()},
-      {"frames", simulation.frame()}};
-  result.update(times(options.method.name, options.method_options.metric, simulation, main_engine));
-  if (options.compare_with) {
-    result["similarity"] = {{"mean", value(course.similarities, &Samples::mean)},
-                            {"least", value(course.similarities, &Samples::least)}};
-    if (options.other_is_truth()) {
-      const ErrorSamples& errors = course.errors;
-      result["errors"] = {{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
-                          {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
-                          {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
-                          {"mean_excess", value(errors.mean_excess, &Samples::mean)}};
-    }
-    result["compare_with"] =
-        times(options.compare_with->name, options.other_metric(), simulation, other_engine);
+  Json::Members result = {{"method", options.method.name},
+                          {"metric", to_string(options.method_options.metric)},
+                          {"device", seeds.device().name()},
+                          {"width", seeds.grid().width()},
+                          {"height", seeds.grid().height()},
+                          {"seeds", seeds.alive()},
+                          {"frames", simulation.frame()},
+                          {"waves", simulation.report(main_engine).waves()},
+                          {"milliseconds", simulation.milliseconds(main_engine)},
+                          {"host_milliseconds", simulation.host_milliseconds(main_engine)}};
+  if (!options.compare_with) return result;
+  const Samples& similarities = course.similarities;
+  result.emplace_back("similarity", Json::Members{{"mean", value(similarities, &Samples::mean)},
+                                                  {"least", value(similarities, &Samples::least)}});
+  if (options.other_is_exact()) {
+    const ErrorSamples& errors = course.errors;
+    result.emplace_back(
+        "errors", Json::Members{{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
+                                {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
+                                {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
+                                {"mean_excess", value(errors.mean_excess, &Samples::mean)}});
   }
-  fmt::print("{}\n", result.dump());
+  result.emplace_back("compare_with",
+                      Json::Members{{"method", options.compare_with->name},
+                                    {"metric", to_string(options.other_metric())},
+                                    {"waves", simulation.report(other_engine).waves()},
+                                    {"milliseconds", simulation.milliseconds(other_engine)},
+                                    {"host_milliseconds", simulation.host_milliseconds(other_engine)}});
+  return result;
 }
 
 void print_times(const std::string& method, Simulation& simulation, std::size_t engine) {
   const int frames = simulation.frame();
-  fmt::print("{}: {:.3f} ms a frame, {} waves in the last\n", method,
+  fmt::print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
              frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
 }
 
@@ -183,14 +186,13 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Co
         errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),
         errors.largest_excess.greatest());
   }
-  for (const NamedOutput& output : outputs_of(options.output)) {
-    if (!output.path.empty()) fmt::print("wrote {}\n", output.path);
-  }
+  print_written(requested_files(options.output));
 }
 
 void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
-  FrameWriter writer(options.output, options.other_is_truth());
+  check_picture_options(options.output.picture);
+  FrameWriter writer(options.output, options.other_is_exact());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
   check_picture_size(options.output.picture, source->grid());
   const Device device = Device::select(options.device);
@@ -202,35 +204,40 @@ void run(const SimulateOptions& options) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
                             course.frames, writer.frames()));
   }
-  options.json ? print_json(options, simulation, course) : print_text(options, simulation, course);
+  if (options.json) {
+    print_json(json_of(options, simulation, course));
+  } else {
+    print_text(options, simulation, course);
+  }
 }
 
 }  // namespace
 
-void add_simulate(CLI::App& app) {
+void add_simulate(CommandLine& line) {
   const auto options = std::make_shared<SimulateOptions>();
-  CLI::App* const command =
-      app.add_subcommand("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
-  add_seed_options(*command, options->seeds, true);
-  add_motion_options(*command, options->motion);
-  add_choice(*command, "--method", options->method, method_choices(), "How to make the diagrams")->required();
-  add_method_options(*command, options->method_options);
-  const auto set_other = [options](const std::string& name) { return choose(method_choices(), name); };
-  CLI::Option* const compare_with =
-      add_parsed(*command, "--compare-with", options->compare_with, set_other,
-                 "Another method to run on the same seeds, with its default waves, and to compare with");
-  compare_with->type_name("NAME");
+  Command command =
+      line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
+  add_seed_options(command, options->seeds, 1, true);
+  add_motion_options(command, options->motion);
+  command.add_choice("--method", options->method, method_choices(), "How to make the diagrams").required();
+  add_method_options(command, options->method_options);
+  const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };
+  const Option compare_with =
+      command
+          .add_parsed("--compare-with", options->compare_with, set_other,
+                      "Another method to run on the same seeds, with its default waves, and to compare with")
+          .value_name("NAME");
   const Choices<std::optional<Metric>> metrics = {{"euclidean", Metric::euclidean},
                                                   {"manhattan", Metric::manhattan}};
-  add_choice(*command, "--compare-metric", options->compare_metric, metrics, "The other method's distance")
-      ->default_str("that of --metric")
-      ->needs(compare_with);
-  add_frame_writer_options(*command, options->output);
-  add_device_option(*command, options->device);
-  add_json_option(*command, options->json);
-  command->callback([command, options] {
-    if (options->output.picture_path.empty()) refuse_picture_options(*command, "-o");
-    check_method_options(*command, options->method_options, options->method.continues);
+  command.add_choice("--compare-metric", options->compare_metric, metrics, "The other method's distance")
+      .default_text("that of --metric")
+      .needs(compare_with);
+  add_frame_writer_options(command, options->output);
+  add_device_option(command, options->device);
+  add_json_option(command, options->json);
+  command.set_work([command, options] {
+    if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
+    check_method_options(command, options->method_options, options->method.continues);
     options->seeds.value_column = options->output.picture.color.column;
     run(*options);
   });

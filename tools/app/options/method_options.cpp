@@ -1,5 +1,6 @@
 #include "app/options/method_options.hpp"
 
+#include "app/options/common_options.hpp"
 #include "app/terminal/usage_error.hpp"
 
 namespace vorocl::command {
@@ -10,37 +11,43 @@ Choices<Method> method_choices() {
   return choices;
 }
 
-void add_method_options(CLI::App& app, MethodOptions& options) {
-  add_metric_option(app, options.metric);
+void add_method_options(Command& command, MethodOptions& options) {
+  add_metric_option(command, options.metric);
   const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {
       {"moore", NeighbourhoodMix::moore},
       {"von-neumann", NeighbourhoodMix::von_neumann},
       {"mixed", NeighbourhoodMix::mixed}};
-  add_choice(app, "--neighbourhood", options.neighbourhood, neighbourhoods, "Neighbours that a wave looks at")
-      ->default_str("mixed for djfa, moore for the others");
-  app.add_option("--von-neumann-waves", options.von_neumann_waves,
-                 "Of djfa, mixed: how many of the first waves are von Neumann")
-      ->type_name("0|1|2")
-      ->check(CLI::Range(0, 2))
-      ->capture_default_str();
-  app.add_option("--extra-waves", options.extra_waves, "Of djfa: waves of step 1, or 2 and 1, at the end")
-      ->type_name("0|1|2")
-      ->check(CLI::Range(0, 2))
-      ->capture_default_str();
-  app.add_option("--refresh-interval", options.refresh_interval,
-                 "Of djfa: a full JFA every R frames; 0: in frame 0 alone")
-      ->type_name("R")
-      ->check(CLI::Range(0, 1000000000))
-      ->capture_default_str();
+  command
+      .add_choice("--neighbourhood", options.neighbourhood, neighbourhoods, "Neighbours that a wave looks at")
+      .default_text("mixed for djfa, moore for the others");
+  command
+      .add(
+          "--von-neumann-waves", options.von_neumann_waves,
+          "djfa with the mixed neighbourhood: how many waves, from the first, look at von Neumann neighbours")
+      .value_name("0|1|2")
+      .in_range(0, 2)
+      .default_is_value();
+  command
+      .add("--extra-waves", options.extra_waves,
+           "djfa: waves to add at the end: one of step 1, or two of steps 2 and 1")
+      .value_name("0|1|2")
+      .in_range(0, 2)
+      .default_is_value();
+  command
+      .add("--refresh-interval", options.refresh_interval,
+           "djfa: make a full JFA in every R-th frame; 0: in frame 0 alone")
+      .value_name("R")
+      .in_range(0, 1000000000)
+      .default_is_value();
 }
 
-void check_method_options(const CLI::App& app, const MethodOptions& options, bool has_djfa) {
+void check_method_options(const Command& command, const MethodOptions& options, bool has_djfa) {
   if (has_djfa) return;
   if (options.neighbourhood == NeighbourhoodMix::mixed) {
     throw UsageError("--neighbourhood mixed is for the method djfa");
   }
   for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval"}) {
-    if (app.count(name) > 0) throw UsageError(std::string(name) + " is for the method djfa");
+    if (command.has(name)) throw UsageError(std::string(name) + " is for the method djfa");
   }
 }
 

@@ -3,11 +3,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <opencv2/imgcodecs.hpp>
 
-#include "app/options/options.hpp"
 #include "app/terminal/usage_error.hpp"
-#include "formats/images/quiet_standard_error.hpp"
 #include "formats/numbers.hpp"
 
 namespace vorocl::command {
@@ -41,59 +38,59 @@ std::optional<double> parse_interval(const std::string& text) {
 
 }  // namespace
 
-void add_picture_options(CLI::App& app, PictureOptions& options) {
+void add_picture_options(Command& command, PictureOptions& options) {
   const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis},
                                                     {"turbo", Palette::turbo},
                                                     {"greys", Palette::greys},
                                                     {"okabe-ito", Palette::okabe_ito}};
-  add_parsed(app, "--color", options.color, parse_coloring,
-             "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
-             "number of neighbours, or a column of the CSV file or the trajectory (grey where a value is "
-             "absent): " +
-                 names_of(quantities))
-      ->type_name("NAME")
-      ->default_str("id");
-  add_choice(
-      app, "--palette", options.palette, palettes,
+  command
+      .add_parsed(
+          "--color", options.color, parse_coloring,
+          "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
+          "number of neighbours, or a column of the CSV file or the trajectory (grey where a value is "
+          "absent): " +
+              names_of(quantities))
+      .value_name("NAME")
+      .default_text("id");
+  command.add_choice(
+      "--palette", options.palette, palettes,
       "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
       "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
       "have a colour each)");
-  add_parsed(app, "--scale", options.scale, parse_scale,
-             "Values at the ends of the palette; those beyond get the colours of the ends. Else the range of "
-             "the picture, in a film or series of the first one drawn")
-      ->type_name("LOW,HIGH");
-  app.add_flag("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
-  app.add_option("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
-      ->type_name("[N]")
-      ->expected(0, 1)
-      ->default_str("1")
-      ->check(CLI::Range(1, widest_edge));
+  command
+      .add_parsed(
+          "--scale", options.scale, parse_scale,
+          "Values at the ends of the palette; those beyond get the colours of the ends. Else the range "
+          "of the picture, in a film or series of the first one drawn")
+      .value_name("LOW,HIGH");
+  command.add("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
+  command.add("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
+      .value_name("[N]")
+      .value_optional()
+      .default_text("1")
+      .in_range(1, widest_edge);
   const auto set_contours = [&options](const std::string& text) {
     options.contours = true;
     return parse_interval(text);
   };
-  add_parsed(app, "--contours", options.contour_interval, set_contours,
-             "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
-             "number that makes at most 10 lines in the first picture")
-      ->type_name("[D]")
-      ->expected(0, 1);
-  app.add_flag("--points-overlay", options.points_overlay, "Draw the seeds");
-  app.add_option("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
-      ->type_name("K")
-      ->check(CLI::Range(1, most_enlarged))
-      ->capture_default_str();
+  command
+      .add_parsed("--contours", options.contour_interval, set_contours,
+                  "Draw lines of equal distance to the nearest seed, one every D pixels; without D the round "
+                  "number that makes at most 10 lines in the first picture")
+      .value_name("[D]")
+      .value_optional();
+  command.add("--points-overlay", options.points_overlay, "Draw the seeds");
+  command.add("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
+      .value_name("K")
+      .in_range(1, most_enlarged)
+      .default_is_value();
 }
 
-void refuse_picture_options(const CLI::App& app, const std::string& files) {
+void refuse_picture_options(const Command& command, const std::string& files) {
   for (const char* name : {"--color", "--palette", "--scale", "--color-bar", "--edges", "--contours",
                            "--points-overlay", "--enlarge"}) {
-    if (app.count(name) > 0) throw UsageError(std::string(name) + " requires " + files);
+    if (command.has(name)) throw UsageError(std::string(name) + " requires " + files);
   }
-}
-
-const std::vector<std::string>& picture_extensions() {
-  static const std::vector<std::string> all = {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"};
-  return all;
 }
 
 void check_picture_options(const PictureOptions& options) {
@@ -135,16 +132,6 @@ Scale parse_scale(const std::string& text) {
                 "\" must be LOW,HIGH, two numbers of which the second is greater, such as 0,100");
   }
   return {*low, *high};
-}
-
-void write_picture(const std::string& path, const cv::Mat& picture) {
-  const QuietStandardError quiet;
-  bool written = false;
-  try {
-    written = cv::imwrite(path, picture);
-  } catch (const cv::Exception&) {  // its text names OpenCV's own source lines
-  }
-  if (!written) throw Error("writing " + path + " failed");
 }
 
 }  // namespace vorocl::command

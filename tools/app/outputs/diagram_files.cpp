@@ -5,18 +5,18 @@
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "app/options/picture_options.hpp"
 #include "formats/files.hpp"
+#include "formats/images/pictures.hpp"
 #include "formats/label_files.hpp"
-#include "formats/npy.hpp"
-#include "formats/tiff.hpp"
-#include "formats/vtk.hpp"
+#include "formats/pixel_files.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-void write_label_file(const std::string& path, Analysis& analysis) { write_labels(path, analysis.named()); }
+void write_label_file(const std::string& path, Measures& measures) {
+  write_labels(path, measures.labels_by_id());
+}
 
 std::string row_of(const CellMeasures& cell, Metric metric) {
   std::string extent = ",,,,,", distance;
@@ -32,44 +32,33 @@ std::string row_of(const CellMeasures& cell, Metric metric) {
                      extent, cell.perimeter, cell.neighbours, distance, cell.shape.touches_border ? 1 : 0);
 }
 
-void write_cell_file(const std::string& path, Analysis& analysis) {
+void write_cell_file(const std::string& path, Measures& measures) {
   std::ofstream file = open_to_write(path);
   file << "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
           "touches_border\n";
-  for (const CellMeasures& cell : analysis.cells()) file << row_of(cell, analysis.metric());
+  for (const CellMeasures& cell : measures.cells()) file << row_of(cell, measures.metric());
   check_written(file, path);
 }
 
-void write_adjacency_file(const std::string& path, Analysis& analysis) {
+void write_adjacency_file(const std::string& path, Measures& measures) {
   std::ofstream file = open_to_write(path);
   file << "a,b,length\n";
-  for (const CellPair& pair : analysis.pairs())
+  for (const CellPair& pair : measures.pairs())
     file << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
   check_written(file, path);
 }
 
-void write_distance_file(const std::string& path, Analysis& analysis) {
-  const std::vector<float>& distances = analysis.distances();
-  const std::string extension = extension_of(path);
-  if (extension == ".npy") {
-    write_npy(path, analysis.grid(), distances);
-  } else if (extension == ".vti") {
-    write_vti(path, "distance", analysis.grid(), distances);
-  } else {
-    write_tiff(path, analysis.grid(), distances);
-  }
+void write_distance_file(const std::string& path, Measures& measures) {
+  write_pixels(path, "distance", measures.grid(), measures.distances());
 }
 
-void write_border_file(const std::string& path, Analysis& analysis) {
-  std::vector<std::uint8_t> borders = analysis.borders();
-  const std::string extension = extension_of(path);
-  if (extension == ".npy") {
-    write_npy(path, analysis.grid(), borders);
-  } else if (extension == ".vti") {
-    write_vti(path, "border", analysis.grid(), borders);
-  } else {
-    const cv::Mat mask(analysis.grid().height(), analysis.grid().width(), CV_8U, borders.data());
+void write_border_file(const std::string& path, Measures& measures) {
+  std::vector<std::uint8_t> borders = measures.borders();
+  if (extension_of(path) == ".png") {
+    const cv::Mat mask(measures.grid().height(), measures.grid().width(), CV_8U, borders.data());
     write_picture(path, 255 * mask);
+  } else {
+    write_pixels(path, "border", measures.grid(), borders);
   }
 }
 
@@ -85,7 +74,7 @@ const FileKind& labels_kind() {
 const FileKind& cells_kind() {
   static const FileKind kind = {
       "--cells",
-      "A .csv file with a row a cell: its area, centroid, extent, perimeter, neighbours",
+      "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
       {".csv"},
       write_cell_file};
   return kind;
@@ -94,7 +83,7 @@ const FileKind& cells_kind() {
 const FileKind& adjacency_kind() {
   static const FileKind kind = {
       "--adjacency",
-      "A .csv file with a row a pair of cells that touch: their ids and the pixel edges they share",
+      "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
       write_adjacency_file};
   return kind;
@@ -119,14 +108,8 @@ const FileKind& border_kind() {
   return kind;
 }
 
-void add_file_options(CLI::App& app, std::vector<FileRequest>& requests, bool numbered) {
-  for (FileRequest& request : requests) {
-    const FileKind& kind = request.kind;
-    std::string example;
-    if (numbered) example = fmt::format("; a file a frame, such as frames/%05d{}", kind.extensions.front());
-    if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
-    app.add_option(kind.option, request.path, kind.about + example)->type_name(numbered ? "FILES" : "FILE");
-  }
+RequestedFile requested(const FileRequest& request, bool numbered) {
+  return {request.kind.option, request.path, request.kind.extensions, numbered};
 }
 
 }  // namespace vorocl::command

@@ -1,12 +1,12 @@
-// The files that a diagram and its measures go to, apart from pictures: which there are, and how each is
-// written.
+// The kinds of files that a diagram and its measures are written to (pictures are in painter.hpp), and how
+// each is written.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "app/outputs/measures.hpp"
+#include "app/outputs/output_files.hpp"
 
 namespace vorocl::command {
 
@@ -15,12 +15,12 @@ struct FileKind {
   std::string option;  // "--labels"
   std::string about;   // what the file holds, for the help
   std::vector<std::string> extensions;
-  void (*write)(const std::string& path, Analysis& analysis);
+  void (*write)(const std::string& path, Measures& measures);
 };
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-/// A row a cell, a row a pair of cells that touch: .csv. The manual page explains the columns.
+/// One row per cell, one row per pair of cells that touch: .csv. The manual page explains the columns.
 const FileKind& cells_kind();
 const FileKind& adjacency_kind();
 /// Distances to the nearest seed in pixels, float: .npy, .tif or .vti.
@@ -34,8 +34,7 @@ struct FileRequest {
   std::string path;  // empty: not asked for
 };
 
-/// Adds the option of each; the requests must stay where they are. If `numbered`, the path is a pattern for a
-/// file a frame.
-void add_file_options(CLI::App& app, std::vector<FileRequest>& requests, bool numbered = false);
+/// As check_outputs() takes it. If `numbered`, the path is a pattern for one file per frame.
+RequestedFile requested(const FileRequest& request, bool numbered = false);
 
 }  // namespace vorocl::command

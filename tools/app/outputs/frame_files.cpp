@@ -1,7 +1,6 @@
 #include "app/outputs/frame_files.hpp"
 
 #include <filesystem>
-#include <regex>
 
 namespace vorocl::command {
 
@@ -10,7 +9,8 @@ namespace fs = std::filesystem;
 std::string collection_path(const FileRequest& request) {
   if (extension_of(request.path) != ".vti") return {};
   const fs::path pattern(request.path);
-  std::string name = std::regex_replace(pattern.stem().string(), std::regex("[-_.]*%(0[1-9])?d"), "");
+  const NumberedName stem(pattern.stem().string());
+  std::string name = stem.before.substr(0, stem.before.find_last_not_of("-_.") + 1) + stem.after;
   if (name.empty()) name = request.kind.option.substr(2);
   return (pattern.parent_path() / (name + ".pvd")).string();
 }
@@ -20,9 +20,9 @@ FrameFiles::FrameFiles(const FileRequest& request) : request_(request), files_(r
   if (!collection.empty()) collection_.emplace(collection);
 }
 
-void FrameFiles::add(int frame, std::int64_t time, Analysis& analysis) {
+void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   const OutputFile file = files_.file(frame);
-  file.write([&](const std::string& path) { request_.kind.write(path, analysis); });
+  file.write([&](const std::string& path) { request_.kind.write(path, measures); });
   if (collection_) listed_.push_back({time, fs::path(file.path()).filename().string()});
 }
 

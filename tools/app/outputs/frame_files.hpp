@@ -13,17 +13,17 @@
 namespace vorocl::command {
 
 /// The collection of .vti files of this kind: the pattern without its number, as l.pvd for l_%05d.vti, or the
-/// option's name where nothing is left. Empty for other files.
+/// option's name where nothing is left. Empty for other files. The path is a NumberedName.
 std::string collection_path(const FileRequest& request);
 
 /// Each numbered file is whole as soon as it is there.
 class FrameFiles {
  public:
-  /// Throws UsageError for a pattern that cannot be meant, Error if no file can be made there.
+  /// Throws Error if no file can be made there.
   explicit FrameFiles(const FileRequest& request);
 
   /// Writes the file of a frame, which shows this time.
-  void add(int frame, std::int64_t time, Analysis& analysis);
+  void add(int frame, std::int64_t time, Measures& measures);
 
   /// Writes the collection.
   void finish() const;

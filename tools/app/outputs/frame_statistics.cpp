@@ -11,10 +11,10 @@ FrameStatistics::FrameStatistics(const std::string& path) : file_(path) {
   file_.stream() << "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds\n";
 }
 
-void FrameStatistics::add(int frame, double milliseconds, Analysis& analysis) {
-  const CellStatistics statistics = analysis.statistics();
+void FrameStatistics::add(int frame, double milliseconds, Measures& measures) {
+  const CellStatistics statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
-  const std::vector<std::uint32_t>& labels = analysis.named().labels;
+  const std::vector<std::uint32_t>& labels = measures.labels_by_id().labels;
   std::string changed;
   if (!last_labels_.empty()) {
     changed = fmt::format("{}", std::inner_product(labels.begin(), labels.end(), last_labels_.begin(),

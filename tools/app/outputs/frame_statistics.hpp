@@ -1,4 +1,4 @@
-// A table of the diagrams' statistics, a row a frame.
+// A table of the diagrams' statistics, one row per frame.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ class FrameStatistics {
   explicit FrameStatistics(const std::string& path);
 
   /// Every frame, in order; `milliseconds` is the device's time for its diagram.
-  void add(int frame, double milliseconds, Analysis& analysis);
+  void add(int frame, double milliseconds, Measures& measures);
 
   void finish() { file_.finish(); }
 

@@ -1,7 +1,6 @@
 // What a simulation writes of its frames: a film or numbered pictures, numbered files, tables.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,16 +27,11 @@ struct FrameWriterOptions {
   PictureOptions picture;
 };
 
-/// Adds -o, with a help text, --fps and how pictures are drawn.
-void add_film_options(CLI::App& app, FrameWriterOptions& options, const std::string& about);
+/// The files that it asks for, the collections among them. Throws Error for a pattern without its place for a
+/// number.
+std::vector<RequestedFile> requested_files(const FrameWriterOptions& options);
 
-/// Adds all that, the numbered files, --similarity, --statistics and --every.
-void add_frame_writer_options(CLI::App& app, FrameWriterOptions& options);
-
-/// The paths that were asked for.
-std::vector<NamedOutput> outputs_of(const FrameWriterOptions& options);
-
-/// What a frame is apart from its diagram.
+/// What is written of a frame besides its diagram.
 struct FrameFacts {
   int frame = 0;
   std::int64_t time = 0;    ///< what collections say: the time step of the trajectory, else the frame
@@ -48,15 +42,15 @@ struct FrameFacts {
 /// until finish(); without it, they do not stay.
 class FrameWriter {
  public:
-  /// Throws UsageError for names that cannot be meant, Error if no files can be made there.
+  /// Throws UsageError for names that are not possible, Error if no files can be made there.
   /// `with_errors`: errors are written beside the similarities.
   explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false);
 
-  /// Whether anything of this frame's diagram is to be written.
+  /// Whether add() writes anything of this frame's diagram.
   bool wants(int frame) const { return statistics_ || wants_images(frame); }
 
   /// `values` are those that pictures may show, as in Painter::draw().
-  void add(const FrameFacts& facts, Analysis& analysis, const std::vector<double>& values);
+  void add(const FrameFacts& facts, Measures& measures, const std::vector<double>& values);
   void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
 
   /// The frames whose images are written.
@@ -68,7 +62,7 @@ class FrameWriter {
 
  private:
   bool wants_images(int frame) const;
-  void write_images(const FrameFacts& facts, Analysis& analysis, const std::vector<double>& values);
+  void write_images(const FrameFacts& facts, Measures& measures, const std::vector<double>& values);
 
   FrameWriterOptions options_;
   Painter painter_;

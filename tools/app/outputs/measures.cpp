@@ -6,38 +6,38 @@
 
 namespace vorocl::command {
 
-Analysis::Analysis(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
-                   Metric metric, AnalysisBuffers& buffers)
+Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
+                   Metric metric, MeasureBuffers& buffers)
     : seeds_(seeds), diagram_(diagram), ids_(ids), metric_(metric), buffers_(buffers) {}
 
-const LabelImage& Analysis::image() {
-  if (!image_) image_ = {diagram_.grid(), diagram_.read()};
-  return *image_;
+const LabelImage& Measures::labels() {
+  if (!labels_) labels_ = {diagram_.grid(), diagram_.read()};
+  return *labels_;
 }
 
-const LabelImage& Analysis::named() {
-  if (ids_.empty()) return image();
-  if (!named_) named_ = with_ids(image(), ids_);
-  return *named_;
+const LabelImage& Measures::labels_by_id() {
+  if (ids_.empty()) return labels();
+  if (!labels_by_id_) labels_by_id_ = with_ids(labels(), ids_);
+  return *labels_by_id_;
 }
 
-const std::vector<std::optional<Point>>& Analysis::seeds() {
+const std::vector<std::optional<Point>>& Measures::seeds() {
   if (!points_) points_ = seeds_.read();
   return *points_;
 }
 
-std::vector<double> Analysis::areas() {
+std::vector<double> Measures::areas() {
   std::vector<double> areas;
   for (const CellSums& sums : sums_result().read()) areas.push_back(sums.area);
   return areas;
 }
 
-std::vector<double> Analysis::neighbours() {
+std::vector<double> Measures::neighbours() {
   const std::vector<std::uint32_t> counts = adjacency_result().read_neighbours();
   return {counts.begin(), counts.end()};
 }
 
-std::vector<CellMeasures> Analysis::cells() {
+std::vector<CellMeasures> Measures::cells() {
   cell_shapes(seeds_, diagram_, buffers_.shapes, metric_);
   const std::vector<CellSums> sums = sums_result().read();
   const std::vector<CellShape> shapes = buffers_.shapes.read();
@@ -55,7 +55,7 @@ std::vector<CellMeasures> Analysis::cells() {
   return cells;
 }
 
-std::vector<CellPair> Analysis::pairs() {
+std::vector<CellPair> Measures::pairs() {
   std::vector<CellPair> pairs = adjacency_result().read_pairs();
   if (ids_.empty()) return pairs;
   for (CellPair& pair : pairs) {
@@ -66,11 +66,11 @@ std::vector<CellPair> Analysis::pairs() {
   return pairs;
 }
 
-std::size_t Analysis::pair_count() { return adjacency_result().pairs(); }
+std::size_t Measures::pair_count() { return adjacency_result().pairs(); }
 
-CellStatistics Analysis::statistics() { return cell_statistics(sums_result()); }
+CellStatistics Measures::statistics() { return cell_statistics(sums_result()); }
 
-const std::vector<float>& Analysis::distances() {
+const std::vector<float>& Measures::distances() {
   if (!distances_) {
     distance_field(seeds_, diagram_, buffers_.distances, metric_);
     distances_ = buffers_.distances.read();
@@ -78,22 +78,22 @@ const std::vector<float>& Analysis::distances() {
   return *distances_;
 }
 
-std::vector<std::uint8_t> Analysis::borders() {
+std::vector<std::uint8_t> Measures::borders() {
   border_mask(diagram_, buffers_.borders);
   return buffers_.borders.read();
 }
 
-std::uint32_t Analysis::id_of(std::size_t label) const {
+std::uint32_t Measures::id_of(std::size_t label) const {
   return ids_.empty() ? static_cast<std::uint32_t>(label) : ids_.at(label);
 }
 
-const AdjacencyResult& Analysis::adjacency_result() {
+const AdjacencyResult& Measures::adjacency_result() {
   if (!has_adjacency_) adjacency(seeds_, diagram_, buffers_.adjacency);
   has_adjacency_ = true;
   return buffers_.adjacency;
 }
 
-CellSumsResult& Analysis::sums_result() {
+CellSumsResult& Measures::sums_result() {
   if (!has_sums_) cell_sums(seeds_, diagram_, buffers_.sums);
   has_sums_ = true;
   return buffers_.sums;

@@ -11,7 +11,7 @@
 namespace vorocl::command {
 
 /// The device's memory of measurements: with one for all frames, later frames allocate nothing.
-struct AnalysisBuffers {
+struct MeasureBuffers {
   CellSumsResult sums;
   CellShapesResult shapes;
   AdjacencyResult adjacency;
@@ -31,19 +31,19 @@ struct CellMeasures {
 
 /// Measures of one diagram. Each is made when it is first asked for, and waits; all throw as the library's
 /// functions of the same names.
-class Analysis {
+class Measures {
  public:
   /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. Keeps
   /// references to all but the metric.
-  Analysis(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids, Metric metric,
-           AnalysisBuffers& buffers);
+  Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids, Metric metric,
+           MeasureBuffers& buffers);
 
   const Grid& grid() const { return diagram_.grid(); }
   Metric metric() const { return metric_; }
 
   /// The labels as the diagram has them, and as files have them.
-  const LabelImage& image();
-  const LabelImage& named();
+  const LabelImage& labels();
+  const LabelImage& labels_by_id();
 
   /// By label, absent seeds included: where it is, as Seeds::read() gives it; the pixels of its cell; the
   /// cells that share a pixel edge with that.
@@ -73,11 +73,11 @@ class Analysis {
   const Diagram& diagram_;
   const std::vector<std::uint32_t>& ids_;
   Metric metric_;
-  AnalysisBuffers& buffers_;
+  MeasureBuffers& buffers_;
   bool has_sums_ = false;
   bool has_adjacency_ = false;
-  std::optional<LabelImage> image_;
-  std::optional<LabelImage> named_;
+  std::optional<LabelImage> labels_;
+  std::optional<LabelImage> labels_by_id_;
   std::optional<std::vector<std::optional<Point>>> points_;
   std::optional<std::vector<float>> distances_;
 };

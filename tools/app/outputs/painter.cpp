@@ -59,37 +59,37 @@ Painter::Painter(const PictureOptions& options, bool many)
       scale_(options.scale),
       contour_interval_(options.contour_interval) {}
 
-cv::Mat Painter::draw(Analysis& analysis, const std::vector<double>& values) {
-  const Grid& grid = analysis.grid();
+cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values) {
+  const Grid& grid = measures.grid();
   const int enlargement = options_.enlargement;
-  cv::Mat picture = enlarged(color(analysis, values), enlargement);
-  if (options_.contours) draw_contour_lines(picture, enlarged(analysis.distances(), grid, enlargement));
+  cv::Mat picture = enlarged(color(measures, values), enlargement);
+  if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), grid, enlargement));
   if (options_.edge_width > 0) {
-    draw_edges(picture, enlarged(analysis.image().labels, grid, enlargement), options_.edge_width);
+    draw_edges(picture, enlarged(measures.labels().labels, grid, enlargement), options_.edge_width);
   }
-  if (options_.points_overlay) draw_points(picture, enlarged(analysis.seeds(), enlargement));
+  if (options_.points_overlay) draw_points(picture, enlarged(measures.seeds(), enlargement));
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),
                                   many_ || options_.scale.has_value()});
 }
 
-cv::Mat Painter::color(Analysis& analysis, const std::vector<double>& values) {
+cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
-      const std::vector<float>& distances = analysis.distances();
-      return color_by_distance(distances, analysis.grid(), scale(range_of(distances)), palette_);
+      const std::vector<float>& distances = measures.distances();
+      return color_by_distance(distances, measures.grid(), scale(range_of(distances)), palette_);
     }
     case Quantity::area:
-      return color_by_values(analysis.image(), analysis.areas());
+      return color_by_values(measures.labels(), measures.areas());
     case Quantity::neighbours:
-      return color_by_values(analysis.image(), analysis.neighbours());
+      return color_by_values(measures.labels(), measures.neighbours());
     case Quantity::column:
-      return color_by_values(analysis.image(), values);
+      return color_by_values(measures.labels(), values);
     default:
-      const std::vector<std::uint32_t>& ids = analysis.named().labels;
-      return options_.palette ? color_by_id(ids, analysis.grid(), palette_)
-                              : color_by_id(ids, analysis.grid());
+      const std::vector<std::uint32_t>& ids = measures.labels_by_id().labels;
+      return options_.palette ? color_by_id(ids, measures.grid(), palette_)
+                              : color_by_id(ids, measures.grid());
   }
 }
 

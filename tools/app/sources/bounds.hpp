@@ -28,8 +28,8 @@ Bounds bounding_box(const std::vector<Point>& points);
 /// the bounds have no width or the grid is not possible.
 Grid grid_of_width(const Bounds& bounds, int width);
 
-/// True if a pixel is a square in data units, as far as whole numbers of pixels allow: if not, the cells that
-/// are nearest in pixels are not those that are nearest in the data. An axis without extent has no scale.
+/// True if a pixel is a square in data units, to the nearest whole number of pixels. If not, the seed that is
+/// nearest in pixels need not be the nearest in the data. An axis without extent has no scale.
 bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 
 /// Warns on standard error unless pixels are square.

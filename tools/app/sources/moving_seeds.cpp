@@ -1,26 +1,22 @@
 #include "app/sources/moving_seeds.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
-#include "app/options/options.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/usage_error.hpp"
+#include "studies/random_motion.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-/// The paper's model: uniform steps.
 class RandomWalk : public MovingSeeds {
  public:
   RandomWalk(const SeedOptions& seeds, const MotionOptions& motion)
       : input_(read_input(seeds)),
-        rng_seed_(seeds.rng_seed),
-        frames_(*motion.frames),
-        step_length_(*motion.step_length),
-        border_(motion.border) {}
+        motion_{*motion.step_length, seeds.rng_seed, motion.border},
+        frames_(*motion.frames) {}
 
   Grid grid() const override { return input_.grid; }
   Seeds place(const Device& device) const override { return input_.place(device); }
@@ -29,10 +25,7 @@ class RandomWalk : public MovingSeeds {
     ++frame_;
     return true;
   }
-  double move(Seeds& seeds) const override {
-    random_step(seeds, step_length_, border_, rng_seed_, static_cast<std::uint32_t>(frame_));
-    return step_length_;
-  }
+  double move(Seeds& seeds) const override { return motion_(seeds, frame_); }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
   const std::vector<double>& values() const override { return input_.values; }
   std::optional<std::int64_t> timestep() const override { return std::nullopt; }
@@ -40,10 +33,8 @@ class RandomWalk : public MovingSeeds {
 
  private:
   Input input_;
-  std::uint64_t rng_seed_;
+  RandomMotion motion_;
   int frames_;
-  int step_length_;
-  Border border_;
   int frame_ = 0;
 };
 
@@ -81,22 +72,6 @@ class Trajectory : public MovingSeeds {
 };
 
 }  // namespace
-
-void add_motion_options(CLI::App& app, MotionOptions& options) {
-  app.add_option("--frames", options.frames, "Steps to make after frame 0; for a trajectory: at most")
-      ->type_name("A")
-      ->check(CLI::Range(1, std::numeric_limits<int>::max() - 1));
-  CLI::Option* const trajectory = app.get_option("--trajectory");
-  app.add_option("--step-length", options.step_length,
-                 "Each seed moves by up to this many pixels along x and y in a step, at random")
-      ->type_name("D")
-      ->check(CLI::Range(0, Grid::max_side))
-      ->excludes(trajectory);
-  const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
-  add_choice(app, "--border", options.border, borders, "What seeds do there, moving at random")
-      ->default_str("reflect")
-      ->excludes(trajectory);
-}
 
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion) {
   if (!seeds.trajectory.empty()) return std::make_unique<Trajectory>(seeds, motion.frames);

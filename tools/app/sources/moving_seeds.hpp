@@ -1,7 +1,6 @@
 // Seeds with their motion: what a simulation is of.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -17,9 +16,6 @@ struct MotionOptions {
   std::optional<int> step_length;
   Border border = Border::reflect;
 };
-
-/// Adds --frames, --step-length and --border.
-void add_motion_options(CLI::App& app, MotionOptions& options);
 
 class MovingSeeds {
  public:

@@ -2,24 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <utility>
 #include <vector>
 
-#include "app/options/options.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/mask.hpp"
 #include "formats/npy.hpp"
-#include "formats/numbers.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
 CsvPoints read_points(const SeedOptions& options) {
-  check_extension(options.points, {".csv", ".npy"});
+  as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
   if (extension_of(options.points) == ".csv") {
     return read_csv(options.points, options.columns, options.value_column);
   }
@@ -88,62 +85,6 @@ void check_needs(const SeedOptions& options) {
 }
 
 }  // namespace
-
-void add_seed_options(CLI::App& app, SeedOptions& options, bool move) {
-  CLI::App* const source = app.add_option_group("Seeds", "Where the seeds come from (one of these)");
-  source->require_option(1);
-  constexpr std::size_t most_seeds = Grid::max_pixels;
-  CLI::Option* const random =
-      source->add_option("--random", options.random, "N uniformly random pixels")->type_name("N");
-  random->check(CLI::Range(std::size_t{1}, most_seeds));
-  CLI::Option* const points =
-      source->add_option("--points", options.points, "Points of a .csv or .npy file, in data units");
-  points->type_name("FILE");
-  CLI::Option* const mask =
-      source->add_option("--mask", options.mask, "Non-zero pixels of an image, numbered in row-major order");
-  mask->type_name("FILE");
-  CLI::Option* const trajectory = source->add_option("--trajectory", options.trajectory,
-                                                     "Particles of a LAMMPS text dump or an XYZ file");
-  trajectory->type_name("FILE");
-
-  CLI::Option* const rng_seed = app.add_option("--rng-seed", options.rng_seed, "Seed of the random numbers");
-  rng_seed->type_name("R")->capture_default_str();
-  move ? rng_seed->excludes(trajectory) : rng_seed->needs(random);
-  add_parsed(app, "--columns", options.columns, parse_columns,
-             "Columns of the CSV file, by name or by index from 0; else x and y, or the first two")
-      ->type_name("X,Y")
-      ->needs(points);
-  CLI::Option* const size =
-      add_parsed(app, "--size", options.size, parse_size, "Pixels of the grid; with --mask the image's");
-  size->type_name("WxH");
-  app.add_option("--width", options.width,
-                 "Instead of --size: the height follows from the bounds, pixels are square")
-      ->type_name("W")
-      ->check(CLI::Range(1, Grid::max_side))
-      ->excludes(size);
-  add_parsed(
-      app, "--bounds", options.bounds, parse_bounds,
-      "Rectangle in data units that the grid shows; else each frame's own box, or the bounding box of the "
-      "points (of the first frame)")
-      ->type_name("X0,Y0,X1,Y1");
-  app.add_flag("--y-up", options.y_up, "The data's y axis points up");
-}
-
-void add_frame_option(CLI::App& app, SeedOptions& options) {
-  app.add_option("--frame", options.frame, "Frame of the trajectory, from 0")
-      ->type_name("K")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max() - 1))
-      ->capture_default_str()
-      ->needs("--trajectory");
-}
-
-Grid parse_size(const std::string& text) {
-  const auto x = text.find('x');
-  const auto width = parse_number<std::int64_t>(text.substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
-  if (!width || !height) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
-  return Grid(*width, *height);
-}
 
 Input read_input(const SeedOptions& options) {
   check_needs(options);

@@ -1,7 +1,6 @@
 // The seeds that a command line asks for, and the grid that they are on.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -29,14 +28,7 @@ struct SeedOptions {
   std::string value_column;  // whose values are read with the points
 };
 
-/// Adds --random, --points, --mask, --trajectory (one of which is required) and what goes with them.
-/// Where seeds `move` at random, the rng seed has a use for all of them.
-void add_seed_options(CLI::App& app, SeedOptions& options, bool move = false);
-
-/// Adds --frame, for the subcommands that show one frame.
-void add_frame_option(CLI::App& app, SeedOptions& options);
-
-/// Seeds that have been read and checked, and need but a device.
+/// Seeds that were read and checked, and that a device can now be given.
 struct Input {
   Grid grid;
   std::function<Seeds(const Device&)> place;
@@ -47,8 +39,5 @@ struct Input {
 /// Reads and checks the files. Throws Error if one is bad, UsageError where no size is given; warns on
 /// standard error where the axes get different scales.
 Input read_input(const SeedOptions& options);
-
-/// "WxH" to a grid. Throws Error if it is not that, or not possible.
-Grid parse_size(const std::string& text);
 
 }  // namespace vorocl::command

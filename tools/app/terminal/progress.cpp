@@ -12,7 +12,7 @@ namespace vorocl::command {
 namespace {
 
 constexpr int bar_width = 24;
-constexpr auto redraw_interval = std::chrono::milliseconds(100);
+constexpr double redraw_interval = 0.1;  // in seconds
 const char* const erase_line = "\r\x1b[K";
 
 std::string duration(double seconds) {
@@ -36,8 +36,7 @@ std::string progress_line(int count, std::optional<double> done, double seconds,
   return line;
 }
 
-Progress::Progress(const std::string& unit)
-    : unit_(unit), on_terminal_(isatty(STDERR_FILENO) != 0), start_(Clock::now()) {}
+Progress::Progress(const std::string& unit) : unit_(unit), on_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { erase(); }
 
@@ -45,14 +44,13 @@ void Progress::erase() {
   if (!on_terminal_) return;
   std::fputs(erase_line, stderr);
   std::fflush(stderr);
-  shown_ = {};
+  shown_at_.reset();
 }
 
 void Progress::show(int count, std::optional<double> done) {
-  const Clock::time_point now = Clock::now();
-  if (!on_terminal_ || now - shown_ < redraw_interval) return;
-  shown_ = now;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
+  const double seconds = stopwatch_.seconds();
+  if (!on_terminal_ || (shown_at_ && seconds - *shown_at_ < redraw_interval)) return;
+  shown_at_ = seconds;
   fmt::print(stderr, "{}{}", erase_line, progress_line(count, done, seconds, unit_));
   std::fflush(stderr);
 }

@@ -1,9 +1,10 @@
 // The progress bar of long work.
 #pragma once
 
-#include <chrono>
 #include <optional>
 #include <string>
+
+#include "studies/stopwatch.hpp"
 
 namespace vorocl::command {
 
@@ -24,12 +25,10 @@ class Progress {
   void erase();
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::string unit_;
   bool on_terminal_;
-  Clock::time_point start_;
-  Clock::time_point shown_;
+  Stopwatch stopwatch_;
+  std::optional<double> shown_at_;  // in seconds; none: the line is not there
 };
 
 /// The line: "[#####-----]  50 %  120 frames  34.5 frames/s  4 s left".

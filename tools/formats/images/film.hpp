@@ -1,13 +1,17 @@
 // Films: H.264 in an .mp4, which browsers play.
 #pragma once
 
-#include <opencv2/core.hpp>
-#include <opencv2/videoio.hpp>
+#include <memory>
+#include <opencv2/core/mat.hpp>
 #include <string>
 
 #include "formats/files.hpp"
+#include "formats/images/modules.hpp"
 
 namespace vorocl::command {
+
+/// The size of a film of pictures of this size: its sides are even.
+cv::Size film_size(const cv::Size& picture);
 
 /// Grows under a temporary name until finish(); without it, nothing stays.
 class Film {
@@ -18,20 +22,23 @@ class Film {
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
-  /// Appends a picture; all have one size. The format wants even sides: a last row or column is repeated
-  /// where it must be, which standard error is told. Throws Error if this machine cannot make the film.
+  const std::string& path() const { return file_.path(); }
+
+  /// Appends a picture; all have one size. Its last row or column is repeated where film_size() is larger.
+  /// Throws Error if this machine cannot make the film.
   void add(const cv::Mat& picture);
+
+  /// How many pictures were added.
+  int pictures() const { return pictures_; }
 
   /// Gives the file its name; there is none if no picture was added. Throws Error if it was not written
   /// whole.
   void finish();
 
  private:
-  void open(const cv::Size& size);
-
   OutputFile file_;
   double frames_per_second_;
-  cv::VideoWriter writer_;
+  std::unique_ptr<FilmEncoder> encoder_;
   int pictures_ = 0;
 };
 

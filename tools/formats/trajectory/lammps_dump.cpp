@@ -49,7 +49,7 @@ RowLayout parse_columns(const LineReader& lines, std::string_view text, const st
   throw lines.error("the columns name no position; write the dump with x y, xs ys, xu yu or xsu ysu");
 }
 
-/// The two letters of an axis, one a side.
+/// The two letters of an axis, one per side.
 Sides parse_sides(const LineReader& lines, std::string_view flags) {
   const auto parse = [](char letter) -> std::optional<Side> {
     if (letter == 'p') return Side::periodic;
@@ -89,7 +89,7 @@ bool LammpsDump::next(Frame& frame) {
   Header header;
   const RowLayout layout = parse_columns(lines_, read_header(header), value_column_);
   frame.timestep = header.timestep;
-  rows_.read(lines_, layout, *header.count, header.cell, frame);
+  rows_.read(lines_, layout, *header.count, header.box, frame);
   return true;
 }
 
@@ -100,7 +100,7 @@ std::string_view LammpsDump::read_header(Header& header) {
     if (const auto columns = after(line, "ITEM: ATOMS")) {
       const char* const missing = !header.timestep ? "TIMESTEP"
                                   : !header.count  ? "NUMBER OF ATOMS"
-                                  : !header.cell   ? "BOX BOUNDS"
+                                  : !header.box    ? "BOX BOUNDS"
                                                    : nullptr;
       if (missing)
         throw lines_.error(std::string("the frame has no \"ITEM: ") + missing + "\" before this line");
@@ -119,7 +119,7 @@ std::string_view LammpsDump::read_header(Header& header) {
       next_value(frame_line);
       header.count = parse_count(lines_);
     } else if (const auto flags = after(line, "ITEM: BOX BOUNDS")) {
-      header.cell = read_cell(*flags, frame_line);
+      header.box = read_box(*flags, frame_line);
     } else if (after(line, "ITEM: UNITS") || after(line, "ITEM: TIME")) {
       next_value(frame_line);
     } else if (line.substr(0, 5) == "ITEM:") {
@@ -138,7 +138,7 @@ void LammpsDump::next_value(std::size_t frame_line) {
   if (!lines_.next()) throw cut_off(lines_, frame_line);
 }
 
-Cell LammpsDump::read_cell(std::string_view title, std::size_t frame_line) {
+SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_line) {
   std::vector<std::string_view> words = split(title);
   const auto take = [&words](const std::vector<std::string_view>& names) {
     if (words.size() < names.size() || !std::equal(names.begin(), names.end(), words.begin())) return false;
@@ -160,7 +160,7 @@ Cell LammpsDump::read_cell(std::string_view title, std::size_t frame_line) {
   const auto& [x, y, z] = values;
   if (has_edges) {
     const Edges edges = {{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}};
-    return cell_from_edges(lines_, edges, {x[3], y[3]}, sides[0], sides[1]);
+    return box_from_edges(lines_, edges, {x[3], y[3]}, sides[0], sides[1]);
   }
   const double tilt = x[2];
   // The bounds in x are those of the whole parallelogram.
@@ -169,7 +169,7 @@ Cell LammpsDump::read_cell(std::string_view title, std::size_t frame_line) {
   if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
     throw lines_.error("the box is tilted in z (xz, yz); only a tilt xy can be drawn in the plane");
   }
-  return Cell(lines_, x_axis, y_axis, tilt);
+  return SimulationBox(lines_, x_axis, y_axis, tilt);
 }
 
 }  // namespace vorocl::command

@@ -23,13 +23,13 @@ class LammpsDump : public TrajectoryReader {
   struct Header {
     std::optional<std::int64_t> timestep;
     std::optional<ParticleCount> count;
-    std::optional<Cell> cell;
+    std::optional<SimulationBox> box;
   };
 
   /// The frame's sections up to the line ITEM: ATOMS; returns the columns there.
   std::string_view read_header(Header& header);
   /// The box from the present line, ITEM: BOX BOUNDS, of which the rest is the title, and the three after it.
-  Cell read_cell(std::string_view title, std::size_t frame_line);
+  SimulationBox read_box(std::string_view title, std::size_t frame_line);
   void next_value(std::size_t frame_line);
 
   LineReader lines_;

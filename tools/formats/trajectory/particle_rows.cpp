@@ -73,7 +73,7 @@ ParticleCount parse_count(const LineReader& lines) {
 }
 
 void ParticleRows::read(LineReader& lines, const RowLayout& layout, const ParticleCount& count,
-                        std::optional<Cell>& cell, Frame& frame) {
+                        std::optional<SimulationBox>& box, Frame& frame) {
   check_fits(lines, count);
   rows_.clear();
   const std::size_t first_line = lines.number() + 1;
@@ -86,8 +86,8 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
                       rows_.size(), count.value, count.line));
     }
     Row row = parse(lines, layout, count);
-    if (layout.scaled) row.position = cell->from_scaled(row.position);
-    if (cell) row.position = cell->place(lines, row.id, row.position);
+    if (layout.scaled) row.position = box->from_scaled(row.position);
+    if (box) row.position = box->place(lines, row.id, row.position);
     if (!std::isfinite(row.position.x) || !std::isfinite(row.position.y)) {
       throw lines.error("the position is too far from the box to be computed");
     }
@@ -102,7 +102,7 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
     frame.positions.push_back(row.position);
     if (layout.value) frame.values.push_back(row.value);
   }
-  frame.box = cell ? std::optional<Box>(cell->box()) : std::nullopt;
+  frame.box = box ? std::optional<Box>(box->extent()) : std::nullopt;
 }
 
 ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& layout,

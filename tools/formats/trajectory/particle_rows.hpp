@@ -1,4 +1,4 @@
-// The rows of a frame, one a particle, in both kinds of trajectory files.
+// The rows of a frame, one per particle, in both kinds of trajectory files.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct RowLayout {
   std::size_t x = 0;
   std::size_t y = 0;
   std::optional<std::size_t> id;  ///< where there is none, the row's number from 0 is the id
-  bool scaled = false;            ///< x and y are in lengths of the cell's edges
+  bool scaled = false;            ///< x and y are in lengths of the box's edges
   std::optional<std::size_t> value;
 };
 
@@ -41,11 +41,11 @@ std::optional<std::size_t> find_value_column(const LineReader& lines, const std:
 class ParticleRows {
  public:
   /// Reads as many rows as the count says, from the next line on, and makes the frame's ids, positions,
-  /// values and box of them; without a cell the positions are taken as they are (and are not scaled). Throws
+  /// values and box of them; without a box the positions are taken as they are (and are not scaled). Throws
   /// Error for a row that cannot be read, an id that comes twice, a particle outside a wall, and a file that
   /// ends too early; before any reading if what is left of the file cannot hold the rows.
-  void read(LineReader& lines, const RowLayout& layout, const ParticleCount& count, std::optional<Cell>& cell,
-            Frame& frame);
+  void read(LineReader& lines, const RowLayout& layout, const ParticleCount& count,
+            std::optional<SimulationBox>& box, Frame& frame);
 
  private:
   struct Row {

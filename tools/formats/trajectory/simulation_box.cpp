@@ -25,7 +25,7 @@ void check(const LineReader& lines, const Axis& axis, char name) {
 
 double unscaled(const Axis& axis, double scaled) {
   const double value = axis.low + scaled * axis.length();
-  // Rounding must not carry a particle on a wall through it.
+  // Rounding must not move a particle on a wall beyond it.
   return scaled >= 0 && scaled <= 1 ? std::clamp(value, axis.low, axis.high) : value;
 }
 
@@ -38,7 +38,7 @@ double wrap(const Axis& axis, double& value) {
   if (rest < 0) rest += length;
   const double turns = std::round((distance - rest) / length);
   value = axis.low + rest;
-  if (value >= axis.high) value = axis.low;  // a hair below low is rounded up to high
+  if (value >= axis.high) value = axis.low;  // a value just below low can be rounded up to high
   return turns;
 }
 
@@ -79,7 +79,7 @@ void hold(const LineReader& lines, std::uint32_t id, const Axis& axis, char name
 
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
-Cell::Cell(const LineReader& lines, const Axis& x, const Axis& y, double tilt)
+SimulationBox::SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double tilt)
     : x_(x), y_(y), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
   check(lines, x, 'x');
   check(lines, y, 'y');
@@ -92,13 +92,13 @@ Cell::Cell(const LineReader& lines, const Axis& x, const Axis& y, double tilt)
   tilt_ = box_.tilt = 0;
 }
 
-Point Cell::from_scaled(Point scaled) const {
+Point SimulationBox::from_scaled(Point scaled) const {
   return {unscaled(x_, scaled.x) + scaled.y * tilt_, unscaled(y_, scaled.y)};
 }
 
-Point Cell::place(const LineReader& lines, std::uint32_t id, Point position) {
+Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point position) {
   if (y_.periodic()) {
-    // The copies of a tilted cell above it are shifted in x.
+    // The copies of the tilted box above it are shifted in x.
     position.x -= wrap(y_, position.y) * tilt_;
   } else {
     hold(lines, id, y_, 'y', position.y, box_.y0, box_.y1);
@@ -111,7 +111,7 @@ Point Cell::place(const LineReader& lines, std::uint32_t id, Point position) {
   return position;
 }
 
-Cell cell_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y) {
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y) {
   const auto& [a, b, c] = edges;
   const double length = std::max(std::abs(a[0]), std::abs(b[1]));
   for (const double component : {a[1], a[2], b[2], c[0], c[1]}) {
@@ -123,7 +123,7 @@ Cell cell_from_edges(const LineReader& lines, const Edges& edges, Point origin, 
   }
   const Axis x_axis{origin.x, origin.x + a[0], x};
   const Axis y_axis{origin.y, origin.y + b[1], y};
-  return Cell(lines, x_axis, y_axis, b[0]);
+  return SimulationBox(lines, x_axis, y_axis, b[0]);
 }
 
 }  // namespace vorocl::command

@@ -27,21 +27,22 @@ struct Axis {
 
 /// A parallelogram with the edges (x.length(), 0) and (tilt, y.length()), whose lower left corner is
 /// (x.low, y.low).
-class Cell {
+class SimulationBox {
  public:
   /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
   /// tilt where not both axes are periodic: only then a rectangle holds the same particles.
-  Cell(const LineReader& lines, const Axis& x, const Axis& y, double tilt = 0);
+  SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double tilt = 0);
 
   /// A position given in lengths of the edges, in data units.
   Point from_scaled(Point scaled) const;
 
-  /// Where a particle is drawn: wrapped on a periodic axis, as it is elsewhere, where the box grows to hold
-  /// it. Throws Error, at the reader's line, for a particle outside a wall.
+  /// Where a particle is drawn: wrapped into the box on a periodic axis; unchanged on another axis, where an
+  /// open side of the box grows to hold it. Throws Error, at the reader's line, for a particle outside a
+  /// wall.
   Point place(const LineReader& lines, std::uint32_t id, Point position);
 
   /// The rectangle that holds all particles placed so far.
-  const Box& box() const { return box_; }
+  const Box& extent() const { return box_; }
 
  private:
   Axis x_;
@@ -57,11 +58,11 @@ struct Edges {
   double c[3];
 };
 
-/// The cell with these edges. Throws Error, at the reader's line, unless the first lies along x, the second
-/// in the xy plane and the third along z, and where Cell does.
-Cell cell_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y);
+/// The box with these edges. Throws Error, at the reader's line, unless the first lies along x, the second
+/// in the xy plane and the third along z, and where SimulationBox does.
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y);
 
-/// Whether a length is zero but for rounding, beside another.
+/// Whether a length is so small beside another that it can be an error of rounding.
 bool is_negligible(double length, double beside);
 
 }  // namespace vorocl::command

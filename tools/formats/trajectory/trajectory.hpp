@@ -20,12 +20,12 @@ struct Box {
   bool periodic_x = false;
   bool periodic_y = false;
   /// How far the copy of the box above it (at greater y) is shifted in x. Only where both axes are periodic:
-  /// a tilted cell is drawn as the rectangle that holds the same particles.
+  /// a tilted box is drawn as the rectangle that holds the same particles.
   double tilt = 0;
 };
 
-/// One state of the particles, in canonical form: the order of rows and the kind of coordinates in the file
-/// leave no trace. A third dimension is left out: particles are seen along z.
+/// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on
+/// its kind of coordinates. The third dimension is left out: particles are seen along z.
 struct Frame {
   std::optional<std::int64_t> timestep;  ///< none in XYZ
   std::optional<Box> box;                ///< none in an XYZ without a lattice
@@ -42,9 +42,9 @@ class TrajectoryReader {
   virtual ~TrajectoryReader() = default;
 
   /// The next frame; false after the last. Throws Error "FILE:LINE: what" for anything that cannot be
-  /// trusted, a last frame that is cut off too, after the frames before it were given; then there is no going
-  /// on. (A cut within the very last field is not seen: the last line of a whole file may lack its line
-  /// feed.)
+  /// trusted, a last frame that is cut off too, after the frames before it were given; after that the reader
+  /// is of no further use. (A cut within the very last field is not noticed: the last line of a whole file
+  /// may lack its line feed.)
   virtual bool next(Frame& frame) = 0;
 
   /// How much of the file is still to be read; none where that is not known (a pipe).

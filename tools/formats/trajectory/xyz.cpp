@@ -100,7 +100,7 @@ Sides parse_periodic(const LineReader& lines, std::string_view text) {
   throw lines.error(shown(text) + " (pbc) is neither T nor F");
 }
 
-std::optional<Cell> parse_cell(const LineReader& lines, const Pairs& pairs) {
+std::optional<SimulationBox> parse_box(const LineReader& lines, const Pairs& pairs) {
   const auto lattice = pairs.find("lattice");
   if (lattice == pairs.end()) return std::nullopt;
   const std::vector<double> v = numbers(lines, "Lattice", lattice->second, 9);
@@ -119,7 +119,7 @@ std::optional<Cell> parse_cell(const LineReader& lines, const Pairs& pairs) {
   // Some programs write a lattice of zeros where there is none.
   if (x.first != Side::periodic && y.first != Side::periodic && v[0] == 0 && v[4] == 0) return std::nullopt;
   const Edges edges = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
-  return cell_from_edges(lines, edges, origin, x, y);
+  return box_from_edges(lines, edges, origin, x, y);
 }
 
 /// The columns from "name:type:number of columns" for each property, with colons between them too.
@@ -173,9 +173,9 @@ bool Xyz::next(Frame& frame) {
   if (!lines_.next()) throw cut_off(lines_, count.line);
   const Pairs pairs = parse_comment(lines_.line());
   const RowLayout layout = parse_layout(lines_, pairs, value_column_);
-  std::optional<Cell> cell = parse_cell(lines_, pairs);
+  std::optional<SimulationBox> box = parse_box(lines_, pairs);
   frame.timestep.reset();
-  rows_.read(lines_, layout, count, cell, frame);
+  rows_.read(lines_, layout, count, box, frame);
   return true;
 }
 

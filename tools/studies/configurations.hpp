@@ -1,7 +1,6 @@
-// The configurations and settings of an evaluation, as a command line names them.
+// The configurations of an evaluation, from the sizes and numbers of seeds that a command line names.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +22,9 @@ int parse_side(const std::string& text);
 /// Throws Error if the text is no number of seeds. More seeds than pixels are possible.
 SeedCount parse_seed_count(const std::string& text);
 
-/// Every side with every number of seeds, the small ones first, each once. Throws UsageError where a
+/// Every side with every number of seeds, the small ones first, each once. Throws Error where a
 /// percentage makes less than one seed or more than there can be.
 std::vector<Configuration> configurations(const std::vector<int>& sides,
                                           const std::vector<SeedCount>& counts);
-
-/// Adds --frames, --timed-frames, --repeats, --step-length and --rng-seed.
-void add_settings_options(CLI::App& app, EvaluationSettings& settings);
 
 }  // namespace vorocl::command

@@ -1,12 +1,12 @@
-#include "studies/evaluation_plan.hpp"
+#include "studies/configurations.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <set>
 
-#include "app/terminal/usage_error.hpp"
 #include "formats/numbers.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -18,8 +18,8 @@ std::size_t seeds_on(int side, const SeedCount& count) {
   if (!count.percent) return count.count;
   const double pixels = static_cast<double>(side) * side, seeds = std::round(*count.percent / 100 * pixels);
   if (!(seeds >= 1 && seeds <= static_cast<double>(most_seeds))) {
-    throw UsageError(fmt::format("--seeds: {} of {} x {} pixels are {} seeds; 1 to {} are possible",
-                                 count.text, side, side, seeds, most_seeds));
+    throw Error(fmt::format("--seeds: {} of {} x {} pixels are {} seeds; 1 to {} are possible", count.text,
+                            side, side, seeds, most_seeds));
   }
   return static_cast<std::size_t>(seeds);
 }
@@ -54,30 +54,6 @@ std::vector<Configuration> configurations(const std::vector<int>& sides,
     for (const SeedCount& count : counts) all.insert({side, seeds_on(side, count)});
   }
   return {all.begin(), all.end()};
-}
-
-void add_settings_options(CLI::App& app, EvaluationSettings& settings) {
-  constexpr int most = 1000000;
-  app.add_option("--frames", settings.frames, "Frames over which similarities and errors are measured")
-      ->type_name("A")
-      ->check(CLI::Range(1, most))
-      ->capture_default_str();
-  app.add_option("--timed-frames", settings.timed_frames, "Frames of a timed run")
-      ->type_name("T")
-      ->check(CLI::Range(1, most))
-      ->capture_default_str();
-  app.add_option("--repeats", settings.repeats, "Timed runs of each method, which take turns")
-      ->type_name("R")
-      ->check(CLI::Range(3, most))
-      ->capture_default_str();
-  app.add_option("--step-length", settings.step_length,
-                 "Each seed moves by up to this many pixels along x and y in a frame, at random")
-      ->type_name("D")
-      ->check(CLI::Range(0, Grid::max_side))
-      ->capture_default_str();
-  app.add_option("--rng-seed", settings.rng_seed, "Seed of the random numbers")
-      ->type_name("R")
-      ->capture_default_str();
 }
 
 }  // namespace vorocl::command

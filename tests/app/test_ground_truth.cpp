@@ -1,5 +1,5 @@
 // The judge of bench against brute force, and OpenCV's labels as it judges them.
-#define BOOST_TEST_MODULE truth
+#define BOOST_TEST_MODULE ground_truth
 #include <algorithm>
 #include <limits>
 
@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(exact_labels_are_right_and_others_are_counted) {
   for (const Case& example : edge_cases()) {
     if (example.seeds.empty()) continue;
     for (const Metric metric : both_metrics) {
-      const Truth truth(example.grid, centres(example.seeds), metric);
+      const GroundTruth truth(example.grid, centres(example.seeds), metric);
       const std::vector<std::uint32_t> exact = brute_force(example.grid, example.seeds, metric);
       BOOST_TEST(truth.wrong_pixels(exact) == 0u, example.name << ", " << name_of(metric));
       // One label for all pixels: wrong in many.
@@ -30,9 +30,9 @@ BOOST_AUTO_TEST_CASE(exact_labels_are_right_and_others_are_counted) {
 
 BOOST_AUTO_TEST_CASE(missing_and_impossible_labels_are_wrong) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  const Truth truth(Grid(4, 1), {{0.5, 0.5}, {none, none}}, Metric::euclidean);
+  const GroundTruth truth(Grid(4, 1), {{0.5, 0.5}, {none, none}}, Metric::euclidean);
   BOOST_TEST(truth.wrong_pixels({0, no_label, 2, 1}) == 3u);
-  check_error([&] { Truth(Grid(4, 1), {}, Metric::euclidean); }, {"without seeds"});
+  check_error([&] { GroundTruth(Grid(4, 1), {}, Metric::euclidean); }, {"without seeds"});
 }
 
 BOOST_AUTO_TEST_CASE(opencv_labels_are_seed_ids) {
@@ -40,14 +40,14 @@ BOOST_AUTO_TEST_CASE(opencv_labels_are_seed_ids) {
     const Grid grid(80, 60);
     std::vector<Pixel> seeds = random_pixels(grid, 40, 3);
     seeds.push_back(seeds[7]);  // coincident: the lower id has the cell
-    OpenCvPeer peer(grid, centres(seeds), metric);
-    peer.run();
-    const std::vector<std::uint32_t> labels = peer.labels();
+    OpenCvBaseline baseline(grid, centres(seeds), metric);
+    baseline.run();
+    const std::vector<std::uint32_t> labels = baseline.labels();
     const std::vector<std::uint32_t> exact = brute_force(grid, seeds, metric);
     const Verdict verdict = judge(grid, seeds, metric, labels, exact);
     BOOST_TEST(verdict.unlabelled + verdict.invalid == 0u);
     BOOST_TEST(verdict.wrong < grid.pixels() / 50, name_of(metric));  // approximate: about 1 % are wrong
-    BOOST_TEST(Truth(grid, centres(seeds), metric).wrong_pixels(labels) == verdict.wrong);
+    BOOST_TEST(GroundTruth(grid, centres(seeds), metric).wrong_pixels(labels) == verdict.wrong);
     BOOST_TEST((std::find(labels.begin(), labels.end(), 40u) == labels.end()));
   }
 }

@@ -1,0 +1,95 @@
+// The map from data units to pixels, and the grids that it is to.
+#define BOOST_TEST_MODULE bounds
+#include <cmath>
+#include <limits>
+
+#include "app/options/seed_options.hpp"
+#include "app/sources/bounds.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+using Pairs = std::vector<std::pair<double, double>>;
+
+Pairs pairs_of(const std::vector<Point>& points) {
+  Pairs pairs;
+  for (const Point& point : points) pairs.emplace_back(point.x, point.y);
+  return pairs;
+}
+
+/// Column and row of one point.
+Pairs pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up = false) {
+  return pairs_of(to_pixels({point}, bounds, grid, y_up));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(bounds_map_to_pixels) {
+  const Bounds world = {0, 0, 360, 180};
+  const Grid grid(1440, 720);
+  BOOST_TEST((pixel({0, 0}, world, grid) == Pairs{{0.5, 0.5}}));
+  BOOST_TEST((pixel({0.2499, 0.25}, world, grid) == Pairs{{0.5, 1.5}}));
+  BOOST_TEST(
+      (pixel({360, 180}, world, grid) == Pairs{{1439.5, 719.5}}));  // the far side belongs to the bounds
+  BOOST_TEST((pixel({std::nextafter(360.0, 0.0), 90}, world, grid) == Pairs{{1439.5, 360.5}}));
+  BOOST_TEST((pixel({0, 0}, world, grid, true) == Pairs{{0.5, 719.5}}));
+  BOOST_TEST((pixel({90, 180}, world, grid, true) == Pairs{{360.5, 0.5}}));
+  BOOST_TEST((pixel({-1.5, 2}, {-2, 2, -1, 2}, Grid(10, 5)) == Pairs{{5.5, 2.5}}));  // no height: the middle
+  // 5.1 * 100 is a little less than 510, and 5.1 / 10 * 100 is 51: the order of operations matters.
+  BOOST_TEST((pixel({5.1, 0}, {0, 0, 10, 1}, Grid(100, 1)) == Pairs{{50.5, 0.5}}));
+}
+
+BOOST_AUTO_TEST_CASE(points_outside_are_named) {
+  const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
+  const auto map = [](const Point& bad) {
+    to_pixels({{0, 0}, {1, 1}, bad}, {0, 0, 2, 1}, Grid(4, 2), false);
+  };
+  check_error([&] { map({2.5, 1}); }, {"point 2", "(2.5, 1)", "outside the bounds 0,0,2,1"});
+  check_error([&] { map({1, -0.001}); }, {"point 2", "(1, -0.001)", "outside"});
+  check_error([&] { map({none, 1}); }, {"point 2", "(nan, 1)", "not finite"});
+  check_error([&] { map({1, -far}); }, {"point 2", "(1, -inf)", "not finite"});
+  check_error([&] { bounding_box({{0, 0}, {far, 0}}); }, {"point 1", "(inf, 0)", "not finite"});
+}
+
+BOOST_AUTO_TEST_CASE(the_bounding_box_holds_all_points) {
+  const Bounds box = bounding_box({{3, 4}, {-1, 7}, {2, -5}});
+  BOOST_TEST(to_string(box) == "-1,-5,3,7");
+}
+
+BOOST_AUTO_TEST_CASE(bounds_are_four_numbers) {
+  BOOST_TEST(to_string(parse_bounds("-180,-90, 180,9e1")) == "-180,-90,180,90");
+  for (const char* bad :
+       {"", "1,2,3", "1,2,3,4,5", "1,2,3,", "a,2,3,4", "3,0,2,1", "0,3,1,2", "0,0,nan,1", "0,0,inf,1"}) {
+    check_error([&] { parse_bounds(bad); }, {bad, "X0,Y0,X1,Y1"});
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
+  BOOST_TEST((grid_of_width({0, 0, 360, 180}, 1440) == Grid(1440, 720)));
+  BOOST_TEST((grid_of_width({0, 0, 3, 2}, 100) == Grid(100, 67)));
+  BOOST_TEST((grid_of_width({0, 0, 3, 0}, 100) == Grid(100, 1)));
+  check_error([] { grid_of_width({0, 0, 0, 1}, 100); }, {"no width", "--size"});
+  check_error([] { grid_of_width({0, 0, 1, 1000}, 100); }, {"100000", "32768"});
+  for (const int width : {1, 7, 100, 101}) {
+    for (const double height : {0.1, 1.0, 1.7, 33.3}) {
+      const Bounds bounds = {0, 0, 3, height};
+      BOOST_TEST(has_square_pixels(bounds, grid_of_width(bounds, width)), width << " " << height);
+    }
+  }
+  BOOST_TEST(!has_square_pixels({0, 0, 360, 180}, Grid(1440, 721)));
+  BOOST_TEST(!has_square_pixels({0, 0, 1, 1}, Grid(100, 50)));
+  BOOST_TEST(has_square_pixels({0, 0, 0, 1}, Grid(100, 50)));
+}
+
+BOOST_AUTO_TEST_CASE(sizes_are_width_x_height) {
+  BOOST_TEST((parse_size("1440x720") == Grid(1440, 720)));
+  for (const char* bad : {"", "10", "x", "10x", "x10", "10x10x10", "10X10", "1e3x10", "10.5x10", "ax10"}) {
+    check_error([&] { parse_size(bad); }, {"WxH"});
+  }
+  check_error([] { parse_size("0x10"); }, {"width is 0"});
+  check_error([] { parse_size("10x-1"); }, {"height is -1"});
+  check_error([] { parse_size("32769x10"); }, {"32769", "32768"});
+}

@@ -1,0 +1,148 @@
+#include "app/options/command_line.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "app/terminal/usage_error.hpp"
+
+namespace vorocl::command {
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::value_optional() {
+  option_->expected(0, 1);
+  return *this;
+}
+
+Option& Option::value_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::default_text(const std::string& text) {
+  option_->default_str(text);
+  return *this;
+}
+
+Option& Option::default_is_value() {
+  option_->capture_default_str();
+  return *this;
+}
+
+Option& Option::in_range(int low, int high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+
+Option& Option::in_range(std::size_t low, std::size_t high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+
+Option& Option::in_range(double low, double high) {
+  option_->check(CLI::Range(low, high));
+  return *this;
+}
+
+Option& Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option& Option::needs(const std::string& name) {
+  option_->needs(name);
+  return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option Command::add(const std::string& name, bool& flag, const std::string& about) {
+  return Option(*app_->add_flag(name, flag, about));
+}
+
+Option Command::add(const std::string& name, std::string& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
+Option Command::add(const std::string& name, int& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
+Option Command::add(const std::string& name, std::optional<int>& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
+Option Command::add(const std::string& name, std::uint64_t& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
+Option Command::add(const std::string& name, double& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
+Option Command::add(const std::string& name, const Setter& set, const std::string& about) {
+  const auto checked = [set, name](const std::string& text) {
+    try {
+      set(text);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  return Option(*app_->add_option_function<std::string>(name, checked, about));
+}
+
+Option Command::add_texts(const std::string& name, const ListSetter& set, const std::string& about) {
+  const auto checked = [set, name](const std::vector<std::string>& texts) {
+    try {
+      set(texts);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(name, error.what());
+    }
+  };
+  CLI::Option* const option = app_->add_option_function<std::vector<std::string>>(name, checked, about);
+  return Option(*option->delimiter(','));
+}
+
+Command Command::add_group(const std::string& name, const std::string& about, std::size_t least,
+                           std::size_t most) {
+  CLI::App* const group = app_->add_option_group(name, about);
+  group->require_option(least, most);
+  return Command(*group);
+}
+
+Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
+
+bool Command::has(const std::string& name) const { return app_->count(name) > 0; }
+
+void Command::set_work(const std::function<void()>& work) { app_->callback(work); }
+
+CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
+    : app_(std::make_unique<CLI::App>(about, name)) {
+  app_->set_version_flag("--version", version);
+  app_->require_subcommand(-1);  // at most one: where there is none, run() first names what else was given
+}
+
+CommandLine::~CommandLine() = default;
+
+Command CommandLine::add(const std::string& name, const std::string& about) {
+  return Command(*app_->add_subcommand(name, about));
+}
+
+void CommandLine::run(int argc, char** argv) {
+  try {
+    app_->parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    app_->exit(help_or_version);
+    return;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  if (app_->get_subcommands().empty()) throw UsageError("no subcommand was given; see vorocl --help");
+}
+
+}  // namespace vorocl::command

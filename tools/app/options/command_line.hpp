@@ -1,0 +1,139 @@
+// Subcommands and their options. CLI11 stands behind it, in command_line.cpp alone: its header takes five
+// seconds to compile, in every source that includes it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "vorocl/error.hpp"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace vorocl::command {
+
+/// An option, and what else there is to say of it.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option& required();
+  Option& value_optional();                       ///< it may be given without a value
+  Option& value_name(const std::string& name);    ///< for the help
+  Option& default_text(const std::string& text);  ///< for the help
+  Option& default_is_value();                     ///< the help shows what the variable holds now
+  Option& in_range(int low, int high);            ///< both included, as below
+  Option& in_range(std::size_t low, std::size_t high);
+  Option& in_range(double low, double high);
+  Option& needs(const Option& other);
+  Option& needs(const std::string& name);
+  Option& excludes(const Option& other);
+
+ private:
+  CLI::Option* option_;
+};
+
+/// The names that a word on the command line may have, with what they stand for.
+template <typename T>
+using Choices = std::vector<std::pair<std::string, T>>;
+
+template <typename T>
+std::string names_of(const Choices<T>& choices) {
+  std::string names;
+  for (const auto& choice : choices) names += (names.empty() ? "" : ", ") + choice.first;
+  return names;
+}
+
+/// What the text stands for. Throws Error, which lists the names, if it is none of them.
+template <typename T>
+T choose(const Choices<T>& choices, const std::string& text) {
+  for (const auto& choice : choices) {
+    if (choice.first == text) return choice.second;
+  }
+  throw Error("\"" + text + "\" is unknown; there are " + names_of(choices));
+}
+
+/// A subcommand, or a group of its options. Options are stored in the variables that are given with them,
+/// which must stay where they are until the work runs.
+class Command {
+ public:
+  using Setter = std::function<void(const std::string& text)>;
+  using ListSetter = std::function<void(const std::vector<std::string>& texts)>;
+
+  explicit Command(CLI::App& app) : app_(&app) {}
+
+  Option add(const std::string& name, bool& flag, const std::string& about);
+  Option add(const std::string& name, std::string& value, const std::string& about);
+  Option add(const std::string& name, int& value, const std::string& about);
+  Option add(const std::string& name, std::optional<int>& value, const std::string& about);
+  Option add(const std::string& name, std::uint64_t& value, const std::string& about);
+  Option add(const std::string& name, double& value, const std::string& about);
+
+  /// An option whose text `set` is given; an Error of it is a usage error that names the option.
+  Option add(const std::string& name, const Setter& set, const std::string& about);
+
+  /// An option with a list of texts, with commas between them.
+  Option add_texts(const std::string& name, const ListSetter& set, const std::string& about);
+
+  /// An option whose text `parse` turns into the value.
+  template <typename T, typename Parse>
+  Option add_parsed(const std::string& name, T& value, const Parse& parse, const std::string& about) {
+    const Setter set = [&value, parse](const std::string& text) { value = parse(text); };
+    return add(name, set, about);
+  }
+
+  /// An option with a list of texts, each of which `parse` turns into a value.
+  template <typename T, typename Parse>
+  Option add_list(const std::string& name, std::vector<T>& values, const Parse& parse,
+                  const std::string& about) {
+    const ListSetter set = [&values, parse](const std::vector<std::string>& texts) {
+      for (const std::string& text : texts) values.push_back(parse(text));
+    };
+    return add_texts(name, set, about);
+  }
+
+  template <typename T>
+  Option add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& about) {
+    const auto parse = [choices](const std::string& text) { return choose(choices, text); };
+    return add_parsed(name, value, parse, about + ": " + names_of(choices)).value_name("NAME");
+  }
+
+  /// A group of options of which at least and at most so many must be given.
+  Command add_group(const std::string& name, const std::string& about, std::size_t least, std::size_t most);
+
+  /// An option that was added before.
+  Option option(const std::string& name) const;
+
+  /// Whether the option was given.
+  bool has(const std::string& name) const;
+
+  /// What a subcommand does when its options have been parsed.
+  void set_work(const std::function<void()>& work);
+
+ private:
+  CLI::App* app_;
+};
+
+class CommandLine {
+ public:
+  CommandLine(const std::string& about, const std::string& name, const std::string& version);
+  ~CommandLine();
+
+  Command add(const std::string& name, const std::string& about);
+
+  /// Parses the command line and runs the subcommand's work, or prints the help or the version. Throws
+  /// UsageError, and what the work throws.
+  void run(int argc, char** argv);
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace vorocl::command

@@ -1,0 +1,50 @@
+#include "app/options/output_options.hpp"
+
+#include "app/options/picture_options.hpp"
+
+namespace vorocl::command {
+
+Option add_file_option(Command& command, FileRequest& request, bool numbered) {
+  const FileKind& kind = request.kind;
+  std::string example;
+  if (numbered) example = "; one file per frame, such as frames/%05d" + kind.extensions.front();
+  if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
+  return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
+}
+
+void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
+                      const std::string& about) {
+  const Option picture = command.add("-o", options.picture_path, about).value_name(value_name);
+  command.add("--fps", options.frames_per_second, "Frames per second of the film")
+      .value_name("F")
+      .in_range(0.1, 240.0)
+      .default_is_value()
+      .needs(picture);
+  add_picture_options(command, options.picture);
+}
+
+void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
+  add_film_options(command, options, "FILM|PICTURES",
+                   "Film to write, .mp4 (H.264), or a picture for each frame, such as frames/%05d.png");
+  options.files = {{labels_kind(), ""}, {cells_kind(), ""}, {adjacency_kind(), ""}, {distance_kind(), ""}};
+  for (FileRequest& request : options.files) add_file_option(command, request, true);
+  command
+      .add("--similarity", options.similarity_path,
+           "Similarities to write, frame by frame: a .csv file with the columns frame and similarity "
+           "and, with --compare-with exact in the same metric, wrong_percent, largest_excess and "
+           "mean_excess")
+      .value_name("FILE")
+      .needs("--compare-with");
+  command
+      .add("--statistics", options.statistics_path,
+           "Statistics to write, one row per frame: a .csv file with the numbers of cells and of empty "
+           "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
+           "before, and the diagram's milliseconds")
+      .value_name("FILE");
+  command.add("--every", options.every, "Write pictures and numbered files only of frames 0, K, 2 K, ...")
+      .value_name("K")
+      .in_range(1, 1000000000)
+      .default_is_value();
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,88 @@
+#include "app/options/seed_options.hpp"
+
+#include <limits>
+
+#include "formats/numbers.hpp"
+
+namespace vorocl::command {
+
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move) {
+  Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
+  constexpr std::size_t most_seeds = Grid::max_pixels;
+  const Option random = source.add("--random", options.random, "N uniformly random pixels")
+                            .value_name("N")
+                            .in_range(std::size_t{1}, most_seeds);
+  const Option points = source.add("--points", options.points, "Points of a .csv or .npy file, in data units")
+                            .value_name("FILE");
+  source.add("--mask", options.mask, "Non-zero pixels of an image, numbered in row-major order")
+      .value_name("FILE");
+  const Option trajectory =
+      source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
+          .value_name("FILE");
+
+  Option rng_seed = command.add("--rng-seed", options.rng_seed, "Seed of the random numbers");
+  rng_seed.value_name("R").default_is_value();
+  move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
+  command
+      .add_parsed("--columns", options.columns, parse_columns,
+                  "Columns of the CSV file, by name or by index from 0; else x and y, or the first two")
+      .value_name("X,Y")
+      .needs(points);
+  const Option size =
+      command
+          .add_parsed("--size", options.size, parse_size,
+                      "Width and height of the grid in pixels; with --mask those of the image")
+          .value_name("WxH");
+  command
+      .add("--width", options.width,
+           "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
+           "pixels are square")
+      .value_name("W")
+      .in_range(1, Grid::max_side)
+      .excludes(size);
+  command
+      .add_parsed(
+          "--bounds", options.bounds, parse_bounds,
+          "Rectangle in data units that the grid shows; else each frame's own box, or the bounding box "
+          "of the points (of the first frame)")
+      .value_name("X0,Y0,X1,Y1");
+  command.add("--y-up", options.y_up, "The data's y axis points up");
+}
+
+void add_frame_option(Command& command, SeedOptions& options) {
+  command.add("--frame", options.frame, "Frame of the trajectory, from 0")
+      .value_name("K")
+      .in_range(0, std::numeric_limits<int>::max() - 1)
+      .default_is_value()
+      .needs("--trajectory");
+}
+
+void add_motion_options(Command& command, MotionOptions& options) {
+  command
+      .add("--frames", options.frames, "Number of frames after frame 0; for a trajectory the greatest number")
+      .value_name("A")
+      .in_range(1, std::numeric_limits<int>::max() - 1);
+  const Option trajectory = command.option("--trajectory");
+  command
+      .add("--step-length", options.step_length,
+           "Each seed moves at random, by up to this many pixels along x and y per frame")
+      .value_name("D")
+      .in_range(0, Grid::max_side)
+      .excludes(trajectory);
+  const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
+  command
+      .add_choice("--border", options.border, borders,
+                  "What seeds that move at random do at the border of the grid")
+      .default_text("reflect")
+      .excludes(trajectory);
+}
+
+Grid parse_size(const std::string& text) {
+  const auto x = text.find('x');
+  const auto width = parse_number<std::int64_t>(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
+  if (!width || !height) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
+  return Grid(*width, *height);
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,38 @@
+#include "app/outputs/output_files.hpp"
+
+#include <fmt/core.h>
+
+#include "app/terminal/usage_error.hpp"
+#include "formats/numbered_files.hpp"
+
+namespace vorocl::command {
+
+void check_outputs(const std::vector<RequestedFile>& files) {
+  for (const RequestedFile& file : files) {
+    if (file.path.empty()) continue;
+    as_usage([&] {
+      check_extension(file.path, file.extensions);
+      if (file.numbered) NumberedName(file.path);
+    });
+  }
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (may_be_one_file(files[i].path, files[j].path)) {
+        throw UsageError(files[i].path + ": " + files[j].option + " and " + files[i].option +
+                         " cannot write one file");
+      }
+    }
+  }
+}
+
+std::optional<OutputFile> open_output(const std::string& path) {
+  return path.empty() ? std::nullopt : std::optional<OutputFile>(path);
+}
+
+void print_written(const std::vector<RequestedFile>& files) {
+  for (const RequestedFile& file : files) {
+    if (!file.path.empty()) fmt::print("wrote {}\n", file.path);
+  }
+}
+
+}  // namespace vorocl::command

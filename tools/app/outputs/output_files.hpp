@@ -1,0 +1,30 @@
+// What can be said of the files that a command line asks for before there is anything to write.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/files.hpp"
+
+namespace vorocl::command {
+
+/// An option and the file that it asks for.
+struct RequestedFile {
+  std::string option;
+  std::string path;  // empty: not asked for
+  std::vector<std::string> extensions;
+  bool numbered = false;  // the path is a pattern for one file per frame, round or wave
+};
+
+/// Throws UsageError for a name that ends in none of its extensions, a pattern without its place for a
+/// number, and two options that would write one file.
+void check_outputs(const std::vector<RequestedFile>& files);
+
+/// The file, to be written later, if it is asked for. Throws Error if it cannot be made there.
+std::optional<OutputFile> open_output(const std::string& path);
+
+/// Says on standard output which files were written.
+void print_written(const std::vector<RequestedFile>& files);
+
+}  // namespace vorocl::command

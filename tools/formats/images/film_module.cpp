@@ -1,0 +1,60 @@
+// The module of films: vorocl_films.so.
+#include <malloc.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/videoio.hpp>
+
+#include "formats/images/modules.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// On CPUs with AVX-512, x264's film of pictures whose width is no multiple of 64 depends on memory that was
+/// never set (seen with version 164). That it holds the same in every run makes the same film again.
+void make_unset_memory_the_same() {
+#ifdef M_PERTURB
+  mallopt(M_PERTURB, 0x55);
+#endif
+}
+
+class Encoder : public FilmEncoder {
+ public:
+  Encoder(const std::string& path, double frames_per_second, const cv::Size& size) {
+    const int h264 = cv::VideoWriter::fourcc('a', 'v', 'c', '1');
+    writer_.open(path, cv::CAP_FFMPEG, h264, frames_per_second, size);
+  }
+  bool is_open() const { return writer_.isOpened(); }
+  void add(const cv::Mat& picture) override { writer_.write(picture); }
+
+ private:
+  cv::VideoWriter writer_;
+};
+
+class Module : public FilmModule {
+ public:
+  std::unique_ptr<FilmEncoder> open(const std::string& path, double frames_per_second,
+                                    const cv::Size& size) const override {
+    setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // quiet: what goes wrong is said in our words
+    make_unset_memory_the_same();
+    auto encoder = std::make_unique<Encoder>(path, frames_per_second, size);
+    if (!encoder->is_open()) return nullptr;
+    return encoder;
+  }
+
+  long count_pictures(const std::string& path) const override {
+    const cv::VideoCapture film(path, cv::CAP_FFMPEG);
+    return film.isOpened() ? std::lround(film.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
+  }
+};
+
+}  // namespace
+
+}  // namespace vorocl::command
+
+/// What modules.cpp asks for, by this name.
+extern "C" __attribute__((visibility("default"))) const void* vorocl_module() {
+  static const vorocl::command::Module module;
+  return static_cast<const vorocl::command::FilmModule*>(&module);
+}

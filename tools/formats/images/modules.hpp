@@ -1,0 +1,50 @@
+// The modules that read and write images and films. OpenCV's libraries for these load some 220 others, in a
+// tenth of a second; so each has a module of its own, a shared library that is loaded when it is first
+// needed.
+#pragma once
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace vorocl::command {
+
+/// What image_module.cpp does. No function throws or prints.
+class ImageModule {
+ public:
+  /// An image with three channels (BGR) of the file's depth; an empty one if the file cannot be read.
+  virtual cv::Mat read(const std::string& path) const = 0;
+
+  /// False if the file cannot be written.
+  virtual bool write(const std::string& path, const cv::Mat& picture) const = 0;
+
+ protected:
+  ~ImageModule() = default;
+};
+
+/// A film that pictures are appended to; complete when it is destroyed.
+class FilmEncoder {
+ public:
+  virtual ~FilmEncoder() = default;
+  virtual void add(const cv::Mat& picture) = 0;
+};
+
+/// What film_module.cpp does. No function throws or prints.
+class FilmModule {
+ public:
+  /// An H.264 film of pictures of this size; null if this machine cannot make it.
+  virtual std::unique_ptr<FilmEncoder> open(const std::string& path, double frames_per_second,
+                                            const cv::Size& size) const = 0;
+
+  /// How many pictures a film has; 0 if it cannot be read.
+  virtual long count_pictures(const std::string& path) const = 0;
+
+ protected:
+  ~FilmModule() = default;
+};
+
+/// Load the module at the first call. Throw Error, which says why, if that fails.
+const ImageModule& image_module();
+const FilmModule& film_module();
+
+}  // namespace vorocl::command

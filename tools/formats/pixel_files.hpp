@@ -1,0 +1,18 @@
+// Files of one value per pixel, by the extension of their name: .npy, .vti and, for values of 32 bits, .tif
+// or .tiff.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl::command {
+
+/// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name. Throws Error if the
+/// extension is none of these, or the file cannot be written.
+template <typename T>
+void write_pixels(const std::string& path, const std::string& name, const Grid& grid,
+                  const std::vector<T>& values);
+
+}  // namespace vorocl::command
