@@ -5,9 +5,9 @@
 #define EMPTY_SLOT 0xffffffffu
 #define MOST_PROBES 64
 
-// A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the table
-// names its pair by one of the edges that the two cells share, so one 32-bit atomic takes a slot; there is no other name
-// for a pair of 32-bit ids that fits.
+// A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the
+// table names its pair by one of the edges that the two cells share, so one 32-bit atomic takes a slot; there is no
+// other name for a pair of 32-bit ids that fits.
 static inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
 
 // The ids of the cells on both sides of an edge, the lower one first.

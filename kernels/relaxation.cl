@@ -30,8 +30,8 @@ static inline int nearest_to_mean(ulong sum, uint area, int present) {
   return twice_the_rest < area ? low : low + 1;
 }
 
-// Counts the seeds that moved, and finds the longest motion along an axis; each work-item for a stretch of the seeds, so
-// that few meet there.
+// Counts the seeds that moved, and finds the longest motion along an axis; each work-item for a stretch of the seeds,
+// so that few meet there.
 kernel void move_to_centroids(global uint* restrict positions, uint count, uint stretch, global const uint* restrict area,
                               global const ulong* restrict sum_x, global const ulong* restrict sum_y,
                               global uint* restrict moved_and_longest) {

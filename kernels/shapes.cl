@@ -10,9 +10,9 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   largest[id] = -1;
 }
 
-// What a row cannot decide is left to the others: a stretch adds to a side of its cell's box, or to the largest distance,
-// only if the pixel next to its end in the row above or below, which would add more, is not in the cell. That leaves a
-// few atomics of the many that the cells' borders would need.
+// What a row cannot decide is left to the others: a stretch adds to a side of its cell's box, or to the largest
+// distance, only if the pixel next to its end in the row above or below, which would add more, is not in the cell.
+// That leaves a few atomics of the many that the cells' borders would need.
 kernel void add_shapes(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
                        int height, int wide, int high, global int* restrict boxes, global int* restrict largest) {
   block_t block;
