@@ -2,12 +2,12 @@
 
 #include "vector.cl"
 
-// Each work-item counts a stretch of pixels, so that few of them meet at the counter.
+// Each work-item counts a chunk of pixels, so that few of them meet at the counter.
 VECTOR_KERNEL void count_differences(global const uint* restrict a, global const uint* restrict b, uint pixels,
-                                     uint stretch, global uint* restrict differences) {
-  const uint begin = (uint)get_global_id(0) * stretch;
+                                     uint chunk, global uint* restrict differences) {
+  const uint begin = (uint)get_global_id(0) * chunk;
   if (begin >= pixels) return;
-  const uint end = min(begin + stretch, pixels);
+  const uint end = min(begin + chunk, pixels);
   uint_v per_lane = (uint_v)0;
   uint i = begin;
   for (; i + VOROCL_WIDTH <= end; i += VOROCL_WIDTH) {

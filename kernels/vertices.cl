@@ -2,13 +2,13 @@
 
 #include "position.cl"
 
-// Each work-item counts a stretch of the corners below one row; corner x is between the pixels x and x + 1.
-VECTOR_KERNEL void find_vertices(global const uint* restrict labels, int width, int height, uint stretch,
+// Each work-item counts a chunk of the corners below one row; corner x is between the pixels x and x + 1.
+VECTOR_KERNEL void find_vertices(global const uint* restrict labels, int width, int height, uint chunk,
                                  global uint* restrict vertices) {
-  const int across = (width - 2) / (int)stretch + 1;
-  const int begin = (int)(get_global_id(0) % (size_t)across) * (int)stretch, y = (int)(get_global_id(0) / (size_t)across);
+  const int across = (width - 2) / (int)chunk + 1;
+  const int begin = (int)(get_global_id(0) % (size_t)across) * (int)chunk, y = (int)(get_global_id(0) / (size_t)across);
   if (y >= height - 1) return;
-  const int end = min(begin + (int)stretch, width - 1);
+  const int end = min(begin + (int)chunk, width - 1);
   uint_v found = (uint_v)0;
   uint few = 0;
   int x = begin;
