@@ -58,7 +58,7 @@ std::vector<Frame> frames_of(const Grid& grid, std::size_t seeds, Stamping stamp
   std::vector<Frame> made;
   for (int frame = 0; frame <= frames; ++frame) {
     simulation.step();
-    made.push_back({simulation.seeds().read(), simulation.diagram().read()});
+    made.push_back({points_of(simulation.seeds()), simulation.diagram().read()});
   }
   return made;
 }
@@ -170,7 +170,7 @@ BOOST_AUTO_TEST_CASE(scattering_one_seed_in_place_is_exact) {
 
 BOOST_AUTO_TEST_CASE(seeds_are_spread_as_said) {
   const Grid grid(400, 300);
-  const auto spread = [&](Spread how) { return spread_seeds(test_device(), grid, 20000, how, 1).read(); };
+  const auto spread = [&](Spread how) { return points_of(spread_seeds(test_device(), grid, 20000, how, 1)); };
   const auto blocks = [&](const std::vector<Point>& points) {
     std::set<std::pair<int, int>> held;
     for (const Point& point : points)

@@ -56,7 +56,7 @@ json checked(const TemporaryFolder& folder, const std::string& arguments, const 
 
 std::vector<Pixel> random_seeds(const Grid& grid, std::size_t count) {
   std::vector<Pixel> pixels;
-  for (const Point& seed : Seeds::random(test_device(), grid, count, 1).read()) {
+  for (const Point& seed : points_of(Seeds::random(test_device(), grid, count, 1))) {
     pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
   }
   return pixels;

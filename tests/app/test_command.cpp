@@ -21,7 +21,7 @@ std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::s
 
 std::vector<Pixel> pixels_of(const Seeds& seeds) {
   std::vector<Pixel> pixels;
-  for (const Point& seed : seeds.read())
+  for (const Point& seed : points_of(seeds))
     pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
   return pixels;
 }

@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(more_seeds_than_pixels_are_allowed_and_coincident_ones_coun
   const std::vector<Row> rows = rows_of(folder / "t.csv");
   check_each_once(rows, 2);
   std::set<std::pair<double, double>> places;
-  for (const Point& point : Seeds::random(test_device(), Grid(8, 8), 100, 1).read())
+  for (const Point& point : points_of(Seeds::random(test_device(), Grid(8, 8), 100, 1)))
     places.insert({point.x, point.y});
   BOOST_TEST(rows[0].number("coincident_seeds") == static_cast<double>(100 - places.size()));
   BOOST_TEST(rows[0].at("seeds") == "100");

@@ -35,7 +35,7 @@ std::vector<Row> rows_of(const std::string& path) {
 
 std::vector<Pixel> pixels_of(const Seeds& seeds) {
   std::vector<Pixel> pixels;
-  for (const Point& seed : seeds.read()) {
+  for (const Point& seed : points_of(seeds)) {
     pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
   }
   return pixels;

@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
   for (int frame = 0; frame <= 6; ++frame) {
     if (frame > 0) random_step(moving, 4, Border::reflect, 1, static_cast<std::uint32_t>(frame));
     SeedsById seeds;
-    for (const Point& seed : moving.read()) {
+    for (const Point& seed : points_of(moving)) {
       seeds[static_cast<std::uint32_t>(seeds.size())] = {static_cast<int>(seed.x), static_cast<int>(seed.y)};
     }
     const LabelImage image = labels_of(folder, fmt::format("all{}.npy", frame));

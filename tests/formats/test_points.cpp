@@ -46,7 +46,7 @@ const Pairs two = {{1.5, -2}, {300, 0.25}};
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(csv_files_come_in_many_clothes) {
+BOOST_AUTO_TEST_CASE(csv_files_are_read_in_all_their_variants) {
   BOOST_TEST((csv("x,y\n1.5,-2\n300,0.25\n") == two));
   BOOST_TEST((csv("1.5,-2\n300,0.25") == two));  // no header, no last line end
   BOOST_TEST((csv("\xef\xbb\xbfX , Y\r\n 1.5 ,\t-2\r\n\r\n+3e2,.25\r\n\r\n") == two));

@@ -51,7 +51,7 @@ def shown(value, digits, unit=""):
 
 def times_table(evaluation):
     head = [
-        "n", "seeds", "pixels a seed", "JFA: waves", "ms a frame (least, greatest)", "dJFA: waves", "waves' ratio",
+        "n", "seeds", "pixels per seed", "JFA: waves", "ms per frame (least, greatest)", "dJFA: waves", "waves' ratio",
         "T_JFA / T_dJFAe", "T_JFA / T_dJFAm", "T_dJFAe / T_dJFAm", "T_JFA / T_exact",
     ]
     rows = []
@@ -103,7 +103,7 @@ def lengths_table(lengths):
 
 def ablation_table(ablation):
     head = [
-        "study", "setting", "d_max", "waves", "ms a frame (least, greatest)", "wrong pixels: mean", "greatest",
+        "study", "setting", "d_max", "waves", "ms per frame (least, greatest)", "wrong pixels: mean", "greatest",
         "mean excess (pixels)", "largest", "two runs differ in",
     ]
     rows, before = [], None
@@ -155,9 +155,9 @@ def published_table(evaluation, large, lengths):
         ours = source.value(n, seeds, "speedup_over_jfa") if source else None
         waves = [source.value(n, seeds, "waves", method) for method in ("jfa", "djfa")] if source else [None]
         why = WAVES.format(waves[0] / waves[1]) if ours is not None else "for a GPU: `evaluate --full`"
-        add(f"speedup of dJFAe, {n:,}², {n * n // seeds:,} pixels a seed", f"{published} ×", shown(ours, 2, " ×"),
+        add(f"speedup of dJFAe, {n:,}², {n * n // seeds:,} pixels per seed", f"{published} ×", shown(ours, 2, " ×"),
             verdict(ours, published, 0.1), why)
-    add("speedup of dJFAm, 20,000², 100 pixels a seed", "5.1 ×", "not run", "not run here", "for a GPU: `evaluate --full`")
+    add("speedup of dJFAm, 20,000², 100 pixels per seed", "5.1 ×", "not run", "not run here", "for a GPU: `evaluate --full`")
     for name, published, metric, column in [
         ("greatest speedup of dJFAe", 4.5, "euclidean", "speedup_over_jfa"),
         ("greatest speedup of dJFAm", 5.0, "manhattan", "speedup_over_jfa"),
@@ -201,7 +201,7 @@ def machine_line(rows):
     row = rows[0]
     return (f"Made by VoroCL {row['version']} on {row['device']} ({row['platform']} {row['driver']}), "
             f"{rows[0]['date'][:10]}: {row['frames']} frames for accuracy, {row['repeats']} runs of {row['timed_frames']} "
-            f"frames for times, seeds moving by up to {row['step_length']} pixels along each axis in a frame.")
+            f"frames for times, seeds moving by up to {row['step_length']} pixels along each axis per frame.")
 
 
 def tables(folder):

@@ -22,7 +22,7 @@ NUMBERS = [
     "wrong_percent_mean", "largest_excess", "mean_excess",
 ]
 MARKERS = "osD^vP*X<>hp"
-DENSITY = "pixels a seed (fewer: denser)"
+DENSITY = "pixels per seed (fewer: denser)"
 SIDE = "n (grid of n × n pixels)"
 
 
@@ -62,7 +62,7 @@ def read_row(path, line, row):
 
 
 def djfa_waves(n, pixels_per_seed, d_max):
-    """The waves of dJFA: steps 2^ceil(log2(max(2 L, d_max))), half of it, ..., 1, where L^2 = pixels a seed; the first
+    """The waves of dJFA: steps 2^ceil(log2(max(2 L, d_max))), half of it, ..., 1, where L^2 = pixels per seed; the first
     step is at most JFA's."""
     if n == 1:
         return 0
@@ -117,7 +117,7 @@ def asked_for_counts(rows):
 def by_density(rows):
     """Rows of nearly one density, each group with its label: that of its largest grid, which is rounded least."""
     groups = [[row for row in rows if row["pixels_per_seed"] in group] for group in densities_of(rows)]
-    return [(f"{max(group, key=lambda row: row['n'])['pixels_per_seed']:,.0f} pixels a seed", group) for group in groups]
+    return [(f"{max(group, key=lambda row: row['n'])['pixels_per_seed']:,.0f} pixels per seed", group) for group in groups]
 
 
 def by_count(rows):
@@ -246,7 +246,7 @@ def times_figure(rows, axis):
         panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         panel.yaxis.set_minor_formatter(NullFormatter())
         panel.set_title(f"JFA (dashed) and {name} (solid)", fontsize=10)
-        panel.set_ylabel("device time (ms a frame)")
+        panel.set_ylabel("device time (ms per frame)")
     limits = [panel.get_ylim() for panel in panels[0][:3]]
     for panel in panels[0][:3]:
         panel.set_ylim(min(low for low, _ in limits), max(high for _, high in limits))
@@ -271,7 +271,7 @@ def speedup_figure(rows, axis):
     axis.draw(waves, "djfa", "euclidean", lambda row: row["waves"], style="none")
     axis.dress(waves)
     waves.set_title("waves of dJFA: run (marks), by the formula (lines)", fontsize=10)
-    waves.set_ylabel("waves a frame")
+    waves.set_ylabel("waves per frame")
     draw_staircase(rows, axis, waves, lambda n, count: count)
     for panel in (panels[0][0], panels[0][1]):
         draw_staircase(rows, axis, panel, lambda n, count: jfa_waves(n) / count if count else 1)
