@@ -19,11 +19,11 @@ step() {
   fi
 }
 
-# The build, with warnings as errors, and the tests of a preset.
+# preset NAME OPTION...: configures, builds and tests a preset.
 preset() {
   local name=$1
   shift
-  step "$name-configure" cmake --preset "$name" -DVOROCL_WARNINGS_AS_ERRORS=ON "$@"
+  step "$name-configure" cmake --preset "$name" "$@"
   step "$name-build" cmake --build --preset "$name"
   step "$name-tests" ctest --preset "$name"
 }
