@@ -5,9 +5,9 @@
 #define EMPTY_SLOT 0xffffffffu
 #define MOST_PROBES 64
 
-// A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the table
-// names its pair by one of the edges that the two cells share, so one 32-bit atomic takes a slot; there is no other name
-// for a pair of 32-bit ids that fits.
+// A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the
+// table holds one of the edges that its two cells share, so that one 32-bit atomic takes it: the cells' ids
+// themselves are two 32-bit numbers.
 static inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
 
 // The ids of the cells on both sides of an edge, the lower one first.
@@ -38,7 +38,7 @@ static inline void add_border(global const uint* labels, int width, uint edge, u
   atomic_or(overflow, 1u);  // the host begins again with a larger table
 }
 
-// Two rows are walked at once, so that along a stretch the border with the row below is one piece.
+// Two rows are walked at once, so that along a run the border with the row below is one piece.
 kernel void find_borders(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
                          uint mask, global uint* restrict slots, global uint* restrict lengths,
                          global uint* restrict overflow) {
@@ -48,7 +48,7 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
     global const uint* const row = labels + y * width;
     global const uint* const below = y + 1 < height ? row + width : row;
     walk_t walk = begin_walk(row, below, block.left, block.right);
-    while (next_stretch(&walk)) {
+    while (next_run(&walk)) {
       const int last = walk.to - 1;
       const uint pixel = (uint)(y * width + last), label = row[last];
       if (label >= count) continue;
@@ -103,8 +103,8 @@ static inline void sink(global uint* pair_list, uint begin, uint size, uint hole
   vstore3(pair, begin + hole, pair_list);
 }
 
-// Sorts the pairs of each cell by their second cell. Cells have few neighbours as a rule; a heap keeps the one that has
-// all others around it bearable.
+// Sorts the pairs of each cell by their second cell. Most cells have few neighbours; a heap sort is for the one that
+// may have all others around it.
 kernel void sort_pairs(uint count, global const uint* restrict first, global uint* restrict pair_list) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;

@@ -7,12 +7,12 @@ static inline void add_to_pair(global uint* pair, uint value) {
   if (atomic_add(pair, value) > 0xffffffffu - value) atomic_inc(pair + 1);
 }
 
-// Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs no
-// atomics, for no other work-item adds to the same place. A block has at most 2^15 pixels and 512 columns and rows, so
-// that three sums fit in 64 bits: the pixels, and their columns and rows counted from the block's corner. They and the
-// homes are kept small and apart from the rest, because with many cells the time goes into waiting for memory: of the
-// home's index 16 bits are kept. With small blocks on a large grid they may name another block; then that one is the
-// cell's home, which is as right but saves fewer atomics.
+// Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs
+// no atomics, for no other work-item adds to the same place. A block has at most 2^15 pixels and 512 columns and
+// rows, so that three sums fit in 64 bits: the pixels, and their columns and rows counted from the block's corner.
+// They and the homes are kept small and apart from the rest, because with many cells the time goes into waiting for
+// memory: of the home's index 16 bits are kept. With small blocks on a large grid they may belong to another
+// block; then that one is the cell's home: the sums stay right, but fewer atomics are saved.
 #define HOME_X_SHIFT 16
 #define HOME_Y_SHIFT 40
 #define HOME_AREA(sums) ((uint)(sums) & 0xffffu)
@@ -40,8 +40,8 @@ kernel void add_sums(global const uint* restrict labels, uint count, int width, 
     global const uint* const row = labels + y * width;
     const ulong of_row = (ulong)1 | (ulong)(uint)(y - block.top) << HOME_Y_SHIFT;
     walk_t walk = begin_walk(row, row, block.left, block.right);
-    while (next_stretch(&walk)) {
-      const uint label = stretch_label(&walk);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
       if (label >= count) continue;
       const uint length = (uint)(walk.to - walk.from);
       const uint steps = length * (length - 1) / 2;

@@ -17,20 +17,21 @@ static inline float excess(uint distance, uint least) {
 #endif
 }
 
-// Each work-item judges a stretch of pixels: how many are wrong, and how many of those have no seed; the sum and the
+// Each work-item judges a chunk of pixels: how many are wrong, and how many of those have no seed; the sum and the
 // greatest of the others' excess distances. Where labels are equal, nothing is looked up.
-RUN_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
-                             global const uint* restrict positions, uint count, uint pixels, int width, uint stretch,
-                             global uint2* restrict wrong, global float2* restrict excesses) {
+VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
+                                global const uint* restrict positions, uint count, uint pixels, int width, uint chunk,
+                                global uint2* restrict wrong, global float2* restrict excesses) {
   const uint item = (uint)get_global_id(0);
-  if (item >= (pixels + stretch - 1) / stretch) return;
-  const uint end = min((item + 1) * stretch, pixels);
+  if (item >= (pixels + chunk - 1) / chunk) return;
+  const uint end = min((item + 1) * chunk, pixels);
   uint2 found = (uint2)0;
   float2 sum_and_greatest = (float2)0;
-  for (uint run = item * stretch; run < end; run += VOROCL_WIDTH) {
-    const uint run_end = min(run + VOROCL_WIDTH, end);
-    if (run_end == run + VOROCL_WIDTH && !ANY(LOAD_RUN(labels + run) != LOAD_RUN(exact + run))) continue;
-    for (uint i = run; i < run_end; ++i) {
+  for (uint first = item * chunk; first < end; first += VOROCL_WIDTH) {
+    const uint vector_end = min(first + VOROCL_WIDTH, end);
+    const bool whole = vector_end == first + VOROCL_WIDTH;
+    if (whole && !ANY(LOAD_VECTOR(labels + first) != LOAD_VECTOR(exact + first))) continue;
+    for (uint i = first; i < vector_end; ++i) {
       const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
       const uint distance = distance_to(positions[min(labels[i], count)], x, y);
       const uint least = distance_to(positions[min(exact[i], count)], x, y);

@@ -3,11 +3,11 @@
 #include "position.cl"
 
 // Each pixel's label to the position that its seed has now; a seed that is there no more leaves its pixels empty.
-RUN_KERNEL void advance_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
-                               global uint* restrict out, int width, int height) {
-  if (!has_run(width, height)) return;
-  const int first = run_y() * width + run_x(width);
-  const uint_run at = min(LOAD_RUN(labels + first), (uint_run)count);
+VECTOR_KERNEL void advance_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                                  global uint* restrict out, int width, int height) {
+  if (!has_vector(width, height)) return;
+  const int first = vector_y() * width + vector_x(width);
+  const uint_v at = min(LOAD_VECTOR(labels + first), (uint_v)count);
   store_looked_up(positions, at, out, VOROCL_GUARD + first);
 }
 
@@ -19,7 +19,8 @@ kernel void stamp_positions(global const uint* restrict positions, uint count, g
 }
 
 // Reports whether a pixel has no label.
-RUN_KERNEL void find_unlabelled(global const uint* restrict labels, int width, int height, global int* restrict found) {
-  if (!has_run(width, height)) return;
-  if (ANY(LOAD_RUN(labels + run_y() * width + run_x(width)) == NO_LABEL)) atomic_or(found, 1);
+VECTOR_KERNEL void find_unlabelled(global const uint* restrict labels, int width, int height,
+                                   global int* restrict found) {
+  if (!has_vector(width, height)) return;
+  if (ANY(LOAD_VECTOR(labels + vector_y() * width + vector_x(width)) == NO_LABEL)) atomic_or(found, 1);
 }

@@ -19,7 +19,7 @@ static inline int packed_x(uint position) { return (int)(position & 0xffffu); }
 static inline int packed_y(uint position) { return (int)(position >> 16); }
 
 // Where a seed's pixel is in a row-major image.
-static inline uint_run pixel_index(uint_run position, int width) {
+static inline uint_v pixel_index(uint_v position, int width) {
   return (position >> 16) * (uint)width + (position & 0xffffu);
 }
 
@@ -29,8 +29,8 @@ static inline uint_run pixel_index(uint_run position, int width) {
 // An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
 #define FIRST_ID 1
 
-// Packed positions of the run's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
-static inline uint_run run_positions(int x, int y) { return pack(x, y) + LANES; }
+// Packed positions of a vector's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
+static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES; }
 
 // DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, else the
 // Manhattan distance, both integers. ALONG(offset) is offset * FACTOR(offset). Both macros take numbers and vectors,
@@ -80,7 +80,7 @@ DEFINE_DISTANCE_BETWEEN(distance_between, uint16, short32, as_uint16, as_short32
 
 // As distance_between(), where the position may be empty: that is farther than any seed. The subtraction makes a
 // meaningless number of an empty position, but the sign bit alone puts it past every real distance.
-static inline uint_run distance_to_label(uint_run position, uint_run pixel) {
+static inline uint_v distance_to_label(uint_v position, uint_v pixel) {
   return distance_between(position, pixel) | (position & EMPTY_BIT);
 }
 
@@ -92,13 +92,13 @@ static inline uint_run distance_to_label(uint_run position, uint_run pixel) {
 
 // One step of a search for the first of the nearest seeds where the least distance is known: takes a candidate that has
 // it, if it comes first.
-static inline uint_run first_of_nearest(uint_run best, uint_run candidate, uint_run distance, uint_run least) {
+static inline uint_v first_of_nearest(uint_v best, uint_v candidate, uint_v distance, uint_v least) {
   return select(best, min(best, candidate), distance == least);
 }
 
 // The seed that wins among the lanes of a vector.
-static inline uint winning_lane(uint_run seeds, uint_run distances) {
-  return lane_min(select((uint_run)0xffffffffu, seeds, distances == lane_min(distances)));
+static inline uint winning_lane(uint_v seeds, uint_v distances) {
+  return lane_min(select((uint_v)0xffffffffu, seeds, distances == lane_min(distances)));
 }
 
 #endif

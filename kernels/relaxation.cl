@@ -2,7 +2,7 @@
 
 #include "runs.cl"
 
-// The energy of each block's pixels: their squared distances to their seeds, a stretch at a time.
+// The energy of each block's pixels: their squared distances to their seeds, run by run.
 kernel void add_energy(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
                        int height, int wide, int high, global ulong* restrict energies) {
   block_t block;
@@ -11,8 +11,8 @@ kernel void add_energy(global const uint* restrict labels, global const uint* re
   for (int y = block.top; y < block.bottom; ++y) {
     global const uint* const row = labels + y * width;
     walk_t walk = begin_walk(row, row, block.left, block.right);
-    while (next_stretch(&walk)) {
-      const uint label = stretch_label(&walk);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
       if (label >= count) continue;
       const long n = walk.to - walk.from;
       const long x = walk.from - packed_x(positions[label]), dy = y - packed_y(positions[label]);
@@ -30,14 +30,14 @@ static inline int nearest_to_mean(ulong sum, uint area, int present) {
   return twice_the_rest < area ? low : low + 1;
 }
 
-// Counts the seeds that moved, and finds the longest motion along an axis; each work-item for a stretch of the seeds, so
-// that few meet there.
-kernel void move_to_centroids(global uint* restrict positions, uint count, uint stretch, global const uint* restrict area,
+// Counts the seeds that moved, and finds the longest motion along an axis; each work-item for a chunk of the seeds,
+// so that few meet there.
+kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
                               global const ulong* restrict sum_x, global const ulong* restrict sum_y,
                               global uint* restrict moved_and_longest) {
-  const uint begin = (uint)get_global_id(0) * stretch;
+  const uint begin = (uint)get_global_id(0) * chunk;
   if (begin >= count) return;
-  const uint end = min(begin + stretch, count);
+  const uint end = min(begin + chunk, count);
   uint moved = 0, longest = 0;
   for (uint id = begin; id < end; ++id) {
     if (area[id] == 0) continue;

@@ -1,5 +1,6 @@
-// Stretches: pixels of one row with one label. What is summed over the pixels of a cell is added a stretch at a time,
-// in closed form, so that the cost follows the borders of the cells and few additions meet at one cell's sums.
+// Runs: neighbouring pixels of one row with one label, as in run-length coding. What is summed over the pixels of a
+// cell is added run by run, in closed form, so that the cost follows the borders of the cells and few additions meet
+// at one cell's sums.
 //
 // The grid is cut into blocks; a work-item walks through the rows of one block. The host chooses the blocks' shape:
 // large ones for a CPU, small ones for a GPU, which needs many work-items.
@@ -31,15 +32,15 @@ static inline bool take_block(int width, int height, int wide, int high, block_t
   return block->top < height;
 }
 
-// A walk along the stretches of a block's row: [from, to) is the present one. Where two rows are walked at once a stretch
-// ends where either changes.
+// A walk along the runs of a block's row: [from, to) is the present one. Where two rows are walked at once a
+// run ends where either changes.
 typedef struct {
   global const uint* row;
   global const uint* other;
   int left, right;  // the block's row
   int from, to;
   int base, next;  // the pixels that were compared last begin at base; next is the first one that was not yet
-  uint changes;    // bit i: pixel base + i begins another stretch
+  uint changes;    // bit i: pixel base + i begins another run
 } walk_t;
 
 static inline walk_t begin_walk(global const uint* row, global const uint* other, int left, int right) {
@@ -47,14 +48,14 @@ static inline walk_t begin_walk(global const uint* row, global const uint* other
   return walk;
 }
 
-// Bit i: pixel i of a run has another label than the one before it.
-static inline uint changes_of_run(global const uint* pixels) {
-  return lane_sum(select((uint_run)0, (uint_run)1 << LANES, LOAD_RUN(pixels) != LOAD_RUN(pixels - 1)));
+// Bit i: pixel i of a vector has another label than the one before it.
+static inline uint changes_of_vector(global const uint* pixels) {
+  return lane_sum(select((uint_v)0, (uint_v)1 << LANES, LOAD_VECTOR(pixels) != LOAD_VECTOR(pixels - 1)));
 }
 
-// Goes to the next stretch; false at the end of the row. All changes of a run are found at once: a CPU would mispredict
-// a branch for every stretch.
-__attribute__((always_inline)) static inline bool next_stretch(walk_t* walk) {
+// Goes to the next run; false at the end of the row. All changes of a vector are found at once: a CPU would
+// mispredict a branch for every run.
+__attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
   walk->from = walk->to;
   if (walk->from >= walk->right) return false;
   while (walk->changes == 0) {
@@ -63,10 +64,10 @@ __attribute__((always_inline)) static inline bool next_stretch(walk_t* walk) {
       return true;
     }
     if (walk->right - walk->left > VOROCL_WIDTH) {
-      // The last run of the row is moved left; it ends with the row and passes over what was compared before.
+      // The last vector of the row is moved left; it ends with the row and passes over what was compared before.
       walk->base = min(walk->next, walk->right - VOROCL_WIDTH);
-      walk->changes = changes_of_run(walk->row + walk->base);
-      if (walk->other != walk->row) walk->changes |= changes_of_run(walk->other + walk->base);
+      walk->changes = changes_of_vector(walk->row + walk->base);
+      if (walk->other != walk->row) walk->changes |= changes_of_vector(walk->other + walk->base);
       walk->changes &= 0xffffffffu << (walk->next - walk->base);
       walk->next = walk->base + VOROCL_WIDTH;
     } else {
@@ -80,5 +81,5 @@ __attribute__((always_inline)) static inline bool next_stretch(walk_t* walk) {
   return true;
 }
 
-// The label of the present stretch.
-static inline uint stretch_label(const walk_t* walk) { return walk->row[walk->to - 1]; }
+// The label of the present run.
+static inline uint run_label(const walk_t* walk) { return walk->row[walk->to - 1]; }

@@ -3,8 +3,9 @@
 #include "philox.cl"
 #include "position.cl"
 
-// Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and its
-// point is not looked at. `found` holds the least index of a bad point, the bits of its x and y, and how many are absent.
+// Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and
+// its point is not looked at. `found` holds the least index of a bad point, the bits of its x and y, and how many are
+// absent.
 kernel void snap_points(global const float2* restrict points, global const uchar* restrict marks, int marked,
                         global uint* restrict positions, uint count, int width, int height,
                         global uint* restrict found) {
@@ -47,8 +48,8 @@ kernel void mark_seeds(global const uint* restrict positions, uint count, global
   seeded[VOROCL_GUARD + packed_y(positions[id]) * width + packed_x(positions[id])] = 1;
 }
 
-// An image of ids at the seeds' pixels (FIRST_ID + the pixel's index), in two steps: of the seeds on one pixel the lowest
-// id stays. The other pixels are never looked up, so they keep what they held.
+// An image of ids at the seeds' pixels (FIRST_ID + the pixel's index), in two steps: of the seeds on one pixel the
+// lowest id stays. The other pixels are never looked up, so they keep what they held.
 kernel void clear_ids(global const uint* restrict positions, uint count, global uint* restrict ids, int width) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || positions[id] & EMPTY_BIT) return;

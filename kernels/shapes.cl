@@ -10,9 +10,9 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   largest[id] = -1;
 }
 
-// What a row cannot decide is left to the others: a stretch adds to a side of its cell's box, or to the largest distance,
-// only if the pixel next to its end in the row above or below, which would add more, is not in the cell. That leaves a
-// few atomics of the many that the cells' borders would need.
+// What a row cannot decide is left to the others: a run adds to a side of its cell's box, or to the largest
+// distance, only if the pixel next to its end in the row above or below, which would add more, is not in the cell.
+// That leaves a few atomics of the many that the cells' borders would need.
 kernel void add_shapes(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
                        int height, int wide, int high, global int* restrict boxes, global int* restrict largest) {
   block_t block;
@@ -20,8 +20,8 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
   for (int y = block.top; y < block.bottom; ++y) {
     global const uint* const row = labels + y * width;
     walk_t walk = begin_walk(row, row, block.left, block.right);
-    while (next_stretch(&walk)) {
-      const uint label = stretch_label(&walk);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
       if (label >= count) continue;
       const int first = walk.from, last = walk.to - 1;
       const bool above = y > 0, below = y + 1 < height;

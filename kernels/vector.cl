@@ -1,41 +1,42 @@
-// A run: VOROCL_WIDTH neighbouring pixels of one row, which one work-item computes together.
+// Vectors: VOROCL_WIDTH neighbouring pixels of one row, which one work-item computes together.
 //
 // PoCL does not vectorise branchy per-pixel kernels, so kernels are written on explicit vectors; a GPU takes
-// runs of one pixel from the same source. VOROCL_WIDTH (1, 2, 4, 8 or 16) is a build option. A row always
-// holds at least one whole run: the host never builds for a width above that of the grid.
+// vectors of one pixel from the same source. VOROCL_WIDTH (1, 2, 4, 8 or 16) is a build option. A row always
+// holds at least one whole vector: the host never builds for a width above that of the grid.
 
 // Images that waves read at an offset have VOROCL_GUARD (a build option, at least VOROCL_WIDTH) spare values before and
-// behind their pixels, so that a run which sticks out of the grid can be loaded whole and its outer lanes masked.
+// behind their pixels, so that a vector which sticks out of the grid can be loaded whole and its outer lanes masked.
 
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
 #if VOROCL_WIDTH == 1
-typedef uint uint_run;
-typedef int int_run;
+typedef uint uint_v;
+typedef int int_v;
 #define LANES 0u
-#define LOAD_RUN(pointer) (*(pointer))
-#define STORE_RUN(run, pointer) (*(pointer) = (run))
-#define STORE_WHOLE_RUN STORE_RUN
+#define LOAD_VECTOR(pointer) (*(pointer))
+#define STORE_VECTOR(values, pointer) (*(pointer) = (values))
+#define STORE_WHOLE_VECTOR STORE_VECTOR
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
 #else
-typedef JOIN(uint, VOROCL_WIDTH) uint_run;
-typedef JOIN(int, VOROCL_WIDTH) int_run;
-#define LOAD_RUN(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
-#define STORE_RUN(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
+typedef JOIN(uint, VOROCL_WIDTH) uint_v;
+typedef JOIN(int, VOROCL_WIDTH) int_v;
+#define LOAD_VECTOR(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
+#define STORE_VECTOR(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
 // To global memory, in one piece: PoCL's vstore() makes two, and its compiler then makes the values in two halves.
 typedef struct __attribute__((packed)) {
-  uint_run values;
-} unaligned_run;
-#define STORE_WHOLE_RUN(run, pointer) (((global unaligned_run*)(pointer))->values = (run))
+  uint_v values;
+} unaligned_v;
+#define STORE_WHOLE_VECTOR(vector, pointer) (((global unaligned_v*)(pointer))->values = (vector))
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
 #define ANY(condition) any(condition)
 #endif
 
-// A kernel whose work-items compute whole runs. The hint keeps compilers that make vectors of work-items from doing so.
-#define RUN_KERNEL kernel __attribute__((vec_type_hint(uint_run)))
+// A kernel whose work-items compute whole vectors. The hint keeps compilers that make vectors of work-items from
+// doing so.
+#define VECTOR_KERNEL kernel __attribute__((vec_type_hint(uint_v)))
 
 #if VOROCL_WIDTH == 2
 #define LANES ((uint2)(0, 1))
@@ -47,7 +48,7 @@ typedef struct __attribute__((packed)) {
 #define LANES ((uint16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 #endif
 
-// Stores the table's values at the run's indices, lane by lane: a CPU has them in scalar registers anyway. (Given a
+// Stores the table's values at a vector of indices, lane by lane: a CPU has them in scalar registers anyway. (Given a
 // pointer instead of an index, PoCL's compiler builds a vector of them first, which costs a quarter of a wave.)
 static inline void store_looked_up_1(global const uint* table, uint at, global uint* out, int first) {
   out[first] = table[at];
@@ -69,8 +70,8 @@ static inline void store_looked_up_16(global const uint* table, uint16 at, globa
 #undef LANE
 #define store_looked_up JOIN(store_looked_up_, VOROCL_WIDTH)
 
-// The values of a table, itself a run, at a run of indices modulo VOROCL_WIDTH. (PoCL's shuffle() works lane by lane;
-// its compiler makes a permutation of this.)
+// The values of a table, itself a vector, at a vector of indices modulo VOROCL_WIDTH. (PoCL's shuffle() works lane by
+// lane; its compiler makes a permutation of this.)
 static inline uint permute_1(uint table, uint at) {
   (void)at;
   return table;
@@ -93,18 +94,18 @@ static inline uint16 permute_16(uint16 table, uint16 at) {
 }
 #define permute JOIN(permute_, VOROCL_WIDTH)
 
-// The values at the indices in a table of 1, 2, 3 or 4 runs.
-static inline uint_run look_up_in_1(const uint* table, uint_run at) { return permute(LOAD_RUN(table), at); }
-#define DEFINE_LOOK_UP(name, name_of_one_less, runs)                                        \
-  static inline uint_run name(const uint* table, uint_run at) {                             \
-    const uint_run last = permute(LOAD_RUN(table + (runs - 1) * VOROCL_WIDTH), at); \
-    return select(name_of_one_less(table, at), last, at >= (uint)((runs - 1) * VOROCL_WIDTH)); \
+// The values at the indices in a table of 1, 2, 3 or 4 vectors.
+static inline uint_v look_up_in_1(const uint* table, uint_v at) { return permute(LOAD_VECTOR(table), at); }
+#define DEFINE_LOOK_UP(name, name_of_one_less, vectors)                                     \
+  static inline uint_v name(const uint* table, uint_v at) {                                 \
+    const uint first = (vectors - 1) * VOROCL_WIDTH;                                        \
+    return select(name_of_one_less(table, at), permute(LOAD_VECTOR(table + first), at), at >= first); \
   }
 DEFINE_LOOK_UP(look_up_in_2, look_up_in_1, 2)
 DEFINE_LOOK_UP(look_up_in_3, look_up_in_2, 3)
 DEFINE_LOOK_UP(look_up_in_4, look_up_in_3, 4)
 
-// The sum of a run's lanes.
+// The sum of a vector's lanes.
 static inline uint lane_sum_1(uint values) { return values; }
 static inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }
 static inline uint lane_sum_4(uint4 values) { return lane_sum_2(values.lo + values.hi); }
@@ -112,7 +113,7 @@ static inline uint lane_sum_8(uint8 values) { return lane_sum_4(values.lo + valu
 static inline uint lane_sum_16(uint16 values) { return lane_sum_8(values.lo + values.hi); }
 #define lane_sum JOIN(lane_sum_, VOROCL_WIDTH)
 
-// The least of a run's lanes.
+// The least of a vector's lanes.
 static inline uint lane_min_1(uint values) { return values; }
 static inline uint lane_min_2(uint2 values) { return min(values.lo, values.hi); }
 static inline uint lane_min_4(uint4 values) { return lane_min_2(min(values.lo, values.hi)); }
@@ -120,12 +121,12 @@ static inline uint lane_min_8(uint8 values) { return lane_min_4(min(values.lo, v
 static inline uint lane_min_16(uint16 values) { return lane_min_8(min(values.lo, values.hi)); }
 #define lane_min JOIN(lane_min_, VOROCL_WIDTH)
 
-// Whether this work-item has a run at all: the launch is rounded up to whole work-groups.
-static inline bool has_run(int width, int height) {
+// Whether this work-item has a vector at all: the launch is rounded up to whole work-groups.
+static inline bool has_vector(int width, int height) {
   return (int)get_global_id(0) * VOROCL_WIDTH < width && (int)get_global_id(1) < height;
 }
 
-// The first pixel of this work-item's run. The last run of a row is moved left so that it ends with the row:
+// The first pixel of this work-item's vector. The last vector of a row is moved left so that it ends with the row:
 // it computes some pixels a second time, to the same values.
-static inline int run_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
-static inline int run_y(void) { return (int)get_global_id(1); }
+static inline int vector_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
+static inline int vector_y(void) { return (int)get_global_id(1); }

@@ -26,8 +26,9 @@ struct DynamicJumpFloodingOptions {
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
 /// device memory per pixel. Enqueues and returns, with two exceptions. After a seed has vanished, or if the
 /// labels are of other seeds or were written by the caller, it waits to see whether pixels are left. If the
-/// last frame's points came in the caller's buffer, it waits until these have been checked, for labels made
-/// from a bad point cannot be gone on from. Throws as jump_flooding(), and if an option is out of its range.
+/// last frame's points came in the caller's buffer, it waits until these have been checked, because a bad
+/// one would have left holes in the labels: then a JFA runs. Throws as jump_flooding(), and if an option is
+/// out of its range.
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
                                         const DynamicJumpFloodingOptions& options = {});
 

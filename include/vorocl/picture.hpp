@@ -32,7 +32,7 @@ struct Scale {
 };
 
 /// The range of the values that a picture shows: of the cells that have a pixel, infinite and absent (NaN)
-/// values apart. None if there is no value. `values` holds one a seed, by id. Throws Error for a label
+/// values apart. None if there is no value. `values` holds one per seed, by id. Throws Error for a label
 /// without a value.
 VOROCL_API std::optional<Scale> range_of(const std::vector<std::uint32_t>& labels,
                                          const std::vector<double>& values);
@@ -49,14 +49,14 @@ VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const G
 /// another palette.
 VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid, Palette palette);
 
-/// Colours each pixel by the value of its label's seed. `values` holds one a seed, by id; an absent value
+/// Colours each pixel by the value of its label's seed. `values` holds one per seed, by id; an absent value
 /// (NaN) is light grey and no_label is black. With a categorical palette values are rounded to whole numbers.
 /// Throws Error unless there is one label a pixel and a value for every label, and for a bad scale.
 VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
                                   const std::vector<double>& values, const Scale& scale, Palette palette);
 
 /// Colours each pixel by its distance, as distance_field() gives it; a pixel without a label (infinity) is
-/// black. Throws Error unless there is one distance a pixel, for a bad scale and for a categorical palette.
+/// black. Throws Error unless there is one distance per pixel, for a bad scale and for a categorical palette.
 VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid,
                                      const Scale& scale, Palette palette);
 
@@ -70,7 +70,7 @@ VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& l
 
 /// Draws lines of equal distance to the nearest seed into a picture, one every `interval` pixels of distance:
 /// dark on bright colours and light on dark ones. A line's pixels are the nearest that are no nearer than its
-/// distance. Throws Error unless there is one distance a pixel and the interval is positive and finite.
+/// distance. Throws Error unless there is one distance per pixel and the interval is positive and finite.
 VOROCL_API void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval);
 
 /// Draws a dot on each seed that is not absent into a picture: dark with a light rim where there is room for

@@ -16,13 +16,13 @@ static inline Box box_of(int x, int y, int columns, int rows, int width, int hei
 }
 
 // Stores labels, as far as their pixels lie in the grid.
-static inline void store_in_row(uint_run labels, global uint* image, int x, int y, int width) {
+static inline void store_in_row(uint_v labels, global uint* image, int x, int y, int width) {
   if (x + VOROCL_WIDTH <= width) {
-    STORE_WHOLE_RUN(labels, image + y * width + x);
+    STORE_WHOLE_VECTOR(labels, image + y * width + x);
     return;
   }
   uint label[VOROCL_WIDTH];
-  STORE_RUN(labels, label);
+  STORE_VECTOR(labels, label);
   for (int lane = 0; x + lane < width; ++lane) image[y * width + x + lane] = label[lane];
 }
 
@@ -30,7 +30,7 @@ static inline void fill_box(Box box, uint label, global uint* labels, int width)
   const int whole = (box.right + 1 - box.left) / VOROCL_WIDTH * VOROCL_WIDTH, columns = box.right + 1 - box.left;
   for (int y = box.top; y <= box.bottom; ++y) {
     global uint* const row = labels + y * width + box.left;
-    for (int x = 0; x < whole; x += VOROCL_WIDTH) STORE_WHOLE_RUN((uint_run)label, row + x);
+    for (int x = 0; x < whole; x += VOROCL_WIDTH) STORE_WHOLE_VECTOR((uint_v)label, row + x);
     for (int x = whole; x < columns; ++x) row[x] = label;
   }
 }

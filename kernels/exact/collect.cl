@@ -31,7 +31,7 @@ static inline int add_rim(const SeedIndex* index, int bin_x, int bin_y, uint* se
 // Copies a part of the list of all seeds, and may write a vector behind it.
 static inline int copy_seeds(const SeedIndex* index, uint begin, uint end, uint* seeds, int count) {
   for (uint i = begin; i < end; i += VOROCL_WIDTH) {
-    STORE_RUN(LOAD_RUN(index->list + i), seeds + count + (int)(i - begin));
+    STORE_VECTOR(LOAD_VECTOR(index->list + i), seeds + count + (int)(i - begin));
   }
   return count + (int)(end - begin);
 }

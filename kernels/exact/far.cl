@@ -35,18 +35,18 @@ static inline uint seeds_in_bin(const SeedIndex* index, int level, int x, int y)
 
 // Takes those of a list that can be candidates of a box, and pads them.
 static inline int take_candidates(global const uint* list, int count, Box box, Dominators* dominators, uint* seeds) {
-  for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_RUN(LOAD_RUN(list + i), seeds + i);
+  for (int i = 0; i < count; i += VOROCL_WIDTH) STORE_VECTOR(LOAD_VECTOR(list + i), seeds + i);
   pad(seeds, count);
   no_dominators(dominators, box);
   improve_dominator(dominators, 0, seeds, count);
   return drop_dominated(dominators, seeds, count);
 }
 
-// Lists the candidates of a tile or region that has bins to be labelled yet. A tile of one candidate is labelled at once,
-// all of it: it has no crowded bin, for the rim of that would be more candidates.
-RUN_KERNEL void list_candidates(SEED_INDEX_PARAMETERS, int level, global const uint* restrict labelled,
-                                global const uint* restrict pyramid, int top_level, global uint* lists,
-                                global uint* counts, global uint* restrict labels) {
+// Lists the candidates of a tile or region that has bins to be labelled yet. A tile of one candidate is labelled at
+// once, all of it: it has no crowded bin, for the rim of that would be more candidates.
+VECTOR_KERNEL void list_candidates(SEED_INDEX_PARAMETERS, int level, global const uint* restrict labelled,
+                                   global const uint* restrict pyramid, int top_level, global uint* lists,
+                                   global uint* counts, global uint* restrict labels) {
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int across = bins_along(width, level), bin = (int)get_global_id(0);
   if (bin >= across * bins_along(height, level)) return;
@@ -91,9 +91,9 @@ static inline bool label_by_tile(const SeedIndex* index, global const uint* cand
   return true;
 }
 
-static inline void store_ids(uint_run seeds, const SeedIndex* index, global uint* labels, int x, int y) {
+static inline void store_ids(uint_v seeds, const SeedIndex* index, global uint* labels, int x, int y) {
   uint seed[VOROCL_WIDTH];
-  STORE_RUN(seeds, seed);
+  STORE_VECTOR(seeds, seed);
   for (int lane = 0; lane < min(VOROCL_WIDTH, index->width - x); ++lane) {
     labels[y * index->width + x + lane] = id_of(index, seed[lane]);
   }
@@ -102,18 +102,18 @@ static inline void store_ids(uint_run seeds, const SeedIndex* index, global uint
 // Labels the bin that is a search's box by any number of candidates, list after list in any order.
 static inline void label_by_search(Search* search, const SeedIndex* index, global uint* labels) {
   const Box box = search->box;
-  uint_run least[BIN * BIN / VOROCL_WIDTH], nearest[BIN * BIN / VOROCL_WIDTH];
-  for (int i = 0; i < BIN * BIN / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_run)0xffffffffu;
+  uint_v least[BIN * BIN / VOROCL_WIDTH], nearest[BIN * BIN / VOROCL_WIDTH];
+  for (int i = 0; i < BIN * BIN / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_v)0xffffffffu;
   bool complete = false;
   while (!complete) {
     complete = find_candidates(search, index);
     int i = 0;
     for (int y = box.top; y <= box.bottom; ++y) {
       for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) {
-        const uint_run pixel = run_positions(x, y);
+        const uint_v pixel = vector_positions(x, y);
         for (int c = 0; c < search->count; ++c) {
-          const uint_run seed = search->seeds[c];
-          const uint_run distance = distance_between(seed, pixel);
+          const uint_v seed = search->seeds[c];
+          const uint_v distance = distance_between(seed, pixel);
           nearest[i] = select(nearest[i], seed, WINS(seed, distance, nearest[i], least[i]));
           least[i] = min(least[i], distance);
         }
@@ -128,9 +128,9 @@ static inline void label_by_search(Search* search, const SeedIndex* index, globa
 }
 
 // Labels what is left of a pair: both bins or one.
-RUN_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict labelled,
-                          global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
-                          global const uint* restrict counts, global uint* restrict labels) {
+VECTOR_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict labelled,
+                             global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
+                             global const uint* restrict counts, global uint* restrict labels) {
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int pair = (int)get_global_id(0);
   if (pair >= index.columns * pairs_down(&index) || labelled[pair] == BOTH) return;

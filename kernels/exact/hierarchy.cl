@@ -1,5 +1,5 @@
-// The search for the candidates of a box, from the coarsest bins of the pyramid to fine ones. Dominated bins are dropped
-// at each level; what is left at the end has its seeds collected.
+// The search for the candidates of a box, from the coarsest bins of the pyramid to fine ones. Dominated bins are
+// dropped at each level; what is left at the end has its seeds collected.
 
 #ifndef VOROCL_EXACT_HIERARCHY
 #define VOROCL_EXACT_HIERARCHY
@@ -19,14 +19,14 @@ typedef struct {
   int bin_count;                                   // bins that may hold candidates:
   uint bins[MOST_BINS + VOROCL_WIDTH];             // their column and row in their level, packed, and MORE
   uint representatives[MOST_BINS + VOROCL_WIDTH];  // a seed of each
-  int next_part;                                   // of the parts of level 0 of all bins, the first one not collected yet
-  int count;                                       // candidates found and not yet taken:
-  uint seeds[MOST_CANDIDATES + BIN * BIN + VOROCL_WIDTH];  // a full list, the seeds of one bin more, and padding
+  int next_part;  // of the parts of level 0 of all bins, the first one not collected yet
+  int count;      // candidates found and not yet taken: a full list, the seeds of one bin more, and padding
+  uint seeds[MOST_CANDIDATES + BIN * BIN + VOROCL_WIDTH];
 } Search;
 
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
-static inline int_run along_to_interval(int from, int_run first, int_run last) {
-  return ALONG(max(max(first - from, from - last), (int_run)0));
+static inline int_v along_to_interval(int from, int_v first, int_v last) {
+  return ALONG(max(max(first - from, from - last), (int_v)0));
 }
 
 // Drops the bins that are dominated by one of the dominators from `begin` to `end`. A bin's first pixel stands for its
@@ -36,18 +36,18 @@ static inline void drop_dominated_bins(Search* search, int begin, int end) {
   const int size = 1 << bin_bits(search->level);
   int kept = 0;
   for (int first = 0; first < search->bin_count; first += VOROCL_WIDTH) {
-    const uint_run bin = LOAD_RUN(search->bins + first);
-    const int_run left = AS_INT_RUN(bin & (MORE - 1)) * size, top = AS_INT_RUN(bin >> 16) * size;
-    const int_run to_left = along_to_interval(box.left, left, left + size - 1);
-    const int_run to_right = along_to_interval(box.right, left, left + size - 1);
-    const int_run to_top = along_to_interval(box.top, top, top + size - 1);
-    const int_run to_bottom = along_to_interval(box.bottom, top, top + size - 1);
-    const uint_run distance[CORNERS] = {AS_UINT_RUN(to_left + to_top), AS_UINT_RUN(to_right + to_top),
-                                        AS_UINT_RUN(to_left + to_bottom), AS_UINT_RUN(to_right + to_bottom)};
-    int_run lag = (int_run)INT_MIN;
-    const uint_run first_pixel = AS_UINT_RUN(top) << 16 | AS_UINT_RUN(left);
+    const uint_v bin = LOAD_VECTOR(search->bins + first);
+    const int_v left = AS_INT_V(bin & (MORE - 1)) * size, top = AS_INT_V(bin >> 16) * size;
+    const int_v to_left = along_to_interval(box.left, left, left + size - 1);
+    const int_v to_right = along_to_interval(box.right, left, left + size - 1);
+    const int_v to_top = along_to_interval(box.top, top, top + size - 1);
+    const int_v to_bottom = along_to_interval(box.bottom, top, top + size - 1);
+    const uint_v distance[CORNERS] = {AS_UINT_V(to_left + to_top), AS_UINT_V(to_right + to_top),
+                                      AS_UINT_V(to_left + to_bottom), AS_UINT_V(to_right + to_bottom)};
+    int_v lag = (int_v)INT_MIN;
+    const uint_v first_pixel = AS_UINT_V(top) << 16 | AS_UINT_V(left);
     for (int i = begin; i < end; ++i) lag = max(lag, least_lag(&search->dominators, i, first_pixel, distance));
-    lag = select(lag, (int_run)0, AS_INT_RUN(LOAD_RUN(search->representatives + first)) < 0);  // empty
+    lag = select(lag, (int_v)0, AS_INT_V(LOAD_VECTOR(search->representatives + first)) < 0);  // empty
     keep_entries(search->bins, first, lag < 0, kept);
     kept = keep_entries(search->representatives, first, lag < 0, kept);
   }
@@ -56,7 +56,8 @@ static inline void drop_dominated_bins(Search* search, int begin, int end) {
 }
 
 // Adds the bins of a square of the search's level that are not empty.
-static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, int x, int y, int size) {
+static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, int x, int y,
+                            int size) {
   const int columns = bins_along(index->width, search->level), rows = bins_along(index->height, search->level);
   global const uint* const level = pyramid + level_start(index->width, index->height, search->level);
   for (int bin_y = y; bin_y < min(y + size, rows); ++bin_y) {
@@ -69,8 +70,8 @@ static inline void add_bins(Search* search, const SeedIndex* index, global const
   }
 }
 
-// Takes the seeds that are their bins' only ones as candidates, as long as there is room, so that these bins need not be
-// refined.
+// Takes the seeds that are their bins' only ones as candidates, as long as there is room, so that these bins need not
+// be refined.
 static inline void take_only_seeds(Search* search) {
   int kept = 0;
   for (int i = 0; i < search->bin_count; ++i) {

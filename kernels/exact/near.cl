@@ -8,8 +8,8 @@
 #include "exact/keys.cl"
 #include "exact/rows.cl"
 
-// The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end. The
-// bins of a row, one beside the other, are added at once.
+// The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end.
+// The bins of a row, one beside the other, are added at once.
 #define MOST_AWAY 2
 #define MOST_NEAR MOST_CANDIDATES
 typedef struct {
@@ -35,9 +35,9 @@ static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, i
   return true;
 }
 
-// Labels so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No pixel
-// of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is within
-// that reach of some pixel.
+// Labels so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No
+// pixel of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is
+// within that reach of some pixel.
 static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
   Near near;
   near.box = box_of(x * BIN, y * BIN, BIN, bins * BIN, index->width, index->height);
@@ -62,7 +62,8 @@ static inline uint seeds_near(const SeedIndex* index, int x, int y, int bins) {
 
 static inline int pairs_down(const SeedIndex* index) { return (index->rows - 1) / PAIR + 1; }
 
-// Labels a pair of bins, and says by a bit each which of them it could: the upper bin's is UPPER, the lower bin's LOWER.
+// Labels a pair of bins, and says by a bit each which of them it could: the upper bin's is UPPER, the lower bin's
+// LOWER.
 #define UPPER 1
 #define LOWER 2
 #define BOTH (UPPER | LOWER)
@@ -83,7 +84,7 @@ static inline uint label_pair(const SeedIndex* index, int x, int y, global uint*
   return labelled;
 }
 
-RUN_KERNEL void label_near(SEED_INDEX_PARAMETERS, global uint* restrict labels, global uint* restrict labelled) {
+VECTOR_KERNEL void label_near(SEED_INDEX_PARAMETERS, global uint* restrict labels, global uint* restrict labelled) {
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int pair = (int)get_global_id(0);
   if (pair >= index.columns * pairs_down(&index)) return;

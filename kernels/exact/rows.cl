@@ -1,8 +1,8 @@
 // Labelling a bin where seeds are dense: the nearest seed of each row, found among the row's bits, and then the best of
 // the rows.
 //
-// A row of a bin is one vector of BIN lanes here, whatever VOROCL_WIDTH is. Rows up to REACH above and below the bin take
-// part, and in each row the bins to the left and right.
+// A row of a bin is one vector of BIN lanes here, whatever VOROCL_WIDTH is. Rows up to REACH above and below the bin
+// take part, and in each row the bins to the left and right.
 
 #ifndef VOROCL_EXACT_ROWS
 #define VOROCL_EXACT_ROWS
@@ -22,8 +22,8 @@
 // so that of rows at equal distances the upper one has the least key.
 #define OFFSET_BITS 5
 #define ROW_KEY(distance, offset) (((distance) << OFFSET_BITS) + (offset) + REACH)
-// What stands for the part along x where a row has no seed near: more than the distance to any seed that rows find, which
-// is in the bin or next to it.
+// What stands for the part along x where a row has no seed near: more than the distance to any seed that rows find,
+// which is in the bin or next to it.
 #define NO_SEED_NEAR 1250
 #define MOST_ALONG_X ((2 << BIN_BITS) - 1)
 #if NO_SEED_NEAR <= MOST_ALONG_X * MOST_ALONG_X + REACH * REACH
@@ -33,8 +33,8 @@
 #error "A row key does not fit in a ushort"
 #endif
 
-// The ids of a row: of the last seed in the bin at the left, of the seeds in the row of the bin, of the first one in the
-// bin at the right.
+// The ids of a row: of the last seed in the bin at the left, of the seeds in the row of the bin, of the first one in
+// the bin at the right.
 #define IDS_OF_ROW (BIN + 2)
 #if ((PAIR << BIN_BITS) + 2 * REACH) * ((1 << BIN_BITS) + 2) > 0xffff
 #error "A place among the ids of all rows does not fit in a ushort"
@@ -87,9 +87,10 @@ static inline RowOfBin row_of_bin(const SeedIndex* index, int word, int y, bool 
   return row;
 }
 
-// A row's nearest seeds, of two the left one, which the tie rule says: a pixel's is the last one up to it or the first one
-// behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the left and right
-// only the seed next to this bin counts, and one FAR_AWAY if there is none; the right one's last pixel is out of reach.
+// A row's nearest seeds, of two the left one, which the tie rule says: a pixel's is the last one up to it or the
+// first one behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the
+// left and right only the seed next to this bin counts, and one FAR_AWAY if there is none; the right one's last pixel
+// is out of reach.
 #define FAR_AWAY 128
 #if FAR_AWAY < 3 << BIN_BITS
 #error "A seed that is not there may be nearer than one in the bin at the other side"
@@ -193,7 +194,7 @@ static inline bool label_by_rows(NearestInRows* rows, int bin_y, global uint* la
   }
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < BIN; x += VOROCL_WIDTH) {
-      store_in_row(LOAD_RUN(label + y * BIN + x), labels, left + x, top + y, index->width);
+      store_in_row(LOAD_VECTOR(label + y * BIN + x), labels, left + x, top + y, index->width);
     }
   }
   return true;

@@ -1,4 +1,5 @@
-// The index of the seeds: where seeds are, one bit per pixel, and a list of the seeds bin by bin. make_index.cl makes it.
+// The index of the seeds: where seeds are, one bit per pixel, and a list of the seeds bin by bin. make_index.cl makes
+// it.
 
 #ifndef VOROCL_EXACT_SEED_INDEX
 #define VOROCL_EXACT_SEED_INDEX
@@ -7,11 +8,11 @@
 #include "position.cl"
 
 #if VOROCL_WIDTH == 1
-#define AS_INT_RUN as_int
-#define AS_UINT_RUN as_uint
+#define AS_INT_V as_int
+#define AS_UINT_V as_uint
 #else
-#define AS_INT_RUN JOIN(as_int, VOROCL_WIDTH)
-#define AS_UINT_RUN JOIN(as_uint, VOROCL_WIDTH)
+#define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
+#define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
 #endif
 
 // THE BINS. Level 0 is the index itself; each bin of a higher level holds FAN x FAN bins of the level below.
@@ -21,8 +22,8 @@
 static inline int bin_bits(int level) { return BIN_BITS + FAN_BITS * level; }
 static inline int bins_along(int pixels, int level) { return ((pixels - 1) >> bin_bits(level)) + 1; }
 
-// THE BITS. A bit per pixel says whether there is a seed; the bits of a bin stand together, row-major, one bin after the
-// other. This is the index of a pixel's bit, for a number or a vector.
+// THE BITS. A bit per pixel says whether there is a seed; the bits of a bin stand together, row-major, one bin after
+// the other. This is the index of a pixel's bit, for a number or a vector.
 #define BIT_INDEX(pixel, columns)                                                                             \
   (((((pixel) >> (16 + BIN_BITS)) * (uint)(columns) + (((pixel) & 0xffffu) >> BIN_BITS)) << 2 * BIN_BITS) + \
    (((pixel) >> 16 & (BIN - 1)) << BIN_BITS) + ((pixel) & (BIN - 1)))
@@ -38,9 +39,9 @@ static inline int bins_along(int pixels, int level) { return ((pixels - 1) >> bi
 static inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * BIN & ALL_BITS; }
 static inline uint lowest_bit(uint bits) { return 31u - clz(bits & -bits); }
 
-// THE LIST. The seeds of each bin stand in it together, row-major, without those that share a pixel; the bins of a row of
-// bins follow each other. `starts` says where a bin's seeds begin, `word_starts` where those of each word of its bits do.
-// So a seed's index in the list follows from its position: a bit vector with rank.
+// THE LIST. The seeds of each bin stand in it together, row-major, without those that share a pixel; the bins of a
+// row of bins follow each other. `starts` says where a bin's seeds begin, `word_starts` where those of each word of
+// its bits do. So a seed's index in the list follows from its position: a bit vector with rank.
 static inline uint list_index(global const uint* bits, global const uint* word_starts, uint bit) {
   const uint word = bit / 32;
   return word_starts[word] + popcount(bits[word] & ((1u << bit % 32) - 1));
@@ -73,8 +74,8 @@ static inline uint count_seeds(const SeedIndex* index, int first_x, int last_x, 
   return index->starts[end] - index->starts[start_of(max(first_x, 0), y, index->columns)];
 }
 
-// THE PYRAMID. For each bin of every level one of its seeds, its representative, or EMPTY. The representative's bit MORE
-// says that it is not the bin's only seed. The levels are row-major, the finest one first.
+// THE PYRAMID. For each bin of every level one of its seeds, its representative, or EMPTY. The representative's bit
+// MORE says that it is not the bin's only seed. The levels are row-major, the finest one first.
 #define MORE 0x8000u
 #if MORE <= LAST_COORDINATE
 #error "MORE is a bit of a coordinate"

@@ -25,9 +25,9 @@
 #endif
 
 // WHO LABELS A BIN. First by the number of seeds near its pair, in its two bins and the ten around them: a pair with
-// less than SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is labelled as
-// a whole. Then by the number near the bin, in it and the eight around it: one with DENSE or more is labelled by rows.
-// Measured: at these numbers the two ways take the same time.
+// less than SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is
+// labelled as a whole. Then by the number near the bin, in it and the eight around it: one with DENSE or more is
+// labelled by rows. Measured: at these numbers the two ways take the same time.
 #define SPARSE 5
 #define MEDIUM 24
 #define DENSE 56
@@ -35,9 +35,10 @@
 // Rows look for seeds up to so many pixels away along each axis.
 #define REACH ((1 << BIN_BITS) - 1)
 
-// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere (see collect.cl), so the bin itself has
-// to be labelled by rows. That is possible if every pixel has one of its seeds within REACH: the pixel that has the most
-// pixels of its bin out of reach is a corner, by the Manhattan metric, with a triangle of OUT_OF_REACH pixels.
+// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere (see collect.cl), so the bin itself
+// has to be labelled by rows. That is possible if every pixel has one of its seeds within REACH: the pixel that has
+// the most pixels of its bin out of reach is a corner, by the Manhattan metric, with a triangle of OUT_OF_REACH
+// pixels.
 #define OUT_OF_REACH (REACH * (REACH + 1) / 2)
 #define CROWDED 160
 #if CROWDED <= OUT_OF_REACH || CROWDED < DENSE || CROWDED < MEDIUM

@@ -29,9 +29,9 @@ BOOST_AUTO_TEST_CASE(labels_go_to_the_callers_buffer) {
   Diagram diagram(test_device(), grid, labels);
   BOOST_TEST(diagram.labels()() == labels());
   exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram);
-  const auto truth = brute_force(grid, pixels, Metric::euclidean);
-  BOOST_TEST((diagram.read() == truth));
-  BOOST_TEST((content_of(labels, 0, grid.pixels()) == truth));
+  const auto ground_truth = brute_force(grid, pixels, Metric::euclidean);
+  BOOST_TEST((diagram.read() == ground_truth));
+  BOOST_TEST((content_of(labels, 0, grid.pixels()) == ground_truth));
 }
 
 BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {

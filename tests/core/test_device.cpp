@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
 BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
   const Grid grid(130, 70);
   const auto pixels = random_pixels(grid, 40, 5);
-  const auto truth = brute_force(grid, pixels, Metric::manhattan);
+  const auto ground_truth = brute_force(grid, pixels, Metric::manhattan);
   const Device shared = Device::select();  // nothing built yet
   std::vector<std::vector<std::uint32_t>> labels(8);
   std::vector<std::thread> threads;
@@ -108,5 +108,5 @@ BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
     });
   }
   for (std::thread& thread : threads) thread.join();
-  for (const auto& image : labels) BOOST_TEST((image == truth));
+  for (const auto& image : labels) BOOST_TEST((image == ground_truth));
 }

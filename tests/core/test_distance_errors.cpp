@@ -39,11 +39,11 @@ void check(const std::string& name, const Device& device, const Case& example, M
            const std::vector<std::uint32_t>& labels) {
   const Seeds seeds(device, example.grid, centres(example.seeds));
   Diagram exact(device, example.grid), diagram(device, example.grid);
-  const std::vector<std::uint32_t> truth = brute_force(example.grid, example.seeds, metric);
-  write_labels(exact, truth);
+  const std::vector<std::uint32_t> ground_truth = brute_force(example.grid, example.seeds, metric);
+  write_labels(exact, ground_truth);
   write_labels(diagram, labels);
   const DistanceErrors found = distance_errors(seeds, diagram, exact, metric);
-  const DistanceErrors expected = on_the_host(example.grid, example.seeds, metric, labels, truth);
+  const DistanceErrors expected = on_the_host(example.grid, example.seeds, metric, labels, ground_truth);
   BOOST_TEST_CONTEXT(example.name << ", " << name << ", " << name_of(metric)) {
     BOOST_TEST(found.pixels == example.grid.pixels());
     BOOST_TEST(found.wrong_pixels == expected.wrong_pixels);

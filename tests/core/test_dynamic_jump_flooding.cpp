@@ -170,9 +170,9 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   BOOST_TEST(seeds.alive() == left.size());
   const Report report = dynamic_jump_flooding(seeds, diagram, 0);
   const auto labels = diagram.read();
-  const auto truth = brute_force(grid, left, Metric::euclidean);
+  const auto ground_truth = brute_force(grid, left, Metric::euclidean);
   std::size_t wrong = 0;
-  for (std::size_t i = 0; i < labels.size(); ++i) wrong += labels[i] != ids[truth[i]] ? 1 : 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) wrong += labels[i] != ids[ground_truth[i]] ? 1 : 0;
   BOOST_TEST(wrong < grid.pixels() / 500);
   BOOST_TEST(report.waves() > static_cast<int>(jump_flooding_plan(grid).size()));
 
@@ -214,13 +214,13 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
     seeds.move_to(points);
     dynamic_jump_flooding(seeds, diagram, 0);
     const auto labels = diagram.read();
-    const auto truth = brute_force(grid, alive, Metric::euclidean);
+    const auto ground_truth = brute_force(grid, alive, Metric::euclidean);
     for (std::size_t i = 0; i < labels.size(); ++i) {
       BOOST_REQUIRE(labels[i] < pixels.size());
       BOOST_REQUIRE(points[labels[i]].has_value());
       const Pixel at = {static_cast<int>(i % 120), static_cast<int>(i / 120)};
       wrong += distance(at, pixels[labels[i]], Metric::euclidean) >
-               distance(at, alive[truth[i]], Metric::euclidean);
+               distance(at, alive[ground_truth[i]], Metric::euclidean);
     }
   }
   BOOST_TEST(wrong < 10 * grid.pixels() / 200);  // half a percent
@@ -235,8 +235,8 @@ BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
     const auto pixels = random_pixels(grid, count, count);
     seeds.move_to(present(pixels));
     dynamic_jump_flooding(seeds, diagram, 90);
-    const auto truth = brute_force(grid, pixels, Metric::euclidean);
-    const Verdict verdict = judge(grid, pixels, Metric::euclidean, diagram.read(), truth);
+    const auto ground_truth = brute_force(grid, pixels, Metric::euclidean);
+    const Verdict verdict = judge(grid, pixels, Metric::euclidean, diagram.read(), ground_truth);
     BOOST_TEST(verdict.unlabelled + verdict.invalid == 0u);
     BOOST_TEST(verdict.wrong < grid.pixels() / 50);
   }

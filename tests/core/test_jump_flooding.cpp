@@ -31,7 +31,7 @@ std::size_t count_labelled(const std::vector<std::uint32_t>& labels) {
 BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_a_reference) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : edge_cases()) {
-      const auto truth = brute_force(c.grid, c.seeds, metric);
+      const auto ground_truth = brute_force(c.grid, c.seeds, metric);
       for (const Neighbourhood neighbourhood : {Neighbourhood::moore, Neighbourhood::von_neumann}) {
         for (const JumpFloodingVariant variant : all_variants) {
           BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric) << ", " << name_of(neighbourhood)
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_a_reference) {
             const auto labels = labels_of(test_device(), c.grid, c.seeds, {metric, neighbourhood, variant});
             const Plan plan = jump_flooding_plan(c.grid, variant, neighbourhood);
             BOOST_TEST((labels == reference_flood(c.grid, c.seeds, plan, metric)));
-            const Verdict verdict = judge(c.grid, c.seeds, metric, labels, truth);
+            const Verdict verdict = judge(c.grid, c.seeds, metric, labels, ground_truth);
             BOOST_TEST(verdict.invalid == 0);
             BOOST_TEST(verdict.too_near == 0);
             if (neighbourhood == Neighbourhood::moore) {
@@ -87,10 +87,10 @@ BOOST_AUTO_TEST_CASE(von_neumann_waves_alone_go_wrong) {
   // The paper's figure of a wrong diagram: regions that are concave or have saw-tooth borders.
   const Grid grid(256, 256);
   const auto seeds = random_pixels(grid, 60, 4);
-  const auto truth = brute_force(grid, seeds, Metric::euclidean);
+  const auto ground_truth = brute_force(grid, seeds, Metric::euclidean);
   const auto wrong = [&](Neighbourhood neighbourhood) {
     const auto labels = labels_of(test_device(), grid, seeds, {Metric::euclidean, neighbourhood});
-    const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels, truth);
+    const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels, ground_truth);
     return verdict.wrong + verdict.unlabelled;
   };
   BOOST_TEST(wrong(Neighbourhood::moore) < grid.pixels() / 1000);

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(dynamic_plans_follow_the_formula_of_the_paper) {
   const auto plan = [](const Grid& grid, std::size_t seeds, double max_displacement = 0) {
     return to_string(dynamic_jump_flooding_plan(grid, seeds, max_displacement));
   };
-  // delta_1 = 2^ceil(log2(max(2 L, d_max))): 100 pixels a seed give 2 L = 20, and so 32.
+  // delta_1 = 2^ceil(log2(max(2 L, d_max))): 100 pixels per seed give 2 L = 20, and so 32.
   BOOST_TEST(plan(Grid(1000, 1000), 10000) == "32v 16v 8 4 2 1");
   // L = 10 at 10,000 seeds; 2 L = 16 exactly at 15,625 seeds; one seed less makes the next power of two.
   BOOST_TEST(plan(Grid(1000, 1000), 15625) == "16v 8v 4 2 1");

@@ -29,12 +29,12 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
   for (const Metric metric : both_metrics) {
     for (const Case& c : edge_cases()) {
       BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric)) {
-        const auto truth = brute_force(c.grid, c.seeds, metric);
+        const auto ground_truth = brute_force(c.grid, c.seeds, metric);
         Diagram diagram(test_device(), c.grid);
         const Report report =
             standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds)), diagram, {metric});
         const auto labels = diagram.read();
-        const Verdict verdict = judge(c.grid, c.seeds, metric, labels, truth);
+        const Verdict verdict = judge(c.grid, c.seeds, metric, labels, ground_truth);
         BOOST_TEST(verdict.unlabelled == 0);
         BOOST_TEST(verdict.invalid == 0);
         BOOST_TEST(verdict.too_near == 0);
@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(von_neumann_labels_all_pixels_with_existing_seeds) {
         Diagram diagram(test_device(), c.grid);
         standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds)), diagram,
                           {metric, Neighbourhood::von_neumann});
-        const auto truth = brute_force(c.grid, c.seeds, metric);
-        const Verdict verdict = judge(c.grid, c.seeds, metric, diagram.read(), truth);
+        const auto ground_truth = brute_force(c.grid, c.seeds, metric);
+        const Verdict verdict = judge(c.grid, c.seeds, metric, diagram.read(), ground_truth);
         BOOST_TEST(verdict.unlabelled == 0);
         BOOST_TEST(verdict.invalid == 0);
         BOOST_TEST(verdict.too_near == 0);

@@ -1,4 +1,5 @@
-// The truth that diagrams are judged by: every pixel against every seed, in 64-bit integers, on the host.
+// The ground_truth that diagrams are judged by: every pixel against every seed, in 64-bit integers, on the
+// host.
 #pragma once
 
 #include <cstdint>
@@ -55,25 +56,27 @@ inline std::vector<std::uint32_t> brute_force(const Grid& grid, const std::vecto
 
 /// How labels stand to the true ones.
 struct Verdict {
-  std::size_t unlabelled = 0;  // pixels without a label where the truth has one
+  std::size_t unlabelled = 0;  // pixels without a label where the ground truth has one
   std::size_t invalid = 0;     // labels that name no seed
   std::size_t wrong = 0;       // labels of seeds that are farther than the nearest one
-  std::size_t too_near = 0;    // labels of seeds nearer than the truth's: the truth would be wrong
+  std::size_t too_near =
+      0;  // labels of seeds nearer than the ground truth's: the ground truth would be wrong
 };
 
 inline Verdict judge(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric,
-                     const std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& truth) {
+                     const std::vector<std::uint32_t>& labels,
+                     const std::vector<std::uint32_t>& ground_truth) {
   Verdict verdict;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     const Pixel pixel = {static_cast<int>(i % static_cast<std::size_t>(grid.width())),
                          static_cast<int>(i / static_cast<std::size_t>(grid.width()))};
     if (labels[i] == no_label) {
-      verdict.unlabelled += truth[i] != no_label ? 1 : 0;
+      verdict.unlabelled += ground_truth[i] != no_label ? 1 : 0;
     } else if (labels[i] >= seeds.size()) {
       ++verdict.invalid;
     } else {
       const std::int64_t d = distance(pixel, seeds[labels[i]], metric);
-      const std::int64_t least = distance(pixel, seeds[truth[i]], metric);
+      const std::int64_t least = distance(pixel, seeds[ground_truth[i]], metric);
       verdict.wrong += d > least ? 1 : 0;
       verdict.too_near += d < least ? 1 : 0;
     }

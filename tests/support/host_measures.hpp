@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "formats/label_image.hpp"
-#include "measured_cases.hpp"
 #include "formats/numbers.hpp"
+#include "measured_cases.hpp"
 #include "temporary_folder.hpp"
 
 namespace vorocl {

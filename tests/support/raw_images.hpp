@@ -1,4 +1,4 @@
-// Straight parsers of the images that the command writes: .npy and .vti files of one value a pixel.
+// Straight parsers of the images that the command writes: .npy and .vti files of one value per pixel.
 #pragma once
 
 #include <boost/test/unit_test.hpp>

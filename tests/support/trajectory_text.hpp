@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.hpp"
 #include "formats/trajectory/trajectory.hpp"
+#include "temporary_folder.hpp"
 
 namespace vorocl::command {
 

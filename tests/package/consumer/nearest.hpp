@@ -1,4 +1,4 @@
-// The truth that the programs hold their labels against: every pixel searched by itself.
+// The ground_truth that the programs hold their labels against: every pixel searched by itself.
 #pragma once
 
 #include <cstdint>
