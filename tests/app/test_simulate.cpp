@@ -56,10 +56,10 @@ BOOST_AUTO_TEST_CASE(labels_equal_those_of_the_library) {
       {"--border periodic --metric manhattan", Border::periodic, {Metric::manhattan, {}, 0}},
       {"--neighbourhood von-neumann --extra-waves 2",
        Border::reflect,
-       {Metric::euclidean, {0, NeighbourhoodMix::von_neumann, 2, 2}, 0}},
+       {Metric::euclidean, {NeighbourhoodMix::von_neumann, 2, 2}, 0}},
       {"--von-neumann-waves 0 --refresh-interval 3",
        Border::reflect,
-       {Metric::euclidean, {0, NeighbourhoodMix::mixed, 0, 0}, 3}},
+       {Metric::euclidean, {NeighbourhoodMix::mixed, 0, 0}, 3}},
   };
   for (const auto& run : runs) {
     const TemporaryFolder folder;
@@ -71,10 +71,8 @@ BOOST_AUTO_TEST_CASE(labels_equal_those_of_the_library) {
       random_step(seeds, 4, run.border, 7, static_cast<std::uint32_t>(frame));
       return 4.0;
     });
-    simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double d_max) {
-      DynamicJumpFloodingOptions options = run.options;
-      options.plan.max_step = d_max;
-      return dynamic_jump_flooding(seeds, diagram, options);
+    simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+      return dynamic_jump_flooding(seeds, diagram, max_displacement, run.options);
     });
     for (int frame = 0; frame <= 8; ++frame) {
       simulation.step();
@@ -193,7 +191,7 @@ BOOST_AUTO_TEST_CASE(bench_starts_djfa_one_step_before) {
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   seeds.move_to(points);
-  dynamic_jump_flooding(seeds, diagram, {Metric::euclidean, {5, NeighbourhoodMix::von_neumann}, 0});
+  dynamic_jump_flooding(seeds, diagram, 5, {Metric::euclidean, {NeighbourhoodMix::von_neumann}, 0});
   const Verdict verdict =
       judge(grid, now, Metric::euclidean, diagram.read(), brute_force(grid, now, Metric::euclidean));
   BOOST_TEST(verdict.wrong > 0u);
