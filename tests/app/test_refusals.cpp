@@ -13,7 +13,7 @@ const std::string square = " --size 10x10 --method jfa -o a.png";
 
 const std::string pocl = "Portable Computing Language";
 
-bool has_pocl(boost::unit_test::test_unit_id) {
+boost::test_tools::assertion_result pocl_is_there(boost::unit_test::test_unit_id) {
   const std::vector<DeviceDescription> devices = Device::list();
   return std::any_of(devices.begin(), devices.end(),
                      [](const auto& device) { return device.platform == pocl; });
@@ -117,7 +117,8 @@ BOOST_AUTO_TEST_CASE(devices_that_cannot_do_it_are_named) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(too_little_device_memory_is_said_in_figures, *boost::unit_test::precondition(has_pocl)) {
+BOOST_AUTO_TEST_CASE(too_little_device_memory_is_said_in_figures,
+                     *boost::unit_test::precondition(pocl_is_there)) {
   // PoCL takes this limit, in GiB, for the memory of its device. Without a cache of kernels it is still
   // building one when the command ends, which must not end in PoCL's crash.
   const TemporaryFolder folder, cache;

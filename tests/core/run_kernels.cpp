@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "exact/lists.hpp"
+#include "exact/reference.hpp"
 #include "kernel_sources.hpp"
 #include "opencl_info.hpp"
 #include "vorocl/vorocl.hpp"
@@ -52,6 +53,7 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
       method.run(seeds, diagram, 0, {metric, mix});
     }
   }
+  reference_diagram(seeds, diagram, metric);
   DynamicJumpFloodingOptions options;
   options.metric = metric;
   random_step(seeds, 2, Border::reflect, 1, 1);
