@@ -74,7 +74,7 @@ class Course {
 void print_table_head() {
   fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "", "", "pixels", "JFA",
              "speedup", "speedup", "speedup", "similarity %", "wrong %", "wrong %");
-  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "n", "seeds", "a seed",
+  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "n", "seeds", "per seed",
              "ms/frame", "dJFAe", "dJFAm", "exact", "dJFAe to JFA", "JFA", "dJFAe");
 }
 
