@@ -76,10 +76,6 @@ void make_exact_diagrams(const Device& device, Metric metric) {
     exact_diagram_with_lists(seeds, diagram, {metric}, length);
     diagram.wait();
   }
-  const Grid small(9, 7);
-  Diagram other(device, small);
-  reference_diagram(Seeds(device, small, centres(random_pixels(small, 3, 5))), other, metric);
-  other.wait();
 }
 
 void make_seeds(const Device& device, const Grid& grid) {
