@@ -262,11 +262,12 @@ BOOST_AUTO_TEST_CASE(contours_are_at_their_distance) {
 }
 
 BOOST_AUTO_TEST_CASE(dots_are_on_the_seeds) {
-  for (const int side : {3, 20, 100, 400}) {  // from one pixel a seed to dots with rims
+  for (const int side : {3, 20, 100, 400}) {  // from one pixel per seed to dots with rims
     cv::Mat picture(side, side, CV_8UC3, cv::Scalar(128, 128, 128));
     const double far = side - 0.5;
-    draw_points(picture,
-                {{0, 0}, {far, far}, {not_a_number, not_a_number}, {side / 2 + 0.9, side / 2 + 0.9}});
+    const std::vector<std::optional<Point>> seeds = {Point{0, 0}, Point{far, far}, std::nullopt,
+                                                     Point{side / 2 + 0.9, side / 2 + 0.9}};
+    draw_points(picture, seeds);
     for (const int at : {0, side / 2, side - 1}) BOOST_TEST(brightness(picture.at<cv::Vec3b>(at, at)) < 150);
     BOOST_TEST((picture.at<cv::Vec3b>(0, side - 1) == cv::Vec3b(128, 128, 128)));
   }
