@@ -1,7 +1,6 @@
 #include "vorocl/fields.hpp"
 
 #include <optional>
-#include <utility>
 
 #include "buffer.hpp"
 #include "measurement.hpp"
@@ -20,7 +19,7 @@ namespace {
 
 /// Fills a field by one kernel: `launch` gets the kernel and the values.
 template <typename T, typename Launch>
-Report fill_field(const Diagram& diagram, std::shared_ptr<const SeedsFrame> seeds, Field<T>& field,
+Report fill_field(const Diagram& diagram, const std::shared_ptr<const SeedsFrame>& seeds, Field<T>& field,
                   const char* name, const KernelOptions& options, Launch launch) {
   const Stopwatch stopwatch;
   FieldState<T>& state = Internal::result(field);
@@ -30,7 +29,7 @@ Report fill_field(const Diagram& diagram, std::shared_ptr<const SeedsFrame> seed
   make_room(state.values, device, grid.pixels() * sizeof(T));
   const cl::Event event = launch(state.kernels.get(device, "fields.cl", name, grid, options), state.values);
   state.device = device;
-  state.seeds = std::move(seeds);
+  state.seeds = seeds;
   state.pixels = grid.pixels();
   return report_of(stopwatch, device, event, event);
 }
