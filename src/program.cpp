@@ -53,12 +53,14 @@ void append_source(const std::string& file, std::set<std::string>& included, std
   }
 }
 
-/// Writes a file into the folder that VOROCL_DUMP_DIR names, if it names one.
-void dump(const std::string& name, const std::string& content) {
+/// Writes a file into the folder that VOROCL_DUMP_DIR names, if it names one: what `content` returns, which
+/// is asked only then. (PoCL builds every kernel once more to answer for a binary.)
+template <typename Content>
+void dump(const std::string& name, Content content) {
   const std::string folder = environment("VOROCL_DUMP_DIR");
   if (folder.empty()) return;
   std::ofstream stream(folder + '/' + name, std::ios::binary);
-  if (!(stream << content).flush()) {
+  if (!(stream << content()).flush()) {
     throw Error(
         "cannot write " + folder + '/' + name + " (the folder is VOROCL_DUMP_DIR): " + std::strerror(errno),
         ErrorKind::file);
@@ -87,7 +89,7 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   std::set<std::string> included;
   append_source(file, included, source);
   const std::string name = dump_name(file, options);
-  dump(name + ".cl", "// " + device.name() + ": " + options + '\n' + source);
+  dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
   const char* text = source.c_str();
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
@@ -102,7 +104,7 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
                     info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
                 ErrorKind::kernel_build);
   }
-  dump(name + ".bin", binary_of(program));
+  dump(name + ".bin", [&] { return binary_of(program); });
   return program;
 }
 
