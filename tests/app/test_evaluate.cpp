@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(the_table_is_complete_and_its_arithmetic_right) {
           to_the_last_digits);
       const std::size_t waves = row.at("method") == "jfa" ? jump_flooding_plan(grid).size()
                                 : row.at("method") == "djfa"
-                                    ? dynamic_jump_flooding_plan(grid, seeds, {5}).size()
+                                    ? dynamic_jump_flooding_plan(grid, seeds, 5).size()
                                     : 0;
       BOOST_TEST(row.number("waves") == static_cast<double>(waves));
 

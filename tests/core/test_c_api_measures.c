@@ -116,7 +116,7 @@ static void test_sums(const vorocl_device* device, const vorocl_seeds* seeds, co
 
   OK(vorocl_cell_sums_statistics(sums, &statistics));
   CHECK(statistics.cells == 7 && statistics.empty_cells == 1 && statistics.pixels == pixels);
-  mean = pixels / 7.0;
+  mean = (double)pixels / 7;
   for (int id = 0; id < seed_count; ++id) {
     if (present[id]) variance += (cells[id].area - mean) * (cells[id].area - mean) / 7;
   }
