@@ -69,7 +69,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
   Rounds state;
   Relaxation relaxation;
-  double max_displacement = 0;
+  double max_displacement = diagram.grid().longest_side();  // since whatever the diagram holds
   while (true) {
     engine(seeds, diagram, max_displacement);
     relaxation.energies.push_back(energy_of(seeds, diagram, state));
