@@ -175,6 +175,9 @@ Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<Point>& p
   state_->place(snap_all(grid, points));
 }
 
+Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points)
+    : Seeds(device, grid, std::vector<Point>(points)) {}
+
 Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points)
     : state_(std::make_unique<SeedsState>(device, grid)) {
   state_->place(snap_all(grid, points));
@@ -217,6 +220,10 @@ Seeds Seeds::clone() const {
   copied->copy_from(state());
   return Seeds(std::move(copied));
 }
+
+void Seeds::move_to(const std::vector<Point>& points) { state().place(snap_all(grid(), points)); }
+
+void Seeds::move_to(std::initializer_list<Point> points) { move_to(std::vector<Point>(points)); }
 
 void Seeds::move_to(const std::vector<std::optional<Point>>& points) {
   state().place(snap_all(grid(), points));

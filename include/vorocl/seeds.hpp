@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,6 +32,7 @@ class VOROCL_API Seeds {
   /// From points in pixel units. Throws BadPoint naming the first point that is NaN, infinite or outside the
   /// grid (a point at x = width is outside), before any device work. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points);
+  Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points);
 
   /// As above; a seed without a point is absent.
   Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points);
@@ -58,9 +60,12 @@ class VOROCL_API Seeds {
   /// The same seeds once more, to be moved on their own. Copies on the device. Enqueues and returns.
   Seeds clone() const;
 
-  /// Moves the seeds to new points: a new frame. A seed without a point is absent until it gets one again.
-  /// The number of seeds may change: ids past the end are absent. Checks as the constructor, and leaves the
-  /// seeds as they were if a point is bad.
+  /// Moves the seeds to new points: a new frame. The number of seeds may change: ids past the end are absent.
+  /// Checks as the constructor.
+  void move_to(const std::vector<Point>& points);
+  void move_to(std::initializer_list<Point> points);
+
+  /// As above; a seed without a point is absent until it gets one again.
   void move_to(const std::vector<std::optional<Point>>& points);
 
   /// As above, from buffers as the constructor takes them.

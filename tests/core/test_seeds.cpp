@@ -131,6 +131,24 @@ BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
   BOOST_TEST((diagram.read() == brute_force(grid, {{1, 1}, {60, 60}}, Metric::euclidean)));
 }
 
+BOOST_AUTO_TEST_CASE(points_in_braces) {
+  const Grid grid(20, 10);
+  BOOST_TEST(Seeds(test_device(), grid, {}).size() == 0u);
+  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, Point{2, 2}}).alive() == 2u);
+  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, std::nullopt}).alive() == 1u);
+  Seeds seeds(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}});
+  seeds.move_to(std::vector<Point>{{4, 4}, {5, 5}});
+  BOOST_TEST(points_of(seeds)[1].x == 5.5);
+  seeds.move_to({{6, 6}});
+  BOOST_TEST(points_of(seeds).front().x == 6.5);
+  seeds.move_to({Point{7, 7}, Point{8, 8}});
+  BOOST_TEST(seeds.alive() == 2u);
+  seeds.move_to({Point{7, 7}, std::nullopt});
+  BOOST_TEST(seeds.alive() == 1u);
+  seeds.move_to({});
+  BOOST_TEST(seeds.size() == 0u);
+}
+
 // The three ways to say that a seed is absent.
 BOOST_AUTO_TEST_CASE(absent_seeds) {
   const Grid grid(20, 10);
