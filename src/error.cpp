@@ -32,6 +32,8 @@ std::string error_name(cl_int code) {
       return "invalid buffer size";
     case CL_INVALID_KERNEL_NAME:
       return "no such kernel";
+    case CL_INVALID_BUILD_OPTIONS:
+      return "invalid build options";
     case CL_INVALID_WORK_GROUP_SIZE:
       return "invalid work-group size";
     default:
@@ -46,6 +48,8 @@ ErrorKind kind_of(cl_int code) {
       return ErrorKind::device_memory;
     case CL_OUT_OF_HOST_MEMORY:
       return ErrorKind::host_memory;
+    case CL_INVALID_BUILD_OPTIONS:
+      return ErrorKind::kernel_build;
     default:
       return ErrorKind::device;
   }

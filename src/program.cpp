@@ -95,15 +95,17 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   cl_int code = CL_SUCCESS;
   cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
   check(code, [&] { return "making the program " + file; });
-  if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
+  const std::string what = "building " + file + " for " + device.name() + " with \"" + options + '"';
+  code = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
+  if (code == CL_BUILD_PROGRAM_FAILURE) {
     const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
                           std::size_t* used) {
       return clGetProgramBuildInfo(of(), id, wanted, size, value, used);
     };
-    throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" +
-                    info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
+    throw Error(what + " failed:\n" + info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
                 ErrorKind::kernel_build);
   }
+  check(code, [&] { return what; });
   dump(name + ".bin", [&] { return binary_of(program); });
   return program;
 }

@@ -1,6 +1,6 @@
 // The C functions of diagrams.
-#include "buffer.hpp"
 #include "calls.hpp"
+#include "diagram_state.hpp"
 
 using namespace vorocl;
 
@@ -62,12 +62,9 @@ vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves, d
 
 vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count) {
   return guarded([&] {
-    const Diagram& from = of(diagram);
-    check_count(from.grid().pixels(), "pixels", count);
-    given(labels, "labels");
-    from.wait();
+    check_count(of(diagram).grid().pixels(), "pixels", count);
     // Straight to where they go: Diagram::read() would need a second image on the host.
-    download(from.device(), from.labels(), count, labels);
+    Internal::state(of(diagram)).read(&given(labels, "labels"));
   });
 }
 
