@@ -32,14 +32,21 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   buffer = allocate(device, bytes, "the measures of a diagram");
 }
 
-std::shared_ptr<const SeedsFrame> frame_of(const Seeds& seeds, const Diagram& diagram) {
-  Internal::state(diagram).check_fits(seeds);
-  return Internal::state(seeds).frame();
+void MeasuredFrames::check() const {
+  if (seeds) seeds->check();
+  if (labels) labels->check();
 }
 
-const cl::Buffer& no_buffer() {
-  static const cl::Buffer none;
-  return none;
+MeasuredFrames frames_of(const Diagram& diagram) {
+  const std::optional<DiagramContents>& contents = Internal::state(diagram).contents;
+  return {nullptr, contents ? contents->seeds : nullptr};
+}
+
+MeasuredFrames frames_of(const Seeds& seeds, const Diagram& diagram) {
+  Internal::state(diagram).check_fits(seeds);
+  MeasuredFrames frames = frames_of(diagram);
+  frames.seeds = Internal::state(seeds).frame();
+  return frames;
 }
 
 Blocks::Blocks(const Device& device, const Grid& grid)

@@ -116,6 +116,31 @@ BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
   }
 }
 
+// Seeds of a good frame are no help where the diagram is of a bad one.
+BOOST_AUTO_TEST_CASE(a_bad_point_reaches_all_measures_of_its_diagram) {
+  const Grid grid(30, 20);
+  Seeds seeds(test_device(), grid, buffer_of({{{1, 1}}, {{2, 99}}}), 2);
+  Diagram diagram(test_device(), grid);
+  exact_diagram(seeds, diagram);
+  seeds.move_to({{1, 1}, {2, 9}});
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  Field<float> distances;
+  Field<std::uint8_t> mask;
+  cell_sums(seeds, diagram, sums);
+  cell_shapes(seeds, diagram, shapes);
+  distance_field(seeds, diagram, distances);
+  border_mask(diagram, mask);
+  exact_diagram(seeds, diagram);  // what was measured stays bad
+  check_error([&] { sums.read(); }, {"point 1", "99"});
+  check_error([&] { cell_statistics(sums); }, {"point 1", "99"});
+  check_error([&] { shapes.read(); }, {"point 1", "99"});
+  check_error([&] { distances.read(); }, {"point 1", "99"});
+  check_error([&] { mask.read(); }, {"point 1", "99"});
+  border_mask(diagram, mask);
+  BOOST_TEST(mask.read().size() == grid.pixels());
+}
+
 // dJFA goes on from labels: not from those that a bad point may have left holes in.
 BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
   const Grid grid(64, 64);
