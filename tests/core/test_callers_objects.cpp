@@ -71,6 +71,29 @@ BOOST_AUTO_TEST_CASE(an_image_is_no_buffer) {
   check_error([&] { Diagram(test_device(), grid, cl::Buffer(image(), true)); }, {"another kind"});
 }
 
+// What was read or measured once is not kept from being freed.
+BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
+  const auto holders = [](const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>(); };
+  const std::vector<cl_float2> values = {{{7, 8}}, {{40, 20}}};
+  const cl::Buffer points(test_device().queue(), values.begin(), values.end(), true);
+  const cl::Buffer marks = make_buffer(2), labels = make_buffer(bytes);
+  test_device().queue().enqueueFillBuffer(marks, cl_uchar{1}, 0, 2);
+  Seeds seeds(test_device(), grid, points, 2, marks);
+  CellSumsResult sums;
+  Field<float> field;
+  {
+    Diagram diagram(test_device(), grid, labels);
+    exact_diagram(seeds, diagram);
+    cell_sums(seeds, diagram, sums);
+    distance_field(seeds, diagram, field);
+    diagram.wait();
+  }
+  BOOST_TEST(sums.read()[0].area + sums.read()[1].area == grid.pixels());
+  BOOST_TEST(holders(points) == 1u);
+  BOOST_TEST(holders(marks) == 1u);
+  BOOST_TEST(holders(labels) == 1u);
+}
+
 BOOST_AUTO_TEST_CASE(write_only_points_are_refused) {
   check_error([] { Seeds(test_device(), grid, make_buffer(80, CL_MEM_WRITE_ONLY), 10); },
               {"10 points", "write-only"});
