@@ -1,6 +1,8 @@
 // Dynamic jump flooding: against a reference label for label, similarity to JFA, and seeds that come and go.
 #define BOOST_TEST_MODULE dynamic_jump_flooding
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <map>
 
 #include "brute_force.hpp"
@@ -252,6 +254,33 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
   seeds.move_to(buffer, 2);
   dynamic_jump_flooding(seeds, diagram, 64);
   BOOST_TEST((diagram.read() == brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean)));
+}
+
+// While an event holds the queue back, a call that waits for the device does not return.
+BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
+  const Grid grid(64, 64);
+  const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
+  const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
+  prepare(method("djfa"), test_device(), grid, 2);
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
+  Diagram first(test_device(), grid), next(test_device(), grid);
+  dynamic_jump_flooding(seeds, next, 0);
+  test_device().finish();
+  cl::UserEvent gate(test_device().context());
+  test_device().wait_for({gate});
+  std::future<std::size_t> alive = std::async(std::launch::async, [&] {
+    seeds.move_to(buffer, 2);
+    dynamic_jump_flooding(seeds, first, 64);
+    dynamic_jump_flooding(seeds, next, 64);
+    return seeds.alive();
+  });
+  const bool returned = alive.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+  gate.setStatus(CL_COMPLETE);
+  BOOST_TEST(returned);
+  BOOST_TEST(alive.get() == 2u);
+  const auto expected = brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean);
+  BOOST_TEST((first.read() == expected));
+  BOOST_TEST((next.read() == expected));
 }
 
 BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
