@@ -122,6 +122,8 @@ void Diagram::write(const std::vector<std::uint32_t>& labels) {
 
 void Diagram::write(const cl::Buffer& labels) {
   check_foreign_buffer(device(), labels, bytes_of(grid()), "the buffer of labels to write", Access::read);
+  if (labels() == this->labels()())
+    throw Error("the buffer of labels to write is the diagram's own, which holds them already");
   state().contents.reset();
   const cl::Event copied = copy(device(), labels, this->labels(), bytes_of(grid()));
   state().contents = DiagramContents{nullptr, 0, copied};

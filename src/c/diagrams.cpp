@@ -33,16 +33,16 @@ vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labe
   return guarded([&] {
     check_count(of(diagram).grid().pixels(), "pixels", count);
     const uint32_t* const first = &given(labels, "labels");
-    diagram->diagram.write({first, first + count});
     diagram->report = {};
+    diagram->diagram.write({first, first + count});
   });
 }
 
 vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels) {
   return guarded([&] {
     given(labels, "labels");
-    given(diagram, "diagram").diagram.write(retained(labels));
-    diagram->report = {};
+    given(diagram, "diagram").report = {};
+    diagram->diagram.write(retained(labels));
   });
 }
 

@@ -146,7 +146,7 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   cl_event event = NULL;
   int waves = -1;
   size_t changed = 1;
-  double percent = 0, milliseconds = -1;
+  double percent = 0, milliseconds = -1, host_milliseconds = -1;
   OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
   OK(vorocl_diagram_create(device, width, height, &diagram));
   OK(vorocl_diagram_create(device, width, height, &exact));
@@ -188,6 +188,15 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_diagram_write_buffer(diagram, labels));
   OK(vorocl_changed_pixels(diagram, exact, &changed));
   CHECK(changed == 0);
+
+  /* A call that fails has no report, and that of an earlier one is gone. */
+  options.von_neumann_waves = 3;
+  CHECK(vorocl_dynamic_jump_flooding(seeds, diagram, 2, &options) == VOROCL_BAD_ARGUMENT);
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event == NULL);
+  OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
+  CHECK(waves == 0 && milliseconds == 0 && host_milliseconds == 0);
+  options.von_neumann_waves = 2;
 
   /* The options reach the method. */
   options.extra_waves = 2;

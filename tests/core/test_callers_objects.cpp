@@ -63,6 +63,24 @@ BOOST_AUTO_TEST_CASE(unfit_label_buffers_are_refused) {
   check_error([&] { Diagram(other, grid, make_buffer(bytes)); }, {"another OpenCL context"});
 }
 
+BOOST_AUTO_TEST_CASE(a_diagrams_own_labels_cannot_be_written_into_it) {
+  Diagram diagram(test_device(), grid);
+  check_error([&] { diagram.write(diagram.labels()); }, {"the diagram's own"});
+  cl::Buffer whole = make_buffer(8192 + bytes);
+  const auto part = [&](std::size_t first) {
+    const cl_buffer_region region = {first, bytes};
+    return whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
+  };
+  Diagram over_a_part(test_device(), grid, part(0));
+  try {
+    over_a_part.write(part(4096));
+    BOOST_ERROR("nothing was thrown");
+  } catch (const Error& error) {
+    BOOST_TEST((error.kind() == ErrorKind::bad_argument), error.what());
+    BOOST_TEST(std::string(error.what()).find("overlap") != std::string::npos);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(an_image_is_no_buffer) {
   const cl::ImageFormat format(CL_R, CL_UNSIGNED_INT32);
   cl_int code = CL_SUCCESS;

@@ -297,6 +297,19 @@ BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   check_error([&] { run(0, {}, -2); }, {"-2 frames"});
 }
 
+BOOST_AUTO_TEST_CASE(a_simulation_refuses_what_it_has_not) {
+  const Grid grid(8, 8);
+  check_error([&] { Simulation(Seeds(test_device(), grid, {}), nullptr); }, {"motion"});
+  Simulation simulation = random_walk(grid, 3, 1);
+  check_error([&] { simulation.add_engine(nullptr); }, {"engine", "empty"});
+  simulation.add_engine(jfa(Metric::euclidean));
+  simulation.step();
+  check_error([&] { simulation.diagram(3); }, {"1 engines", "number 3"});
+  check_error([&] { simulation.report(1); }, {"number 1"});
+  check_error([&] { simulation.milliseconds(1); }, {"number 1"});
+  check_error([&] { simulation.host_milliseconds(1); }, {"number 1"});
+}
+
 // An engine that did not run in a frame starts from an older one: it is told how far seeds moved since then.
 BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
   Simulation simulation(Seeds::random(test_device(), Grid(30, 20), 5, 1), [](Seeds&, int) { return 3.0; });

@@ -23,9 +23,10 @@ struct Contender {
   std::function<std::vector<std::uint32_t>()> labels;
 };
 
-/// All methods share the diagram and its buffers.
-Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                       const MethodOptions& options) {
+/// All methods share the diagram and its buffers. A mixed neighbourhood is for djfa: the others take part
+/// with their own.
+Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram, MethodOptions options) {
+  if (options.neighbourhood == NeighbourhoodMix::mixed) options.neighbourhood.reset();
   const auto run = [&method, &seeds, &diagram, options] {
     method.run(seeds, diagram, 0, options);
     seeds.device().finish();
