@@ -48,7 +48,7 @@ class Blocks {
  public:
   Blocks(const Device& device, const Grid& grid);
 
-  /// Blocks have 2^wide columns and 2^high rows: at most 512 of each, and 2^15 pixels (see cells.cl).
+  /// Blocks have 2^wide columns and 2^high rows.
   int wide() const { return wide_; }
   int high() const { return high_; }
   std::size_t count() const { return count_; }

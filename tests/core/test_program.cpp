@@ -62,8 +62,18 @@ BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
   std::filesystem::remove(folder / "position.cl");
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
   check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "No such file"});
+  std::filesystem::create_directory(folder / "position.cl");
+  check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "Is a directory"});
   const Variable missing("VOROCL_KERNEL_DIR", "/no/such/folder");
   check_error([] { labels(); }, {"/no/such/folder/", "VOROCL_KERNEL_DIR", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_kernel_file_is_read_like_any_other) {
+  const TemporaryFolder folder;
+  write_kernels(folder);
+  folder.file("exact/diagram.cl", "");
+  const Variable variable("VOROCL_KERNEL_DIR", folder / "");
+  check_error([] { labels(); }, {"making the kernel set_bits", "no such kernel"});
 }
 
 BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
