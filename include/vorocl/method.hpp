@@ -41,7 +41,7 @@ struct Method {
   Plan (*plan)(const Grid& grid, int waves, const MethodOptions& options);
 };
 
-/// All methods, the exact one last.
+/// All methods.
 VOROCL_API const std::vector<Method>& methods();
 
 /// The method of a name. Throws Error, which lists the names, if there is none.
