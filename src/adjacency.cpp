@@ -9,7 +9,7 @@ namespace vorocl {
 
 namespace {
 
-/// A planar graph has fewer than three edges a vertex: the first table is at most three eighths full. Cells
+/// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. Cells
 /// in many pieces may have more neighbours; then it grows.
 constexpr std::size_t slots_per_seed = 8;
 constexpr std::size_t least_slots = 1024;

@@ -106,7 +106,8 @@ void prepare(const Method& method, const Device& device, const Grid& grid, std::
              const MethodOptions& options) {
   Diagram diagram(device, grid);
   method.run(Seeds::random(device, grid, seeds, 1), diagram, 0, options);
-  // Goes on with the most waves, and to other seeds: then it looks for pixels without a label too.
+  // The second frame runs the longest plan and, because its seeds are others, the search for pixels without a
+  // label: both need kernels that the first frame does not.
   const double farthest = grid.longest_side();
   if (method.continues) method.run(Seeds::random(device, grid, seeds, 2), diagram, farthest, options);
   diagram.wait();

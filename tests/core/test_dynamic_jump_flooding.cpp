@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(the_illustration_of_the_paper) {
   BOOST_TEST(mean_similarity(simulation, 2, 20)[1] >= 99.9);
 }
 
-BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_a_seed) {
+BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_per_seed) {
   Simulation euclidean = random_walk(Grid(600, 500), 3000, 5);
   euclidean.add_engine(djfa(Metric::euclidean));
   euclidean.add_engine(jfa(Metric::euclidean));
