@@ -13,8 +13,8 @@
 namespace vorocl {
 
 /// Owns the frame counter, the seeds and a diagram for each engine, so that engines can be compared on one
-/// motion. Nothing is allocated on the device once each of these has been used (while the number of seeds
-/// stays). Nothing waits unless an engine, the motion or the caller reads, or the queue is full (see Device).
+/// motion. Nothing is allocated on the device after frame 1 (while the number of seeds stays). Nothing waits
+/// unless an engine, the motion or the caller reads, or the queue is full (see Device).
 ///
 /// After step() has thrown, the next one goes on: with the same frame if the motion threw, with the next
 /// frame if an engine did; engines that had not run by then are told the displacement of both frames.

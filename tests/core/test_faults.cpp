@@ -1,5 +1,5 @@
-// Every OpenCL call of every method fails once: the call throws, and the objects are as good as new
-// afterwards.
+// The OpenCL calls of every method and measurement fail, one after the other: each time Error is thrown, and
+// the objects are as good as new afterwards.
 #define BOOST_TEST_MODULE faults
 #include <atomic>
 #include <chrono>
