@@ -8,11 +8,11 @@ static inline void add_to_pair(global uint* pair, uint value) {
 }
 
 // Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs
-// no atomics, for no other work-item adds to the same place. A block has at most 2^15 pixels and 512 columns and
-// rows, so that three sums fit in 64 bits: the pixels, and their columns and rows counted from the block's corner.
-// They and the homes are kept small and apart from the rest, because with many cells the time goes into waiting for
-// memory: of the home's index 16 bits are kept. With small blocks on a large grid they may belong to another
-// block; then that one is the cell's home: the sums stay right, but fewer atomics are saved.
+// no atomics, for no other work-item adds to the same place. Blocks are so small that three sums fit in 64 bits
+// (src/measurement.cpp asserts it): the pixels, and their columns and rows counted from the block's corner. They and the
+// homes are kept small and apart from the rest, because with many cells the time goes into waiting for memory: of the
+// home's index 16 bits are kept. With small blocks on a large grid they may belong to another block; then that one is
+// the cell's home: the sums stay right, but fewer atomics are saved.
 #define HOME_X_SHIFT 16
 #define HOME_Y_SHIFT 40
 #define HOME_AREA(sums) ((uint)(sums) & 0xffffu)

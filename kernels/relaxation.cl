@@ -30,25 +30,25 @@ static inline int nearest_to_mean(ulong sum, uint area, int present) {
   return twice_the_rest < area ? low : low + 1;
 }
 
-// Counts the seeds that moved, and finds the longest motion along an axis; each work-item for a chunk of the seeds,
+// Counts the seeds that moved, and finds the greatest displacement along an axis; each work-item for a chunk of the seeds,
 // so that few meet there.
 kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
                               global const ulong* restrict sum_x, global const ulong* restrict sum_y,
-                              global uint* restrict moved_and_longest) {
+                              global uint* restrict moved_and_displacement) {
   const uint begin = (uint)get_global_id(0) * chunk;
   if (begin >= count) return;
   const uint end = min(begin + chunk, count);
-  uint moved = 0, longest = 0;
+  uint moved = 0, max_displacement = 0;
   for (uint id = begin; id < end; ++id) {
     if (area[id] == 0) continue;
     const int x = packed_x(positions[id]), y = packed_y(positions[id]);
     const int new_x = nearest_to_mean(sum_x[id], area[id], x), new_y = nearest_to_mean(sum_y[id], area[id], y);
-    const uint motion = max(abs(new_x - x), abs(new_y - y));
-    moved += motion > 0 ? 1u : 0u;
-    longest = max(longest, motion);
+    const uint displacement = max(abs(new_x - x), abs(new_y - y));
+    moved += displacement > 0 ? 1u : 0u;
+    max_displacement = max(max_displacement, displacement);
     positions[id] = pack(new_x, new_y);
   }
   if (moved == 0) return;
-  atomic_add(moved_and_longest, moved);
-  atomic_max(moved_and_longest + 1, longest);
+  atomic_add(moved_and_displacement, moved);
+  atomic_max(moved_and_displacement + 1, max_displacement);
 }

@@ -9,7 +9,7 @@ namespace vorocl {
 
 namespace {
 
-/// A planar graph has fewer than three edges a vertex: the first table is at most three eighths full. Cells
+/// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. Cells
 /// in many pieces may have more neighbours; then it grows.
 constexpr std::size_t slots_per_seed = 8;
 constexpr std::size_t least_slots = 1024;
@@ -36,15 +36,19 @@ AdjacencyResult::AdjacencyResult() = default;
 AdjacencyResult::~AdjacencyResult() = default;
 AdjacencyResult::AdjacencyResult(AdjacencyResult&& other) noexcept = default;
 AdjacencyResult& AdjacencyResult::operator=(AdjacencyResult&& other) noexcept = default;
-std::size_t AdjacencyResult::pairs() const { return state_ && state_->seeds ? state_->pairs : 0; }
-const cl::Buffer& AdjacencyResult::pair_list() const { return state_ ? state_->pair_list : no_buffer(); }
-const cl::Buffer& AdjacencyResult::neighbours() const { return state_ ? state_->neighbours : no_buffer(); }
-const cl::Buffer& AdjacencyResult::perimeters() const { return state_ ? state_->perimeters : no_buffer(); }
+std::size_t AdjacencyResult::pairs() const { return state_ && !state_->empty() ? state_->pairs : 0; }
+const cl::Buffer& AdjacencyResult::pair_list() const { return buffer_of(state_, &AdjacencyState::pair_list); }
+const cl::Buffer& AdjacencyResult::neighbours() const {
+  return buffer_of(state_, &AdjacencyState::neighbours);
+}
+const cl::Buffer& AdjacencyResult::perimeters() const {
+  return buffer_of(state_, &AdjacencyState::perimeters);
+}
 
 void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result) {
   AdjacencyState& found = Internal::result(result);
-  found.seeds.reset();
-  auto measured = frame_of(seeds, diagram);
+  found.frames = {};
+  auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const std::size_t cells = seeds.size(), word = sizeof(cl_uint);
@@ -96,14 +100,15 @@ void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& resu
       found.first, found.placed, found.pair_list);
   run("sort_pairs", cells, count, found.first, found.pair_list);
   diagram.wait();
-  measured->check();
+  measured.check();
   found.pairs = pairs;
-  found.seeds = std::move(measured);
+  found.frames = std::move(measured);
 }
 
 std::vector<CellPair> AdjacencyResult::read_pairs() const {
   if (pairs() == 0) return {};
-  const auto words = download<cl_uint>(state_->seeds->device, state_->pair_list, pairs() * words_per_pair);
+  const auto words =
+      download<cl_uint>(state_->frames.seeds->device, state_->pair_list, pairs() * words_per_pair);
   std::vector<CellPair> list;
   list.reserve(pairs());
   for (std::size_t i = 0; i < words.size(); i += words_per_pair) {
@@ -114,12 +119,12 @@ std::vector<CellPair> AdjacencyResult::read_pairs() const {
 
 std::vector<std::uint32_t> AdjacencyResult::read_neighbours() const {
   if (!state_ || state_->size() == 0) return {};
-  return download<std::uint32_t>(state_->seeds->device, state_->neighbours, state_->size());
+  return download<std::uint32_t>(state_->frames.seeds->device, state_->neighbours, state_->size());
 }
 
 std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
   if (!state_ || state_->size() == 0) return {};
-  return download<std::uint32_t>(state_->seeds->device, state_->perimeters, state_->size());
+  return download<std::uint32_t>(state_->frames.seeds->device, state_->perimeters, state_->size());
 }
 
 std::size_t count_vertices(const Diagram& diagram) {

@@ -30,18 +30,18 @@ CellSumsResult::~CellSumsResult() = default;
 CellSumsResult::CellSumsResult(CellSumsResult&& other) noexcept = default;
 CellSumsResult& CellSumsResult::operator=(CellSumsResult&& other) noexcept = default;
 std::size_t CellSumsResult::size() const { return state_ ? state_->size() : 0; }
-const cl::Buffer& CellSumsResult::area() const { return state_ ? state_->area : no_buffer(); }
-const cl::Buffer& CellSumsResult::sum_x() const { return state_ ? state_->sum_x : no_buffer(); }
-const cl::Buffer& CellSumsResult::sum_y() const { return state_ ? state_->sum_y : no_buffer(); }
+const cl::Buffer& CellSumsResult::area() const { return buffer_of(state_, &CellSumsState::area); }
+const cl::Buffer& CellSumsResult::sum_x() const { return buffer_of(state_, &CellSumsState::sum_x); }
+const cl::Buffer& CellSumsResult::sum_y() const { return buffer_of(state_, &CellSumsState::sum_y); }
 
 CellShapesResult::CellShapesResult() = default;
 CellShapesResult::~CellShapesResult() = default;
 CellShapesResult::CellShapesResult(CellShapesResult&& other) noexcept = default;
 CellShapesResult& CellShapesResult::operator=(CellShapesResult&& other) noexcept = default;
 std::size_t CellShapesResult::size() const { return state_ ? state_->size() : 0; }
-const cl::Buffer& CellShapesResult::boxes() const { return state_ ? state_->boxes : no_buffer(); }
+const cl::Buffer& CellShapesResult::boxes() const { return buffer_of(state_, &CellShapesState::boxes); }
 const cl::Buffer& CellShapesResult::largest_distances() const {
-  return state_ ? state_->distances : no_buffer();
+  return buffer_of(state_, &CellShapesState::distances);
 }
 
 Point CellSums::centroid() const {
@@ -53,8 +53,8 @@ Point CellSums::centroid() const {
 Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result) {
   const Stopwatch stopwatch;
   CellSumsState& sums = Internal::result(result);
-  sums.seeds.reset();
-  auto measured = frame_of(seeds, diagram);
+  sums.frames = {};
+  auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
@@ -76,14 +76,15 @@ Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& res
                  wide, high, sums.area, sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
   const cl::Event last = run_over_cells("join_sums", count, width, wide, high, sums.area, sums.sum_x,
                                         sums.sum_y, sums.home, sums.home_sums);
-  sums.seeds = std::move(measured);
-  return report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
+  const Report report = report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
+  sums.frames = std::move(measured);
+  return report;
 }
 
 std::vector<CellSums> CellSumsResult::read() const {
   if (size() == 0) return {};
-  state_->seeds->check();
-  const Device& device = state_->seeds->device;
+  state_->frames.check();
+  const Device& device = state_->frames.seeds->device;
   const auto area = download<cl_uint>(device, state_->area, size());
   const auto sum_x = download<cl_ulong>(device, state_->sum_x, size());
   const auto sum_y = download<cl_ulong>(device, state_->sum_y, size());
@@ -96,8 +97,8 @@ std::vector<CellSums> CellSumsResult::read() const {
 Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result, Metric metric) {
   const Stopwatch stopwatch;
   CellShapesState& shapes = Internal::result(result);
-  shapes.seeds.reset();
-  auto measured = frame_of(seeds, diagram);
+  shapes.frames = {};
+  auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
@@ -110,14 +111,15 @@ Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult&
   const cl::Event last = blocks.run(shapes.kernels, "shapes.cl", "add_shapes", {metric}, diagram.labels(),
                                     seeds.positions(), count, grid.width(), grid.height(), blocks.wide(),
                                     blocks.high(), shapes.boxes, shapes.distances);
-  shapes.seeds = std::move(measured);
-  return report_of(stopwatch, device, count > 0 ? first : last, last);
+  const Report report = report_of(stopwatch, device, count > 0 ? first : last, last);
+  shapes.frames = std::move(measured);
+  return report;
 }
 
 std::vector<CellShape> CellShapesResult::read() const {
   if (size() == 0) return {};
-  const SeedsFrame& seeds = *state_->seeds;
-  seeds.check();
+  const SeedsFrame& seeds = *state_->frames.seeds;
+  state_->frames.check();
   const auto boxes = download<cl_int4>(seeds.device, state_->boxes, size());
   const auto distances = download<cl_int>(seeds.device, state_->distances, size());
   std::vector<CellShape> cells;
@@ -142,14 +144,14 @@ CellStatistics cell_statistics(CellSumsResult& result) {
   CellStatistics statistics;
   if (result.size() == 0) return statistics;
   CellSumsState& sums = Internal::result(result);
-  const SeedsFrame& seeds = *sums.seeds;
+  const SeedsFrame& seeds = *sums.frames.seeds;
   const std::size_t items = (seeds.size + cells_per_item - 1) / cells_per_item;
   make_room(sums.partial, seeds.device, items * sizeof(cl_ulong4));
   sums.kernels.get(seeds.device, "statistics.cl", "sum_areas", seeds.grid)
       .over_items(items, sums.area, static_cast<cl_uint>(seeds.size), static_cast<cl_uint>(cells_per_item),
                   static_cast<cl_uint>(items), sums.partial);
   seeds.device.finish();
-  seeds.check();
+  sums.frames.check();
   std::uint64_t squares = 0;
   std::size_t cells_with_pixels = 0;
   for (const cl_ulong4& some : download<cl_ulong4>(seeds.device, sums.partial, items)) {

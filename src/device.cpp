@@ -136,7 +136,7 @@ std::string effective_request(const std::string& request) {
 }
 
 /// "0:0 Portable Computing Language: pthread-...; 1:0 ..."
-std::string listing(const std::vector<Candidate>& candidates) {
+std::string list_of(const std::vector<Candidate>& candidates) {
   std::string text;
   for (const Candidate& candidate : candidates) {
     const DeviceDescription& device = candidate.description;
@@ -145,6 +145,25 @@ std::string listing(const std::vector<Candidate>& candidates) {
     if (!device.why_not.empty()) text += " (cannot be used: " + device.why_not + ")";
   }
   return text;
+}
+
+/// How large a device lets a work-group be.
+struct GroupLimits {
+  std::size_t items, rows;
+
+  bool allow(std::size_t width, std::size_t height) const {
+    return width >= 1 && height >= 1 && height <= rows && width <= items / height;
+  }
+};
+
+/// A group over a list of items has all of them in the first dimension.
+GroupLimits group_limits(cl_device_id device) {
+  std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
+  check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
+                        sizes.data(), nullptr),
+        "asking for the sizes of work-groups");
+  return {std::min(device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE), sizes.at(0)),
+          sizes.at(1)};
 }
 
 Tuning default_tuning(cl_device_id device) {
@@ -156,9 +175,11 @@ Tuning default_tuning(cl_device_id device) {
     tuning.group_width = 64;
     tuning.group_height = 1;
   }
-  const auto most = device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
-  while (tuning.group_height > 1 && tuning.group_width * tuning.group_height > most) tuning.group_height /= 2;
-  while (tuning.group_width > 1 && tuning.group_width > most) tuning.group_width /= 2;
+  const GroupLimits limits = group_limits(device);
+  while (tuning.group_height > 1 && !limits.allow(tuning.group_width, tuning.group_height))
+    tuning.group_height /= 2;
+  while (tuning.group_width > 1 && !limits.allow(tuning.group_width, tuning.group_height))
+    tuning.group_width /= 2;
   return tuning;
 }
 
@@ -199,7 +220,7 @@ Device Device::select(const std::string& request) {
   if (!chosen) {
     throw Error((wanted.empty() ? "no OpenCL device can be used"
                                 : "no usable OpenCL device matches \"" + wanted + "\"") +
-                    "; there is " + listing(candidates),
+                    "; there is " + list_of(candidates),
                 ErrorKind::device);
   }
   cl_int code = CL_SUCCESS;
@@ -261,12 +282,12 @@ Device Device::with_tuning(const Tuning& tuning) const {
     throw Error("a vector width of " + std::to_string(width) +
                 " is not possible; it must be 1, 2, 4, 8 or 16");
   }
-  const std::size_t items = tuning.group_width * tuning.group_height;
-  const std::size_t most = device_info<std::size_t>(cl_device()(), CL_DEVICE_MAX_WORK_GROUP_SIZE);
-  if (items < 1 || items > most) {
+  const GroupLimits limits = group_limits(cl_device()());
+  if (!limits.allow(tuning.group_width, tuning.group_height)) {
     throw Error("a work-group of " + std::to_string(tuning.group_width) + " x " +
                 std::to_string(tuning.group_height) + " is not possible; " + name() + " allows 1 to " +
-                std::to_string(most) + " work-items");
+                std::to_string(limits.items) + " work-items in 1 to " + std::to_string(limits.rows) +
+                " rows");
   }
   Device tuned = *this;
   tuned.tuning_ = tuning;

@@ -18,11 +18,11 @@ struct DeviceState {
   std::mutex programs_mutex;                    // held while a program is looked up or built
   std::map<std::string, cl::Program> programs;  // by file and build options
 
-  /// To be told of each command that was enqueued. Waits until no more than two batches of commands are in
+  /// Counts a command that was enqueued. Waits until no more than two batches of commands are in
   /// flight: PoCL takes longer to enqueue a command the more there are, and the host may run ahead by hours.
   void enqueued(const cl::Event& command);
 
-  /// The time that this thread has spent in such waits: it is none of an engine's.
+  /// The time that this thread has spent in such waits, which host_milliseconds() leaves out.
   static double& milliseconds_waited();
 
  private:

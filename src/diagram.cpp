@@ -45,16 +45,31 @@ void DiagramState::check_fits(const Seeds& seeds) const {
   }
 }
 
-void DiagramState::wait() {
-  device.finish();
-  if (!contents) return;
-  if (contents->last() != nullptr &&
-      info<cl_int>(clGetEventInfo, contents->last(), CL_EVENT_COMMAND_EXECUTION_STATUS) < 0) {
+template <typename Then>
+void DiagramState::wait_and(Then then) {
+  try {
+    device.finish();
+    if (contents && contents->last() != nullptr &&
+        info<cl_int>(clGetEventInfo, contents->last(), CL_EVENT_COMMAND_EXECUTION_STATUS) < 0) {
+      throw Error(device.name() + " failed to fill a diagram; its driver may have said more",
+                  ErrorKind::device);
+    }
+    if (contents && contents->seeds) contents->seeds->check();
+    then();
+  } catch (const BadPoint&) {
+    throw;  // the device has not failed
+  } catch (...) {
     contents.reset();
-    throw Error(device.name() + " failed to fill a diagram; its driver may have said more",
-                ErrorKind::device);
+    throw;
   }
-  if (contents->seeds) contents->seeds->check();
+}
+
+void DiagramState::wait() {
+  wait_and([] {});
+}
+
+void DiagramState::read(std::uint32_t* to) {
+  wait_and([&] { download(device, labels, grid.pixels(), to); });
 }
 
 Filling::Filling(const Seeds& seeds, Diagram& diagram)
@@ -107,14 +122,17 @@ void Diagram::write(const std::vector<std::uint32_t>& labels) {
 
 void Diagram::write(const cl::Buffer& labels) {
   check_foreign_buffer(device(), labels, bytes_of(grid()), "the buffer of labels to write", Access::read);
+  if (labels() == this->labels()())
+    throw Error("the buffer of labels to write is the diagram's own, which holds them already");
   state().contents.reset();
   const cl::Event copied = copy(device(), labels, this->labels(), bytes_of(grid()));
   state().contents = DiagramContents{nullptr, 0, copied};
 }
 
 std::vector<std::uint32_t> Diagram::read() const {
-  wait();
-  return download<std::uint32_t>(device(), labels(), grid().pixels());
+  std::vector<std::uint32_t> labels(grid().pixels());
+  state().read(labels.data());
+  return labels;
 }
 
 void Diagram::wait() const { state().wait(); }

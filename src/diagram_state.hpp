@@ -50,9 +50,17 @@ struct DiagramState {
   /// Throws Error unless the seeds have this device and this grid.
   void check_fits(const Seeds& seeds) const;
 
+  /// Waits for the queue. If the device fails, the diagram counts as never filled. Throws BadPoint if the
+  /// frame that the labels are of had one.
   void wait();
 
+  /// As wait(), and copies the labels to the host.
+  void read(std::uint32_t* to);
+
  private:
+  template <typename Then>
+  void wait_and(Then then);
+
   std::size_t held_;  // bytes of the labels and of all workspaces
   std::map<std::type_index, std::shared_ptr<void>> workspaces_;
 };

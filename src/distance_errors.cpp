@@ -13,8 +13,8 @@ constexpr std::size_t pixels_per_item = 1024;
 
 DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const Diagram& exact,
                                Metric metric) {
-  frame_of(seeds, exact);
-  const auto measured = frame_of(seeds, diagram);
+  frames_of(seeds, exact);
+  const auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const std::size_t items = (grid.pixels() + pixels_per_item - 1) / pixels_per_item;
@@ -26,7 +26,7 @@ DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const
                   static_cast<cl_uint>(pixels_per_item), wrong, excesses);
   diagram.wait();
   exact.wait();
-  measured->check();
+  measured.check();
 
   DistanceErrors errors;
   errors.pixels = grid.pixels();

@@ -32,6 +32,12 @@ std::string error_name(cl_int code) {
       return "invalid buffer size";
     case CL_INVALID_KERNEL_NAME:
       return "no such kernel";
+    case CL_MEM_COPY_OVERLAP:
+      return "the buffers overlap";
+    case CL_INVALID_BUILD_OPTIONS:
+      return "invalid build options";
+    case CL_INVALID_WORK_ITEM_SIZE:
+      return "invalid size of a work-group's dimension";
     case CL_INVALID_WORK_GROUP_SIZE:
       return "invalid work-group size";
     default:
@@ -46,6 +52,10 @@ ErrorKind kind_of(cl_int code) {
       return ErrorKind::device_memory;
     case CL_OUT_OF_HOST_MEMORY:
       return ErrorKind::host_memory;
+    case CL_INVALID_BUILD_OPTIONS:
+      return ErrorKind::kernel_build;
+    case CL_MEM_COPY_OVERLAP:  // only the caller's buffers can
+      return ErrorKind::bad_argument;
     default:
       return ErrorKind::device;
   }

@@ -1,6 +1,7 @@
 #include "vorocl/fields.hpp"
 
 #include <optional>
+#include <utility>
 
 #include "buffer.hpp"
 #include "measurement.hpp"
@@ -8,37 +9,47 @@
 namespace vorocl {
 
 template <typename T>
-struct FieldState : Measured {
-  // A mask has no seeds, so the field keeps these itself.
-  std::optional<Device> device;
-  std::size_t pixels = 0;  // 0: it is empty
+struct FieldState {
+  std::optional<Device> device;  // none: it is empty
+  std::size_t pixels = 0;
+  MeasuredFrames frames;
+  KernelSet kernels;
   cl::Buffer values;
+
+  bool empty() const { return !device; }
 };
 
 namespace {
 
+template <typename T>
+FieldState<T>& emptied(Field<T>& field) {
+  FieldState<T>& state = Internal::result(field);
+  state.device.reset();
+  return state;
+}
+
 /// Fills a field by one kernel: `launch` gets the kernel and the values.
 template <typename T, typename Launch>
-Report fill_field(const Diagram& diagram, const std::shared_ptr<const SeedsFrame>& seeds, Field<T>& field,
-                  const char* name, const KernelOptions& options, Launch launch) {
+Report fill_field(FieldState<T>& state, const Diagram& diagram, MeasuredFrames frames, const char* name,
+                  const KernelOptions& options, Launch launch) {
   const Stopwatch stopwatch;
-  FieldState<T>& state = Internal::result(field);
-  state.pixels = 0;
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   make_room(state.values, device, grid.pixels() * sizeof(T));
   const cl::Event event = launch(state.kernels.get(device, "fields.cl", name, grid, options), state.values);
-  state.device = device;
-  state.seeds = seeds;
+  const Report report = report_of(stopwatch, device, event, event);
+  state.frames = std::move(frames);
   state.pixels = grid.pixels();
-  return report_of(stopwatch, device, event, event);
+  state.device = device;
+  return report;
 }
 
 template <typename T>
 Report fill_distances(const Seeds& seeds, const Diagram& diagram, Field<T>& field, Metric metric,
                       const char* name) {
   const Grid& grid = diagram.grid();
-  return fill_field(diagram, frame_of(seeds, diagram), field, name, {metric},
+  FieldState<T>& state = emptied(field);
+  return fill_field(state, diagram, frames_of(seeds, diagram), name, {metric},
                     [&](Kernel& kernel, const cl::Buffer& values) {
                       return kernel.over_grid(diagram.labels(), seeds.positions(),
                                               static_cast<cl_uint>(seeds.size()), values, grid.width(),
@@ -58,7 +69,7 @@ Report distance_field(const Seeds& seeds, const Diagram& diagram, Field<float>& 
 
 Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
   const Grid& grid = diagram.grid();
-  return fill_field(diagram, nullptr, mask, "mark_borders", {},
+  return fill_field(emptied(mask), diagram, frames_of(diagram), "mark_borders", {},
                     [&](Kernel& kernel, const cl::Buffer& values) {
                       return kernel.over_grid(diagram.labels(), values, grid.width(), grid.height());
                     });
@@ -75,13 +86,13 @@ Field<T>& Field<T>::operator=(Field&& other) noexcept = default;
 
 template <typename T>
 const cl::Buffer& Field<T>::values() const {
-  return state_ ? state_->values : no_buffer();
+  return buffer_of(state_, &FieldState<T>::values);
 }
 
 template <typename T>
 std::vector<T> Field<T>::read() const {
-  if (!state_ || state_->pixels == 0) return {};
-  if (state_->seeds) state_->seeds->check();
+  if (!state_ || state_->empty()) return {};
+  state_->frames.check();
   return download<T>(*state_->device, state_->values, state_->pixels);
 }
 

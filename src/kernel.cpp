@@ -50,13 +50,18 @@ Kernel::Kernel(const Device& device, const char* file, const char* name, const G
 }
 
 void Kernel::set_argument(std::size_t index, const void* value, std::size_t size) {
-  Argument& argument = arguments_[index];
-  if (argument.size == size && std::memcmp(argument.bytes.data(), value, size) == 0) return;
-  argument.size = 0;  // until it is set: a failure leaves it unknown
   check(clSetKernelArg(kernel_(), static_cast<cl_uint>(index), size, value),
         [&] { return "setting argument " + std::to_string(index) + " of " + name_; });
-  std::memcpy(argument.bytes.data(), value, size);
-  argument.size = size;
+}
+
+void Kernel::set_number(std::size_t index, const void* value, std::size_t size) {
+  if (index >= numbers_.size()) numbers_.resize(index + 1);
+  Number& number = numbers_[index];
+  if (number.size == size && std::memcmp(number.bytes.data(), value, size) == 0) return;
+  number.size = 0;  // until it is set: a failure leaves it unknown
+  set_argument(index, value, size);
+  std::memcpy(number.bytes.data(), value, size);
+  number.size = size;
 }
 
 cl::Event Kernel::enqueue_over_grid() {

@@ -30,8 +30,8 @@ struct KernelOptions {
   }
 };
 
-/// One kernel with its arguments, of which a launch sets those that have changed since the last one. Never
-/// shared between threads: an OpenCL kernel object holds its arguments.
+/// One kernel with its arguments. A launch sets the buffers, and those numbers that have changed since the
+/// last one. Never shared between threads: an OpenCL kernel object holds its arguments.
 class Kernel {
  public:
   /// The kernel `name` of a kernel file, built for the device's vector width, or less where a row is shorter
@@ -66,30 +66,28 @@ class Kernel {
  private:
   friend class KernelSet;
 
-  /// An argument as it was set. Of a buffer it holds the handle, so that no other buffer can have its
-  /// address.
-  struct Argument {
+  /// A number as it was set. (A buffer would have to be held as long, so that no other one can have its
+  /// address: the caller's too, and a diagram's that is gone.)
+  struct Number {
     std::array<unsigned char, 16> bytes = {};
     std::size_t size = 0;  // 0: not set yet
-    cl::Buffer buffer;
   };
 
   bool is_for(const Device& device, const Grid& grid) const;
   void set_arguments(std::size_t) {}
   template <typename First, typename... Rest>
   void set_arguments(std::size_t index, const First& first, const Rest&... rest) {
-    if (index == arguments_.size()) arguments_.emplace_back();
     if constexpr (std::is_same_v<First, cl::Buffer>) {
       set_argument(index, &first(), sizeof(cl_mem));
-      arguments_[index].buffer = first;
     } else {
       static_assert(std::is_arithmetic_v<First> || std::is_union_v<First>,
                     "a number or a vector such as cl_uint2");
-      set_argument(index, &first, sizeof(First));
+      set_number(index, &first, sizeof(First));
     }
     set_arguments(index + 1, rest...);
   }
   void set_argument(std::size_t index, const void* value, std::size_t size);
+  void set_number(std::size_t index, const void* value, std::size_t size);
   cl::Event enqueue_over_grid();
   cl::Event enqueue_over_items(std::size_t count);
   cl::Event enqueue(cl_uint dimensions, const std::size_t* global, const std::size_t* local);
@@ -102,7 +100,7 @@ class Kernel {
   int vector_width_;       // pixels that one work-item computes
   std::size_t group_ = 0;  // work-items of a group over items; 0: the usual ones, less for few items
   cl::Kernel kernel_;
-  std::vector<Argument> arguments_;
+  std::vector<Number> numbers_;  // by the index of the argument
 };
 
 /// The kernels that an object launches again and again.

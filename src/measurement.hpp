@@ -2,7 +2,7 @@
 // walk through (see runs.cl).
 #pragma once
 
-#include <string>
+#include <memory>
 
 #include "diagram_state.hpp"
 #include "vorocl/opencl.hpp"
@@ -13,27 +13,42 @@ namespace vorocl {
 /// Makes the buffer of a result, unless there is one of this device that is large enough.
 void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes);
 
-/// What all results hold: the frame of the seeds that was measured, and the kernels that measured it. Null
-/// before the first measurement, and while one is being made: a result that failed is empty.
-struct Measured {
-  std::shared_ptr<const SeedsFrame> seeds;
-  KernelSet kernels;
+/// The frames that a measurement depends on: a bad point in either makes it wrong.
+struct MeasuredFrames {
+  std::shared_ptr<const SeedsFrame> seeds;   // that were measured; null where a measurement takes none
+  std::shared_ptr<const SeedsFrame> labels;  // that the diagram was made from; null if no engine made it
 
-  std::size_t size() const { return seeds ? seeds->size : 0; }
+  /// Throws BadPoint if either had one. May wait for the device.
+  void check() const;
 };
 
-/// The frame of seeds that fit the diagram. Throws Error if they do not.
-std::shared_ptr<const SeedsFrame> frame_of(const Seeds& seeds, const Diagram& diagram);
+/// Those of a diagram, and of seeds that fit it. Throws Error if they do not.
+MeasuredFrames frames_of(const Diagram& diagram);
+MeasuredFrames frames_of(const Seeds& seeds, const Diagram& diagram);
 
-/// What an accessor of an empty result returns.
-const cl::Buffer& no_buffer();
+/// What all results of cells hold: the frames that were measured, and the kernels that measured them. There
+/// are no frames before the first measurement, and while one is being made: a result that failed is empty.
+struct Measured {
+  MeasuredFrames frames;
+  KernelSet kernels;
+
+  bool empty() const { return !frames.seeds; }
+  std::size_t size() const { return empty() ? 0 : frames.seeds->size; }
+};
+
+/// A buffer of a result, null if it is empty.
+template <typename State>
+const cl::Buffer& buffer_of(const std::unique_ptr<State>& state, cl::Buffer State::*buffer) {
+  static const cl::Buffer none;
+  return state && !state->empty() ? (*state).*buffer : none;
+}
 
 /// The blocks of a grid, one per work-item.
 class Blocks {
  public:
   Blocks(const Device& device, const Grid& grid);
 
-  /// Blocks have 2^wide columns and 2^high rows: at most 512 of each, and 2^15 pixels (see cells.cl).
+  /// Blocks have 2^wide columns and 2^high rows.
   int wide() const { return wide_; }
   int high() const { return high_; }
   std::size_t count() const { return count_; }

@@ -10,8 +10,16 @@ namespace vorocl {
 
 namespace {
 
+/// Throws Error for options of djfa alone, of which the others cannot make anything.
+void refuse_mixed(const MethodOptions& options) {
+  if (options.neighbourhood == NeighbourhoodMix::mixed) {
+    throw Error("a mixed neighbourhood is for dynamic jump flooding (djfa) alone");
+  }
+}
+
 /// For methods whose waves all have one neighbourhood.
 Neighbourhood neighbourhood(const MethodOptions& options) {
+  refuse_mixed(options);
   return options.neighbourhood == NeighbourhoodMix::von_neumann ? Neighbourhood::von_neumann
                                                                 : Neighbourhood::moore;
 }
@@ -34,16 +42,25 @@ Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double ma
 }
 
 Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+  refuse_mixed(options);
   return exact_diagram(seeds, diagram, {options.metric});
 }
 
 Plan plan_standard_flooding(const Grid&, int waves, const MethodOptions& options) {
+  if (waves < 0) throw Error("a plan of " + std::to_string(waves) + " waves is not possible; 0 is the least");
   return Plan(static_cast<std::size_t>(waves), {1, neighbourhood(options)});
 }
 
 template <JumpFloodingVariant variant>
 Plan plan_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
   return jump_flooding_plan(grid, variant, neighbourhood(options));
+}
+
+/// From seeds alone it runs JFA.
+Plan plan_dynamic_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
+  const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
+  return jump_flooding_plan(grid, JumpFloodingVariant::jfa,
+                            von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore);
 }
 
 template <JumpFloodingVariant variant>
@@ -60,7 +77,7 @@ const std::vector<Method>& methods() {
       of_jump_flooding<JumpFloodingVariant::jfa_plus_1>("jfa+1"),
       of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
       of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
-      {"djfa", false, true, run_dynamic_jump_flooding, plan_jump_flooding<JumpFloodingVariant::jfa>},
+      {"djfa", false, true, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
       {"exact", true, false, run_exact, nullptr},
   };
   return all;
@@ -75,6 +92,10 @@ const Method& method(const std::string& name) {
   throw Error("there is no method \"" + name + "\"; there are " + names);
 }
 
+void check_options(const Method& method, const MethodOptions& options) {
+  if (!method.continues) refuse_mixed(options);
+}
+
 Simulation::Engine engine(const Method& method, const MethodOptions& options) {
   return [run = method.run, options](const Seeds& seeds, Diagram& diagram, double max_displacement) {
     return run(seeds, diagram, max_displacement, options);
@@ -85,7 +106,8 @@ void prepare(const Method& method, const Device& device, const Grid& grid, std::
              const MethodOptions& options) {
   Diagram diagram(device, grid);
   method.run(Seeds::random(device, grid, seeds, 1), diagram, 0, options);
-  // Goes on with the most waves, and to other seeds: then it looks for pixels without a label too.
+  // The second frame runs the longest plan and, because its seeds are others, the search for pixels without a
+  // label: both need kernels that the first frame does not.
   const double farthest = grid.longest_side();
   if (method.continues) method.run(Seeds::random(device, grid, seeds, 2), diagram, farthest, options);
   diagram.wait();

@@ -107,7 +107,7 @@ cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& siz
   return edges;
 }
 
-/// A filled circle in a square of this many pixels a side.
+/// A filled circle in a square of this many pixels per side.
 cv::Mat disk(int diameter) {
   cv::Mat result(diameter, diameter, CV_8U);
   const double centre = (diameter - 1) / 2.0;

@@ -24,8 +24,8 @@ void check_options(double max_displacement, const DynamicPlanOptions& options) {
   }
 }
 
-/// The least power of two that is at least 2 L and d_max, or the grid's first step if that is less. 2 L is
-/// compared in integers: step >= 2 sqrt(pixels / seeds), squared.
+/// The least power of two that is at least 2 L and max_displacement, or the grid's first step if that is
+/// less. 2 L is compared in integers: step >= 2 sqrt(pixels / seeds), squared.
 int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_displacement) {
   const int most = std::max(first_step(grid), 1);
   const auto covers = [&](int step) {

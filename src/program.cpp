@@ -26,13 +26,13 @@ std::string source_of(const std::string& file) {
   const std::string folder = environment("VOROCL_KERNEL_DIR");
   if (folder.empty()) return kernel_sources().at(file);
   std::ifstream stream(folder + '/' + file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) {
+  std::string text;
+  if (!std::getline(stream, text, '\0') && !stream.eof()) {  // an empty file ends at once
     throw Error("cannot read the kernel " + folder + '/' + file +
                     " (the folder is VOROCL_KERNEL_DIR): " + std::strerror(errno),
                 ErrorKind::file);
   }
-  return text.str();
+  return text;
 }
 
 /// Appends a file with its #include "..." lines resolved, each file once. #line keeps the compiler's messages
@@ -67,11 +67,12 @@ void dump(const std::string& name, Content content) {
   }
 }
 
-/// "exact-diagram-1a2b...": the same in every process, another for every set of options.
-std::string dump_name(const std::string& file, const std::string& options) {
+/// "exact-diagram-1a2b...": the same in every process, another for every device and set of options.
+std::string dump_name(const Device& device, const std::string& file, const std::string& options) {
   std::ostringstream name;
   for (const char c : file.substr(0, file.rfind('.'))) name << (c == '/' ? '-' : c);
-  name << '-' << std::hex << std::hash<std::string>()(options);
+  name << '-' << std::hex
+       << std::hash<std::string>()(device.name() + ' ' + device.driver_version() + ' ' + options);
   return name.str();
 }
 
@@ -88,22 +89,24 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
   std::string source;
   std::set<std::string> included;
   append_source(file, included, source);
-  const std::string name = dump_name(file, options);
+  const std::string name = dump_name(device, file, options);
   dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
   const char* text = source.c_str();
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
   cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
   check(code, [&] { return "making the program " + file; });
-  if (clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) != CL_SUCCESS) {
+  const std::string what = "building " + file + " for " + device.name() + " with \"" + options + '"';
+  code = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
+  if (code == CL_BUILD_PROGRAM_FAILURE) {
     const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
                           std::size_t* used) {
       return clGetProgramBuildInfo(of(), id, wanted, size, value, used);
     };
-    throw Error("building " + file + " for " + device.name() + " with \"" + options + "\" failed:\n" +
-                    info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
+    throw Error(what + " failed:\n" + info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
                 ErrorKind::kernel_build);
   }
+  check(code, [&] { return what; });
   dump(name + ".bin", [&] { return binary_of(program); });
   return program;
 }

@@ -42,7 +42,7 @@ Motion move_to_centroids(Seeds& seeds, Rounds& rounds) {
 }
 
 std::uint64_t energy_of(const Seeds& seeds, const Diagram& diagram, Rounds& rounds) {
-  const auto measured = frame_of(seeds, diagram);
+  const auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const Blocks blocks(device, grid);
@@ -51,7 +51,7 @@ std::uint64_t energy_of(const Seeds& seeds, const Diagram& diagram, Rounds& roun
              static_cast<cl_uint>(seeds.size()), grid.width(), grid.height(), blocks.wide(), blocks.high(),
              rounds.partial);
   diagram.wait();
-  measured->check();
+  measured.check();
   const auto energies = download<cl_ulong>(device, rounds.partial, blocks.count());
   return std::accumulate(energies.begin(), energies.end(), std::uint64_t{0});
 }
@@ -69,7 +69,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
   Rounds state;
   Relaxation relaxation;
-  double max_displacement = 0;
+  double max_displacement = diagram.grid().longest_side();  // since whatever the diagram holds
   while (true) {
     engine(seeds, diagram, max_displacement);
     relaxation.energies.push_back(energy_of(seeds, diagram, state));

@@ -68,23 +68,23 @@ std::uint64_t next_owner() {
 SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid_of_seeds)
     : device(device_of_seeds),
       grid(grid_of_seeds),
-      frame_(std::make_shared<const SeedsFrame>(SeedsFrame{device, grid, 0, 0, next_owner(), 0, nullptr})) {}
-
-const std::shared_ptr<const SeedsFrame>& SeedsState::frame() const {
-  if (moving_)
-    throw Error("the device failed while these seeds were moved; move them again", ErrorKind::device);
-  return frame_;
-}
+      frame_(std::make_shared<const SeedsFrame>(SeedsFrame{device, grid, 0, 0, next_owner()})) {}
 
 SeedsFrame SeedsState::next_frame(std::size_t size, bool vanished) const {
   check_count(size);
-  return {device, grid, size, 0, frame_->owner, frame_->vanishings + (vanished ? 1 : 0), nullptr};
+  return {device, grid, size, 0, frame_->owner, frame_->vanishings + (vanished ? 1 : 0)};
 }
 
-cl::Buffer SeedsState::room_for(std::size_t count) const {
+const cl::Buffer& SeedsState::next_positions(std::size_t count) {
   const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
-  return positions() != nullptr && size_of(positions) >= bytes ? positions
-                                                               : allocate(device, bytes, "the seeds");
+  if (spare_() == nullptr || size_of(spare_) < bytes) spare_ = allocate(device, bytes, "the seeds");
+  return spare_;
+}
+
+void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept {
+  std::swap(positions, spare_);
+  present = std::move(there);
+  frame_ = std::move(frame);
 }
 
 void SeedsState::place(std::vector<std::uint32_t> packed) {
@@ -97,14 +97,9 @@ void SeedsState::place(std::vector<std::uint32_t> packed) {
   SeedsFrame next = next_frame(there.size(), vanished);
   next.absent = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));
   auto made = std::make_shared<const SeedsFrame>(next);
-  const cl::Buffer room = room_for(there.size());
   packed.push_back(absent_position);
-  moving_ = true;
-  upload(device, room, packed);
-  positions = room;
-  present = std::move(there);
-  frame_ = std::move(made);
-  moving_ = false;
+  upload(device, next_positions(there.size()), packed);
+  commit(std::move(made), std::move(there));
 }
 
 void SeedsState::place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks) {
@@ -113,27 +108,21 @@ void SeedsState::place(const cl::Buffer& points, std::size_t count, const cl::Bu
   SeedsFrame next = next_frame(count, marked || count < size());  // which are present, only the device knows
   const std::shared_ptr<PointCheck> check = unused_check();
   next.points = check;
+  next.marked = marked;
   auto made = std::make_shared<const SeedsFrame>(next);
   std::vector<bool> there(count, true);
-  const cl::Buffer room = room_for(count);
-  Kernel& snap_points = kernels.get(device, "seeds.cl", "snap_points", grid);
-  Kernel& note_bad_point = kernels.get(device, "seeds.cl", "note_bad_point", grid);
-  moving_ = true;
   check->reset();
-  snap_points.over_items(count + 1, points, marked ? marks : points, cl_int{marked}, room,
-                         static_cast<cl_uint>(count), grid.width(), grid.height(), check->found());
-  note_bad_point.over_items(1, points, check->found());
-  positions = room;
-  present = std::move(there);
-  frame_ = std::move(made);
-  moving_ = false;
+  kernels.get(device, "seeds.cl", "snap_points", grid)
+      .over_items(count + 1, points, marked ? marks : points, cl_int{marked}, next_positions(count),
+                  static_cast<cl_uint>(count), grid.width(), grid.height(), check->found());
+  kernels.get(device, "seeds.cl", "note_bad_point", grid).over_items(1, points, check->found());
+  commit(std::move(made), std::move(there));
 }
 
 void SeedsState::place_on_device(std::size_t count) {
   auto made = std::make_shared<const SeedsFrame>(next_frame(count, count < size()));
-  positions = room_for(count);
-  present.assign(count, true);
-  frame_ = std::move(made);
+  next_positions(count);
+  commit(std::move(made), std::vector<bool>(count, true));
 }
 
 void SeedsState::moved() { frame_ = std::make_shared<const SeedsFrame>(*frame_); }
@@ -148,7 +137,6 @@ void SeedsState::copy_from(const SeedsState& other) {
   frame_ = std::make_shared<const SeedsFrame>(std::move(copied));
 }
 
-/// One that no frame remembers any more: a loop over frames makes two or three in all.
 std::shared_ptr<PointCheck> SeedsState::unused_check() {
   for (const std::shared_ptr<PointCheck>& check : checks_) {
     if (check.use_count() == 1) return check;
@@ -174,6 +162,9 @@ Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<Point>& p
     : state_(std::make_unique<SeedsState>(device, grid)) {
   state_->place(snap_all(grid, points));
 }
+
+Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points)
+    : Seeds(device, grid, std::vector<Point>(points)) {}
 
 Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points)
     : state_(std::make_unique<SeedsState>(device, grid)) {
@@ -217,6 +208,10 @@ Seeds Seeds::clone() const {
   copied->copy_from(state());
   return Seeds(std::move(copied));
 }
+
+void Seeds::move_to(const std::vector<Point>& points) { state().place(snap_all(grid(), points)); }
+
+void Seeds::move_to(std::initializer_list<Point> points) { move_to(std::vector<Point>(points)); }
 
 void Seeds::move_to(const std::vector<std::optional<Point>>& points) {
   state().place(snap_all(grid(), points));

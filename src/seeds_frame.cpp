@@ -48,7 +48,7 @@ std::size_t PointCheck::absent() const {
   return absent_;
 }
 
-std::size_t SeedsFrame::alive() const { return size - absent - (points ? points->absent() : 0); }
+std::size_t SeedsFrame::alive() const { return size - absent - (marked ? points->absent() : 0); }
 
 void SeedsFrame::check() const {
   if (points && points->bad_point()) throw BadPoint(*points->bad_point());

@@ -50,12 +50,13 @@ struct SeedsFrame {
   Device device;
   Grid grid;
   std::size_t size = 0;
-  std::size_t absent = 0;        // known to the host; not those that the check will count
+  std::size_t absent = 0;        // known to the host; not those that the check counts
   std::uint64_t owner = 0;       // the Seeds object it is of: no two have the same number
   std::uint64_t vanishings = 0;  // how often, up to this frame, a seed may have gone that was there before
-  std::shared_ptr<const PointCheck> points;  // null unless the points came in the caller's buffers
+  std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
+  bool marked = false;                                 // a buffer said which seeds are present
 
-  /// The seeds that are there. May wait for the device.
+  /// The seeds that are there. Waits for the device if they are marked. A bad point is not absent.
   std::size_t alive() const;
 
   /// Throws BadPoint if there was one. May wait for the device.

@@ -18,14 +18,14 @@ struct SeedsState {
 
   Device device;
   Grid grid;
-  cl::Buffer positions;
+  cl::Buffer positions;       // of the present frame
   std::vector<bool> present;  // by id, as far as the host knows
   KernelSet kernels;
 
   std::size_t size() const { return present.size(); }
 
-  /// The present frame. Throws Error if the device failed in the middle of the last move.
-  const std::shared_ptr<const SeedsFrame>& frame() const;
+  /// The present frame.
+  const std::shared_ptr<const SeedsFrame>& frame() const { return frame_; }
 
   /// Makes the next frame of seeds that the host has placed.
   void place(std::vector<std::uint32_t> packed);
@@ -45,12 +45,20 @@ struct SeedsState {
  private:
   /// The next frame of so many seeds, still without what is known of their points.
   SeedsFrame next_frame(std::size_t size, bool vanished) const;
-  cl::Buffer room_for(std::size_t count) const;
+
+  /// Makes room for the positions of the next frame. The present ones are not touched: if the move fails,
+  /// they stay.
+  const cl::Buffer& next_positions(std::size_t count);
+
+  /// The next frame becomes the present one, with the positions in next_positions().
+  void commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept;
+
+  /// A check that no frame remembers any more: a loop over frames makes two or three in all.
   std::shared_ptr<PointCheck> unused_check();
 
   std::shared_ptr<const SeedsFrame> frame_;
-  bool moving_ = false;  // positions have been written and the frame has not: set while that goes on
-  std::vector<std::shared_ptr<PointCheck>> checks_;  // in use where a frame holds one too
+  cl::Buffer spare_;                                 // where the next positions go
+  std::vector<std::shared_ptr<PointCheck>> checks_;  // those of frames that are remembered, and unused ones
 };
 
 }  // namespace vorocl

@@ -1,14 +1,18 @@
 #include "vorocl/simulation.hpp"
 
+#include <string>
 #include <utility>
 
 #include "vorocl/error.hpp"
 
 namespace vorocl {
 
-Simulation::Simulation(Seeds seeds, Motion motion) : seeds_(std::move(seeds)), motion_(std::move(motion)) {}
+Simulation::Simulation(Seeds seeds, Motion motion) : seeds_(std::move(seeds)), motion_(std::move(motion)) {
+  if (!motion_) throw Error("a simulation needs a motion that moves the seeds");
+}
 
 std::size_t Simulation::add_engine(Engine engine) {
+  if (!engine) throw Error("a simulation needs engines that fill diagrams; this one is empty");
   if (frame_ >= 0) throw Error("an engine must be added before the first frame is made");
   tracks_.push_back({std::move(engine), Diagram(seeds_.device(), seeds_.grid()), {}, {}, 0, 0, 0});
   return tracks_.size() - 1;
@@ -28,10 +32,17 @@ void Simulation::step() {
 }
 
 double Simulation::milliseconds(std::size_t engine) {
-  Track& track = tracks_.at(engine);
-  for (const Report& report : track.untimed) track.milliseconds += report.milliseconds();
-  track.untimed.clear();
-  return track.milliseconds;
+  track(engine);  // throws if there is none
+  Track& timed = tracks_[engine];
+  for (const Report& report : timed.untimed) timed.milliseconds += report.milliseconds();
+  timed.untimed.clear();
+  return timed.milliseconds;
+}
+
+const Simulation::Track& Simulation::track(std::size_t engine) const {
+  if (engine < tracks_.size()) return tracks_[engine];
+  throw Error("the simulation has " + std::to_string(tracks_.size()) + " engines, and none of number " +
+              std::to_string(engine));
 }
 
 }  // namespace vorocl

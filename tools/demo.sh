@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 tools/setup.sh build
-[ -f build/CMakeCache.txt ] || cmake --preset release -DVOROCL_BUILD_TESTS=OFF >/dev/null # Boost.Test may not be there
+[ -f build/build.ninja ] || cmake --preset release -DVOROCL_BUILD_TESTS=OFF >/dev/null # Boost.Test may not be there
 cmake --build --preset release --target vorocl_tool
 mkdir -p output
 build/tools/vorocl render --points samples/cities-5000.csv --bounds 0,0,360,180 --size 1800x900 --method exact \

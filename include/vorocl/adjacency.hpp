@@ -25,7 +25,13 @@ struct CellPair {
 };
 
 /// What adjacency() found, on the device. Finding it again allocates nothing unless there is more of it.
-/// Empty before the first time, and after it was moved from or adjacency() threw. One thread at a time.
+/// Empty before the first time, and after it was moved from or adjacency() threw: then its buffers are null.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: a result keeps its device. Its buffers are valid until the next measurement into it.
+///
+/// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API AdjacencyResult {
  public:
   AdjacencyResult();

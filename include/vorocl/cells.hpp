@@ -35,7 +35,14 @@ struct CellShape {
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
 /// allocates nothing unless there are more seeds. Empty before the first time, and after it was moved from or
-/// cell_sums() threw. One thread at a time.
+/// cell_sums() threw: then its buffers are null.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: a result keeps its device, and remembers the frames of seeds that it was made from; seeds and
+/// diagram may change at once after the call. Its buffers are valid until the next measurement into it.
+///
+/// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API CellSumsResult {
  public:
   CellSumsResult();
@@ -48,7 +55,7 @@ class VOROCL_API CellSumsResult {
   const cl::Buffer& sum_x() const;  ///< uint64 per cell
   const cl::Buffer& sum_y() const;  ///< uint64 per cell
 
-  /// Waits. Throws BadPoint if the seeds had one.
+  /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<CellSums> read() const;
 
  private:
@@ -68,7 +75,7 @@ class VOROCL_API CellShapesResult {
   const cl::Buffer& boxes() const;              ///< int32 left, top, right, bottom per cell
   const cl::Buffer& largest_distances() const;  ///< int32 per cell
 
-  /// Waits. Throws BadPoint if the seeds had one.
+  /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<CellShape> read() const;
 
  private:

@@ -53,7 +53,8 @@ class VOROCL_API Diagram {
   /// Error if the size is another.
   void write(const std::vector<std::uint32_t>& labels);
 
-  /// As above, from a buffer of the same context (which may be a sub-buffer). Enqueues and returns.
+  /// As above, from a buffer of the same context (which may be a sub-buffer). Enqueues and returns. Throws
+  /// Error if it is the diagram's own or overlaps with it.
   void write(const cl::Buffer& labels);
 
   /// The labels on the host, size width * height. Waits. Throws as wait().

@@ -24,11 +24,15 @@ struct DynamicJumpFloodingOptions {
 /// Approximate; close to JFA where seeds are spread evenly (the paper's assumption), worse where they are
 /// not. Seeds may appear and vanish: a label of a vanished seed counts as none, and if a pixel is left
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
-/// device memory per pixel. Enqueues and returns, with two exceptions. After a seed has vanished, or if the
-/// labels are of other seeds or were written by the caller, it waits to see whether pixels are left. If the
-/// last frame's points came in the caller's buffer, it waits until these have been checked, because a bad
-/// one would have left holes in the labels: then a JFA runs. Throws as jump_flooding(), and if an option is
-/// out of its range.
+/// device memory per pixel. Enqueues and returns, with three exceptions, in which it waits for all that was
+/// enqueued before:
+/// - After a seed may have vanished, or if the labels are of other seeds or were written by the caller, it
+///   looks whether pixels are left.
+/// - If the last frame's points came in the caller's buffer, it looks whether one was bad, which would have
+///   left holes in the labels: then a JFA runs.
+/// - If a buffer said which seeds are present, it asks how many they are, on which the waves depend.
+///
+/// Throws as jump_flooding(), and if an option is out of its range.
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
                                         const DynamicJumpFloodingOptions& options = {});
 

@@ -18,11 +18,11 @@ struct ExactOptions {
 /// Exact: all distances are integers, and the labels are the same on every device, for every tuning and,
 /// where no two seeds share a pixel, for every order of the seeds. Where seeds are dense, the nearest seed of
 /// each row and then the best row is taken (as in separable distance transforms); where they are not, those
-/// seeds near that no other one beats at all four corners of a cell are tried; where they are sparse, these
-/// candidates are searched from coarse cells to fine ones. Cost: in proportion to the pixels, whatever the
-/// distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes of device memory per
-/// pixel, the labels included, and 16 per seed besides its position. Throws Error if seeds and diagram do not
-/// fit together or the device has too little memory.
+/// seeds near that no other one beats at all four corners of a bin (a square of pixels) are tried; where they
+/// are sparse, these candidates are searched from coarse bins to fine ones. Cost: in proportion to the
+/// pixels, whatever the distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes
+/// of device memory per pixel, the labels included, and 16 per seed besides its position. Throws Error if
+/// seeds and diagram do not fit together or the device has too little memory.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -20,7 +20,14 @@ struct FieldState;
 constexpr std::int32_t no_distance = 0x7fffffff;
 
 /// One value per pixel, row-major, on the device: int32, float or uint8. Filling it again allocates nothing.
-/// Empty before the first time, and after it was moved from or filling it threw. One thread at a time.
+/// Empty before the first time, and after it was moved from or filling it threw.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: a field keeps its device, and remembers the frames of seeds that it was made from; seeds and
+/// diagram may change at once after the call. Its buffer is valid until the next call that fills the field.
+///
+/// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 template <typename T>
 class VOROCL_API Field {
  public:
@@ -29,9 +36,9 @@ class VOROCL_API Field {
   Field(Field&& other) noexcept;
   Field& operator=(Field&& other) noexcept;
 
-  const cl::Buffer& values() const;
+  const cl::Buffer& values() const;  ///< null while the field is empty
 
-  /// Waits. Throws BadPoint if the seeds had one.
+  /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<T> read() const;
 
  private:

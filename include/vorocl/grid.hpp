@@ -26,8 +26,8 @@ enum class Metric {
 
 /// Which pixels a wave looks at besides the pixel itself.
 enum class Neighbourhood {
-  moore,        ///< the 8 neighbours at the step length
-  von_neumann,  ///< the 4 neighbours at the step length that share a row or a column with it
+  moore,        ///< the 8 neighbours at the step
+  von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it
 };
 
 /// The size of a diagram in pixels, row-major, (0, 0) at the top left.

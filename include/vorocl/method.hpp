@@ -16,7 +16,8 @@
 
 namespace vorocl {
 
-/// The options of all methods. A method ignores those that it has no use for.
+/// The options of all methods. A method ignores those that it has no use for; mixed neighbourhoods, which
+/// djfa alone has, are refused by the others.
 struct MethodOptions {
   Metric metric = Metric::euclidean;
   std::optional<NeighbourhoodMix> neighbourhood = {};  ///< none: mixed for djfa, Moore for the others
@@ -36,14 +37,18 @@ struct Method {
   Report (*run)(const Seeds& seeds, Diagram& diagram, double max_displacement, const MethodOptions& options);
 
   /// The waves that it runs from seeds alone, of which its report has said the number; null if it has none.
+  /// Throws Error if that number is negative.
   Plan (*plan)(const Grid& grid, int waves, const MethodOptions& options);
 };
 
-/// All methods: standard-flooding, jfa, jfa+1, jfa+2, 1+jfa, djfa, exact.
+/// All methods.
 VOROCL_API const std::vector<Method>& methods();
 
 /// The method of a name. Throws Error, which lists the names, if there is none.
 VOROCL_API const Method& method(const std::string& name);
+
+/// Throws Error if the method refuses the options, as run() would.
+VOROCL_API void check_options(const Method& method, const MethodOptions& options);
 
 /// The method with its options as an engine of a simulation.
 VOROCL_API Simulation::Engine engine(const Method& method, const MethodOptions& options = {});

@@ -42,7 +42,7 @@ VOROCL_API std::optional<Scale> range_of(const std::vector<float>& distances);
 
 /// Colours each pixel by its label's id. An id has one colour, the same in every picture and frame; ids that
 /// are near each other get colours that are easily told apart. no_label is black, which is no id's colour.
-/// Throws Error unless there is one label a pixel.
+/// Throws Error unless there is one label per pixel.
 VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid);
 
 /// As above, with the few colours of a categorical palette: neighbours may share one. Throws Error for
@@ -51,7 +51,7 @@ VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const G
 
 /// Colours each pixel by the value of its label's seed. `values` holds one per seed, by id; an absent value
 /// (NaN) is light grey and no_label is black. With a categorical palette values are rounded to whole numbers.
-/// Throws Error unless there is one label a pixel and a value for every label, and for a bad scale.
+/// Throws Error unless there is one label per pixel and a value for every label, and for a bad scale.
 VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
                                   const std::vector<double>& values, const Scale& scale, Palette palette);
 

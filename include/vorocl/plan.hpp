@@ -11,7 +11,7 @@
 
 namespace vorocl {
 
-/// One pass over all pixels with one step length (in pixels, at least 1).
+/// One pass over all pixels with one step (in pixels, at least 1).
 struct Wave {
   int step = 1;
   Neighbourhood neighbourhood = Neighbourhood::moore;

@@ -38,6 +38,9 @@ VOROCL_API std::uint64_t energy(const Seeds& seeds, const Diagram& diagram);
 /// many rounds, when no seed moves, or when the observer says so. In the end the diagram is that of the
 /// seeds.
 ///
+/// The diagram may hold anything at the start: the engine is told first that a seed may have moved by the
+/// grid's longest side, and in each round how far seeds moved at most.
+///
 /// With an exact Euclidean engine the energy falls with every round, so the end is sure to come; an
 /// approximate engine may make it rise now and then. Seeds that come to share a pixel leave the higher id
 /// without a cell. Waits in every round. Throws Error if `rounds` is negative, and as the engine does.

@@ -24,7 +24,9 @@ class VOROCL_API Report {
   /// gaps between them. Waits for it. 0 if the queue does not profile.
   double milliseconds() const;
 
-  /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device).
+  /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device). Where an
+  /// engine waits for the device to know what to enqueue next (standard flooding; dynamic_jump_flooding()
+  /// says when), that counts.
   double host_milliseconds() const { return host_milliseconds_; }
 
   /// One report of two engines that ran one after the other for one diagram.

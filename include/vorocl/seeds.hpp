@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -17,7 +18,7 @@ struct SeedsState;
 
 /// The seeds of a diagram, in their present frame. A seed's id is its index in the caller's list. A seed may
 /// be absent: it has an id and no cell. Seeds that share a pixel are allowed: the lowest id owns the cell,
-/// the others have empty cells. Needs 4 bytes of device memory per seed.
+/// the others have empty cells. Needs 4 bytes of device memory per seed, 8 from the first move_to() on.
 ///
 /// Threads: one thread at a time.
 ///
@@ -31,6 +32,7 @@ class VOROCL_API Seeds {
   /// From points in pixel units. Throws BadPoint naming the first point that is NaN, infinite or outside the
   /// grid (a point at x = width is outside), before any device work. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points);
+  Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points);
 
   /// As above; a seed without a point is absent.
   Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points);
@@ -58,9 +60,12 @@ class VOROCL_API Seeds {
   /// The same seeds once more, to be moved on their own. Copies on the device. Enqueues and returns.
   Seeds clone() const;
 
-  /// Moves the seeds to new points: a new frame. A seed without a point is absent until it gets one again.
-  /// The number of seeds may change: ids past the end are absent. Checks as the constructor, and leaves the
-  /// seeds as they were if a point is bad.
+  /// Moves the seeds to new points: a new frame. The number of seeds may change: ids past the end are absent.
+  /// Checks as the constructor. If it throws, the seeds are where they were.
+  void move_to(const std::vector<Point>& points);
+  void move_to(std::initializer_list<Point> points);
+
+  /// As above; a seed without a point is absent until it gets one again.
   void move_to(const std::vector<std::optional<Point>>& points);
 
   /// As above, from buffers as the constructor takes them.
@@ -74,7 +79,8 @@ class VOROCL_API Seeds {
   std::size_t alive() const;
 
   /// One uint32 per seed: y << 16 | x of its pixel, or 0x80008000 if it is absent; and one more such value at
-  /// the end.
+  /// the end. Valid until the seeds are moved: move_to() writes into another buffer, random_step() into this
+  /// one.
   const cl::Buffer& positions() const;
 
   /// The centres of the seeds' pixels; none for a seed that is absent. Waits. Throws BadPoint if a point of

@@ -13,10 +13,18 @@
 namespace vorocl {
 
 /// Owns the frame counter, the seeds and a diagram for each engine, so that engines can be compared on one
-/// motion. Nothing is allocated on the device after frame 0 (while the number of seeds stays), and nothing
-/// waits unless an engine or the caller reads. One thread at a time. After step() has thrown, the
-/// next one goes on: with the same frame if the motion threw, with the next frame if an engine did; engines
-/// that had not run by then are told the displacement of both frames.
+/// motion. Nothing is allocated on the device after frame 1 (while the number of seeds stays). Nothing waits
+/// unless an engine, the motion or the caller reads, or the queue is full (see Device).
+///
+/// After step() has thrown, the next one goes on: with the same frame if the motion threw, with the next
+/// frame if an engine did; engines that had not run by then are told the displacement of both frames.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: seeds(), diagram() and report() are valid as long as the simulation, and those of the last frame
+/// until the next step(). What motion and engines refer to must live as long as they are called.
+///
+/// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API Simulation {
  public:
   /// Moves the seeds on to a frame (from 1 on) and returns the greatest displacement of a seed along an axis,
@@ -26,9 +34,10 @@ class VOROCL_API Simulation {
   /// Fills the diagram of a frame. max_displacement is what the motion returned, 0 for frame 0.
   using Engine = std::function<Report(const Seeds& seeds, Diagram& diagram, double max_displacement)>;
 
+  /// Throws Error if the motion is empty.
   Simulation(Seeds seeds, Motion motion);
 
-  /// Adds an engine, before the first step; returns its number.
+  /// Adds an engine, before the first step; returns its number. Throws Error if it is empty or too late.
   std::size_t add_engine(Engine engine);
 
   /// Makes the next frame's diagrams: frame 0 of the seeds as they are, then one motion per frame.
@@ -37,17 +46,17 @@ class VOROCL_API Simulation {
   /// The frame that the last step() made, -1 before the first.
   int frame() const { return frame_; }
   const Seeds& seeds() const { return seeds_; }
-  const Diagram& diagram(std::size_t engine = 0) const { return tracks_.at(engine).diagram; }
+  const Diagram& diagram(std::size_t engine = 0) const { return track(engine).diagram; }
 
   /// Of the last frame.
-  const Report& report(std::size_t engine = 0) const { return tracks_.at(engine).report; }
+  const Report& report(std::size_t engine = 0) const { return track(engine).report; }
 
   /// The device's time for the diagrams of frames 1, 2, ..., without the motion, as the paper measures it.
   /// Waits.
   double milliseconds(std::size_t engine = 0);
 
   /// The host's time to enqueue the same.
-  double host_milliseconds(std::size_t engine = 0) const { return tracks_.at(engine).host_milliseconds; }
+  double host_milliseconds(std::size_t engine = 0) const { return track(engine).host_milliseconds; }
 
  private:
   struct Track {
@@ -59,6 +68,9 @@ class VOROCL_API Simulation {
     double host_milliseconds = 0;
     double max_displacement = 0;  // since the diagram was last filled
   };
+
+  /// Throws Error if there is no engine of this number.
+  const Track& track(std::size_t engine) const;
 
   Seeds seeds_;
   Motion motion_;

@@ -255,12 +255,12 @@ VOROCL_API vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uin
 /// As above, from a buffer of the same context. Enqueues and returns.
 VOROCL_API vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels);
 
-/// Completes with the labels of the last method that filled the diagram, and is valid until the next one
-/// does. NULL before the first, and after labels were written.
+/// Completes with the labels of the last method that was to fill the diagram, and is valid until the next one
+/// is called. NULL before the first, after one that failed, and after labels were written or that failed.
 VOROCL_API vorocl_status vorocl_diagram_event(const vorocl_diagram* diagram, cl_event* event);
 
-/// The last method's waves, the device's time (0 if the queue does not profile; waits) and the host's. Each
-/// may be NULL.
+/// The last method's waves, the device's time (0 if the queue does not profile; waits) and the host's: 0
+/// where vorocl_diagram_event() gives NULL. Each may be NULL.
 VOROCL_API vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves,
                                                double* milliseconds, double* host_milliseconds);
 
@@ -299,7 +299,8 @@ VOROCL_API vorocl_status vorocl_jump_flooding(const vorocl_seeds* seeds, vorocl_
 VOROCL_API vorocl_status vorocl_exact_diagram(const vorocl_seeds* seeds, vorocl_diagram* diagram,
                                               vorocl_metric metric);
 
-/// As vorocl::MethodOptions: the options of all methods. A method ignores those that it has no use for.
+/// As vorocl::MethodOptions: the options of all methods. A method ignores those that it has no use for; mixed
+/// neighbourhoods are refused but for dynamic jump flooding.
 typedef struct vorocl_method_options {
   vorocl_metric metric;
   vorocl_neighbourhood neighbourhood;

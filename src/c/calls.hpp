@@ -23,7 +23,7 @@ struct vorocl_seeds {
 
 struct vorocl_diagram {
   vorocl::Diagram diagram;
-  vorocl::Report report;  // of the method that filled it last; that of nothing if the caller wrote the labels
+  vorocl::Report report;  // of the last method; that of nothing if it failed, or the caller wrote the labels
 };
 
 namespace vorocl {

@@ -1,6 +1,6 @@
 // The C functions of diagrams.
-#include "buffer.hpp"
 #include "calls.hpp"
+#include "diagram_state.hpp"
 
 using namespace vorocl;
 
@@ -33,16 +33,16 @@ vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labe
   return guarded([&] {
     check_count(of(diagram).grid().pixels(), "pixels", count);
     const uint32_t* const first = &given(labels, "labels");
-    diagram->diagram.write({first, first + count});
     diagram->report = {};
+    diagram->diagram.write({first, first + count});
   });
 }
 
 vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels) {
   return guarded([&] {
     given(labels, "labels");
-    given(diagram, "diagram").diagram.write(retained(labels));
-    diagram->report = {};
+    given(diagram, "diagram").report = {};
+    diagram->diagram.write(retained(labels));
   });
 }
 
@@ -62,12 +62,9 @@ vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves, d
 
 vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count) {
   return guarded([&] {
-    const Diagram& from = of(diagram);
-    check_count(from.grid().pixels(), "pixels", count);
-    given(labels, "labels");
-    from.wait();
+    check_count(of(diagram).grid().pixels(), "pixels", count);
     // Straight to where they go: Diagram::read() would need a second image on the host.
-    download(from.device(), from.labels(), count, labels);
+    Internal::state(of(diagram)).read(&given(labels, "labels"));
   });
 }
 

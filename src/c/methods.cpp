@@ -16,18 +16,12 @@ std::optional<NeighbourhoodMix> to_mix(vorocl_neighbourhood neighbourhood) {
   refuse("neighbourhood", neighbourhood);
 }
 
-/// For methods whose waves all have one neighbourhood.
-Neighbourhood to_neighbourhood(vorocl_neighbourhood neighbourhood) {
-  const std::optional<NeighbourhoodMix> mix = to_mix(neighbourhood);
-  if (mix == NeighbourhoodMix::mixed) throw Error("only dynamic jump flooding has a mixed neighbourhood");
-  return mix == NeighbourhoodMix::von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
-}
-
-JumpFloodingVariant to_variant(vorocl_variant variant) {
-  if (variant == VOROCL_JFA) return JumpFloodingVariant::jfa;
-  if (variant == VOROCL_JFA_PLUS_1) return JumpFloodingVariant::jfa_plus_1;
-  if (variant == VOROCL_JFA_PLUS_2) return JumpFloodingVariant::jfa_plus_2;
-  if (variant == VOROCL_ONE_PLUS_JFA) return JumpFloodingVariant::one_plus_jfa;
+/// The name of a variant of jump flooding.
+const char* to_name(vorocl_variant variant) {
+  if (variant == VOROCL_JFA) return "jfa";
+  if (variant == VOROCL_JFA_PLUS_1) return "jfa+1";
+  if (variant == VOROCL_JFA_PLUS_2) return "jfa+2";
+  if (variant == VOROCL_ONE_PLUS_JFA) return "1+jfa";
   refuse("variant", variant);
 }
 
@@ -37,36 +31,37 @@ MethodOptions to_options(const vorocl_method_options* options) {
           options->extra_waves, options->refresh_interval};
 }
 
+/// Runs a method and keeps its report; if it fails, there is none.
+void run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram, double max_displacement,
+         const MethodOptions& options) {
+  vorocl_diagram& to = given(diagram, "diagram");
+  to.report = {};
+  to.report = method(name).run(of(seeds), to.diagram, max_displacement, options);
+}
+
 }  // namespace
 
 vorocl_status vorocl_standard_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
                                        vorocl_metric metric, vorocl_neighbourhood neighbourhood) {
   return guarded([&] {
-    vorocl_diagram& to = given(diagram, "diagram");
-    to.report =
-        standard_flooding(of(seeds), to.diagram, {to_metric(metric), to_neighbourhood(neighbourhood)});
+    run("standard-flooding", seeds, diagram, 0, {to_metric(metric), to_mix(neighbourhood)});
   });
 }
 
 vorocl_status vorocl_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric,
                                    vorocl_neighbourhood neighbourhood, vorocl_variant variant) {
   return guarded([&] {
-    vorocl_diagram& to = given(diagram, "diagram");
-    to.report = jump_flooding(of(seeds), to.diagram,
-                              {to_metric(metric), to_neighbourhood(neighbourhood), to_variant(variant)});
+    run(to_name(variant), seeds, diagram, 0, {to_metric(metric), to_mix(neighbourhood)});
   });
 }
 
 vorocl_status vorocl_exact_diagram(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric) {
-  return guarded([&] {
-    vorocl_diagram& to = given(diagram, "diagram");
-    to.report = exact_diagram(of(seeds), to.diagram, {to_metric(metric)});
-  });
+  return guarded([&] { run("exact", seeds, diagram, 0, {to_metric(metric)}); });
 }
 
 vorocl_status vorocl_dynamic_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
                                            double max_displacement, const vorocl_method_options* options) {
-  return vorocl_run("djfa", seeds, diagram, max_displacement, options);
+  return guarded([&] { run("djfa", seeds, diagram, max_displacement, to_options(options)); });
 }
 
 // --- by name ---
@@ -84,11 +79,7 @@ vorocl_status vorocl_method_get(size_t index, vorocl_method_description* descrip
 
 vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram,
                          double max_displacement, const vorocl_method_options* options) {
-  return guarded([&] {
-    vorocl_diagram& to = given(diagram, "diagram");
-    to.report =
-        method(&given(name, "method")).run(of(seeds), to.diagram, max_displacement, to_options(options));
-  });
+  return guarded([&] { run(&given(name, "method"), seeds, diagram, max_displacement, to_options(options)); });
 }
 
 vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, int64_t width, int64_t height,

@@ -107,8 +107,9 @@ BOOST_AUTO_TEST_CASE(the_table_has_every_study_and_its_numbers_are_those_of_simu
                                                     {"d_max", 4},
                                                     {"seeds", 6},
                                                     {"waves", 4}}));
-  for (const char* same : {"von Neumann waves: 2", "extra waves: 0", "refresh interval: 0",
-                           "seeds: uniform, djfa", "waves: gather", "waves: gather, one pixel a work-item"}) {
+  for (const char* same :
+       {"von Neumann waves: 2", "extra waves: 0", "refresh interval: 0", "seeds: uniform, djfa",
+        "waves: gather", "waves: gather, one pixel per work-item"}) {
     for (const std::string& column : accuracy)
       BOOST_TEST(rows.at(same).at(column) == rows.at("method: djfa").at(column), same << " " << column);
   }

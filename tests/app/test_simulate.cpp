@@ -229,6 +229,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, djfa + "--extra-waves 3", usage, {"--extra-waves"});
   refuses(folder, moving + "--method jfa --extra-waves 1", usage, {"--extra-waves", "djfa"});
   refuses(folder, moving + "--method jfa --neighbourhood mixed", usage, {"mixed", "djfa"});
+  refuses(folder, moving + "--method exact --neighbourhood mixed", usage, {"mixed", "djfa"});
   refuses(folder, djfa + "-o a.gif", usage, {"a.gif", ".mp4"});
   refuses(folder, djfa + "-o a.png", usage, {"a.png", "%05d.png"});
   refuses(folder, djfa + "-o a%05x.png", usage, {"%05d.png"});

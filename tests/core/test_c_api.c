@@ -5,13 +5,13 @@
 static const struct {
   const char* name;
   int exact, continues, waves;
-} expected_methods[] = {{"standard-flooding", 0, 0, -1},
-                        {"jfa", 0, 0, 6},
-                        {"jfa+1", 0, 0, 7},
-                        {"jfa+2", 0, 0, 8},
-                        {"1+jfa", 0, 0, 7},
-                        {"djfa", 0, 1, 6},
-                        {"exact", 1, 0, 0}};
+} some_methods[] = {{"standard-flooding", 0, 0, -1},
+                    {"jfa", 0, 0, 6},
+                    {"jfa+1", 0, 0, 7},
+                    {"jfa+2", 0, 0, 8},
+                    {"1+jfa", 0, 0, 7},
+                    {"djfa", 0, 1, 6},
+                    {"exact", 1, 0, 0}};
 
 static void test_devices(const vorocl_device* device) {
   vorocl_device_list* list = NULL;
@@ -90,15 +90,16 @@ static void test_methods(const vorocl_device* device) {
   CHECK(has_labels(exact, nearest));
 
   OK(vorocl_method_count(&count));
-  CHECK(count == sizeof expected_methods / sizeof *expected_methods);
+  CHECK(count >= sizeof some_methods / sizeof *some_methods);
+  count = sizeof some_methods / sizeof *some_methods;
   for (size_t i = 0; i < count; ++i) {
     OK(vorocl_method_get(i, &method));
-    CHECK(strcmp(method.name, expected_methods[i].name) == 0);
-    CHECK(method.exact == expected_methods[i].exact && method.continues == expected_methods[i].continues);
+    CHECK(strcmp(method.name, some_methods[i].name) == 0);
+    CHECK(method.exact == some_methods[i].exact && method.continues == some_methods[i].continues);
     OK(vorocl_prepare(method.name, device, width, height, seed_count, NULL));
     OK(vorocl_run(method.name, seeds, diagram, 0, &options));
     OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
-    CHECK(expected_methods[i].waves < 0 || waves == expected_methods[i].waves);
+    CHECK(some_methods[i].waves < 0 || waves == some_methods[i].waves);
     CHECK(milliseconds > 0 && host_milliseconds > 0);
     OK(vorocl_diagram_event(diagram, &event));
     CHECK(event != NULL && clWaitForEvents(1, &event) == CL_SUCCESS);
@@ -113,9 +114,9 @@ static void test_methods(const vorocl_device* device) {
   for (vorocl_variant variant = VOROCL_JFA; variant <= VOROCL_ONE_PLUS_JFA; ++variant) {
     OK(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, variant));
     OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
-    CHECK(waves == expected_methods[1 + variant].waves);
+    CHECK(waves == some_methods[1 + variant].waves);
     OK(vorocl_diagram_read(diagram, by_name, pixels));
-    OK(vorocl_run(expected_methods[1 + variant].name, seeds, diagram, 0, NULL));
+    OK(vorocl_run(some_methods[1 + variant].name, seeds, diagram, 0, NULL));
     CHECK(has_labels(diagram, by_name));
   }
   options.neighbourhood = VOROCL_VON_NEUMANN;
@@ -146,7 +147,7 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   cl_event event = NULL;
   int waves = -1;
   size_t changed = 1;
-  double percent = 0, milliseconds = -1;
+  double percent = 0, milliseconds = -1, host_milliseconds = -1;
   OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
   OK(vorocl_diagram_create(device, width, height, &diagram));
   OK(vorocl_diagram_create(device, width, height, &exact));
@@ -194,6 +195,16 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_dynamic_jump_flooding(seeds, diagram, 2, &options));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6);
+
+  /* A call that fails has no report, and that of an earlier one is gone. */
+  options.von_neumann_waves = 3;
+  CHECK(vorocl_dynamic_jump_flooding(seeds, diagram, 2, &options) == VOROCL_BAD_ARGUMENT);
+  OK(vorocl_diagram_event(diagram, &event));
+  CHECK(event == NULL);
+  OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
+  CHECK(waves == 0 && milliseconds == 0 && host_milliseconds == 0);
+  options.von_neumann_waves = 2;
+
   options.extra_waves = 0;
   options.refresh_interval = 1;
   OK(vorocl_run("djfa", seeds, diagram, 2, &options));

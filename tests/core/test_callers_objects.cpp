@@ -63,12 +63,53 @@ BOOST_AUTO_TEST_CASE(unfit_label_buffers_are_refused) {
   check_error([&] { Diagram(other, grid, make_buffer(bytes)); }, {"another OpenCL context"});
 }
 
+BOOST_AUTO_TEST_CASE(a_diagrams_own_labels_cannot_be_written_into_it) {
+  Diagram diagram(test_device(), grid);
+  check_error([&] { diagram.write(diagram.labels()); }, {"the diagram's own"});
+  cl::Buffer whole = make_buffer(8192 + bytes);
+  const auto part = [&](std::size_t first) {
+    const cl_buffer_region region = {first, bytes};
+    return whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
+  };
+  Diagram over_a_part(test_device(), grid, part(0));
+  try {
+    over_a_part.write(part(4096));
+    BOOST_ERROR("nothing was thrown");
+  } catch (const Error& error) {
+    BOOST_TEST((error.kind() == ErrorKind::bad_argument), error.what());
+    BOOST_TEST(std::string(error.what()).find("overlap") != std::string::npos);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(an_image_is_no_buffer) {
   const cl::ImageFormat format(CL_R, CL_UNSIGNED_INT32);
   cl_int code = CL_SUCCESS;
   const cl::Image2D image(test_device().context(), CL_MEM_READ_WRITE, format, 50, 30, 0, nullptr, &code);
   if (code != CL_SUCCESS) return;  // the device has no such images
   check_error([&] { Diagram(test_device(), grid, cl::Buffer(image(), true)); }, {"another kind"});
+}
+
+// What was read or measured once is not kept from being freed.
+BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
+  const auto holders = [](const cl::Buffer& buffer) { return buffer.getInfo<CL_MEM_REFERENCE_COUNT>(); };
+  const std::vector<cl_float2> values = {{{7, 8}}, {{40, 20}}};
+  const cl::Buffer points(test_device().queue(), values.begin(), values.end(), true);
+  const cl::Buffer marks = make_buffer(2), labels = make_buffer(bytes);
+  test_device().queue().enqueueFillBuffer(marks, cl_uchar{1}, 0, 2);
+  Seeds seeds(test_device(), grid, points, 2, marks);
+  CellSumsResult sums;
+  Field<float> field;
+  {
+    Diagram diagram(test_device(), grid, labels);
+    exact_diagram(seeds, diagram);
+    cell_sums(seeds, diagram, sums);
+    distance_field(seeds, diagram, field);
+    diagram.wait();
+  }
+  BOOST_TEST(sums.read()[0].area + sums.read()[1].area == grid.pixels());
+  BOOST_TEST(holders(points) == 1u);
+  BOOST_TEST(holders(marks) == 1u);
+  BOOST_TEST(holders(labels) == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(write_only_points_are_refused) {

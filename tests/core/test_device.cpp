@@ -1,5 +1,8 @@
 // Devices: selection, adoption, tuning, and programs from several threads.
 #define BOOST_TEST_MODULE device
+#include <dlfcn.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <thread>
 
@@ -8,6 +11,21 @@
 #include "program.hpp"
 
 using namespace vorocl;
+
+namespace {
+std::size_t group_limit = 0;  // of each dimension; 0: the device's own
+}
+
+/// Stands before the OpenCL loader's function, and lowers the limits of a work-group's dimensions.
+extern "C" __attribute__((visibility("default"))) cl_int CL_API_CALL
+clGetDeviceInfo(cl_device_id device, cl_device_info name, std::size_t size, void* value, std::size_t* used) {
+  static const auto next = reinterpret_cast<decltype(&clGetDeviceInfo)>(dlsym(RTLD_NEXT, "clGetDeviceInfo"));
+  const cl_int code = next(device, name, size, value, used);
+  if (name == CL_DEVICE_MAX_WORK_ITEM_SIZES && value != nullptr && group_limit > 0) {
+    std::fill_n(static_cast<std::size_t*>(value), size / sizeof(std::size_t), group_limit);
+  }
+  return code;
+}
 
 BOOST_AUTO_TEST_CASE(selection_follows_the_request) {
   const std::vector<DeviceDescription> devices = Device::list();
@@ -68,6 +86,18 @@ BOOST_AUTO_TEST_CASE(unfit_tunings_are_refused) {
   check_error([] { test_device().with_tuning({32, 8, 8}); }, {"vector width of 32"});
   check_error([] { test_device().with_tuning({1, 0, 8}); }, {"0 x 8"});
   check_error([] { test_device().with_tuning({1, 1 << 20, 8}); }, {"1048576 x 8"});
+  const std::size_t half_of_all = std::size_t{1} << 63;  // twice as many, and two more, are two
+  check_error([&] { test_device().with_tuning({1, half_of_all + 1, 2}); }, {"9223372036854775809 x 2"});
+}
+
+BOOST_AUTO_TEST_CASE(work_groups_are_no_higher_than_the_device_allows) {
+  group_limit = 4;
+  check_error([] { test_device().with_tuning({1, 1, 8}); }, {"1 x 8", "4 rows"});
+  check_error([] { test_device().with_tuning({1, 4, 2}); }, {"4 x 2", "4 work-items"});
+  BOOST_TEST(test_device().with_tuning({1, 2, 2}).tuning().group_height == 2u);
+  const Tuning tuning = Device::select().tuning();
+  BOOST_TEST(tuning.group_width * tuning.group_height <= 4u);
+  group_limit = 0;
 }
 
 BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {

@@ -1,6 +1,8 @@
 // Dynamic jump flooding: against a reference label for label, similarity to JFA, and seeds that come and go.
 #define BOOST_TEST_MODULE dynamic_jump_flooding
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <map>
 
 #include "brute_force.hpp"
@@ -101,7 +103,7 @@ BOOST_AUTO_TEST_CASE(the_illustration_of_the_paper) {
   BOOST_TEST(mean_similarity(simulation, 2, 20)[1] >= 99.9);
 }
 
-BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_a_seed) {
+BOOST_AUTO_TEST_CASE(similarity_at_100_pixels_per_seed) {
   Simulation euclidean = random_walk(Grid(600, 500), 3000, 5);
   euclidean.add_engine(djfa(Metric::euclidean));
   euclidean.add_engine(jfa(Metric::euclidean));
@@ -254,6 +256,33 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
   BOOST_TEST((diagram.read() == brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean)));
 }
 
+// While an event holds the queue back, a call that waits for the device does not return.
+BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
+  const Grid grid(64, 64);
+  const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
+  const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
+  prepare(method("djfa"), test_device(), grid, 2);
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
+  Diagram first(test_device(), grid), next(test_device(), grid);
+  dynamic_jump_flooding(seeds, next, 0);
+  test_device().finish();
+  cl::UserEvent gate(test_device().context());
+  test_device().wait_for({gate});
+  std::future<std::size_t> alive = std::async(std::launch::async, [&] {
+    seeds.move_to(buffer, 2);
+    dynamic_jump_flooding(seeds, first, 64);
+    dynamic_jump_flooding(seeds, next, 64);
+    return seeds.alive();
+  });
+  const bool returned = alive.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
+  gate.setStatus(CL_COMPLETE);
+  BOOST_TEST(returned);
+  BOOST_TEST(alive.get() == 2u);
+  const auto expected = brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean);
+  BOOST_TEST((first.read() == expected));
+  BOOST_TEST((next.read() == expected));
+}
+
 BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   const Grid grid(8, 8);
   const Seeds seeds(test_device(), grid, {{1, 1}});
@@ -266,6 +295,19 @@ BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   check_error([&] { run(0, {mixed, 3, 0}, 0); }, {"3 von Neumann waves"});
   check_error([&] { run(0, {mixed, 2, -1}, 0); }, {"-1 extra waves"});
   check_error([&] { run(0, {}, -2); }, {"-2 frames"});
+}
+
+BOOST_AUTO_TEST_CASE(a_simulation_refuses_what_it_has_not) {
+  const Grid grid(8, 8);
+  check_error([&] { Simulation(Seeds(test_device(), grid, {}), nullptr); }, {"motion"});
+  Simulation simulation = random_walk(grid, 3, 1);
+  check_error([&] { simulation.add_engine(nullptr); }, {"engine", "empty"});
+  simulation.add_engine(jfa(Metric::euclidean));
+  simulation.step();
+  check_error([&] { simulation.diagram(3); }, {"1 engines", "number 3"});
+  check_error([&] { simulation.report(1); }, {"number 1"});
+  check_error([&] { simulation.milliseconds(1); }, {"number 1"});
+  check_error([&] { simulation.host_milliseconds(1); }, {"number 1"});
 }
 
 // An engine that did not run in a frame starts from an older one: it is told how far seeds moved since then.

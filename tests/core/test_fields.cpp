@@ -83,6 +83,8 @@ BOOST_AUTO_TEST_CASE(a_bad_call_is_refused) {
   const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
   const Diagram diagram(test_device(), Grid(20, 10));
   Field<float> field;
+  distance_field(Seeds(test_device(), diagram.grid(), {{1, 1}}), diagram, field);
   check_error([&] { distance_field(seeds, diagram, field); }, {"10 x 20", "20 x 10"});
   BOOST_TEST(field.read().empty());
+  BOOST_TEST(field.values()() == nullptr);
 }

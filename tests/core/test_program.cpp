@@ -1,5 +1,7 @@
 // Programs: kernels from a folder, build options and dumps, as the environment says.
 #define BOOST_TEST_MODULE program
+#include <dlfcn.h>
+
 #include <cstdlib>
 
 #include "brute_force.hpp"
@@ -9,6 +11,20 @@
 #include "temporary_folder.hpp"
 
 using namespace vorocl;
+
+namespace {
+bool other_driver = false;
+}
+
+/// Stands before the OpenCL loader's function: another device has another driver's version, of the same
+/// length.
+extern "C" __attribute__((visibility("default"))) cl_int CL_API_CALL
+clGetDeviceInfo(cl_device_id device, cl_device_info name, std::size_t size, void* value, std::size_t* used) {
+  static const auto next = reinterpret_cast<decltype(&clGetDeviceInfo)>(dlsym(RTLD_NEXT, "clGetDeviceInfo"));
+  const cl_int code = next(device, name, size, value, used);
+  if (other_driver && name == CL_DRIVER_VERSION && value != nullptr) *static_cast<char*>(value) = '?';
+  return code;
+}
 
 namespace {
 
@@ -62,8 +78,18 @@ BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
   std::filesystem::remove(folder / "position.cl");
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
   check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "No such file"});
+  std::filesystem::create_directory(folder / "position.cl");
+  check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "Is a directory"});
   const Variable missing("VOROCL_KERNEL_DIR", "/no/such/folder");
   check_error([] { labels(); }, {"/no/such/folder/", "VOROCL_KERNEL_DIR", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(an_empty_kernel_file_is_read_like_any_other) {
+  const TemporaryFolder folder;
+  write_kernels(folder);
+  folder.file("exact/diagram.cl", "");
+  const Variable variable("VOROCL_KERNEL_DIR", folder / "");
+  check_error([] { labels(); }, {"making the kernel set_bits", "no such kernel"});
 }
 
 BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
@@ -101,6 +127,17 @@ BOOST_AUTO_TEST_CASE(programs_are_dumped) {
   kernels.file("exact/diagram.cl", content_of(folder / source));
   const Variable variable("VOROCL_KERNEL_DIR", kernels / "");
   BOOST_TEST((labels() == true_labels()));
+}
+
+BOOST_AUTO_TEST_CASE(dumps_of_two_devices_have_two_names) {
+  const TemporaryFolder folder;
+  const Variable variable("VOROCL_DUMP_DIR", folder / "");
+  labels();
+  const std::size_t of_one = folder.names().size();
+  other_driver = true;
+  labels();
+  other_driver = false;
+  BOOST_TEST(folder.names().size() == 2 * of_one);
 }
 
 BOOST_AUTO_TEST_CASE(a_dump_that_cannot_be_written_is_an_error) {

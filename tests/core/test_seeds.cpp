@@ -116,6 +116,31 @@ BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
   }
 }
 
+// Seeds of a good frame are no help where the diagram is of a bad one.
+BOOST_AUTO_TEST_CASE(a_bad_point_reaches_all_measures_of_its_diagram) {
+  const Grid grid(30, 20);
+  Seeds seeds(test_device(), grid, buffer_of({{{1, 1}}, {{2, 99}}}), 2);
+  Diagram diagram(test_device(), grid);
+  exact_diagram(seeds, diagram);
+  seeds.move_to({{1, 1}, {2, 9}});
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  Field<float> distances;
+  Field<std::uint8_t> mask;
+  cell_sums(seeds, diagram, sums);
+  cell_shapes(seeds, diagram, shapes);
+  distance_field(seeds, diagram, distances);
+  border_mask(diagram, mask);
+  exact_diagram(seeds, diagram);  // what was measured stays bad
+  check_error([&] { sums.read(); }, {"point 1", "99"});
+  check_error([&] { cell_statistics(sums); }, {"point 1", "99"});
+  check_error([&] { shapes.read(); }, {"point 1", "99"});
+  check_error([&] { distances.read(); }, {"point 1", "99"});
+  check_error([&] { mask.read(); }, {"point 1", "99"});
+  border_mask(diagram, mask);
+  BOOST_TEST(mask.read().size() == grid.pixels());
+}
+
 // dJFA goes on from labels: not from those that a bad point may have left holes in.
 BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
   const Grid grid(64, 64);
@@ -129,6 +154,24 @@ BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
   const Report report = dynamic_jump_flooding(seeds, diagram, 1);
   BOOST_TEST(report.waves() == static_cast<int>(jump_flooding_plan(grid).size()));
   BOOST_TEST((diagram.read() == brute_force(grid, {{1, 1}, {60, 60}}, Metric::euclidean)));
+}
+
+BOOST_AUTO_TEST_CASE(points_in_braces) {
+  const Grid grid(20, 10);
+  BOOST_TEST(Seeds(test_device(), grid, {}).size() == 0u);
+  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, Point{2, 2}}).alive() == 2u);
+  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, std::nullopt}).alive() == 1u);
+  Seeds seeds(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}});
+  seeds.move_to(std::vector<Point>{{4, 4}, {5, 5}});
+  BOOST_TEST(points_of(seeds)[1].x == 5.5);
+  seeds.move_to({{6, 6}});
+  BOOST_TEST(points_of(seeds).front().x == 6.5);
+  seeds.move_to({Point{7, 7}, Point{8, 8}});
+  BOOST_TEST(seeds.alive() == 2u);
+  seeds.move_to({Point{7, 7}, std::nullopt});
+  BOOST_TEST(seeds.alive() == 1u);
+  seeds.move_to({});
+  BOOST_TEST(seeds.size() == 0u);
 }
 
 // The three ways to say that a seed is absent.

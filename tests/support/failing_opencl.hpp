@@ -89,5 +89,23 @@ VOROCL_FAULTY_CALL(clEnqueueWriteBuffer,
                    (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size,
                     const void* host, cl_uint count, const cl_event* waits, cl_event* event),
                    (queue, buffer, blocking, offset, size, host, count, waits, event))
+VOROCL_FAULTY_CALL(clWaitForEvents, (cl_uint count, const cl_event* events), (count, events))
+VOROCL_FAULTY_CALL(clGetEventInfo,
+                   (cl_event event, cl_event_info name, size_t size, void* value, size_t* used),
+                   (event, name, size, value, used))
+VOROCL_FAULTY_CALL(clGetMemObjectInfo,
+                   (cl_mem buffer, cl_mem_info name, size_t size, void* value, size_t* used),
+                   (buffer, name, size, value, used))
+VOROCL_FAULTY_CALL(clGetDeviceInfo,
+                   (cl_device_id device, cl_device_info name, size_t size, void* value, size_t* used),
+                   (device, name, size, value, used))
+VOROCL_FAULTY_MAKER(cl_program, clCreateProgramWithSource,
+                    (cl_context context, cl_uint count, const char** texts, const size_t* lengths,
+                     cl_int* code),
+                    (context, count, texts, lengths, code))
+VOROCL_FAULTY_CALL(clBuildProgram,
+                   (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+                    void(CL_CALLBACK* notify)(cl_program, void*), void* data),
+                   (program, count, devices, options, notify, data))
 VOROCL_FAULTY_CALL(clFlush, (cl_command_queue queue), (queue))
 VOROCL_FAULTY_CALL(clFinish, (cl_command_queue queue), (queue))

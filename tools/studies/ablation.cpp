@@ -20,9 +20,9 @@ Simulation::Engine engine_of(const std::string& name, const MethodOptions& optio
 }
 
 /// The studies of dJFA's own options.
-void add_options(std::vector<Variant>& variants, int step_length) {
+void add_options(std::vector<Variant>& variants, int max_displacement) {
   const auto add = [&](const std::string& study, const std::string& setting, const MethodOptions& options) {
-    variants.push_back({study, setting, engine_of("djfa", options), step_length});
+    variants.push_back({study, setting, engine_of("djfa", options), max_displacement});
   };
   for (const int waves : {0, 1, 2}) {
     MethodOptions options;
@@ -47,9 +47,9 @@ void add_options(std::vector<Variant>& variants, int step_length) {
 Simulation walk(const Device& device, const Configuration& configuration, const EvaluationSettings& settings,
                 const Variant& variant) {
   const Grid grid(configuration.side, configuration.side);
-  const Device tuned = variant.one_pixel_a_work_item ? device.with_tuning(Tuning{}) : device;
+  const Device tuned = variant.one_pixel_per_work_item ? device.with_tuning(Tuning{}) : device;
   return {spread_seeds(tuned, grid, configuration.seeds, variant.spread, settings.rng_seed),
-          RandomMotion{variant.step_length, settings.rng_seed}};
+          RandomMotion{variant.max_displacement, settings.rng_seed}};
 }
 
 void measure_accuracy(Simulation simulation, const Variant& variant, int frames, VariantResult& result,
@@ -73,31 +73,33 @@ void measure_accuracy(Simulation simulation, const Variant& variant, int frames,
 
 std::vector<Variant> variants_of(const Device& device, const Configuration& configuration,
                                  const EvaluationSettings& settings) {
-  const int d_max = settings.step_length;
+  const int max_displacement = settings.step_length;
   std::vector<Variant> variants;
   for (const char* method : {"jfa", "djfa", "exact"})
-    variants.push_back({"method", method, engine_of(method), d_max});
-  add_options(variants, d_max);
+    variants.push_back({"method", method, engine_of(method), max_displacement});
+  add_options(variants, max_displacement);
   const double length =
       std::sqrt(static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds));
   for (const int times : {1, 2, 3, 4}) {
-    const auto longest = std::min(std::round(times * length), static_cast<double>(Grid::max_side));
-    variants.push_back({"d_max", std::to_string(times) + " L", engine_of("djfa"), static_cast<int>(longest)});
+    const auto displacement = std::min(std::round(times * length), static_cast<double>(Grid::max_side));
+    variants.push_back(
+        {"d_max", std::to_string(times) + " L", engine_of("djfa"), static_cast<int>(displacement)});
   }
   const std::pair<const char*, Spread> spreads[] = {
       {"uniform", Spread::uniform}, {"clusters", Spread::clusters}, {"gradient", Spread::gradient}};
   for (const auto& [name, spread] : spreads) {
     for (const char* method : {"jfa", "djfa"}) {
-      variants.push_back({"seeds", std::string(name) + ", " + method, engine_of(method), d_max, spread});
+      variants.push_back(
+          {"seeds", std::string(name) + ", " + method, engine_of(method), max_displacement, spread});
     }
   }
-  variants.push_back({"waves", "gather", engine_of("djfa"), d_max});
+  variants.push_back({"waves", "gather", engine_of("djfa"), max_displacement});
+  variants.push_back({"waves", "gather, one pixel per work-item", engine_of("djfa"), max_displacement,
+                      Spread::uniform, true});
   variants.push_back(
-      {"waves", "gather, one pixel a work-item", engine_of("djfa"), d_max, Spread::uniform, true});
-  variants.push_back(
-      {"waves", "scatter in place, as printed", in_place_scatter(device, Stamping::none), d_max});
-  variants.push_back(
-      {"waves", "scatter in place, seeds stamped", in_place_scatter(device, Stamping::seeds), d_max});
+      {"waves", "scatter in place, as printed", in_place_scatter(device, Stamping::none), max_displacement});
+  variants.push_back({"waves", "scatter in place, seeds stamped", in_place_scatter(device, Stamping::seeds),
+                      max_displacement});
   return variants;
 }
 

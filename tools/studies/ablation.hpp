@@ -18,9 +18,9 @@ struct Variant {
   std::string study;    ///< the choice, such as "extra waves"
   std::string setting;  ///< what is chosen here, such as "2"
   Simulation::Engine engine;
-  int step_length = 0;  ///< d_max
+  int max_displacement = 0;  ///< the paper's d_max
   Spread spread = Spread::uniform;
-  bool one_pixel_a_work_item = false;  ///< instead of a run of them: as simple a kernel as on a GPU
+  bool one_pixel_per_work_item = false;  ///< instead of a run of them: as simple a kernel as on a GPU
 };
 
 /// In the Euclidean metric.

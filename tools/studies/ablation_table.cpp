@@ -18,7 +18,7 @@ const Column<Row> columns[] = {
     {"seeds", [](const Row& row) { return std::to_string(row.configuration.seeds); }},
     {"study", [](const Row& row) { return row.variant.study; }},
     {"setting", [](const Row& row) { return row.variant.setting; }},
-    {"d_max", [](const Row& row) { return std::to_string(row.variant.step_length); }},
+    {"d_max", [](const Row& row) { return std::to_string(row.variant.max_displacement); }},
     {"waves_mean", [](const Row& row) { return text(row.result.waves.mean()); }},
     {"milliseconds_median", [](const Row& row) { return text(row.result.milliseconds.median()); }},
     {"milliseconds_least", [](const Row& row) { return text(row.result.milliseconds.least()); }},

@@ -13,8 +13,9 @@ namespace vorocl::command {
 
 namespace {
 
-/// How far seeds have moved since the diagram that djfa starts from: the paper's step length.
-constexpr int step_length = 5;
+/// How far seeds have moved along an axis, at most, since the diagram that djfa starts from (as in the
+/// paper).
+constexpr int max_displacement = 5;
 
 /// A method as it is measured: `run` is what is timed, after `prepare`; `labels` are those of its last run.
 struct Contender {
@@ -23,9 +24,10 @@ struct Contender {
   std::function<std::vector<std::uint32_t>()> labels;
 };
 
-/// All methods share the diagram and its buffers.
-Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                       const MethodOptions& options) {
+/// All methods share the diagram and its buffers. A mixed neighbourhood is for djfa: the others take part
+/// with their own.
+Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram, MethodOptions options) {
+  if (options.neighbourhood == NeighbourhoodMix::mixed) options.neighbourhood.reset();
   const auto run = [&method, &seeds, &diagram, options] {
     method.run(seeds, diagram, 0, options);
     seeds.device().finish();
@@ -37,7 +39,7 @@ Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& d
                             const MethodOptions& options) {
   const auto now = seeds.read();
   const auto moving = std::make_shared<Seeds>(seeds.clone());
-  random_step(*moving, step_length, Border::reflect, 1, 0);
+  random_step(*moving, max_displacement, Border::reflect, 1, 0);
   const auto before = moving->read();
   const auto prepare = [moving, before, now, &diagram, options] {
     moving->move_to(before);
@@ -46,7 +48,7 @@ Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& d
     moving->device().finish();
   };
   const auto run = [&method, moving, &diagram, options] {
-    method.run(*moving, diagram, step_length, options);
+    method.run(*moving, diagram, max_displacement, options);
     moving->device().finish();
   };
   return {prepare, run, [&diagram] { return diagram.read(); }};

@@ -15,7 +15,7 @@ struct RandomMotion {
   std::uint64_t rng_seed = 1;
   Border border = Border::reflect;
 
-  /// Moves the seeds to the frame, and returns the longest motion along an axis, in pixels.
+  /// Moves the seeds to the frame, and returns the greatest displacement along an axis, in pixels.
   double operator()(Seeds& seeds, int frame) const;
 };
 

@@ -34,7 +34,7 @@ void print_table(const Configuration& configuration, const EvaluationSettings& s
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const VariantResult& result = results[i];
     fmt::print("{:<18} {:<32} {:>5} {:>5.1f} {:>9.3f} {:>9.4f} {:>11.3g} {:>16.4f}\n", variants[i].study,
-               variants[i].setting, variants[i].step_length, result.waves.mean(),
+               variants[i].setting, variants[i].max_displacement, result.waves.mean(),
                result.milliseconds.median() / settings.timed_frames, result.errors.wrong_percent.mean(),
                result.errors.mean_excess.mean(), result.differing_between_runs.mean());
   }

@@ -90,9 +90,7 @@ void add_bench(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    const auto is_djfa = [](const Method& method) { return method.continues; };
-    check_method_options(command, options->method_options,
-                         std::any_of(options->methods.begin(), options->methods.end(), is_djfa));
+    check_method_options(command, options->methods, options->method_options);
     run(*options);
   });
 }

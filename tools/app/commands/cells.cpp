@@ -113,7 +113,7 @@ void add_cells(CommandLine& line) {
   for (FileRequest& request : options->files) add_file_option(command, request);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    check_method_options(command, options->method_options, options->method.continues);
+    check_method_options(command, {options->method}, options->method_options);
     run(*options);
   });
 }

@@ -150,7 +150,7 @@ void add_render(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
-    check_method_options(command, options->method_options, options->method.continues);
+    check_method_options(command, {options->method}, options->method_options);
     options->seeds.value_column = options->picture.color.column;
     run(*options);
   });

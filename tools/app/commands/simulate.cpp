@@ -237,7 +237,7 @@ void add_simulate(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
-    check_method_options(command, options->method_options, options->method.continues);
+    check_method_options(command, {options->method}, options->method_options);
     options->seeds.value_column = options->output.picture.color.column;
     run(*options);
   });

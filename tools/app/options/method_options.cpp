@@ -1,5 +1,7 @@
 #include "app/options/method_options.hpp"
 
+#include <algorithm>
+
 #include "app/options/common_options.hpp"
 #include "app/terminal/usage_error.hpp"
 
@@ -41,11 +43,11 @@ void add_method_options(Command& command, MethodOptions& options) {
       .default_is_value();
 }
 
-void check_method_options(const Command& command, const MethodOptions& options, bool has_djfa) {
-  if (has_djfa) return;
-  if (options.neighbourhood == NeighbourhoodMix::mixed) {
-    throw UsageError("--neighbourhood mixed is for the method djfa");
-  }
+void check_method_options(const Command& command, const std::vector<Method>& methods,
+                          const MethodOptions& options) {
+  const auto is_djfa = [](const Method& method) { return method.continues; };
+  if (std::any_of(methods.begin(), methods.end(), is_djfa)) return;
+  for (const Method& method : methods) as_usage([&] { check_options(method, options); });
   for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " is for the method djfa");
   }

@@ -1,6 +1,8 @@
 // How diagrams are made.
 #pragma once
 
+#include <vector>
+
 #include "app/options/command_line.hpp"
 #include "vorocl/method.hpp"
 
@@ -13,6 +15,7 @@ Choices<Method> method_choices();
 void add_method_options(Command& command, MethodOptions& options);
 
 /// Throws UsageError for options that only djfa has, if none of the methods is djfa.
-void check_method_options(const Command& command, const MethodOptions& options, bool has_djfa);
+void check_method_options(const Command& command, const std::vector<Method>& methods,
+                          const MethodOptions& options);
 
 }  // namespace vorocl::command

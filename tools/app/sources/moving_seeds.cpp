@@ -52,7 +52,7 @@ class Trajectory : public MovingSeeds {
   }
   double move(Seeds& seeds) const override {
     seeds.move_to(particles_.points());
-    return particles_.longest_step();
+    return particles_.max_displacement();
   }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
   const std::vector<double>& values() const override { return particles_.values(); }

@@ -28,7 +28,7 @@ class MovingSeeds {
   /// Makes the next motion ready; false if there is none. Throws Error if a file is bad there.
   virtual bool next() = 0;
 
-  /// Moves the seeds by it, and returns the longest motion along an axis, in pixels.
+  /// Moves the seeds by it, and returns the greatest displacement along an axis, in pixels.
   virtual double move(Seeds& seeds) const = 0;
 
   /// The ids that labels carry, by seed; empty: the seeds' own.

@@ -23,7 +23,7 @@ Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Grid& grid
           (y_up ? -box.tilt : box.tilt) * x_scale};
 }
 
-double chebyshev_step(const Point& from, const Point& to, const Periods& periods) {
+double displacement(const Point& from, const Point& to, const Periods& periods) {
   const double dx = to.x - from.x, dy = to.y - from.y;
   if (periods.y <= 0) return std::max(shortest(dx, periods.x), std::abs(dy));
   // Once round in y shifts x by the tilt.

@@ -15,7 +15,7 @@ struct Periods {
 
 Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Grid& grid, bool y_up);
 
-/// The Chebyshev distance of two positions, by the shortest way round.
-double chebyshev_step(const Point& from, const Point& to, const Periods& periods);
+/// How far apart two positions are along the axis where they are farther apart, by the shortest way round.
+double displacement(const Point& from, const Point& to, const Periods& periods);
 
 }  // namespace vorocl::command

@@ -107,13 +107,13 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
   }
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
-  longest_step_ = 0;
+  max_displacement_ = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::uint32_t slot = slots_.of_ids()[i];
     points[slot] = pixels[i];
     // A slot that was taken holds the same particle still.
     if (slot < points_.size() && points_[slot]) {
-      longest_step_ = std::max(longest_step_, chebyshev_step(*points_[slot], pixels[i], periods));
+      max_displacement_ = std::max(max_displacement_, displacement(*points_[slot], pixels[i], periods));
     }
   }
   points_ = std::move(points);

@@ -39,9 +39,9 @@ class TrajectorySeeds {
   /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
   const std::vector<double>& values() const { return values_; }
 
-  /// The longest motion along an axis to this frame of a particle that was there before, in pixels; the
-  /// shorter way round where the box is periodic.
-  double longest_step() const { return longest_step_; }
+  /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels;
+  /// the shorter way round where the box is periodic.
+  double max_displacement() const { return max_displacement_; }
 
   /// The frame's time step, where the file has one.
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
@@ -71,7 +71,7 @@ class TrajectorySeeds {
   std::vector<std::optional<Point>> points_;
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
-  double longest_step_ = 0;
+  double max_displacement_ = 0;
 };
 
 }  // namespace vorocl::command
