@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -36,13 +37,16 @@ std::string NumberedName::with(int number) const {
 NumberedFiles::NumberedFiles(const std::string& pattern) : name_(pattern) {
   const fs::path folder = fs::path(name_.with(0)).parent_path();
   std::error_code ignored;
-  if (!folder.empty() && fs::create_directory(folder, ignored)) made_folder_ = folder.string();
+  if (!folder.empty() && !fs::exists(folder, ignored)) {
+    made_folder_.emplace(folder.string());
+    if (!fs::create_directory(folder, ignored)) made_folder_.reset();
+  }
   file(0);
 }
 
 NumberedFiles::~NumberedFiles() {
   std::error_code ignored;
-  if (!made_folder_.empty()) fs::remove(made_folder_, ignored);
+  if (made_folder_) fs::remove(made_folder_->path(), ignored);
 }
 
 }  // namespace vorocl::command

@@ -1,9 +1,11 @@
 // Files with numbered names, one per frame, round or wave.
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "formats/files.hpp"
+#include "formats/output_file.hpp"
+#include "formats/temporary_names.hpp"
 
 namespace vorocl::command {
 
@@ -35,7 +37,7 @@ class NumberedFiles {
 
  private:
   NumberedName name_;
-  std::string made_folder_;  // empty: none
+  std::optional<TemporaryName> made_folder_;
 };
 
 }  // namespace vorocl::command
