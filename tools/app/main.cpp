@@ -37,10 +37,10 @@ int main(int argc, char** argv) {
     flush_standard_output();
     return success;
   } catch (const UsageError& error) {
-    print_error(error.what());
+    print_error(error);
     return usage;
   } catch (const std::exception& error) {
-    print_error(message_of(error));
+    print_error(error);
   }
   return failure;
 }

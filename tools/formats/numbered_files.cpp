@@ -1,6 +1,7 @@
 #include "formats/numbered_files.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <system_error>
@@ -45,8 +46,7 @@ NumberedFiles::NumberedFiles(const std::string& pattern) : name_(pattern) {
 }
 
 NumberedFiles::~NumberedFiles() {
-  std::error_code ignored;
-  if (made_folder_) fs::remove(made_folder_->path(), ignored);
+  if (made_folder_) rmdir(made_folder_->path().c_str());
 }
 
 }  // namespace vorocl::command

@@ -30,11 +30,17 @@ std::size_t printable_bytes(std::string_view text) {
   return byte(0) == 0xc2 && byte(1) < 0xa0 ? 0 : length;  // U+0080 to U+009F are controls
 }
 
-void print_line(const char* kind, const std::string& text) noexcept {
+void print_line(const char* kind, const std::string& text) {
+  print_on_standard_error(fmt::format("vorocl: {}: {}\n", kind, printable(text)));
+}
+
+/// Does what prints, if there is memory for it.
+template <typename Print>
+void if_possible(const Print& print) noexcept {
   try {
-    print_on_standard_error(fmt::format("vorocl: {}: {}\n", kind, printable(text)));
-  } catch (const std::bad_alloc&) {
-    print_on_standard_error("vorocl: out of memory\n");
+    print();
+  } catch (const std::exception&) {
+    print_on_standard_error("vorocl: error: out of memory\n");
   }
 }
 
@@ -61,11 +67,17 @@ void flush_standard_output() {
   throw Error("cannot write standard output: " + reason(errno));
 }
 
-void print_note(const std::string& text) noexcept { print_line("note", text); }
-void print_warning(const std::string& text) noexcept { print_line("warning", text); }
-void print_error(const std::string& text) noexcept { print_line("error", text); }
+void print_note(const std::string& text) noexcept {
+  if_possible([&] { print_line("note", text); });
+}
+void print_warning(const std::string& text) noexcept {
+  if_possible([&] { print_line("warning", text); });
+}
+void print_error(const std::exception& error) noexcept {
+  if_possible([&] { print_line("error", message_of(error)); });
+}
 
-void print_on_standard_error(const std::string& text) noexcept {
+void print_on_standard_error(std::string_view text) noexcept {
   std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }

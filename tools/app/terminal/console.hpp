@@ -5,6 +5,8 @@
 
 #include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace vorocl::command {
 
@@ -28,8 +30,8 @@ void flush_standard_output();
 /// Print on standard error, if that is possible: nothing depends on it.
 void print_note(const std::string& text) noexcept;
 void print_warning(const std::string& text) noexcept;
-void print_error(const std::string& text) noexcept;
-void print_on_standard_error(const std::string& text) noexcept;
+void print_error(const std::exception& error) noexcept;
+void print_on_standard_error(std::string_view text) noexcept;
 
 /// The text with what would move a terminal's cursor, or change its colours and title, as \x1b and the like:
 /// texts may hold what a file holds. Line feeds and tabs stay.
