@@ -22,22 +22,31 @@ struct NumberedName {
   std::string with(int number) const;
 };
 
+/// A folder that goes at the end of the scope if it is empty then.
+class MadeFolder {
+ public:
+  /// Makes it, if that is possible.
+  explicit MadeFolder(const std::string& path);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+
+ private:
+  TemporaryName name_;
+};
+
+/// The folder of the files is made, if only that is missing, and removed if it stays empty.
 class NumberedFiles {
  public:
-  /// Makes the folder, if only that is missing. Throws Error for a pattern that is no NumberedName, and if no
+  /// Throws Error for a pattern that is no NumberedName, and if no
   /// file can be made there.
   explicit NumberedFiles(const std::string& pattern);
-
-  /// Removes the folder it made, if that is empty.
-  ~NumberedFiles();
-  NumberedFiles(const NumberedFiles&) = delete;
-  NumberedFiles& operator=(const NumberedFiles&) = delete;
 
   OutputFile file(int number) const { return OutputFile(name_.with(number)); }
 
  private:
   NumberedName name_;
-  std::optional<TemporaryName> made_folder_;
+  std::optional<MadeFolder> made_folder_;
 };
 
 }  // namespace vorocl::command
