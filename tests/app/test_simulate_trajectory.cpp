@@ -51,7 +51,7 @@ std::vector<Particles> drifting(int frames) {
   std::uniform_real_distribution<double> anywhere(0, 10), step(-0.4, 0.4);
   std::vector<Particles> all(1);
   for (std::uint32_t id = 0; id < 40; ++id)
-    all[0][1000000000u - 1000 * id] = {anywhere(random), anywhere(random)};
+    all[0][4000000000u - 1000 * id] = {anywhere(random), anywhere(random)};
   std::map<std::uint32_t, Point> away;
   for (int frame = 1; frame < frames; ++frame) {
     Particles now = all.back();
