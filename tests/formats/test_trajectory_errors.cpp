@@ -88,8 +88,8 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {header + "many\n", {":4: ", "\"many\"", "number of particles"}},
       {header + "-3\n", {":4: ", "\"-3\""}},
       {header + "4294967295\n", {":4: ", "\"4294967295\""}},
-      {header + "4000000000\n" + box + "ITEM: ATOMS id x y\n1 2 3\n",
-       {":4: ", "4000000000 particles cannot be in the 6 bytes"}},
+      {header + "1000000000\n" + box + "ITEM: ATOMS id x y\n1 2 3\n",
+       {":4: ", "1000000000 particles cannot be in the 6 bytes"}},
       // the box
       {dump(box_of("pp pp", "0 1", "0 1"), "x y", {}), {":5: ", "2 boundary flags"}},
       {dump(box_of("pp pf pp", "0 1", "0 1"), "x y", {}), {":5: ", "\"pf\""}},

@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(bad_xyz_files_are_refused_with_their_line) {
       {"1\ncomment\nAr inf 2 0\n", {":3: ", "\"inf\"", "finite x"}},
       {"-1\ncomment\n", {":1: ", "\"-1\""}},
       {"99999999999999999999\ncomment\n", {":1: ", "number of particles"}},
-      {"4000000000\ncomment\nAr 1 2 0\n", {":1: ", "4000000000 particles cannot be"}},
+      {"1000000000\ncomment\nAr 1 2 0\n", {":1: ", "1000000000 particles cannot be"}},
       {"0\nLattice=\"1 2 3\"\n", {":2: ", "Lattice has 3 values instead of 9"}},
       {"0\nLattice=\"1 0 0 0 x 0 0 0 1\"\n", {":2: ", "\"x\"", "Lattice"}},
       {"0\nLattice=\"1 1 0 0 1 0 0 0 1\"\n", {":2: ", "turned"}},

@@ -2,8 +2,6 @@
 // before the loader's, and pass on to it. To be included in one source of a test program.
 #pragma once
 
-#include <dlfcn.h>
-
 #include <atomic>
 #include <string>
 
@@ -35,77 +33,12 @@ inline Fault& fault() {
   return only;
 }
 
-/// The loader's definition of a call.
-template <typename Function>
-Function* loaders(const char* name) {
-  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
-}
+inline bool call_fails(const char* name) { return fault().comes(name); }
 
 }  // namespace vorocl
 
-#define VOROCL_FAULTY extern "C" __attribute__((visibility("default")))
+#include "faulty_calls.hpp"
 
-/// A call that returns its error code.
-#define VOROCL_FAULTY_CALL(name, parameters, arguments)                         \
-  VOROCL_FAULTY cl_int CL_API_CALL name parameters {                            \
-    static const auto next = vorocl::loaders<cl_int parameters>(#name);         \
-    return vorocl::fault().comes(#name) ? CL_OUT_OF_RESOURCES : next arguments; \
-  }
-
-/// A call that returns an object, and its error code through a pointer.
-#define VOROCL_FAULTY_MAKER(type, name, parameters, arguments)        \
-  VOROCL_FAULTY type CL_API_CALL name parameters {                    \
-    static const auto next = vorocl::loaders<type parameters>(#name); \
-    if (!vorocl::fault().comes(#name)) return next arguments;         \
-    *code = CL_MEM_OBJECT_ALLOCATION_FAILURE;                         \
-    return nullptr;                                                   \
-  }
-
-VOROCL_FAULTY_MAKER(cl_mem, clCreateBuffer,
-                    (cl_context context, cl_mem_flags flags, size_t size, void* host, cl_int* code),
-                    (context, flags, size, host, code))
-VOROCL_FAULTY_MAKER(cl_kernel, clCreateKernel, (cl_program program, const char* name, cl_int* code),
-                    (program, name, code))
-VOROCL_FAULTY_CALL(clSetKernelArg, (cl_kernel kernel, cl_uint index, size_t size, const void* value),
-                   (kernel, index, size, value))
-VOROCL_FAULTY_CALL(clEnqueueNDRangeKernel,
-                   (cl_command_queue queue, cl_kernel kernel, cl_uint dimensions, const size_t* offset,
-                    const size_t* global, const size_t* local, cl_uint count, const cl_event* waits,
-                    cl_event* event),
-                   (queue, kernel, dimensions, offset, global, local, count, waits, event))
-VOROCL_FAULTY_CALL(clEnqueueFillBuffer,
-                   (cl_command_queue queue, cl_mem buffer, const void* pattern, size_t pattern_size,
-                    size_t offset, size_t size, cl_uint count, const cl_event* waits, cl_event* event),
-                   (queue, buffer, pattern, pattern_size, offset, size, count, waits, event))
-VOROCL_FAULTY_CALL(clEnqueueCopyBuffer,
-                   (cl_command_queue queue, cl_mem from, cl_mem to, size_t from_offset, size_t to_offset,
-                    size_t size, cl_uint count, const cl_event* waits, cl_event* event),
-                   (queue, from, to, from_offset, to_offset, size, count, waits, event))
-VOROCL_FAULTY_CALL(clEnqueueReadBuffer,
-                   (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size,
-                    void* host, cl_uint count, const cl_event* waits, cl_event* event),
-                   (queue, buffer, blocking, offset, size, host, count, waits, event))
-VOROCL_FAULTY_CALL(clEnqueueWriteBuffer,
-                   (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size,
-                    const void* host, cl_uint count, const cl_event* waits, cl_event* event),
-                   (queue, buffer, blocking, offset, size, host, count, waits, event))
-VOROCL_FAULTY_CALL(clWaitForEvents, (cl_uint count, const cl_event* events), (count, events))
 VOROCL_FAULTY_CALL(clGetEventInfo,
                    (cl_event event, cl_event_info name, size_t size, void* value, size_t* used),
                    (event, name, size, value, used))
-VOROCL_FAULTY_CALL(clGetMemObjectInfo,
-                   (cl_mem buffer, cl_mem_info name, size_t size, void* value, size_t* used),
-                   (buffer, name, size, value, used))
-VOROCL_FAULTY_CALL(clGetDeviceInfo,
-                   (cl_device_id device, cl_device_info name, size_t size, void* value, size_t* used),
-                   (device, name, size, value, used))
-VOROCL_FAULTY_MAKER(cl_program, clCreateProgramWithSource,
-                    (cl_context context, cl_uint count, const char** texts, const size_t* lengths,
-                     cl_int* code),
-                    (context, count, texts, lengths, code))
-VOROCL_FAULTY_CALL(clBuildProgram,
-                   (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
-                    void(CL_CALLBACK* notify)(cl_program, void*), void* data),
-                   (program, count, devices, options, notify, data))
-VOROCL_FAULTY_CALL(clFlush, (cl_command_queue queue), (queue))
-VOROCL_FAULTY_CALL(clFinish, (cl_command_queue queue), (queue))

@@ -23,12 +23,13 @@ struct Result {
   std::string error;
 };
 
-/// Runs the command in the folder, with `settings` such as "NAME=value" in its environment.
+/// Runs the command in the folder, with `settings` such as "NAME=value" in its environment and its standard
+/// streams as the shell makes them of `redirections`, else kept for the result.
 inline Result run(const TemporaryFolder& folder, const std::string& arguments,
-                  const std::string& settings = "") {
+                  const std::string& settings = "", const std::string& redirections = "") {
   const TemporaryFolder streams;
   const std::string line = "cd '" + folder / "" + "' && " + settings + " '" VOROCL_COMMAND "' " + arguments +
-                           " > '" + streams / "out" + "' 2> '" + streams / "error" + "'";
+                           " > '" + streams / "out" + "' 2> '" + streams / "error" + "' " + redirections;
   const int status = std::system(line.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(streams / "out"),
           content_of(streams / "error")};

@@ -1,9 +1,9 @@
 // The vorocl command: parses, runs a subcommand, and turns what went wrong into one line and an exit code.
 #include <exception>
-#include <new>
 
 #include "app/commands/commands.hpp"
 #include "app/terminal/console.hpp"
+#include "app/terminal/interruption.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "vorocl/version.hpp"
 
@@ -29,17 +29,18 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  using vorocl::command::print_error;
+  using namespace vorocl::command;
+  open_standard_streams();
+  remove_temporary_files_on_signals();
   try {
     run(argc, argv);
+    flush_standard_output();
     return success;
-  } catch (const vorocl::command::UsageError& error) {
-    print_error(error.what());
+  } catch (const UsageError& error) {
+    print_error(error);
     return usage;
-  } catch (const std::bad_alloc&) {
-    print_error("out of memory; use a smaller grid or fewer seeds");
   } catch (const std::exception& error) {
-    print_error(error.what());
+    print_error(error);
   }
   return failure;
 }

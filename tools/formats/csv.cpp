@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
 #include <limits>
+#include <utility>
 
-#include "formats/files.hpp"
 #include "formats/numbers.hpp"
+#include "formats/trajectory/line_reader.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -23,16 +23,14 @@ struct Indices {
 
 /// A line of the file, for what is wrong with it.
 struct Line {
-  const std::string& path;
-  std::size_t number = 0;
-  std::string text;
+  const LineReader& reader;
   Fields fields;
 
   Error error(const std::string& what) const {
-    std::string shown = text.substr(0, 80);
+    std::string shown(trimmed(reader.line()).substr(0, 80));
     std::replace_if(
         shown.begin(), shown.end(), [](unsigned char c) { return c < ' '; }, '?');
-    return Error(path + ":" + std::to_string(number) + ": " + what + ": " + shown);
+    return reader.error(what + ": " + shown);
   }
 };
 
@@ -59,7 +57,7 @@ std::optional<std::size_t> index_of(const Fields& header, const std::string& nam
 /// The names of the columns, or their indices.
 std::string list_of(const Fields& fields, bool has_header) {
   std::string list;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
+  for (std::size_t i = 0; i < fields.size() && list.size() < 1000; ++i) {
     list += (i == 0 ? "" : ", ") + (has_header ? fields[i] : std::to_string(i));
   }
   return list;
@@ -104,14 +102,12 @@ double value(const Line& line, std::size_t index) {
   return field(line, index).empty() ? std::numeric_limits<double>::quiet_NaN() : number(line, index);
 }
 
-void strip_byte_order_mark(std::string& line) {
-  if (line.compare(0, 3, "\xef\xbb\xbf") == 0) line.erase(0, 3);
-}
-
 }  // namespace
 
-std::optional<CsvFields> csv_fields(const std::string& line) {
-  CsvFields fields(1);
+std::optional<CsvFields> csv_fields(std::string_view line) {
+  CsvFields fields;
+  fields.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1);
+  fields.emplace_back();
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
@@ -158,17 +154,14 @@ Columns parse_columns(const std::string& text) {
 
 CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
                    const std::string& value_column) {
-  std::ifstream file = open_to_read(path);
+  LineReader reader(path);
   CsvPoints result;
   std::optional<Indices> indices;
-  Line line{path, 0, "", {}};
-  while (std::getline(file, line.text)) {
-    if (++line.number == 1) strip_byte_order_mark(line.text);
-    line.text = std::string(trimmed(line.text));
-    if (line.text.empty()) continue;
-    const auto fields = csv_fields(line.text);
+  Line line{reader, {}};
+  while (reader.next_filled()) {
+    auto fields = csv_fields(trimmed(reader.line()));
     if (!fields) throw line.error("a quote is not closed");
-    line.fields = *fields;
+    line.fields = std::move(*fields);
     if (!indices) {
       const bool has_header = is_header(line.fields);
       indices = locate(columns, value_column, line, has_header);
@@ -177,7 +170,6 @@ CsvPoints read_csv(const std::string& path, const std::optional<Columns>& column
     result.points.push_back({number(line, indices->x), number(line, indices->y)});
     if (indices->value) result.values.push_back(value(line, *indices->value));
   }
-  if (file.bad()) throw Error("reading " + path + " failed after line " + std::to_string(line.number));
   if (result.points.empty()) throw Error(path + " holds no points");
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vorocl/grid.hpp"
@@ -13,7 +14,7 @@ using CsvFields = std::vector<std::string>;
 
 /// The fields of a line, without the blanks around them; fields may be quoted ("a ""b"", c"). None if a quote
 /// is not closed.
-std::optional<CsvFields> csv_fields(const std::string& line);
+std::optional<CsvFields> csv_fields(std::string_view line);
 
 /// The line, without its end, of these fields; those that need it are quoted.
 std::string to_csv(const CsvFields& fields);
@@ -36,7 +37,8 @@ struct CsvPoints {
 /// `columns` the header must name an x and a y (in any case); where there is no header the first two columns
 /// count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or an
 /// index too; there an empty field is an absent value (NaN). Throws Error that names file, line and text for
-/// a line that cannot be read and a column that is not there, and if there is no point at all.
+/// a line that cannot be read or has more than a mebibyte and a column that is not there, and if there is no
+/// point at all.
 CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
                    const std::string& value_column = "");
 

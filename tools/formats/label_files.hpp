@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/label_image.hpp"
+#include "formats/output_file.hpp"
 
 namespace vorocl::command {
 
@@ -16,6 +17,6 @@ const std::vector<std::string>& label_extensions();
 LabelImage read_labels(const std::string& path);
 
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
-void write_labels(const std::string& path, const LabelImage& image);
+void write_labels(const OutputFile& file, const LabelImage& image);
 
 }  // namespace vorocl::command

@@ -130,7 +130,7 @@ std::vector<char> read_values(std::ifstream& file, const Header& header, std::si
 }
 
 template <typename T>
-void write_array(const std::string& path, const std::vector<std::size_t>& shape,
+void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
                  const std::vector<T>& values) {
   std::string header = std::string("{'descr': '") + type_name<T> +
                        "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
@@ -138,14 +138,13 @@ void write_array(const std::string& path, const std::vector<std::size_t>& shape,
   header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
   header += '\n';
   const auto length = static_cast<std::uint16_t>(header.size());
-  std::ofstream file = open_to_write(path);
-  file.write(magic, magic_size);
-  file.write("\x01\x00", 2);
-  file.write(reinterpret_cast<const char*>(&length), sizeof length);
-  file.write(header.data(), static_cast<std::streamsize>(header.size()));
-  file.write(reinterpret_cast<const char*>(values.data()),
-             static_cast<std::streamsize>(values.size() * sizeof(T)));
-  check_written(file, path);
+  GrowingFile array(file);
+  array.write(magic, magic_size);
+  array.write("\x01\x00", 2);
+  array.write(&length, sizeof length);
+  array << header;
+  array.write(values.data(), values.size() * sizeof(T));
+  array.finish();
 }
 
 }  // namespace
@@ -158,7 +157,9 @@ std::vector<Point> read_npy_points(const std::string& path) {
   }
   const std::size_t count = header.shape[0];
   if (count == 0) throw Error(path + " holds no points");
-  if (count >= no_label) throw Error(path + " holds more points than there can be seeds");
+  if (count > Grid::max_pixels) {
+    throw Error(path + " holds " + std::to_string(count) + " points; at most 2^30 can be seeds");
+  }
   const std::vector<char> bytes = read_values(file, header, 2 * count, path);
   const Type& type = types().at(header.type);
   std::vector<Point> points(count);
@@ -190,20 +191,20 @@ LabelImage read_npy_labels(const std::string& path) {
 }
 
 template <typename T>
-void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values) {
+void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& values) {
   const auto height = static_cast<std::size_t>(grid.height()), width = static_cast<std::size_t>(grid.width());
-  write_array(path, {height, width}, values);
+  write_array(file, {height, width}, values);
 }
 
-template void write_npy(const std::string&, const Grid&, const std::vector<std::uint8_t>&);
-template void write_npy(const std::string&, const Grid&, const std::vector<std::uint32_t>&);
-template void write_npy(const std::string&, const Grid&, const std::vector<float>&);
+template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint8_t>&);
+template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint32_t>&);
+template void write_npy(const OutputFile&, const Grid&, const std::vector<float>&);
 
-void write_npy_points(const std::string& path, const std::vector<Point>& points) {
+void write_npy_points(const OutputFile& file, const std::vector<Point>& points) {
   std::vector<double> values;
   values.reserve(2 * points.size());
   for (const Point& point : points) values.insert(values.end(), {point.x, point.y});
-  write_array(path, {points.size(), 2}, values);
+  write_array(file, {points.size(), 2}, values);
 }
 
 }  // namespace vorocl::command

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/label_image.hpp"
+#include "formats/output_file.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -19,9 +20,9 @@ LabelImage read_npy_labels(const std::string& path);
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
 /// Error if the file cannot be written.
 template <typename T>
-void write_npy(const std::string& path, const Grid& grid, const std::vector<T>& values);
+void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& values);
 
 /// Points to an array of double of shape (N, 2). Throws Error if the file cannot be written.
-void write_npy_points(const std::string& path, const std::vector<Point>& points);
+void write_npy_points(const OutputFile& file, const std::vector<Point>& points);
 
 }  // namespace vorocl::command

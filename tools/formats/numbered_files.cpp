@@ -1,10 +1,13 @@
 #include "formats/numbered_files.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <system_error>
 
+#include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -33,16 +36,15 @@ std::string NumberedName::with(int number) const {
   return fmt::format("{}{:0{}d}{}", before, number, width, after);
 }
 
+MadeFolder::MadeFolder(const std::string& path) : name_(path) { mkdir(path.c_str(), 0777); }
+
+MadeFolder::~MadeFolder() { rmdir(name_.path().c_str()); }
+
 NumberedFiles::NumberedFiles(const std::string& pattern) : name_(pattern) {
   const fs::path folder = fs::path(name_.with(0)).parent_path();
   std::error_code ignored;
-  if (!folder.empty() && fs::create_directory(folder, ignored)) made_folder_ = folder.string();
+  if (!folder.empty() && !fs::exists(folder, ignored)) made_folder_.emplace(folder.string());
   file(0);
-}
-
-NumberedFiles::~NumberedFiles() {
-  std::error_code ignored;
-  if (!made_folder_.empty()) fs::remove(made_folder_, ignored);
 }
 
 }  // namespace vorocl::command

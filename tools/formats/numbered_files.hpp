@@ -1,9 +1,11 @@
 // Files with numbered names, one per frame, round or wave.
 #pragma once
 
+#include <optional>
 #include <string>
 
-#include "formats/files.hpp"
+#include "formats/output_file.hpp"
+#include "formats/temporary_names.hpp"
 
 namespace vorocl::command {
 
@@ -20,22 +22,31 @@ struct NumberedName {
   std::string with(int number) const;
 };
 
+/// A folder that goes at the end of the scope if it is empty then.
+class MadeFolder {
+ public:
+  /// Makes it, if that is possible.
+  explicit MadeFolder(const std::string& path);
+  ~MadeFolder();
+  MadeFolder(const MadeFolder&) = delete;
+  MadeFolder& operator=(const MadeFolder&) = delete;
+
+ private:
+  TemporaryName name_;
+};
+
+/// The folder of the files is made, if only that is missing, and removed if it stays empty.
 class NumberedFiles {
  public:
-  /// Makes the folder, if only that is missing. Throws Error for a pattern that is no NumberedName, and if no
+  /// Throws Error for a pattern that is no NumberedName, and if no
   /// file can be made there.
   explicit NumberedFiles(const std::string& pattern);
-
-  /// Removes the folder it made, if that is empty.
-  ~NumberedFiles();
-  NumberedFiles(const NumberedFiles&) = delete;
-  NumberedFiles& operator=(const NumberedFiles&) = delete;
 
   OutputFile file(int number) const { return OutputFile(name_.with(number)); }
 
  private:
   NumberedName name_;
-  std::string made_folder_;  // empty: none
+  std::optional<MadeFolder> made_folder_;
 };
 
 }  // namespace vorocl::command

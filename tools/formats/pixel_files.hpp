@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/output_file.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -12,7 +13,7 @@ namespace vorocl::command {
 /// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name. Throws Error if the
 /// extension is none of these, or the file cannot be written.
 template <typename T>
-void write_pixels(const std::string& path, const std::string& name, const Grid& grid,
+void write_pixels(const OutputFile& file, const std::string& name, const Grid& grid,
                   const std::vector<T>& values);
 
 }  // namespace vorocl::command

@@ -1,9 +1,14 @@
 #include "formats/tiff.hpp"
 
 #include <tiffio.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <string_view>
 #include <type_traits>
 
 #include "formats/files.hpp"
@@ -18,11 +23,24 @@ struct Close {
 };
 using File = std::unique_ptr<TIFF, Close>;
 
-File open(const std::string& path, const char* mode) {
-  // The library would print to stderr; here the exceptions say what went wrong.
+/// The library would print to stderr; here the exceptions say what went wrong.
+void keep_library_quiet() {
   TIFFSetErrorHandler(nullptr);
   TIFFSetWarningHandler(nullptr);
-  return File(TIFFOpen(path.c_str(), mode));
+}
+
+File open_tiff(const std::string& path) {
+  open_to_read(path);  // for its reasons where the file cannot be read at all
+  keep_library_quiet();
+  File file(TIFFOpen(path.c_str(), "r"));
+  if (!file) throw Error(path + " is no TIFF file");
+  return file;
+}
+
+/// Closes its own copy of the descriptor.
+File create_tiff(const GrowingFile& file, const char* mode) {
+  keep_library_quiet();
+  return File(TIFFFdOpen(dup(file.descriptor()), file.path().c_str(), mode));
 }
 
 template <typename T>
@@ -40,20 +58,33 @@ bool holds_labels(const File& file) {
          (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT) && TIFFIsTiled(file.get()) == 0;
 }
 
+ImageHeader header_of(const File& file) {
+  const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} *
+                             field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
+  return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH), field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
+          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE};
+}
+
 }  // namespace
 
+bool is_tiff(const std::vector<std::uint8_t>& bytes) {
+  if (bytes.size() < 4) return false;
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), 4);
+  using namespace std::string_view_literals;
+  return start == "II*\0"sv || start == "II+\0"sv || start == "MM\0*"sv || start == "MM\0+"sv;
+}
+
+ImageHeader read_tiff_header(const std::string& path) { return header_of(open_tiff(path)); }
+
 LabelImage read_tiff_labels(const std::string& path) {
-  open_to_read(path);  // for its reasons where the file cannot be read at all
-  const File file = open(path, "r");
-  if (!file) throw Error(path + " is no TIFF file");
+  const File file = open_tiff(path);
   if (!holds_labels(file))
     throw Error(path + " holds no labels: these are one 32-bit integer per pixel, in strips");
-  const auto width = field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH);
-  const auto height = field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH);
-  LabelImage image{Grid(width, height), {}};
+  LabelImage image{checked_grid(path, header_of(file), std::filesystem::file_size(path)), {}};
   image.labels.resize(image.grid.pixels());
-  for (std::uint32_t row = 0; row < height; ++row) {
-    if (TIFFReadScanline(file.get(), &image.labels[static_cast<std::size_t>(row) * width], row) != 1) {
+  const auto width = static_cast<std::size_t>(image.grid.width());
+  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(image.grid.height()); ++row) {
+    if (TIFFReadScanline(file.get(), &image.labels[row * width], row) != 1) {
       throw Error(path + " is damaged: its row " + std::to_string(row) + " cannot be read");
     }
   }
@@ -61,12 +92,17 @@ LabelImage read_tiff_labels(const std::string& path) {
 }
 
 template <typename T>
-void write_tiff(const std::string& path, const Grid& grid, const std::vector<T>& values) {
+void write_tiff(const OutputFile& output, const Grid& grid, const std::vector<T>& values) {
   static_assert(sizeof(T) == 4, "one 32-bit sample per pixel");
   constexpr std::size_t room_for_tags = 1 << 20;
   const bool big = values.size() * sizeof(T) + room_for_tags > 0xffffffffu;
-  File file = open(path, big ? "w8" : "w");
-  if (!file) throw Error("cannot write " + path);
+  output.require_file("a TIFF file");
+  GrowingFile grown(output);
+  const auto require = [&](bool done) {
+    if (!done) throw Error("writing " + output.path() + " failed: " + reason(errno));
+  };
+  File file = create_tiff(grown, big ? "w8" : "w");
+  require(file != nullptr);
   const auto width = static_cast<std::uint32_t>(grid.width());
   const auto height = static_cast<std::uint32_t>(grid.height());
   TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, width);
@@ -82,12 +118,14 @@ void write_tiff(const std::string& path, const Grid& grid, const std::vector<T>&
   for (std::uint32_t row = 0; row < height; ++row) {
     const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * grid.width();
     scanline.assign(begin, begin + grid.width());
-    if (TIFFWriteScanline(file.get(), scanline.data(), row) != 1) throw Error("writing " + path + " failed");
+    require(TIFFWriteScanline(file.get(), scanline.data(), row) == 1);
   }
-  if (TIFFFlush(file.get()) != 1) throw Error("writing " + path + " failed");
+  require(TIFFFlush(file.get()) == 1);
+  file.reset();
+  grown.finish();
 }
 
-template void write_tiff(const std::string&, const Grid&, const std::vector<std::uint32_t>&);
-template void write_tiff(const std::string&, const Grid&, const std::vector<float>&);
+template void write_tiff(const OutputFile&, const Grid&, const std::vector<std::uint32_t>&);
+template void write_tiff(const OutputFile&, const Grid&, const std::vector<float>&);
 
 }  // namespace vorocl::command

@@ -4,8 +4,6 @@
 
 #include <cstddef>
 
-#include "formats/files.hpp"
-
 namespace vorocl::command {
 
 namespace {
@@ -47,7 +45,7 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 template <typename T>
-void write_vti(const std::string& path, const std::string& name, const Grid& grid,
+void write_vti(const OutputFile& file, const std::string& name, const Grid& grid,
                const std::vector<T>& values) {
   const std::string extent = fmt::format("0 {} 0 {} 0 0", grid.width(), grid.height());
   const std::string start = fmt::format(
@@ -64,36 +62,36 @@ void write_vti(const std::string& path, const std::string& name, const Grid& gri
     _)",
       byte_order(), extent, name, type_name<T>);
   const std::uint64_t bytes = values.size() * sizeof(T);
-  const auto row_bytes = static_cast<std::streamsize>(static_cast<std::size_t>(grid.width()) * sizeof(T));
-  std::ofstream file = open_to_write(path);
-  file << start;
-  file.write(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+  const std::size_t row_bytes = static_cast<std::size_t>(grid.width()) * sizeof(T);
+  GrowingFile image(file);
+  image << start;
+  image.write(&bytes, sizeof bytes);
   for (int row = grid.height() - 1; row >= 0; --row) {
     const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * grid.width();
-    file.write(reinterpret_cast<const char*>(first), row_bytes);
+    image.write(first, row_bytes);
   }
-  file << "\n  </AppendedData>\n</VTKFile>\n";
-  check_written(file, path);
+  image << "\n  </AppendedData>\n</VTKFile>\n";
+  image.finish();
 }
 
-template void write_vti(const std::string&, const std::string&, const Grid&,
-                        const std::vector<std::uint8_t>&);
-template void write_vti(const std::string&, const std::string&, const Grid&,
+template void write_vti(const OutputFile&, const std::string&, const Grid&, const std::vector<std::uint8_t>&);
+template void write_vti(const OutputFile&, const std::string&, const Grid&,
                         const std::vector<std::uint32_t>&);
-template void write_vti(const std::string&, const std::string&, const Grid&, const std::vector<float>&);
+template void write_vti(const OutputFile&, const std::string&, const Grid&, const std::vector<float>&);
 
-void write_pvd(const std::string& path, const std::vector<TimedFile>& files) {
-  std::ofstream file = open_to_write(path);
-  file << fmt::format(
-              "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"{}\">\n",
-              byte_order())
-       << "  <Collection>\n";
+void write_pvd(const OutputFile& file, const std::vector<TimedFile>& files) {
+  GrowingFile collection(file);
+  collection
+      << fmt::format(
+             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"{}\">\n",
+             byte_order())
+      << "  <Collection>\n";
   for (const TimedFile& entry : files) {
-    file << fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time,
-                        escaped(entry.name));
+    collection << fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", entry.time,
+                              escaped(entry.name));
   }
-  file << "  </Collection>\n</VTKFile>\n";
-  check_written(file, path);
+  collection << "  </Collection>\n</VTKFile>\n";
+  collection.finish();
 }
 
 }  // namespace vorocl::command

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/output_file.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -15,7 +16,7 @@ namespace vorocl::command {
 /// values are raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be
 /// written.
 template <typename T>
-void write_vti(const std::string& path, const std::string& name, const Grid& grid,
+void write_vti(const OutputFile& file, const std::string& name, const Grid& grid,
                const std::vector<T>& values);
 
 /// A file of a collection and the time that it shows.
@@ -25,6 +26,6 @@ struct TimedFile {
 };
 
 /// Throws Error if the file cannot be written.
-void write_pvd(const std::string& path, const std::vector<TimedFile>& files);
+void write_pvd(const OutputFile& file, const std::vector<TimedFile>& files);
 
 }  // namespace vorocl::command

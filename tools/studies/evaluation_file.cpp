@@ -9,6 +9,7 @@
 #include "formats/csv.hpp"
 #include "formats/files.hpp"
 #include "formats/numbers.hpp"
+#include "formats/output_file.hpp"
 #include "studies/metric_name.hpp"
 #include "vorocl/error.hpp"
 
@@ -70,10 +71,13 @@ struct Lines {
   std::string cut_off;  // a last one that has no end
 };
 
+constexpr std::size_t longest_line = 1 << 16;
+
 Lines lines_of(const std::string& path) {
   std::ifstream file = open_to_read(path);
   Lines lines;
   for (std::string line; std::getline(file, line);) {
+    if (line.size() > longest_line) throw Error(path + " is no evaluation; give another file");
     if (file.eof()) {
       lines.cut_off = line;
     } else {
@@ -147,7 +151,7 @@ Rows rows_of(const std::string& path, const Lines& lines, const Origin& origin) 
 
 EvaluationFile::EvaluationFile(const std::string& path, bool resume) : path_(path) {
   check_extension(path, {".csv"});
-  const OutputFile can_be_written(path);
+  OutputFile(path).require_file("an evaluation");
   std::error_code ignored;
   if (!resume && std::filesystem::exists(path, ignored)) {
     throw Error(path + " exists; --resume goes on with it, or give another file");
@@ -175,12 +179,9 @@ std::vector<std::string> EvaluationFile::begin(const Origin& origin) {
       }
     }
   }
-  OutputFile(path_).write([&](const std::string& path) {
-    std::ofstream file = open_to_write(path);
-    file << kept;
-    check_written(file, path_);
-  });
-  rows_ = open_to_append(path_);
+  GrowingFile table{OutputFile(path_)};
+  table << kept;
+  table.finish();
   return dropped;
 }
 
@@ -190,8 +191,7 @@ void EvaluationFile::add(const Configuration& configuration, const Configuration
   for (const MethodResult& method : result.methods) {
     lines += line_of(origin_, columns, Row{date, configuration, result, method}) + "\n";
   }
-  rows_ << lines << std::flush;
-  if (!rows_) throw Error("writing " + path_ + " failed: is the disk full?");
+  append_to_file(path_, lines);
   complete_.insert(configuration);
 }
 

@@ -1,7 +1,6 @@
 // The table that an evaluation grows: a CSV file with one row for each configuration, method and metric.
 #pragma once
 
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,7 +26,7 @@ class EvaluationFile {
 
   bool has(const Configuration& configuration) const { return complete_.count(configuration) > 0; }
 
-  /// Adds the rows of a configuration. Throws Error if they cannot be written.
+  /// Adds the rows of a configuration. Throws Error if they cannot be written; then none of them is there.
   void add(const Configuration& configuration, const ConfigurationResult& result);
 
   const std::string& path() const { return path_; }
@@ -36,7 +35,6 @@ class EvaluationFile {
   std::string path_;
   Origin origin_;
   std::set<Configuration> complete_;
-  std::ofstream rows_;
 };
 
 }  // namespace vorocl::command

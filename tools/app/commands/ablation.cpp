@@ -7,11 +7,13 @@
 #include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/study_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
+#include "formats/output_file.hpp"
 #include "studies/ablation_table.hpp"
 
 namespace vorocl::command {
@@ -27,18 +29,18 @@ struct AblationOptions {
 
 void print_table(const Configuration& configuration, const EvaluationSettings& settings,
                  const std::vector<Variant>& variants, const std::vector<VariantResult>& results) {
-  fmt::print("{} x {} pixels, {} seeds, mean of {} frames\n\n", configuration.side, configuration.side,
-             configuration.seeds, settings.frames);
-  fmt::print("{:<18} {:<32} {:>5} {:>5} {:>9} {:>9} {:>11} {:>16}\n", "study", "setting", "d_max", "waves",
-             "ms/frame", "wrong %", "mean excess", "runs differ by %");
+  print("{} x {} pixels, {} seeds, mean of {} frames\n\n", configuration.side, configuration.side,
+        configuration.seeds, settings.frames);
+  print("{:<18} {:<32} {:>5} {:>5} {:>9} {:>9} {:>11} {:>16}\n", "study", "setting", "d_max", "waves",
+        "ms/frame", "wrong %", "mean excess", "runs differ by %");
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const VariantResult& result = results[i];
-    fmt::print("{:<18} {:<32} {:>5} {:>5.1f} {:>9.3f} {:>9.4f} {:>11.3g} {:>16.4f}\n", variants[i].study,
-               variants[i].setting, variants[i].max_displacement, result.waves.mean(),
-               result.milliseconds.median() / settings.timed_frames, result.errors.wrong_percent.mean(),
-               result.errors.mean_excess.mean(), result.differing_between_runs.mean());
+    print("{:<18} {:<32} {:>5} {:>5.1f} {:>9.3f} {:>9.4f} {:>11.3g} {:>16.4f}\n", variants[i].study,
+          variants[i].setting, variants[i].max_displacement, result.waves.mean(),
+          result.milliseconds.median() / settings.timed_frames, result.errors.wrong_percent.mean(),
+          result.errors.mean_excess.mean(), result.differing_between_runs.mean());
   }
-  fmt::print("\n");
+  print("\n");
 }
 
 /// Measures all variants of a configuration, prints them unless JSON is wanted, and returns the table's
@@ -70,15 +72,13 @@ void run(const AblationOptions& options) {
   const FinishAtEnd finish(device);
   std::string table = ablation_header(origin_of(device, options.study.settings));
   for (const Configuration& configuration : all) table += ablate(device, configuration, options);
-  file.write([&](const std::string& path) {
-    std::ofstream stream = open_to_write(path);
-    stream << table;
-    check_written(stream, options.path);
-  });
+  GrowingFile written(file);
+  written << table;
+  written.finish();
   if (options.json) {
     print_json({{"device", device.name()}, {"configurations", all.size()}, {"file", options.path}});
   } else {
-    fmt::print("wrote {}\n", options.path);
+    print("wrote {}\n", options.path);
   }
 }
 

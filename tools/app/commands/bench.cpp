@@ -9,6 +9,7 @@
 #include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "studies/benchmark.hpp"
 #include "studies/metric_name.hpp"
@@ -45,15 +46,15 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                 {"results", list}});
     return;
   }
-  fmt::print("{} seeds on {} x {} pixels, {}, {} rounds, on {}\n", seeds.alive(), seeds.grid().width(),
-             seeds.grid().height(), to_string(options.method_options.metric), options.repeat,
-             seeds.device().name());
-  fmt::print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
+  print("{} seeds on {} x {} pixels, {}, {} rounds, on {}\n", seeds.alive(), seeds.grid().width(),
+        seeds.grid().height(), to_string(options.method_options.metric), options.repeat,
+        seeds.device().name());
+  print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
   const double first_median = results.front().milliseconds.median();
   for (const BenchmarkResult& result : results) {
     const double median = result.milliseconds.median();
-    fmt::print("{:<20}{:>12.3f}{:>12.3f}{:>10.3f}{:>16}\n", result.method, median,
-               result.milliseconds.least(), median / first_median, result.wrong_pixels);
+    print("{:<20}{:>12.3f}{:>12.3f}{:>10.3f}{:>16}\n", result.method, median, result.milliseconds.least(),
+          median / first_median, result.wrong_pixels);
   }
 }
 

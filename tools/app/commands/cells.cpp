@@ -9,6 +9,7 @@
 #include "app/options/method_options.hpp"
 #include "app/options/output_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "studies/metric_name.hpp"
@@ -72,13 +73,12 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
                 {"host_milliseconds", report.host_milliseconds()}});
     return;
   }
-  fmt::print(
-      "{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-      options.method.name, statistics.cells, seeds.grid().width(), seeds.grid().height(),
-      report.milliseconds(), report.waves(), seeds.device().name());
-  fmt::print("{} cells are empty; the mean area is {:.2f} pixels, with a deviation of {:.2f}\n",
-             statistics.empty_cells, statistics.mean_area, statistics.area_deviation);
-  fmt::print("{} vertices, {} pairs of cells that touch\n", measures.vertices(), measures.pair_count());
+  print("{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
+        options.method.name, statistics.cells, seeds.grid().width(), seeds.grid().height(),
+        report.milliseconds(), report.waves(), seeds.device().name());
+  print("{} cells are empty; the mean area is {:.2f} pixels, with a deviation of {:.2f}\n",
+        statistics.empty_cells, statistics.mean_area, statistics.area_deviation);
+  print("{} vertices, {} pairs of cells that touch\n", measures.vertices(), measures.pair_count());
   print_written(requested_files(options));
 }
 
@@ -92,9 +92,7 @@ void run(const CellsOptions& options) {
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, options.method_options.metric, buffers);
-  for (const Output& output : outputs) {
-    output.file.write([&](const std::string& path) { output.kind.write(path, measures); });
-  }
+  for (const Output& output : outputs) output.kind.write(output.file, measures);
   print_result(options, seeds, report, measures);
 }
 

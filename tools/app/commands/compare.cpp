@@ -12,6 +12,7 @@
 #include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
@@ -114,10 +115,10 @@ void print_result(const CompareOptions& options, const Comparison& comparison) {
     print_json(result);
     return;
   }
-  fmt::print("similarity {:.6f} %: {} of {} pixels differ\n", comparison.similarity,
-             comparison.different_pixels, comparison.pixels);
+  print("similarity {:.6f} %: {} of {} pixels differ\n", comparison.similarity, comparison.different_pixels,
+        comparison.pixels);
   if (errors) {
-    fmt::print(
+    print(
         "{} pixels are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} pixels, "
         "largest {:.3f}\n",
         errors->wrong_pixels, errors->wrong_percent(), errors->unlabelled_pixels, errors->mean_excess,

@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/options/common_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "vorocl/device.hpp"
 
@@ -37,15 +38,15 @@ Json list_of(const std::vector<DeviceDescription>& devices) {
 
 void print_text(const DeviceDescription& device) {
   constexpr double mebibyte = 1 << 20;
-  fmt::print("{}:{}  {}\n", device.platform_index, device.device_index, device.name);
-  fmt::print("     platform  {}\n", device.platform);
-  fmt::print("     version   {}, driver {}\n", device.opencl_version, device.driver_version);
-  fmt::print("     type      {}, {} compute units\n", device.type, device.compute_units);
-  fmt::print("     memory    {:.0f} MiB, {:.0f} MiB in one buffer\n",
-             static_cast<double>(device.global_memory) / mebibyte,
-             static_cast<double>(device.max_allocation) / mebibyte);
-  if (!device.why_not.empty()) fmt::print("     cannot be used: {}\n", device.why_not);
-  if (device.selected) fmt::print("     selected: {}\n", device.reason);
+  print("{}:{}  {}\n", device.platform_index, device.device_index, device.name);
+  print("     platform  {}\n", device.platform);
+  print("     version   {}, driver {}\n", device.opencl_version, device.driver_version);
+  print("     type      {}, {} compute units\n", device.type, device.compute_units);
+  print("     memory    {:.0f} MiB, {:.0f} MiB in one buffer\n",
+        static_cast<double>(device.global_memory) / mebibyte,
+        static_cast<double>(device.max_allocation) / mebibyte);
+  if (!device.why_not.empty()) print("     cannot be used: {}\n", device.why_not);
+  if (device.selected) print("     selected: {}\n", device.reason);
 }
 
 void run(const DevicesOptions& options) {

@@ -72,10 +72,10 @@ class Course {
 };
 
 void print_table_head() {
-  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "", "", "pixels", "JFA",
-             "speedup", "speedup", "speedup", "similarity %", "wrong %", "wrong %");
-  fmt::print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "n", "seeds", "per seed",
-             "ms/frame", "dJFAe", "dJFAm", "exact", "dJFAe to JFA", "JFA", "dJFAe");
+  print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "", "", "pixels", "JFA",
+        "speedup", "speedup", "speedup", "similarity %", "wrong %", "wrong %");
+  print("{:>6} {:>10} {:>13} {:>9} {:>8} {:>8} {:>8} {:>13} {:>13} {:>13}\n", "n", "seeds", "per seed",
+        "ms/frame", "dJFAe", "dJFAm", "exact", "dJFAe to JFA", "JFA", "dJFAe");
 }
 
 void print_table_row(const Configuration& configuration, const EvaluationSettings& settings,
@@ -85,13 +85,13 @@ void print_table_row(const Configuration& configuration, const EvaluationSetting
   const MethodResult& djfa = result.of("djfa", euclidean);
   const double jfa_time = jfa.milliseconds.median();
   const auto speedup = [&](const MethodResult& of) { return jfa_time / of.milliseconds.median(); };
-  fmt::print("{:>6} {:>10} {:>13.1f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>13.4f} {:>13.4f} {:>13.4f}\n",
-             configuration.side, configuration.seeds,
-             static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds),
-             jfa_time / settings.timed_frames, speedup(djfa), speedup(result.of("djfa", Metric::manhattan)),
-             speedup(result.of("exact", euclidean)), djfa.similarity_to_euclidean_jfa.mean(),
-             jfa.errors.wrong_percent.mean(), djfa.errors.wrong_percent.mean());
-  std::fflush(stdout);
+  print("{:>6} {:>10} {:>13.1f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>13.4f} {:>13.4f} {:>13.4f}\n",
+        configuration.side, configuration.seeds,
+        static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds),
+        jfa_time / settings.timed_frames, speedup(djfa), speedup(result.of("djfa", Metric::manhattan)),
+        speedup(result.of("exact", euclidean)), djfa.similarity_to_euclidean_jfa.mean(),
+        jfa.errors.wrong_percent.mean(), djfa.errors.wrong_percent.mean());
+  flush_standard_output();
 }
 
 /// Those that the file does not have yet.
@@ -150,7 +150,7 @@ void run(const EvaluateOptions& options) {
   } catch (const std::exception& error) {  // ours, or out of memory
     throw Error(
         fmt::format("{}; of {} configurations {} are complete in {}, and --resume goes on with the rest",
-                    error.what(), wanted.size(), complete(), file.path()));
+                    message_of(error), wanted.size(), complete(), file.path()));
   }
   if (options.json) {
     print_json({{"device", device.name()},
@@ -158,8 +158,8 @@ void run(const EvaluateOptions& options) {
                 {"made_before", wanted.size() - todo.size()},
                 {"file", file.path()}});
   } else {
-    fmt::print("{} configurations, {} of them made before, on {}: wrote {}\n", wanted.size(),
-               wanted.size() - todo.size(), device.name(), file.path());
+    print("{} configurations, {} of them made before, on {}: wrote {}\n", wanted.size(),
+          wanted.size() - todo.size(), device.name(), file.path());
   }
 }
 

@@ -1,8 +1,9 @@
 // Leaves no work behind on a device.
 #pragma once
 
+#include <exception>
+
 #include "vorocl/device.hpp"
-#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -14,7 +15,7 @@ class FinishAtEnd {
   ~FinishAtEnd() {
     try {
       device_.finish();
-    } catch (const Error&) {  // the error that ends the scope is the one to report
+    } catch (const std::exception&) {  // the error that ends the scope is the one to report
     }
   }
   FinishAtEnd(const FinishAtEnd&) = delete;

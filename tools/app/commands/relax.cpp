@@ -10,9 +10,11 @@
 #include "app/options/output_options.hpp"
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
+#include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/point_files.hpp"
 #include "vorocl/exact_diagram.hpp"
@@ -82,14 +84,14 @@ std::vector<Point> points_of(const Seeds& seeds) {
   return points;
 }
 
-void write_energies(const std::string& path, const Relaxation& relaxation) {
-  std::ofstream file = open_to_write(path);
-  file << "round,energy,moved\n";
+void write_energies(const OutputFile& file, const Relaxation& relaxation) {
+  GrowingFile table(file);
+  table << "round,energy,moved\n";
   for (std::size_t round = 0; round < relaxation.energies.size(); ++round) {
-    file << fmt::format("{},{},{}\n", round, relaxation.energies[round],
-                        round == 0 ? 0 : relaxation.moved[round - 1]);
+    table << fmt::format("{},{},{}\n", round, relaxation.energies[round],
+                         round == 0 ? 0 : relaxation.moved[round - 1]);
   }
-  check_written(file, path);
+  table.finish();
 }
 
 Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& seeds, Diagram& diagram,
@@ -113,18 +115,12 @@ void write_end(const Outputs& outputs, const RelaxOptions& options, const Input&
                const Diagram& diagram, const Relaxation& relaxation) {
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, Metric::euclidean, buffers);
-  if (outputs.labels) {
-    outputs.labels->write([&](const std::string& path) { options.labels.kind.write(path, measures); });
-  }
-  if (outputs.points) {
-    outputs.points->write([&](const std::string& path) { write_points(path, points_of(seeds), input.ids); });
-  }
-  if (outputs.energy) {
-    outputs.energy->write([&](const std::string& path) { write_energies(path, relaxation); });
-  }
+  if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
+  if (outputs.points) write_points(*outputs.points, points_of(seeds), input.ids);
+  if (outputs.energy) write_energies(*outputs.energy, relaxation);
   if (outputs.picture) {
     const cv::Mat picture = Painter(options.pictures.picture).draw(measures, input.values);
-    outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
+    write_picture(*outputs.picture, picture);
   }
   if (outputs.rounds) outputs.rounds->finish();
 }
@@ -141,12 +137,10 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
                 {"energy_at_end", relaxation.energies.back()}});
     return;
   }
-  fmt::print("{} seeds on {} x {} pixels, {} rounds, {}, on {}\n", seeds.alive(), seeds.grid().width(),
-             seeds.grid().height(), relaxation.rounds(),
-             relaxation.converged ? "settled: no seed moves any more" : "not settled yet",
-             seeds.device().name());
-  fmt::print("energy: {} at the start, {} at the end\n", relaxation.energies.front(),
-             relaxation.energies.back());
+  print("{} seeds on {} x {} pixels, {} rounds, {}, on {}\n", seeds.alive(), seeds.grid().width(),
+        seeds.grid().height(), relaxation.rounds(),
+        relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
+  print("energy: {} at the start, {} at the end\n", relaxation.energies.front(), relaxation.energies.back());
   print_written(requested_files(options));
 }
 

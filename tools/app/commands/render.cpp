@@ -11,6 +11,7 @@
 #include "app/options/output_options.hpp"
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/images/pictures.hpp"
@@ -78,10 +79,9 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
                 {"host_milliseconds", report.host_milliseconds()}});
     return;
   }
-  fmt::print(
-      "{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-      options.method.name, seeds.alive(), seeds.grid().width(), seeds.grid().height(), report.milliseconds(),
-      report.waves(), seeds.device().name());
+  print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
+        options.method.name, seeds.alive(), seeds.grid().width(), seeds.grid().height(),
+        report.milliseconds(), report.waves(), seeds.device().name());
   print_written(requested_files(options));
 }
 
@@ -96,7 +96,7 @@ void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input
     flood(seeds, diagram, waves, metric);
     Measures measures(seeds, diagram, input.ids, metric, buffers);
     const cv::Mat picture = painter.draw(measures, input.values);
-    files.file(static_cast<int>(i)).write([&](const std::string& path) { write_picture(path, picture); });
+    write_picture(files.file(static_cast<int>(i)), picture);
     if (i < plan.size()) waves.push_back(plan[i]);
   }
 }
@@ -112,14 +112,11 @@ void run(const RenderOptions& options) {
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, options.method_options.metric, buffers);
-  if (outputs.labels) {
-    outputs.labels->write([&](const std::string& path) { labels_kind().write(path, measures); });
-  }
+  if (outputs.labels) labels_kind().write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
     const cv::Mat picture = painter.draw(measures, input.values);  // first, so that the waves have its scale
-    if (outputs.picture)
-      outputs.picture->write([&](const std::string& path) { write_picture(path, picture); });
+    if (outputs.picture) write_picture(*outputs.picture, picture);
     if (outputs.waves) {
       const Plan plan = options.method.plan(input.grid, report.waves(), options.method_options);
       draw_waves(*outputs.waves, plan, input, seeds, options.method_options.metric, painter);

@@ -11,6 +11,7 @@
 #include "app/options/output_options.hpp"
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
@@ -121,7 +122,7 @@ Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulati
       }
     } while (source.next());
   } catch (const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
-    course.trouble = error.what();
+    course.trouble = message_of(error);
   }
   return course;
 }
@@ -166,21 +167,21 @@ Json::Members json_of(const SimulateOptions& options, Simulation& simulation, co
 
 void print_times(const std::string& method, Simulation& simulation, std::size_t engine) {
   const int frames = simulation.frame();
-  fmt::print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
-             frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
+  print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
+        frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
 }
 
 void print_text(const SimulateOptions& options, Simulation& simulation, const Course& course) {
   const Seeds& seeds = simulation.seeds();
-  fmt::print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(),
-             seeds.alive(), seeds.grid().width(), seeds.grid().height(), seeds.device().name());
+  print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
+        seeds.grid().width(), seeds.grid().height(), seeds.device().name());
   print_times(options.method.name, simulation, main_engine);
   if (options.compare_with) print_times(options.compare_with->name, simulation, other_engine);
   if (const Samples& similarities = course.similarities; !similarities.empty()) {
-    fmt::print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
+    print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
   }
   if (const ErrorSamples& errors = course.errors; !errors.wrong_percent.empty()) {
-    fmt::print(
+    print(
         "wrong pixels: mean {:.4f} %, greatest {:.4f} %; excess distance: mean {:.3g} pixels, largest "
         "{:.3f}\n",
         errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),

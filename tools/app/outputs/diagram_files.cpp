@@ -14,8 +14,8 @@ namespace vorocl::command {
 
 namespace {
 
-void write_label_file(const std::string& path, Measures& measures) {
-  write_labels(path, measures.labels_by_id());
+void write_label_file(const OutputFile& file, Measures& measures) {
+  write_labels(file, measures.labels_by_id());
 }
 
 std::string row_of(const CellMeasures& cell, Metric metric) {
@@ -32,33 +32,33 @@ std::string row_of(const CellMeasures& cell, Metric metric) {
                      extent, cell.perimeter, cell.neighbours, distance, cell.shape.touches_border ? 1 : 0);
 }
 
-void write_cell_file(const std::string& path, Measures& measures) {
-  std::ofstream file = open_to_write(path);
-  file << "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
-          "touches_border\n";
-  for (const CellMeasures& cell : measures.cells()) file << row_of(cell, measures.metric());
-  check_written(file, path);
+void write_cell_file(const OutputFile& file, Measures& measures) {
+  GrowingFile table(file);
+  table << "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
+           "touches_border\n";
+  for (const CellMeasures& cell : measures.cells()) table << row_of(cell, measures.metric());
+  table.finish();
 }
 
-void write_adjacency_file(const std::string& path, Measures& measures) {
-  std::ofstream file = open_to_write(path);
-  file << "a,b,length\n";
+void write_adjacency_file(const OutputFile& file, Measures& measures) {
+  GrowingFile table(file);
+  table << "a,b,length\n";
   for (const CellPair& pair : measures.pairs())
-    file << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
-  check_written(file, path);
+    table << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
+  table.finish();
 }
 
-void write_distance_file(const std::string& path, Measures& measures) {
-  write_pixels(path, "distance", measures.grid(), measures.distances());
+void write_distance_file(const OutputFile& file, Measures& measures) {
+  write_pixels(file, "distance", measures.grid(), measures.distances());
 }
 
-void write_border_file(const std::string& path, Measures& measures) {
+void write_border_file(const OutputFile& file, Measures& measures) {
   std::vector<std::uint8_t> borders = measures.borders();
-  if (extension_of(path) == ".png") {
+  if (extension_of(file.path()) == ".png") {
     const cv::Mat mask(measures.grid().height(), measures.grid().width(), CV_8U, borders.data());
-    write_picture(path, 255 * mask);
+    write_picture(file, 255 * mask);
   } else {
-    write_pixels(path, "border", measures.grid(), borders);
+    write_pixels(file, "border", measures.grid(), borders);
   }
 }
 

@@ -15,7 +15,7 @@ struct FileKind {
   std::string option;  // "--labels"
   std::string about;   // what the file holds, for the help
   std::vector<std::string> extensions;
-  void (*write)(const std::string& path, Measures& measures);
+  void (*write)(const OutputFile& file, Measures& measures);
 };
 
 /// Labels by id: .npy, .tif or .vti.

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include "formats/files.hpp"
+
 namespace vorocl::command {
 
 namespace fs = std::filesystem;
@@ -22,12 +24,12 @@ FrameFiles::FrameFiles(const FileRequest& request) : request_(request), files_(r
 
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   const OutputFile file = files_.file(frame);
-  file.write([&](const std::string& path) { request_.kind.write(path, measures); });
+  request_.kind.write(file, measures);
   if (collection_) listed_.push_back({time, fs::path(file.path()).filename().string()});
 }
 
 void FrameFiles::finish() const {
-  if (collection_) collection_->write([&](const std::string& path) { write_pvd(path, listed_); });
+  if (collection_) write_pvd(*collection_, listed_);
 }
 
 }  // namespace vorocl::command

@@ -8,7 +8,7 @@
 namespace vorocl::command {
 
 FrameStatistics::FrameStatistics(const std::string& path) : file_(path) {
-  file_.stream() << "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds\n";
+  file_ << "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds\n";
 }
 
 void FrameStatistics::add(int frame, double milliseconds, Measures& measures) {
@@ -21,8 +21,8 @@ void FrameStatistics::add(int frame, double milliseconds, Measures& measures) {
                                                    std::size_t{0}, std::plus<>(), std::not_equal_to<>()));
   }
   last_labels_ = labels;
-  file_.stream() << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
-                                statistics.mean_area, statistics.area_deviation, changed, milliseconds);
+  file_ << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
+                       statistics.mean_area, statistics.area_deviation, changed, milliseconds);
 }
 
 }  // namespace vorocl::command

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/outputs/measures.hpp"
-#include "formats/files.hpp"
+#include "formats/output_file.hpp"
 
 namespace vorocl::command {
 

@@ -4,6 +4,7 @@
 
 #include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
+#include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 
 namespace vorocl::command {
@@ -54,8 +55,8 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors)
   }
   if (!options.similarity_path.empty()) {
     similarities_.emplace(options.similarity_path);
-    similarities_->stream() << "frame,similarity"
-                            << (with_errors ? ",wrong_percent,largest_excess,mean_excess" : "") << '\n';
+    *similarities_ << "frame,similarity" << (with_errors ? ",wrong_percent,largest_excess,mean_excess" : "")
+                   << "\n";
   }
   if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path);
 }
@@ -78,20 +79,19 @@ void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
       film_->add(picture);
       if (film_->pictures() == 1) note_of_size(*film_, picture.size());
     }
-    if (pictures_)
-      pictures_->file(facts.frame).write([&](const std::string& path) { write_picture(path, picture); });
+    if (pictures_) write_picture(pictures_->file(facts.frame), picture);
   }
   ++frames_;
 }
 
 void FrameWriter::add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors) {
   if (!similarities_) return;
-  std::ofstream& table = similarities_->stream();
-  table << fmt::format("{},{}", frame, percent);
+  *similarities_ << fmt::format("{},{}", frame, percent);
   if (errors) {
-    table << fmt::format(",{},{},{}", errors->wrong_percent(), errors->largest_excess, errors->mean_excess);
+    *similarities_ << fmt::format(",{},{},{}", errors->wrong_percent(), errors->largest_excess,
+                                  errors->mean_excess);
   }
-  table << '\n';
+  *similarities_ << "\n";
 }
 
 void FrameWriter::finish() {

@@ -1,8 +1,10 @@
 #include "app/outputs/output_files.hpp"
 
-#include <fmt/core.h>
+#include <climits>
 
+#include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
+#include "formats/files.hpp"
 #include "formats/numbered_files.hpp"
 
 namespace vorocl::command {
@@ -11,6 +13,7 @@ void check_outputs(const std::vector<RequestedFile>& files) {
   for (const RequestedFile& file : files) {
     if (file.path.empty()) continue;
     as_usage([&] {
+      if (file.path.size() >= PATH_MAX) throw Error(file.option + ": the name has more than 4095 characters");
       check_extension(file.path, file.extensions);
       if (file.numbered) NumberedName(file.path);
     });
@@ -31,7 +34,7 @@ std::optional<OutputFile> open_output(const std::string& path) {
 
 void print_written(const std::vector<RequestedFile>& files) {
   for (const RequestedFile& file : files) {
-    if (!file.path.empty()) fmt::print("wrote {}\n", file.path);
+    if (!file.path.empty()) print("wrote {}\n", file.path);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/files.hpp"
+#include "formats/output_file.hpp"
 
 namespace vorocl::command {
 

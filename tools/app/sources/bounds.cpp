@@ -17,6 +17,15 @@ std::string describe(std::size_t index, const Point& point) {
   return fmt::format("point {} at ({}, {})", index, point.x, point.y);
 }
 
+/// Throws Error unless an axis has a scale that double can hold, in pixels per unit and in units per grid.
+void check_extents(const Bounds& bounds) {
+  for (const double extent : {bounds.x1 - bounds.x0, bounds.y1 - bounds.y0}) {
+    if (extent == 0 || (std::isfinite(extent * Grid::max_side) && std::isfinite(Grid::max_side / extent)))
+      continue;
+    throw Error("the bounds " + to_string(bounds) + " are too far apart, or too near, to compute with");
+  }
+}
+
 /// Written in the order of operations that is documented, so that rounding is the same everywhere.
 int pixel(double value, double low, double high, int count) {
   if (low == high) return count / 2;
@@ -58,6 +67,7 @@ Bounds bounding_box(const std::vector<Point>& points) {
 }
 
 Grid grid_of_width(const Bounds& bounds, int width) {
+  check_extents(bounds);
   if (bounds.x0 == bounds.x1) {
     throw Error("the bounds " + to_string(bounds) +
                 " have no width to scale by: give --size instead of --width");
@@ -89,6 +99,7 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid) {
 
 std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
                              bool y_up) {
+  check_extents(bounds);
   std::vector<Point> pixels;
   pixels.reserve(points.size());
   for (const Point& point : points) {

@@ -37,7 +37,8 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid);
 
 /// The centres of the pixels that hold the points: column floor((x - x0) * W / (x1 - x0)), the last one for
 /// x1 itself, the middle one where x1 = x0; rows likewise, or counted from the bottom if `y_up`. Throws Error
-/// that names the first point that is not finite or outside the bounds.
+/// that names the first point that is not finite or outside the bounds, and for bounds so far apart, or so
+/// near, that double has no scale for them.
 std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
                              bool y_up);
 

@@ -1,15 +1,43 @@
-// What the command says on standard error.
+// What the command says: results on standard output, all else on standard error.
 #pragma once
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <exception>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace vorocl::command {
 
-inline void print_note(const std::string& text) { fmt::print(stderr, "vorocl: note: {}\n", text); }
-inline void print_warning(const std::string& text) { fmt::print(stderr, "vorocl: warning: {}\n", text); }
-inline void print_error(const std::string& text) { fmt::print(stderr, "vorocl: error: {}\n", text); }
+/// At the start of main(). Opens those of the three streams that are closed: else the first file to be
+/// written would become one of them, and what is printed would go into it. Where a stream is a pipe that
+/// nobody reads, or a file that would grow past its limit, printing and writing fail from here on; they do
+/// not end the process.
+void open_standard_streams();
+
+/// Prints on standard output. Throws Error if that fails.
+void print_text(const std::string& text);
+
+template <typename... Arguments>
+void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  print_text(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// Throws Error unless all that was printed on standard output has arrived.
+void flush_standard_output();
+
+/// Print on standard error, if that is possible: nothing depends on it.
+void print_note(const std::string& text) noexcept;
+void print_warning(const std::string& text) noexcept;
+void print_error(const std::exception& error) noexcept;
+void print_on_standard_error(std::string_view text) noexcept;
+
+/// The text with what would move a terminal's cursor, or change its colours and title, as \x1b and the like:
+/// texts may hold what a file holds. Line feeds and tabs stay.
+std::string printable(const std::string& text);
+
+/// What an exception says, in our words where it is memory that is missing or OpenCV that failed.
+std::string message_of(const std::exception& error);
 
 }  // namespace vorocl::command

@@ -1,12 +1,14 @@
-// Ctrl-C while a simulation runs.
+// Ctrl-C and its like: SIGINT, SIGTERM, and SIGHUP of a terminal that is closed.
 #pragma once
-
-#include <csignal>
 
 namespace vorocl::command {
 
-/// In its scope, the first SIGINT or SIGTERM is only noted, so that what is written so far can be completed;
-/// a second one ends the process at once. One at a time.
+/// At the start of main(): from here on these signals remove the temporary files before they end the process.
+/// One that the caller ignores (nohup) stays ignored.
+void remove_temporary_files_on_signals();
+
+/// In its scope, the first of these signals is only noted, so that what is written so far can be completed; a
+/// second one ends the process at once, as without the scope. One at a time.
 class Interruption {
  public:
   Interruption();
@@ -15,10 +17,6 @@ class Interruption {
   Interruption& operator=(const Interruption&) = delete;
 
   bool came() const;
-
- private:
-  struct sigaction before_int_ = {};
-  struct sigaction before_term_ = {};
 };
 
 }  // namespace vorocl::command

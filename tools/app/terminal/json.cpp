@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/terminal/console.hpp"
+
 namespace vorocl::command {
 
 Json::Json(double value) : text_(nlohmann::json(value).dump()) {}
@@ -26,6 +28,6 @@ Json::Json(const std::vector<Json>& values) : text_("[") {
   text_ += ']';
 }
 
-void print_json(const Json::Members& members) { fmt::print("{}\n", Json(members).text()); }
+void print_json(const Json::Members& members) { print("{}\n", Json(members).text()); }
 
 }  // namespace vorocl::command

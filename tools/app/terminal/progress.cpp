@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "app/terminal/console.hpp"
 
 namespace vorocl::command {
 
@@ -42,8 +43,7 @@ Progress::~Progress() { erase(); }
 
 void Progress::erase() {
   if (!on_terminal_) return;
-  std::fputs(erase_line, stderr);
-  std::fflush(stderr);
+  print_on_standard_error(erase_line);
   shown_at_.reset();
 }
 
@@ -51,8 +51,7 @@ void Progress::show(int count, std::optional<double> done) {
   const double seconds = stopwatch_.seconds();
   if (!on_terminal_ || (shown_at_ && seconds - *shown_at_ < redraw_interval)) return;
   shown_at_ = seconds;
-  fmt::print(stderr, "{}{}", erase_line, progress_line(count, done, seconds, unit_));
-  std::fflush(stderr);
+  print_on_standard_error(erase_line + progress_line(count, done, seconds, unit_));
 }
 
 }  // namespace vorocl::command

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <filesystem>
 #include <opencv2/core.hpp>
 
+#include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -19,6 +22,36 @@ cv::Mat padded(const cv::Mat& picture) {
   return result;
 }
 
+OutputFile to_be_film(const std::string& path) {
+  OutputFile file(path);
+  file.require_file("a film");
+  return file;
+}
+
+/// Whether an .mp4 file ends where its last box does. A box is its size (4 bytes, big-endian, this field
+/// included), its name (4 bytes) and its content; a size of 1 stands for one of 8 bytes behind the name.
+bool has_whole_boxes(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  const std::uint64_t end = std::filesystem::file_size(path);
+  const auto number = [&file](int bytes) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<std::uint64_t>(file.get() & 0xff);
+    return value;
+  };
+  std::uint64_t place = 0;
+  while (file && place < end) {
+    file.seekg(static_cast<std::streamoff>(place));
+    std::uint64_t size = number(4);
+    if (size == 1) {
+      file.ignore(4);
+      size = number(8);
+    }
+    if (size < 8 || size > end - place) return false;
+    place += size;
+  }
+  return file && place == end && end > 0;
+}
+
 }  // namespace
 
 cv::Size film_size(const cv::Size& picture) {
@@ -26,12 +59,7 @@ cv::Size film_size(const cv::Size& picture) {
 }
 
 Film::Film(const std::string& path, double frames_per_second)
-    : file_(path), frames_per_second_(frames_per_second) {}
-
-Film::~Film() {
-  encoder_.reset();
-  file_.discard();
-}
+    : file_(to_be_film(path)), frames_per_second_(frames_per_second) {}
 
 void Film::add(const cv::Mat& picture) {
   if (!encoder_) {
@@ -51,10 +79,11 @@ void Film::finish() {
   if (pictures_ == 0) return;
   encoder_.reset();
   // The encoder does not say what went wrong.
-  if (film_module().count_pictures(file_.temporary_path()) != pictures_) {
+  const std::string path = file_.temporary_path();
+  if (!has_whole_boxes(path) || film_module().count_pictures(path) != pictures_) {
     throw Error("writing " + file_.path() + " failed: is the disk full?");
   }
-  file_.commit();
+  file_.finish();
 }
 
 }  // namespace vorocl::command

@@ -5,8 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "formats/files.hpp"
 #include "formats/images/modules.hpp"
+#include "formats/output_file.hpp"
 
 namespace vorocl::command {
 
@@ -16,11 +16,8 @@ cv::Size film_size(const cv::Size& picture);
 /// Grows under a temporary name until finish(); without it, nothing stays.
 class Film {
  public:
-  /// Throws Error if no file can be made there.
+  /// Throws Error if no file can be made there, and for a pipe.
   Film(const std::string& path, double frames_per_second);
-  ~Film();
-  Film(const Film&) = delete;
-  Film& operator=(const Film&) = delete;
 
   const std::string& path() const { return file_.path(); }
 
@@ -36,7 +33,7 @@ class Film {
   void finish();
 
  private:
-  OutputFile file_;
+  GrowingFile file_;
   double frames_per_second_;
   std::unique_ptr<FilmEncoder> encoder_;
   int pictures_ = 0;

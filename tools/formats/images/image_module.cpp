@@ -1,4 +1,5 @@
 // The module of image files: vorocl_images.so.
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 
 #include "formats/images/modules.hpp"
@@ -8,26 +9,32 @@ namespace vorocl::command {
 
 namespace {
 
+/// What `work` makes; nothing if OpenCV refuses it, whose texts name its own source lines.
+template <typename Work>
+auto quietly(const Work& work) -> decltype(work()) {
+  const QuietStandardError quiet;
+  try {
+    return work();
+  } catch (const cv::Exception& error) {
+    if (error.code == cv::Error::StsNoMem) throw std::bad_alloc();
+    return {};
+  }
+}
+
 class Module : public ImageModule {
  public:
-  cv::Mat read(const std::string& path) const override {
-    const QuietStandardError quiet;
-    try {
-      // Not as grey values: rounding makes a faint blue 0.
-      return cv::imread(path, cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
-    } catch (
-        const cv::Exception&) {  // a damaged or too large image; the text names OpenCV's own source lines
-      return {};
-    }
+  cv::Mat decode(const std::vector<std::uint8_t>& bytes) const override {
+    // Not as grey values: rounding makes a faint blue 0.
+    const int flags = cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+    return quietly([&] { return cv::imdecode(bytes, flags); });
   }
 
-  bool write(const std::string& path, const cv::Mat& picture) const override {
-    const QuietStandardError quiet;
-    try {
-      return cv::imwrite(path, picture);
-    } catch (const cv::Exception&) {  // its text names OpenCV's own source lines
-      return false;
-    }
+  std::vector<std::uint8_t> encode(const std::string& extension, const cv::Mat& picture) const override {
+    return quietly([&] {
+      std::vector<std::uint8_t> bytes;
+      if (!cv::imencode(extension, picture, bytes)) bytes.clear();
+      return bytes;
+    });
   }
 };
 

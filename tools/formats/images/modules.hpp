@@ -3,20 +3,23 @@
 // needed.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 namespace vorocl::command {
 
-/// What image_module.cpp does. No function throws or prints.
+/// What image_module.cpp does, in memory: files are read and written elsewhere. Functions print nothing, and
+/// throw std::bad_alloc alone.
 class ImageModule {
  public:
-  /// An image with three channels (BGR) of the file's depth; an empty one if the file cannot be read.
-  virtual cv::Mat read(const std::string& path) const = 0;
+  /// An image file's content as three channels (BGR) of its depth; an empty image if it cannot be decoded.
+  virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes) const = 0;
 
-  /// False if the file cannot be written.
-  virtual bool write(const std::string& path, const cv::Mat& picture) const = 0;
+  /// The content of an image file with this extension (".png"); empty if there can be none.
+  virtual std::vector<std::uint8_t> encode(const std::string& extension, const cv::Mat& picture) const = 0;
 
  protected:
   ~ImageModule() = default;

@@ -1,6 +1,9 @@
 #include "formats/images/pictures.hpp"
 
+#include <fmt/format.h>
+
 #include "formats/files.hpp"
+#include "formats/images/image_header.hpp"
 #include "formats/images/modules.hpp"
 #include "vorocl/error.hpp"
 
@@ -11,15 +14,45 @@ const std::vector<std::string>& picture_extensions() {
   return all;
 }
 
+namespace {
+
+/// Of a file that may be a picture: the first bytes are looked at before the others, of which there may be
+/// many.
+std::vector<std::uint8_t> read_image_file(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  std::vector<std::uint8_t> bytes;
+  std::size_t wanted = 16;
+  while (file) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + wanted);
+    file.read(reinterpret_cast<char*>(&bytes[before]), static_cast<std::streamsize>(wanted));
+    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+    if (before == 0) check_is_image(path, bytes);
+    wanted = 1 << 20;
+  }
+  if (file.bad()) throw Error("reading " + path + " failed");
+  return bytes;
+}
+
+}  // namespace
+
 cv::Mat read_picture(const std::string& path) {
-  open_to_read(path);  // for its reasons where the file cannot be read at all
-  cv::Mat picture = image_module().read(path);
+  const std::vector<std::uint8_t> bytes = read_image_file(path);
+  checked_grid(path, read_image_header(path, bytes), bytes.size());
+  cv::Mat picture = image_module().decode(bytes);
   if (picture.empty()) throw Error(path + " is no image that can be read");
   return picture;
 }
 
-void write_picture(const std::string& path, const cv::Mat& picture) {
-  if (!image_module().write(path, picture)) throw Error("writing " + path + " failed");
+void write_picture(const OutputFile& file, const cv::Mat& picture) {
+  const std::vector<std::uint8_t> bytes = image_module().encode(extension_of(file.path()), picture);
+  if (bytes.empty()) {
+    throw Error(fmt::format("cannot write {}: its format has no pictures of {} x {} pixels", file.path(),
+                            picture.cols, picture.rows));
+  }
+  GrowingFile written(file);
+  written.write(bytes.data(), bytes.size());
+  written.finish();
 }
 
 }  // namespace vorocl::command

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/output_file.hpp"
+
 namespace vorocl::command {
 
 /// The extensions of files that a picture can be written to.
@@ -15,6 +17,6 @@ const std::vector<std::string>& picture_extensions();
 cv::Mat read_picture(const std::string& path);
 
 /// Throws Error if the file cannot be written.
-void write_picture(const std::string& path, const cv::Mat& picture);
+void write_picture(const OutputFile& file, const cv::Mat& picture);
 
 }  // namespace vorocl::command

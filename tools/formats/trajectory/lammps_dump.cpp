@@ -33,7 +33,9 @@ std::vector<std::string_view> split(std::string_view text) {
 
 RowLayout parse_columns(const LineReader& lines, std::string_view text, const std::string& value_column) {
   const std::vector<std::string_view> columns = split(text);
-  const auto value = find_value_column(lines, {columns.begin(), columns.end()}, value_column);
+  std::vector<Property> properties;
+  for (const std::string_view column : columns) properties.push_back({column});
+  const auto value = find_value_column(lines, properties, value_column);
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
     const auto found = std::find(columns.begin(), columns.end(), name);
     if (found == columns.end()) return std::nullopt;

@@ -70,7 +70,8 @@ void LineReader::set_line(std::size_t length) {
 
 void LineReader::read_block() {
   if (end_ - begin_ == buffer_.size()) {
-    throw error_at(number_ + 1, "the line is longer than a mebibyte; this is no text file of particles");
+    throw error_at(number_ + 1,
+                   "the line is longer than a mebibyte; this is no text file of points or particles");
   }
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;

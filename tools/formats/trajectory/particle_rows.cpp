@@ -45,15 +45,40 @@ double parse_value(const LineReader& lines, std::string_view field) {
   return *value;
 }
 
+/// The place of a column among those of a property, if it is one of them.
+std::optional<std::size_t> place_in(const Property& property, std::string_view column) {
+  if (property.columns == 1) return column == property.name ? std::optional<std::size_t>(0) : std::nullopt;
+  const std::string_view name = property.name;
+  if (column.size() < name.size() + 3 || column.substr(0, name.size()) != name) return std::nullopt;
+  const auto number =
+      parse_number<std::size_t>(column.substr(name.size() + 1, column.size() - name.size() - 2));
+  if (!number || *number < 1 || *number > property.columns) return std::nullopt;
+  return column == fmt::format("{}[{}]", name, *number) ? std::optional<std::size_t>(*number - 1)
+                                                        : std::nullopt;
+}
+
+/// Appends the names of its columns to a list, until that is long.
+void list(const Property& property, std::string& names) {
+  constexpr std::size_t longest = 1000;
+  for (std::size_t i = 1; i <= property.columns && names.size() < longest; ++i) {
+    names += names.empty() ? "" : ", ";
+    names += property.columns == 1 ? std::string(property.name) : fmt::format("{}[{}]", property.name, i);
+  }
+}
+
 }  // namespace
 
-std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<std::string>& names,
+std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<Property>& properties,
                                              const std::string& column) {
   if (column.empty()) return std::nullopt;
-  const auto found = std::find(names.begin(), names.end(), column);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  throw lines.error(
-      fmt::format("there is no column {}; there are {}", shown(column), fmt::join(names, ", ")));
+  std::size_t first = 0;
+  std::string names;
+  for (const Property& property : properties) {
+    if (const auto place = place_in(property, column)) return first + *place;
+    first += property.columns;
+    list(property, names);
+  }
+  throw lines.error(fmt::format("there is no column {}; there are {}", shown(column), names));
 }
 
 Error cut_off(const LineReader& lines, std::size_t frame_line) {
@@ -65,9 +90,9 @@ Error cut_off(const LineReader& lines, std::size_t frame_line) {
 
 ParticleCount parse_count(const LineReader& lines) {
   const auto value = parse_number<std::uint64_t>(lines.line());
-  if (!value || *value >= no_label) {
+  if (!value || *value > Grid::max_pixels) {
     throw lines.error(fmt::format("{} stands where a number of particles, from 0 to {}, is due",
-                                  shown(trimmed(lines.line())), no_label - 1));
+                                  shown(trimmed(lines.line())), Grid::max_pixels));
   }
   return {*value, lines.number()};
 }

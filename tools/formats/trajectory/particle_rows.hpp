@@ -18,7 +18,7 @@ struct ParticleCount {
   std::size_t line = 0;
 };
 
-/// The count in the present line. Throws Error if it is none, or more than there are labels.
+/// The count in the present line. Throws Error if it is none, or more than there can be seeds.
 ParticleCount parse_count(const LineReader& lines);
 
 /// Which fields of a row matter; the others are not looked at.
@@ -32,9 +32,15 @@ struct RowLayout {
   std::optional<std::size_t> value;
 };
 
-/// Where the column is among those of the file; none if its name is empty. Throws Error, which lists them, if
-/// it is not there.
-std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<std::string>& names,
+/// A value of each particle, which may have several columns.
+struct Property {
+  std::string_view name;
+  std::size_t columns = 1;
+};
+
+/// Where the column is among those of the file: NAME, or NAME[1], NAME[2], ... where a property has several.
+/// None if its name is empty. Throws Error, which lists what there is, if it is not there.
+std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<Property>& properties,
                                              const std::string& column);
 
 /// Reads the rows of one frame after another into the same memory.

@@ -128,7 +128,7 @@ RowLayout parse_properties(const LineReader& lines, std::string_view text, const
   if (parts.size() % 3 != 0) throw lines.error(shown(text) + " (Properties) is not made of name:type:count");
   RowLayout layout;
   bool has_position = false;
-  std::vector<std::string> names;
+  std::vector<Property> properties;
   for (std::size_t i = 0; i < parts.size(); i += 3) {
     const auto count = parse_number<std::uint16_t>(parts[i + 2]);
     if (!count) throw lines.error(shown(parts[i + 2]) + " (Properties) is no number of columns");
@@ -139,13 +139,10 @@ RowLayout parse_properties(const LineReader& lines, std::string_view text, const
     }
     if (parts[i] == "id" && *count == 1) layout.id = layout.fields;
     layout.fields += *count;
-    const std::string name(parts[i]);
-    for (int k = 1; k <= *count; ++k) {
-      names.push_back(*count == 1 ? name : name + "[" + std::to_string(k) + "]");
-    }
+    properties.push_back({parts[i], *count});
   }
   if (!has_position) throw lines.error("Properties name no position; there must be pos:R:3");
-  layout.value = find_value_column(lines, names, value_column);
+  layout.value = find_value_column(lines, properties, value_column);
   return layout;
 }
 
@@ -158,7 +155,7 @@ RowLayout parse_layout(const LineReader& lines, const Pairs& pairs, const std::s
   layout.may_have_more = true;
   layout.x = 1;
   layout.y = 2;
-  layout.value = find_value_column(lines, {"species", "x", "y", "z"}, value_column);
+  layout.value = find_value_column(lines, {{"species"}, {"x"}, {"y"}, {"z"}}, value_column);
   return layout;
 }
 

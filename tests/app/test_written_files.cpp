@@ -1,0 +1,168 @@
+// How the command writes files: whole or not at all, whatever is there, and whatever is in the way.
+#define BOOST_TEST_MODULE written_files
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "run_command.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const std::string render = "render --random 200 --size 256x256 --method jfa ";
+
+/// Settings under which the command runs on a disk of so many pages of 4 KiB; what it leaves there is in
+/// left/.
+std::string on_disk_of(std::uintmax_t pages) {
+  return "mkdir disk && unshare -m sh -c 'mount -t tmpfs -o size=" + std::to_string(4 * pages) +
+         "k none disk && cd disk && \"$@\"; code=$?; cp -a . ../left; exit $code' sh";
+}
+
+boost::test_tools::assertion_result may_mount(boost::unit_test::test_unit_id) {
+  return std::system("unshare -m true 2> /dev/null") == 0 && geteuid() == 0;
+}
+
+std::uintmax_t pages_of(const std::string& path) { return (std::filesystem::file_size(path) + 4095) / 4096; }
+
+/// Runs it where the disk is too small: it fails and leaves only whole files, which are those in the other
+/// folder.
+void fills_the_disk(const std::string& arguments, std::uintmax_t pages, const TemporaryFolder& whole) {
+  const TemporaryFolder folder;
+  const Result result = run(folder, arguments, on_disk_of(pages));
+  BOOST_TEST_CONTEXT(arguments << " on " << pages << " pages\n" << result.error) {
+    BOOST_TEST(result.exit_code == failure);
+    BOOST_TEST(result.out == "");
+    BOOST_TEST(result.error.rfind("vorocl: error: ", 0) == 0u);
+    for (const auto& entry : std::filesystem::directory_iterator(folder / "left")) {
+      const std::string name = entry.path().filename().string();
+      BOOST_TEST((content_of(folder / ("left/" + name)) == content_of(whole / name)), name);
+    }
+  }
+}
+
+mode_t mode_of(const std::string& path) {
+  struct stat status = {};
+  BOOST_REQUIRE(stat(path.c_str(), &status) == 0);
+  return status.st_mode & 0777;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(files_that_do_not_fit_on_the_disk_are_errors,
+                     *boost::unit_test::precondition(may_mount)) {
+  for (const std::string& arguments :
+       {render + "-o a.bmp", render + "-o a.png", render + "-o a.tif", render + "-o a.jpg",
+        render + "--labels a.npy", render + "--labels a.tif", render + "--labels a.vti",
+        std::string("cells --random 200 --size 256x256 --adjacency a.csv"),
+        std::string("cells --random 200 --size 256x256 --border a.png"),
+        std::string("relax --random 2000 --size 256x256 --rounds 1 --relaxed-points a.csv")}) {
+    const TemporaryFolder whole;
+    succeeds(whole, arguments);
+    const std::uintmax_t pages = pages_of(whole / *whole.names().begin());
+    fills_the_disk(arguments, pages - 1, whole);
+    const TemporaryFolder folder;
+    BOOST_TEST(run(folder, arguments, on_disk_of(pages)).exit_code == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(of_frames_that_do_not_fit_on_the_disk_the_whole_ones_stay,
+                     *boost::unit_test::precondition(may_mount)) {
+  const std::string simulate =
+      "simulate --random 200 --size 256x256 --frames 3 --step-length 1 --method jfa -o ";
+  for (const std::string name : {"%d.bmp", "%d.png", "a.mp4"}) {
+    const TemporaryFolder whole;
+    succeeds(whole, simulate + name);
+    std::uintmax_t pages = 0;
+    for (const std::string& file : whole.names()) pages += pages_of(whole / file);
+    for (std::uintmax_t room = 1; room < pages; room += 1 + pages / 9)
+      fills_the_disk(simulate + name, room, whole);
+    fills_the_disk(simulate + name, pages - 1, whole);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_is_replaced_keeps_its_mode) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.png", "a.npy", "f.mp4"}) {
+    for (const mode_t mode : {0600, 0664}) {
+      chmod(folder.file(name, "old").c_str(), mode);
+      succeeds(folder, name == std::string("f.mp4")
+                           ? "simulate --random 5 --size 64x64 --frames 2 --step-length 1 "
+                             "--method jfa -o f.mp4"
+                           : render + (name[2] == 'p' ? "-o " : "--labels ") + name);
+      BOOST_TEST(content_of(folder / name).size() > 100u);
+      BOOST_TEST(mode_of(folder / name) == mode);
+    }
+  }
+  succeeds(folder, render + "-o new.png");
+  const mode_t mask = umask(0);
+  umask(mask);
+  BOOST_TEST(mode_of(folder / "new.png") == (0666u & ~mask));
+}
+
+BOOST_AUTO_TEST_CASE(links_lead_to_what_is_replaced) {
+  const TemporaryFolder folder, elsewhere;
+  chmod(elsewhere.file("there.png", "old").c_str(), 0640);
+  std::filesystem::create_symlink(elsewhere / "there.png", folder / "a.png");
+  succeeds(folder, render + "-o a.png");
+  BOOST_TEST(std::filesystem::is_symlink(folder / "a.png"));
+  BOOST_TEST(cv::imread(elsewhere / "there.png").size() == cv::Size(256, 256));
+  BOOST_TEST(mode_of(elsewhere / "there.png") == 0640u);
+  BOOST_TEST((elsewhere.names() == std::set<std::string>{"there.png"}));
+  std::filesystem::create_symlink(elsewhere / "nowhere.npy", folder / "a.npy");
+  refuses(folder, render + "--labels a.npy", failure, {"a.npy", "link that leads nowhere"});
+}
+
+BOOST_AUTO_TEST_CASE(pipes_and_devices_are_written_into) {
+  const TemporaryFolder folder;
+  succeeds(folder, render + "--labels whole.npy -o whole.png");
+  for (const std::string name : {"pipe.npy", "pipe.png"}) {
+    BOOST_REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
+    const Result result = run(folder, render + (name == "pipe.npy" ? "--labels " : "-o ") + name,
+                              "{ cat " + name + " > read & } ;");
+    BOOST_TEST(result.exit_code == 0, result.error);
+    for (int i = 0; i < 100 && content_of(folder / "read").size() !=
+                                   content_of(folder / ("whole" + name.substr(4))).size();
+         ++i) {
+      usleep(50000);
+    }
+    BOOST_TEST((content_of(folder / "read") == content_of(folder / ("whole" + name.substr(4)))));
+    BOOST_TEST(std::filesystem::is_fifo(folder / name));
+  }
+  for (const char* name : {"full.npy", "full.png"})
+    std::filesystem::create_symlink("/dev/full", folder / name);
+  refuses(folder, render + "--labels full.npy", failure, {"writing full.npy failed: No space left"});
+  refuses(folder, render + "-o full.png", failure, {"writing full.png failed: No space left"});
+  BOOST_TEST(std::filesystem::is_symlink(folder / "full.npy"));
+  BOOST_REQUIRE(mkfifo((folder / "pipe.tif").c_str(), 0600) == 0);
+  BOOST_REQUIRE(mkfifo((folder / "pipe.mp4").c_str(), 0600) == 0);
+  refuses(folder, render + "--labels pipe.tif", failure, {"pipe.tif", "is a pipe", "TIFF"});
+  refuses(folder, "simulate --random 5 --size 9x9 --frames 1 --step-length 1 --method jfa -o pipe.mp4",
+          failure, {"pipe.mp4", "is a pipe", "film"});
+}
+
+BOOST_AUTO_TEST_CASE(names_may_be_as_long_as_the_file_system_takes) {
+  const TemporaryFolder folder;
+  const std::string longest = std::string(251, 'a');
+  succeeds(folder, render + "-o " + longest + ".png --labels " + longest + ".npy");
+  BOOST_TEST(folder.names().size() == 2u);
+  refuses(folder, render + "-o a" + longest + ".png", failure,
+          {"cannot write a" + longest + ".png: File name too long"});
+  refuses(folder,
+          "simulate --random 5 --size 9x9 --frames 1 --step-length 1 --method jfa -o " +
+              std::string(50200, 'a') + "%d.png --labels " + std::string(25100, 'b') + "%d.npy",
+          usage, {"--labels", "4095 characters"});
+}
+
+// The names that the command gave to its temporary files were ".vorocl-PROCESS-NUMBER-NAME": the shell, which
+// becomes the command, plants links of such names to a file that must stay as it is.
+BOOST_AUTO_TEST_CASE(planted_links_are_not_followed) {
+  const TemporaryFolder folder, elsewhere;
+  const std::string victim = elsewhere.file("victim", "precious");
+  run(folder, render + "-o a.png",
+      "for n in 0 1 2; do ln -s '" + victim + "' .vorocl-$$-$n-a.png; done; exec");
+  BOOST_TEST(content_of(victim) == "precious");
+  BOOST_TEST(cv::imread(folder / "a.png").size() == cv::Size(256, 256));
+}

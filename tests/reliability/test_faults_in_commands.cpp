@@ -1,0 +1,94 @@
+// The command while calls of OpenCL, of the file system and of memory fail: it ends with an error and leaves
+// whole files alone, or it makes the right ones. Of each kind of call that a subcommand makes, one fails;
+// with VOROCL_LONG_TESTS, 100.
+#define BOOST_TEST_MODULE faults_in_commands
+#include <random>
+
+#include "left_files.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const std::string subcommands[] = {
+    "render --random 9 --size 40x30 --method djfa -o a.png --labels a.npy",
+    "render --random 9 --size 40x30 --method standard-flooding --waves w/%d.bmp --labels a.tif",
+    "simulate --random 9 --size 40x30 --frames 4 --step-length 1 --method djfa -o f.mp4 --labels l/%05d.vti "
+    "--cells c%d.csv --compare-with exact --similarity s.csv",
+    "simulate --trajectory '" VOROCL_SAMPLES
+    "/lj-melt.lammpstrj' --width 40 --frames 2 --method exact -o p/%d.jpg "
+    "--distance d%d.npy --adjacency a%d.csv",
+    "cells --random 9 --size 40x30 --cells c.csv --adjacency a.csv --distance d.tif --border b.png --labels "
+    "l.npy",
+    "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
+    "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",
+    "evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
+    "ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
+    "devices"};
+
+struct Fault {
+  std::string subcommand;
+  std::string request;  // as faults.cpp reads it
+};
+
+std::string preloaded(const std::string& settings) { return "LD_PRELOAD='" VOROCL_FAULTS "' " + settings; }
+
+/// Some calls of every kind that a run of the subcommand makes, to fail once or from then on.
+std::vector<Fault> faults_of(const std::string& subcommand, std::size_t of_each_kind, std::mt19937& random) {
+  const TemporaryFolder folder;
+  const Result result = run(folder, subcommand, preloaded("VOROCL_FAULT_COUNTS=counts"));
+  BOOST_TEST(result.exit_code == 0, subcommand << "\n" << result.error);
+  std::vector<Fault> faults;
+  std::ifstream counts(folder / "counts");
+  std::string kind;
+  for (int calls = 0; counts >> kind >> calls;) {
+    std::vector<std::string> of_kind;
+    for (int number = 1; number <= calls; ++number) {
+      for (const char* mode : {"", " on"}) of_kind.push_back(kind + " " + std::to_string(number) + mode);
+    }
+    std::shuffle(of_kind.begin(), of_kind.end(), random);
+    of_kind.resize(std::min(of_kind.size(), of_each_kind));
+    for (const std::string& request : of_kind) faults.push_back({subcommand, request});
+  }
+  BOOST_TEST(faults.size() >= 8);
+  return faults;
+}
+
+/// Tables of times differ from run to run.
+bool has_times(const std::string& file) { return file == "times.csv"; }
+
+void check_with(const Fault& fault, const TemporaryFolder& whole) {
+  const TemporaryFolder folder;
+  const Result result = run(folder, fault.subcommand, preloaded("VOROCL_FAULT='" + fault.request + "'"));
+  BOOST_TEST_CONTEXT("VOROCL_FAULT='" << fault.request << "' vorocl " << fault.subcommand << "\n"
+                                      << result.error) {
+    if (result.exit_code == 0) {
+      BOOST_TEST((files_of(folder) == files_of(whole)));
+      for (const std::string& file : files_of(folder)) {
+        BOOST_TEST((has_times(file) || content_of(folder / file) == content_of(whole / file)), file);
+      }
+    } else {
+      BOOST_TEST(result.exit_code == failure);
+      BOOST_TEST(result.error.rfind("vorocl: error: ", 0) == 0u);
+      BOOST_TEST(result.error.back() == '\n');
+      BOOST_TEST(result.error.find(".vorocl-") == std::string::npos);
+      if (fault.subcommand.find("times.csv") == std::string::npos) check_left(folder, whole, false);
+    }
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files) {
+  std::mt19937 random(1);
+  const std::size_t of_each_kind = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 100 : 1;
+  std::size_t all = 0;
+  for (const std::string& subcommand : subcommands) {
+    const TemporaryFolder whole;
+    run(whole, subcommand);
+    const std::vector<Fault> faults = faults_of(subcommand, of_each_kind, random);
+    for (const Fault& fault : faults) check_with(fault, whole);
+    all += faults.size();
+  }
+  BOOST_TEST_MESSAGE(all << " calls failed");
+}

@@ -1,0 +1,184 @@
+#include "formats/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <climits>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <random>
+#include <system_error>
+#include <utility>
+
+#include "formats/files.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t buffer_bytes = 1 << 16;
+
+Error cannot_write(const std::string& path, const std::string& why) {
+  return Error("cannot write " + path + ": " + why);
+}
+
+/// For what the last system call said.
+Error failed_to_write(const std::string& path) {
+  return Error("writing " + path + " failed: " + reason(errno));
+}
+
+bool write_all(int file, const char* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t written = write(file, bytes, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    bytes += written;
+    count -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+std::string folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+/// ".vorocl-0123456789abcdef.mp4": short, so that it is possible wherever the output's name is, and with its
+/// extension, by which encoders tell the format.
+std::string random_path_beside(const std::string& target) {
+  std::random_device random;
+  std::string name = ".vorocl-";
+  for (int i = 0; i < 16; ++i) name += "0123456789abcdef"[random() % 16];
+  return (fs::path(folder_of(target)) / (name + extension_of(target))).string();
+}
+
+/// Where a link leads. It is opened first, because the system lets nobody write through links that others put
+/// into a folder where all may write.
+std::string target_of_link(const std::string& path, const struct stat& target) {
+  if (S_ISREG(target.st_mode)) {
+    const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file < 0) throw cannot_write(path, reason(errno));
+    close(file);
+  }
+  const std::unique_ptr<char, void (*)(void*)> resolved(realpath(path.c_str(), nullptr), std::free);
+  if (!resolved) throw cannot_write(path, reason(errno));
+  return resolved.get();
+}
+
+}  // namespace
+
+// --- OutputFile ---
+
+OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
+  struct stat link = {}, there = {};
+  const bool is_link = lstat(path.c_str(), &link) == 0 && S_ISLNK(link.st_mode);
+  if (stat(path.c_str(), &there) == 0) {
+    if (S_ISDIR(there.st_mode)) throw cannot_write(path, "it is a folder");
+    is_file_ = S_ISREG(there.st_mode);
+    if (!is_file_ && !S_ISFIFO(there.st_mode) && !S_ISCHR(there.st_mode)) {
+      throw cannot_write(path, "it is neither a file nor a pipe");
+    }
+    if (is_link) target_ = target_of_link(path, there);
+  } else {
+    const int code = errno;
+    if (is_link) throw cannot_write(path, "it is a link that leads nowhere");
+    if (!fs::path(path).has_filename()) throw cannot_write(path, "it is a folder");
+    std::error_code ignored;
+    if (code == ENOENT && !fs::is_directory(folder_of(path), ignored)) {
+      throw cannot_write(path, "the folder " + folder_of(path) + " does not exist");
+    }
+    if (code != ENOENT) throw cannot_write(path, reason(code));
+  }
+  // Permissions alone do not tell: the file system may be read-only, or full.
+  if (is_file_) GrowingFile{*this};
+}
+
+void OutputFile::require_file(const std::string& what) const {
+  if (!is_file_) throw cannot_write(path_, "it is a pipe or a device, and " + what + " needs a file");
+}
+
+// --- GrowingFile ---
+
+GrowingFile::GrowingFile(const OutputFile& file) : path_(file.path_), target_(file.target_) {
+  if (!file.is_file_) {
+    descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (descriptor_ < 0) throw cannot_write(path_, reason(errno));
+    return;
+  }
+  while (!open_beside(target_)) {
+    const int code = errno;
+    name_.reset();
+    if (code != EEXIST) throw cannot_write(path_, "no file can be made in its folder: " + reason(code));
+  }
+}
+
+GrowingFile::~GrowingFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (name_) unlink(name_->path().c_str());
+}
+
+/// False, with errno, if there is no new file now.
+bool GrowingFile::open_beside(const std::string& target) {
+  const std::string path = random_path_beside(target);
+  if (path.size() >= PATH_MAX) {
+    errno = ENAMETOOLONG;
+    return false;
+  }
+  name_.emplace(path);
+  struct stat replaced = {};
+  const bool replaces = stat(target.c_str(), &replaced) == 0;
+  descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                     replaces ? S_IRUSR | S_IWUSR : 0666);
+  // Where a file system has no such rights, the file stays its owner's alone.
+  if (descriptor_ >= 0 && replaces) static_cast<void>(fchmod(descriptor_, replaced.st_mode & 0777) == 0);
+  return descriptor_ >= 0;
+}
+
+void GrowingFile::write(const void* bytes, std::size_t count) {
+  const char* const first = static_cast<const char*>(bytes);
+  if (buffer_.size() + count > buffer_bytes) flush();
+  if (count > buffer_bytes) {
+    write_now(first, count);
+  } else {
+    buffer_.insert(buffer_.end(), first, first + count);
+  }
+}
+
+void GrowingFile::finish() {
+  flush();
+  // What a disk or a server refuses late, it refuses here: before the file has its name.
+  if (name_ && fsync(descriptor_) != 0 && errno != EINVAL)
+    throw failed_to_write(path_);  // EINVAL: cannot be asked there
+  if (close(std::exchange(descriptor_, -1)) != 0) throw failed_to_write(path_);
+  if (!name_) return;
+  if (rename(name_->path().c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
+  name_.reset();
+}
+
+void GrowingFile::flush() {
+  write_now(buffer_.data(), buffer_.size());
+  buffer_.clear();
+}
+
+void GrowingFile::write_now(const char* bytes, std::size_t count) {
+  if (!write_all(descriptor_, bytes, count)) throw failed_to_write(path_);
+}
+
+void append_to_file(const std::string& path, std::string_view text) {
+  const int file = open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  struct stat before = {};
+  if (file < 0 || fstat(file, &before) != 0) throw cannot_write(path, reason(errno));
+  const bool is_whole = write_all(file, text.data(), text.size()) && fsync(file) == 0;
+  const Error error = failed_to_write(path);
+  if (!is_whole) static_cast<void>(ftruncate(file, before.st_size) == 0);  // the error says enough
+  close(file);
+  if (!is_whole) throw error;
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,28 @@
+// The names that a run gives to files and folders for a while, so that whatever ends it can remove them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace vorocl::command {
+
+/// Remembers a name in its scope. It removes nothing by itself: what makes the file does.
+class TemporaryName {
+ public:
+  /// Before anything has the name. Throws Error if it is too long for a path.
+  explicit TemporaryName(const std::string& path);
+  ~TemporaryName();
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::size_t slot_;
+};
+
+/// Removes all files that have such a name, and folders if they are empty then. Safe in a signal handler.
+void remove_temporary_files() noexcept;
+
+}  // namespace vorocl::command
