@@ -7,14 +7,6 @@
 #include "exact/sizes.cl"
 #include "position.cl"
 
-#if VOROCL_WIDTH == 1
-#define AS_INT_V as_int
-#define AS_UINT_V as_uint
-#else
-#define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
-#define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
-#endif
-
 // THE BINS. Level 0 is the index itself; each bin of a higher level holds FAN x FAN bins of the level below.
 #define BIN (1 << BIN_BITS)
 #define FAN (1 << FAN_BITS)
