@@ -4,11 +4,9 @@
 
 #if VOROCL_WIDTH == 1
 typedef float float_v;
-#define TO_FLOATS convert_float
 #define TO_BYTES convert_uchar
 #else
 typedef JOIN(float, VOROCL_WIDTH) float_v;
-#define TO_FLOATS JOIN(convert_float, VOROCL_WIDTH)
 #define TO_BYTES JOIN(convert_uchar, VOROCL_WIDTH)
 #endif
 
@@ -36,9 +34,9 @@ VECTOR_KERNEL void float_distances(global const uint* restrict labels, global co
   const int x = vector_x(width), y = vector_y();
   const uint_v distance = find_distances(labels, positions, count, x, y, width, height);
 #ifdef VOROCL_EUCLIDEAN
-  const float_v in_pixels = sqrt(TO_FLOATS(distance));
+  const float_v in_pixels = sqrt(CONVERT_FLOAT_V(distance));
 #else
-  const float_v in_pixels = TO_FLOATS(distance);
+  const float_v in_pixels = CONVERT_FLOAT_V(distance);
 #endif
   STORE_VECTOR(select(in_pixels, (float_v)INFINITY, distance == NO_DISTANCE), out + y * width + x);
 }
