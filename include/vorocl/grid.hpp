@@ -30,8 +30,8 @@ enum class Neighbourhood {
   von_neumann,  ///< the 4 neighbours at the step length that share a row or a column with it
 };
 
-/// Which axes of a grid are periodic. The grid is then one period of a plane that repeats along them: distances
-/// go the shorter way round, and cells reach across the border.
+/// Which axes of a grid are periodic. The grid is then one period of a plane that repeats along them:
+/// distances go the shorter way round, and cells reach across the border.
 enum class Periodic { none, x, y, xy };
 
 /// The size of a diagram in pixels, row-major, (0, 0) at the top left, and which of its axes are periodic.

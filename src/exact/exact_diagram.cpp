@@ -33,7 +33,8 @@ std::size_t bins(const Grid& grid, int level) {
 
 /// The most seeds that the index lists: each with all its images, of which a pixel has one.
 std::size_t most_listed(const Grid& grid, std::size_t seeds) {
-  const auto frame = static_cast<std::size_t>(frame_width(grid)) * static_cast<std::size_t>(frame_height(grid));
+  const auto frame =
+      static_cast<std::size_t>(frame_width(grid)) * static_cast<std::size_t>(frame_height(grid));
   const auto images = [](int frame_side, int side) {
     return static_cast<std::size_t>((frame_side - 1) / side) + 1;
   };
@@ -125,8 +126,8 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   }
   kernel("share_out_list").over_items(down, starts, list_end, width, height);
   kernel("start_words").over_items(bins(grid, 0), bits, starts, word_starts, width, height);
-  kernel("list_seeds").over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width,
-                                    height);
+  kernel("list_seeds")
+      .over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")
       .over_items(std::min(seeds.size(), most_items_for_duplicates), seeds.positions(), duplicates,
                   duplicate_count, bits, word_starts, ids, width, height);

@@ -68,7 +68,7 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
     cell.top = std::min(cell.top, y);
     cell.right = std::max(cell.right, x);
     cell.bottom = std::max(cell.bottom, y);
-    const auto far = static_cast<double>(distance({x, y}, seeds.at(label), metric));
+    const auto far = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
     cell.farthest = std::max(cell.farthest, metric == Metric::euclidean ? std::sqrt(far) : far);
     for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
       if (x + dx < 0 || x + dx >= grid.width() || y + dy < 0 || y + dy >= grid.height()) continue;
@@ -150,7 +150,7 @@ inline std::size_t wrong_distances(const command::LabelImage& image, const std::
   BOOST_TEST_REQUIRE(distances.size() == image.grid.pixels());
   std::size_t wrong = 0, i = 0;
   each_pixel(image.grid, image.labels, [&](std::uint32_t label, int x, int y) {
-    const auto d = static_cast<double>(distance({x, y}, seeds.at(label), metric));
+    const auto d = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
     const double expected = metric == Metric::euclidean ? std::sqrt(d) : d;
     wrong += std::abs(distances[i++] - expected) > 1e-6 * expected ? 1 : 0;
   });
