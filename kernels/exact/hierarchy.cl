@@ -101,38 +101,35 @@ static inline uint image_of_seed(const SeedIndex* index, uint seed, uint bin) {
 #endif
 }
 
-// Whether an image of a bin has pixels of the grid that may matter to the search's box.
-static inline bool may_matter(const Search* search, const SeedIndex* index, uint bin) {
-#ifdef VOROCL_PERIODIC
-  const Box box = search->box;
-  const int size = 1 << bin_bits(search->level);
-  const int grid_x = index->x0 + (int)PERIODS_X(bin) * index->width;
-  const int grid_y = index->y0 + (int)PERIODS_Y(bin) * index->height;
-  const int left = (int)COLUMN_OF(bin) * size + (int)SHIFT_X(index, bin);
-  const int top = packed_y(bin) * size + (int)SHIFT_Y(index, bin);
-  const int first_x = max(left, grid_x), last_x = min(left + size, grid_x + index->width) - 1;
-  const int first_y = max(top, grid_y), last_y = min(top + size, grid_y + index->height) - 1;
-  if (first_x > last_x || first_y > last_y) return false;
-  return (!PERIODIC_X || within_half_a_period(first_x, last_x, box.left, box.right, index->width)) &&
-         (!PERIODIC_Y || within_half_a_period(first_y, last_y, box.top, box.bottom, index->height));
-#else
-  (void)search, (void)index, (void)bin;
-  return true;
-#endif
+// The bins of a level, along an axis, of which an image may matter to a box: they have pixels of the grid, and none is
+// farther than half a period. The image is `shift` pixels away from where the frame has the bins.
+typedef struct {
+  int first, last;
+} Bins;
+static inline Bins bins_that_matter(int box_first, int box_last, int shift, int size, int margin, int periodic, int bits) {
+  const int reach = periodic ? size / 2 : LAST_COORDINATE;
+  const Bins bins = {max(box_first - reach - shift, margin) >> bits,
+                     min(box_last + reach - shift, margin + size - 1) >> bits};
+  return bins;
 }
 
 // Adds those bins of a square of the search's level, of one image, that are not empty and may matter.
 static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, uint image, int x, int y,
                             int size) {
-  const int columns = columns_of(index->width, search->level), rows = rows_of(index->height, search->level);
+  const Box box = search->box;
+  const int bits = bin_bits(search->level), columns = columns_of(index->width, search->level);
+  const Bins across = bins_that_matter(box.left, box.right, (int)SHIFT_X(index, image), index->width, MARGIN_X,
+                                       PERIODIC_X, bits);
+  const Bins down = bins_that_matter(box.top, box.bottom, (int)SHIFT_Y(index, image), index->height, MARGIN_Y,
+                                     PERIODIC_Y, bits);
   global const uint* const level = pyramid + level_start(index->width, index->height, search->level);
-  for (int bin_y = y; bin_y < min(y + size, rows); ++bin_y) {
-    for (int bin_x = x; bin_x < min(x + size, columns); ++bin_x) {
+  for (int bin_y = max(y, down.first); bin_y <= min(y + size - 1, down.last); ++bin_y) {
+    for (int bin_x = max(x, across.first); bin_x <= min(x + size - 1, across.last); ++bin_x) {
       const uint representative = level[bin_y * columns + bin_x];
       const uint bin = pack(bin_x, bin_y) | image | (representative & MORE);
       search->bins[search->bin_count] = bin;
       search->representatives[search->bin_count] = image_of_seed(index, representative & ~MORE, bin);
-      search->bin_count += representative != EMPTY && may_matter(search, index, bin);
+      search->bin_count += representative != EMPTY;
     }
   }
 }

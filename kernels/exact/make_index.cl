@@ -22,7 +22,7 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
 #ifdef VOROCL_PERIODIC
   FOR_EACH_IMAGE(x, y, positions[id], width, height) {
     const uint of_image = BIT_INDEX(pack(x, y), columns);
-    atomic_or(bits + of_image / 32, 1u << of_image % 32);
+    if (of_image != index) atomic_or(bits + of_image / 32, 1u << of_image % 32);
   }
 #endif
 }
