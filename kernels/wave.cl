@@ -17,10 +17,11 @@ static inline uint_v inside_row(int x, int width, uint_v values, uint_v outside)
   static inline uint_v name(global const type* image, int x, int y, int width, int height) {           \
     x = wrapped_x(x, width);                                                                           \
     y = wrapped_y(y, height);                                                                          \
-    if (y < 0 || y >= height || x <= -VOROCL_WIDTH || x >= width) return none;                         \
+    if (!PERIODIC_Y && (y < 0 || y >= height)) return none;                                            \
+    if (!PERIODIC_X && (x <= -VOROCL_WIDTH || x >= width)) return none;                                \
     global const type* const row = image + VOROCL_GUARD + y * width;                                   \
     const uint_v values = load(row + x);                                                               \
-    if (x >= 0 && x + VOROCL_WIDTH <= width) return values;                                            \
+    if ((PERIODIC_X || x >= 0) && x + VOROCL_WIDTH <= width) return values;                            \
     return inside_row(x, width, values, PERIODIC_X ? load(row + x - width) : (uint_v)none);            \
   }
 DEFINE_LOAD(load_labels, uint, LOAD_VECTOR, EMPTY)
