@@ -11,9 +11,12 @@
 static inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
 
 // The ids of the cells on both sides of an edge, the lower one first.
-static inline uint2 pair_at(global const uint* labels, int width, uint edge) {
-  const uint pixel = edge >> 1;
-  const uint p = labels[pixel], q = labels[pixel + (edge & 1 ? (uint)width : 1u)];
+static inline uint2 pair_at(global const uint* labels, int width, int height, uint edge) {
+  const uint pixel = edge >> 1, is_below = edge & 1;
+  uint other = pixel + (is_below ? (uint)width : 1u);
+  if (PERIODIC_Y && is_below && other >= (uint)(width * height)) other -= (uint)(width * height);
+  if (PERIODIC_X && !is_below && other % (uint)width == 0) other -= (uint)width;
+  const uint p = labels[pixel], q = labels[other];
   return (uint2)(min(p, q), max(p, q));
 }
 
@@ -24,13 +27,13 @@ static inline uint hash_of(uint2 pair) {
 }
 
 // Adds to the length of the border that an edge belongs to. The table has 2^bits slots, of which most stay free.
-static inline void add_border(global const uint* labels, int width, uint edge, uint length, uint mask,
-                              global uint* slots, global uint* lengths, global uint* overflow) {
-  const uint2 pair = pair_at(labels, width, edge);
+static inline void add_border(global const uint* labels, int width, int height, uint edge, uint length,
+                              uint mask, global uint* slots, global uint* lengths, global uint* overflow) {
+  const uint2 pair = pair_at(labels, width, height, edge);
   uint at = hash_of(pair) & mask;
   for (int probe = 0; probe < MOST_PROBES; ++probe, at = (at + 1) & mask) {
     const uint holder = atomic_cmpxchg(slots + at, EMPTY_SLOT, edge);
-    if (holder == EMPTY_SLOT || all(pair_at(labels, width, holder) == pair)) {
+    if (holder == EMPTY_SLOT || all(pair_at(labels, width, height, holder) == pair)) {
       atomic_add(lengths + at, length);
       return;
     }
@@ -46,30 +49,31 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
   if (!take_block(width, height, wide, high, &block)) return;
   for (int y = block.top; y < block.bottom; ++y) {
     global const uint* const row = labels + y * width;
-    global const uint* const below = y + 1 < height ? row + width : row;
+    global const uint* const below = y + 1 < height ? row + width : PERIODIC_Y ? labels : row;
     walk_t walk = begin_walk(row, below, block.left, block.right);
     while (next_run(&walk)) {
       const int last = walk.to - 1;
       const uint pixel = (uint)(y * width + last), label = row[last];
       if (label >= count) continue;
-      if (walk.to < width && row[walk.to] < count && row[walk.to] != label) {
-        add_border(labels, width, edge_of(pixel, 0), 1u, mask, slots, lengths, overflow);
+      const int right = PERIODIC_X || walk.to < width ? wrapped_x(walk.to, width) : last;
+      if (row[right] < count && row[right] != label) {
+        add_border(labels, width, height, edge_of(pixel, 0), 1u, mask, slots, lengths, overflow);
       }
       if (below[last] < count && below[last] != label) {
-        add_border(labels, width, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths, overflow);
+        add_border(labels, width, height, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths, overflow);
       }
     }
   }
 }
 
 // Counts each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell.
-kernel void count_neighbours(global const uint* restrict labels, int width, uint slot_count,
+kernel void count_neighbours(global const uint* restrict labels, int width, int height, uint slot_count,
                              global const uint* restrict slots, global const uint* restrict lengths,
                              global uint* restrict pairs, global uint* restrict neighbours,
                              global uint* restrict perimeters) {
   const uint at = (uint)get_global_id(0);
   if (at >= slot_count || slots[at] == EMPTY_SLOT) return;
-  const uint2 pair = pair_at(labels, width, slots[at]);
+  const uint2 pair = pair_at(labels, width, height, slots[at]);
   atomic_inc(pairs + pair.s0);
   atomic_inc(neighbours + pair.s0);
   atomic_inc(neighbours + pair.s1);
@@ -78,13 +82,13 @@ kernel void count_neighbours(global const uint* restrict labels, int width, uint
 }
 
 // Puts each pair into the place of its first cell's pairs; `first` is where that begins in the list.
-kernel void place_pairs(global const uint* restrict labels, int width, uint slot_count,
+kernel void place_pairs(global const uint* restrict labels, int width, int height, uint slot_count,
                         global const uint* restrict slots, global const uint* restrict lengths,
                         global const uint* restrict first, global uint* restrict placed,
                         global uint* restrict pair_list) {
   const uint at = (uint)get_global_id(0);
   if (at >= slot_count || slots[at] == EMPTY_SLOT) return;
-  const uint2 pair = pair_at(labels, width, slots[at]);
+  const uint2 pair = pair_at(labels, width, height, slots[at]);
   const uint place = first[pair.s0] + atomic_inc(placed + pair.s0);
   vstore3((uint3)(pair, lengths[at]), place, pair_list);
 }

@@ -57,6 +57,40 @@ kernel void add_sums(global const uint* restrict labels, uint count, int width, 
   }
 }
 
+// How many periods the pixels of a cell are away, in sum, from where they lie the shorter way round from its seed. For
+// grids with a periodic axis.
+kernel void add_periods(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
+                        int height, int wide, int high, global int* restrict periods_x, global int* restrict periods_y) {
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
+      if (label >= count) continue;
+      const int seed_x = packed_x(positions[label]), inside_y = y - packed_y(positions[label]);
+      int sum_x = 0;
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        to = piece_end(from, walk.to, seed_x, width);
+        sum_x += (shorter_way_x(from - seed_x, width) - (from - seed_x)) / width * (to - from);
+      }
+      const int sum_y = (shorter_way_y(inside_y, height) - inside_y) / height * (walk.to - walk.from);
+      if (sum_x != 0) atomic_add(periods_x + label, sum_x);
+      if (sum_y != 0) atomic_add(periods_y + label, sum_y);
+    }
+  }
+}
+
+// Moves the sums there.
+kernel void unwrap_sums(uint count, int width, int height, global const int* restrict periods_x,
+                        global const int* restrict periods_y, global long* restrict sum_x, global long* restrict sum_y) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  sum_x[id] += (long)periods_x[id] * width;
+  sum_y[id] += (long)periods_y[id] * height;
+}
+
 // Adds the home sums to the others, and turns the pairs into 64-bit numbers.
 kernel void join_sums(uint count, int width, int wide, int high, global uint* restrict area,
                       global uint2* restrict sum_x, global uint2* restrict sum_y, global const ushort* restrict home,

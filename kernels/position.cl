@@ -50,36 +50,115 @@ static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES;
 // The distance of two pixels that are (dx, dy) apart.
 static inline uint distance_of_offset(int dx, int dy) { return (uint)(ALONG(dx) + ALONG(dy)); }
 
+// PERIODIC AXES. The build options VOROCL_PERIODIC_X and VOROCL_PERIODIC_Y say which axes are periodic: their period is
+// the grid's side, and distances go the shorter way round.
+#if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y)
+#define VOROCL_PERIODIC
+#endif
+#ifdef VOROCL_PERIODIC_X
+#define PERIODIC_X 1
+#else
+#define PERIODIC_X 0
+#endif
+#ifdef VOROCL_PERIODIC_Y
+#define PERIODIC_Y 1
+#else
+#define PERIODIC_Y 0
+#endif
+
+// The periods of both axes, packed; on an axis that is not periodic it is too long for a way round.
+#define NO_PERIOD 0xffffu
+static inline uint periods(int width, int height) {
+  return (PERIODIC_X ? (uint)width : NO_PERIOD) | (PERIODIC_Y ? (uint)height : NO_PERIOD) << 16;
+}
+
+// The way between two coordinates of an axis, given the way inside the grid: the shorter one if the axis is periodic,
+// and of two halves of the period the positive one.
+static inline int shorter_way(int inside, int size, int periodic) {
+  if (!periodic) return inside;
+  if (2 * inside > size) return inside - size;
+  return 2 * inside <= -size ? inside + size : inside;
+}
+static inline int shorter_way_x(int inside, int width) { return shorter_way(inside, width, PERIODIC_X); }
+static inline int shorter_way_y(int inside, int height) { return shorter_way(inside, height, PERIODIC_Y); }
+
+// A coordinate that is less than a period outside the grid, brought back into it if the axis is periodic.
+static inline int wrapped(int at, int size, int periodic) {
+  if (!periodic) return at;
+  return at < 0 ? at + size : at >= size ? at - size : at;
+}
+static inline int wrapped_x(int x, int width) { return wrapped(x, width, PERIODIC_X); }
+static inline int wrapped_y(int y, int height) { return wrapped(y, height, PERIODIC_Y); }
+
+// The packed positions of the pixels that a vector has whose first pixel is at (x, y), less than a period outside the
+// grid.
+static inline uint_v positions_in_grid(int x, int y, int width, int height) {
+  x = wrapped_x(x, width);
+  const uint_v position = pack(0, wrapped_y(y, height)) + ((uint)x + LANES);  // x may be below 0
+  if (!PERIODIC_X || x + VOROCL_WIDTH <= width) return position;
+  return select(position - (uint)width, position, (uint)x + LANES < (uint_v)(uint)width);
+}
+
 // The distance between two packed positions, vectors of them. The coordinates are subtracted as 16-bit numbers, which
 // cannot overflow for real positions. The distance is then the sum of two products of 16-bit numbers, a form that
 // compilers turn into one multiply-add instruction (pmaddwd on x86).
 #define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
-  static inline uint_n name(uint_n a, uint_n b) {                                                     \
-    const short_2n difference = as_short_2n(a) - as_short_2n(b);                                      \
-    const short_2n factor = FACTOR(difference);                                                       \
-    return as_uint_n(convert_int_n(difference.even) * convert_int_n(factor.even) +                    \
-                     convert_int_n(difference.odd) * convert_int_n(factor.odd));                      \
-  }
+  static inline uint_n name##_by_offset(short_2n offset) {                                            \
+    const short_2n factor = FACTOR(offset);                                                           \
+    return as_uint_n(convert_int_n(offset.even) * convert_int_n(factor.even) +                        \
+                     convert_int_n(offset.odd) * convert_int_n(factor.odd));                          \
+  }                                                                                                   \
+  static inline uint_n name(uint_n a, uint_n b) { return name##_by_offset(as_short_2n(a) - as_short_2n(b)); }
 
-#if VOROCL_WIDTH == 1
-DEFINE_DISTANCE_BETWEEN(distance_between, uint, short2, as_uint, as_short2, convert_int)
-#elif VOROCL_WIDTH == 2
-DEFINE_DISTANCE_BETWEEN(distance_between, uint2, short4, as_uint2, as_short4, convert_int2)
-#elif VOROCL_WIDTH == 4
-DEFINE_DISTANCE_BETWEEN(distance_between, uint4, short8, as_uint4, as_short8, convert_int4)
-#elif VOROCL_WIDTH == 8
-DEFINE_DISTANCE_BETWEEN(distance_between, uint8, short16, as_uint8, as_short16, convert_int8)
-#else
+// Two 16-bit numbers per lane: the coordinates of a vector of positions.
+#if VOROCL_WIDTH == 16
 // The vectors of OpenCL C end at 16 values. Those of clang do not, and the drivers of CPUs are built on clang. Two halves
 // of 8 pixels that are joined afterwards become 17 instructions instead of 2 from LLVM 18 on, because it joins them
 // before it looks for the multiply-add.
-typedef short short32 __attribute__((ext_vector_type(32)));
-#define as_short32(values) __builtin_astype(values, short32)
-DEFINE_DISTANCE_BETWEEN(distance_between, uint16, short32, as_uint16, as_short32, convert_int16)
+typedef short short_2v __attribute__((ext_vector_type(32)));
+typedef ushort ushort_2v __attribute__((ext_vector_type(32)));
+#define AS_SHORT_2V(values) __builtin_astype(values, short_2v)
+#define AS_USHORT_2V(values) __builtin_astype(values, ushort_2v)
+#else
+#if VOROCL_WIDTH == 8
+#define COORDINATES 16
+#elif VOROCL_WIDTH == 4
+#define COORDINATES 8
+#elif VOROCL_WIDTH == 2
+#define COORDINATES 4
+#else
+#define COORDINATES 2
 #endif
+typedef JOIN(short, COORDINATES) short_2v;
+typedef JOIN(ushort, COORDINATES) ushort_2v;
+#define AS_SHORT_2V JOIN(as_short, COORDINATES)
+#define AS_USHORT_2V JOIN(as_ushort, COORDINATES)
+#endif
+DEFINE_DISTANCE_BETWEEN(distance_between, uint_v, short_2v, AS_UINT_V, AS_SHORT_2V, CONVERT_INT_V)
 
-// As distance_between(), where the position may be empty: that is farther than any seed. The subtraction makes a
+// The distance between two packed positions of the grid, the shorter way round along periodic axes; `period` is that of
+// periods().
+static inline uint_v distance_in_grid(uint_v a, uint_v b, uint period) {
+#ifdef VOROCL_PERIODIC
+  // Past half a period the way inside the grid less the period is the shorter one, below 0. (Of the least of two ways,
+  // which is never below 0, compilers make no multiply-add.)
+  const short_2v offset = AS_SHORT_2V(a) - AS_SHORT_2V(b), sign = offset >> (short)15;
+  const short_2v inside = (offset ^ sign) - sign, whole = AS_SHORT_2V((uint_v)period);
+  const short_2v half_of_it = AS_SHORT_2V(AS_USHORT_2V(whole) >> (ushort)1);
+  return distance_between_by_offset(inside - (whole & (inside > half_of_it)));
+#else
+  (void)period;
+  return distance_between(a, b);
+#endif
+}
+
+// As distance_in_grid(), where the position may be empty: that is farther than any seed. The subtraction makes a
 // meaningless number of an empty position, but the sign bit alone puts it past every real distance.
+static inline uint_v distance_to_label_in_grid(uint_v position, uint_v pixel, uint period) {
+  return distance_in_grid(position, pixel, period) | (position & EMPTY_BIT);
+}
+
+// The same where no way goes round: between positions that stand for images of the seeds too.
 static inline uint_v distance_to_label(uint_v position, uint_v pixel) {
   return distance_between(position, pixel) | (position & EMPTY_BIT);
 }

@@ -14,27 +14,31 @@ kernel void add_energy(global const uint* restrict labels, global const uint* re
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
-      const long n = walk.to - walk.from;
-      const long x = walk.from - packed_x(positions[label]), dy = y - packed_y(positions[label]);
-      energy += (ulong)(n * (x * x + dy * dy) + x * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6);
+      const int seed_x = packed_x(positions[label]);
+      const long dy = shorter_way_y(y - packed_y(positions[label]), height);
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        to = piece_end(from, walk.to, seed_x, width);
+        const long n = to - from, x = shorter_way_x(from - seed_x, width);
+        energy += (ulong)(n * (x * x + dy * dy) + x * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6);
+      }
     }
   }
   energies[block.index] = energy;
 }
 
 // The coordinate nearest to the mean; of two, the present one.
-static inline int nearest_to_mean(ulong sum, uint area, int present) {
-  const int low = (int)(sum / area);
-  const ulong twice_the_rest = 2 * (sum % area);
-  if (twice_the_rest == area) return present == low + 1 ? present : low;
-  return twice_the_rest < area ? low : low + 1;
+static inline int nearest_to_mean(long sum, uint area, int present) {
+  const long quotient = sum / (long)area, low = quotient * (long)area > sum ? quotient - 1 : quotient;
+  const long twice_the_rest = 2 * (sum - low * (long)area);
+  if (twice_the_rest == (long)area) return present == (int)low + 1 ? present : (int)low;
+  return twice_the_rest < (long)area ? (int)low : (int)low + 1;
 }
 
 // Counts the seeds that moved, and finds the greatest displacement along an axis; each work-item for a chunk of the seeds,
 // so that few meet there.
 kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
-                              global const ulong* restrict sum_x, global const ulong* restrict sum_y,
-                              global uint* restrict moved_and_displacement) {
+                              global const long* restrict sum_x, global const long* restrict sum_y, int width,
+                              int height, global uint* restrict moved_and_displacement) {
   const uint begin = (uint)get_global_id(0) * chunk;
   if (begin >= count) return;
   const uint end = min(begin + chunk, count);
@@ -46,7 +50,7 @@ kernel void move_to_centroids(global uint* restrict positions, uint count, uint 
     const uint displacement = max(abs(new_x - x), abs(new_y - y));
     moved += displacement > 0 ? 1u : 0u;
     max_displacement = max(max_displacement, displacement);
-    positions[id] = pack(new_x, new_y);
+    positions[id] = pack(wrapped_x(new_x, width), wrapped_y(new_y, height));
   }
   if (moved == 0) return;
   atomic_add(moved_and_displacement, moved);

@@ -18,6 +18,11 @@ typedef int int_v;
 #define STORE_VECTOR(values, pointer) (*(pointer) = (values))
 #define STORE_WHOLE_VECTOR STORE_VECTOR
 #define LOAD_BYTES(pointer) ((uint)*(pointer))
+#define AS_INT_V as_int
+#define AS_UINT_V as_uint
+#define CONVERT_INT_V convert_int
+#define CONVERT_INT_V_DOWN convert_int_rtn
+#define CONVERT_FLOAT_V convert_float
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
 #define ANY(condition) (condition)
 #else
@@ -31,6 +36,11 @@ typedef struct __attribute__((packed)) {
 } unaligned_v;
 #define STORE_WHOLE_VECTOR(vector, pointer) (((global unaligned_v*)(pointer))->values = (vector))
 #define LOAD_BYTES(pointer) JOIN(convert_uint, VOROCL_WIDTH)(JOIN(vload, VOROCL_WIDTH)(0, pointer))
+#define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
+#define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
+#define CONVERT_INT_V JOIN(convert_int, VOROCL_WIDTH)
+#define CONVERT_INT_V_DOWN JOIN(CONVERT_INT_V, _rtn)
+#define CONVERT_FLOAT_V JOIN(convert_float, VOROCL_WIDTH)
 #define ANY(condition) any(condition)
 #endif
 

@@ -83,8 +83,8 @@ void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& resu
   }
   fill(device, found.first, cl_uint{0}, cells + 1);
   const auto slot_count = static_cast<cl_uint>(slots);
-  run("count_neighbours", slots, diagram.labels(), grid.width(), slot_count, found.slots, found.lengths,
-      found.first, found.neighbours, found.perimeters);
+  run("count_neighbours", slots, diagram.labels(), grid.width(), grid.height(), slot_count, found.slots,
+      found.lengths, found.first, found.neighbours, found.perimeters);
 
   // The list's size must come to the host in any case, to allocate it: the running sum is made there too.
   std::vector<cl_uint> first = download<cl_uint>(device, found.first, cells + 1);
@@ -96,8 +96,8 @@ void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& resu
   }
   upload(device, found.first, first);
   make_room(found.pair_list, device, pairs * words_per_pair * word);
-  run("place_pairs", slots, diagram.labels(), grid.width(), slot_count, found.slots, found.lengths,
-      found.first, found.placed, found.pair_list);
+  run("place_pairs", slots, diagram.labels(), grid.width(), grid.height(), slot_count, found.slots,
+      found.lengths, found.first, found.placed, found.pair_list);
   run("sort_pairs", cells, count, found.first, found.pair_list);
   diagram.wait();
   measured.check();
@@ -133,10 +133,11 @@ std::size_t count_vertices(const Diagram& diagram) {
   if (grid.width() == 1 || grid.height() == 1) return 0;
   const cl::Buffer vertices = allocate(device, sizeof(cl_uint), "the vertices");
   fill(device, vertices, cl_uint{0}, 1);
-  const std::size_t across = (static_cast<std::size_t>(grid.width()) - 2) / corners_per_item + 1;
+  const auto columns = static_cast<std::size_t>(grid.periodic_x() ? grid.width() : grid.width() - 1);
+  const auto rows = static_cast<std::size_t>(grid.periodic_y() ? grid.height() : grid.height() - 1);
+  const std::size_t across = (columns - 1) / corners_per_item + 1;
   Kernel(device, "vertices.cl", "find_vertices", grid)
-      .over_items(across * static_cast<std::size_t>(grid.height() - 1), diagram.labels(), grid.width(),
-                  grid.height(), corners_per_item, vertices);
+      .over_items(across * rows, diagram.labels(), grid.width(), grid.height(), corners_per_item, vertices);
   diagram.wait();
   return download<cl_uint>(device, vertices, 1).front();
 }

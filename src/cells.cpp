@@ -17,8 +17,8 @@ constexpr std::size_t cells_per_item = 1024;
 
 struct CellSumsState : Measured {
   cl::Buffer area, sum_x, sum_y;
-  cl::Buffer home, home_sums;  // while the sums are made: see cells.cl
-  cl::Buffer partial;          // of the statistics
+  cl::Buffer home, home_sums, periods_x, periods_y;  // while the sums are made: see cells.cl
+  cl::Buffer partial;                                // of the statistics
 };
 
 struct CellShapesState : Measured {
@@ -59,8 +59,8 @@ Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& res
   const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
   make_room(sums.area, device, count * sizeof(cl_uint));
-  make_room(sums.sum_x, device, count * sizeof(cl_ulong));
-  make_room(sums.sum_y, device, count * sizeof(cl_ulong));
+  make_room(sums.sum_x, device, count * sizeof(cl_long));
+  make_room(sums.sum_y, device, count * sizeof(cl_long));
   make_room(sums.home, device, count * sizeof(cl_ushort));
   make_room(sums.home_sums, device, count * sizeof(cl_ulong));
 
@@ -74,8 +74,18 @@ Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& res
   const cl::Event added =
       blocks.run(sums.kernels, "cells.cl", "add_sums", {}, diagram.labels(), count, width, grid.height(),
                  wide, high, sums.area, sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
-  const cl::Event last = run_over_cells("join_sums", count, width, wide, high, sums.area, sums.sum_x,
-                                        sums.sum_y, sums.home, sums.home_sums);
+  cl::Event last = run_over_cells("join_sums", count, width, wide, high, sums.area, sums.sum_x, sums.sum_y,
+                                  sums.home, sums.home_sums);
+  if (grid.periodic() != Periodic::none && count > 0) {
+    for (cl::Buffer* const periods : {&sums.periods_x, &sums.periods_y}) {
+      make_room(*periods, device, count * sizeof(cl_int));
+      fill(device, *periods, cl_int{0}, count);
+    }
+    blocks.run(sums.kernels, "cells.cl", "add_periods", {}, diagram.labels(), seeds.positions(), count, width,
+               grid.height(), wide, high, sums.periods_x, sums.periods_y);
+    last = run_over_cells("unwrap_sums", count, width, grid.height(), sums.periods_x, sums.periods_y,
+                          sums.sum_x, sums.sum_y);
+  }
   const Report report = report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
   sums.frames = std::move(measured);
   return report;
@@ -86,8 +96,8 @@ std::vector<CellSums> CellSumsResult::read() const {
   state_->frames.check();
   const Device& device = state_->frames.seeds->device;
   const auto area = download<cl_uint>(device, state_->area, size());
-  const auto sum_x = download<cl_ulong>(device, state_->sum_x, size());
-  const auto sum_y = download<cl_ulong>(device, state_->sum_y, size());
+  const auto sum_x = download<cl_long>(device, state_->sum_x, size());
+  const auto sum_y = download<cl_long>(device, state_->sum_y, size());
   std::vector<CellSums> cells;
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) cells.push_back({area[id], sum_x[id], sum_y[id]});
@@ -126,8 +136,9 @@ std::vector<CellShape> CellShapesResult::read() const {
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) {
     const int left = boxes[id].s[0], top = boxes[id].s[1], right = boxes[id].s[2], bottom = boxes[id].s[3];
-    const bool touches =
-        left == 0 || top == 0 || right == seeds.grid.width() - 1 || bottom == seeds.grid.height() - 1;
+    const Grid& grid = seeds.grid;
+    const bool touches = (!grid.periodic_x() && (left == 0 || right == grid.width() - 1)) ||
+                         (!grid.periodic_y() && (top == 0 || bottom == grid.height() - 1));
     cells.push_back({left, top, right, bottom, distances[id], touches});
   }
   return cells;

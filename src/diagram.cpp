@@ -15,7 +15,9 @@ namespace {
 std::size_t bytes_of(const Grid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
 
 std::string size_text(const Grid& grid) {
-  return std::to_string(grid.width()) + " x " + std::to_string(grid.height());
+  const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
+  return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) +
+         periodic[static_cast<int>(grid.periodic())];
 }
 
 }  // namespace

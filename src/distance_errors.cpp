@@ -22,7 +22,7 @@ DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const
   const cl::Buffer excesses = allocate(device, items * sizeof(cl_float2), "the errors");
   Kernel(device, "distance_errors.cl", "judge_labels", grid, {metric})
       .over_items(items, diagram.labels(), exact.labels(), seeds.positions(),
-                  static_cast<cl_uint>(seeds.size()), static_cast<cl_uint>(grid.pixels()), grid.width(),
+                  static_cast<cl_uint>(seeds.size()), grid.width(), grid.height(),
                   static_cast<cl_uint>(pixels_per_item), wrong, excesses);
   diagram.wait();
   exact.wait();

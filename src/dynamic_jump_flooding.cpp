@@ -50,7 +50,7 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_di
 
   flood.advance_labels();
   for (std::size_t i = 0; i + 1 < plan.size(); ++i) flood.wave(plan[i]);
-  flood.last_wave(plan.empty() ? Wave{flood.no_step(), Neighbourhood::von_neumann} : plan.back());
+  flood.last_wave(plan.empty() ? Flood::none : plan.back());
   const bool all_labelled = all_labels_live(*previous, *Internal::state(seeds).frame());
   if (!all_labelled && flood.some_unlabelled()) return start_anew(plan.size());
   return flood.commit(plan.size(), previous->age + 1);

@@ -85,7 +85,6 @@ bool Flood::some_unlabelled() {
 
 void Flood::run(const Plan& plan) {
   // A plan of less than two waves has none to fuse the stamping or the ids with.
-  const Wave none = {no_step(), Neighbourhood::von_neumann};
   first_wave(plan.empty() ? none : plan.front());
   for (std::size_t i = 1; i + 1 < plan.size(); ++i) wave(plan[i]);
   last_wave(plan.size() < 2 ? none : plan.back());

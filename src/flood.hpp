@@ -25,8 +25,8 @@ class Flood {
   /// What the diagram held before.
   const std::optional<DiagramContents>& previous() const { return filling_.previous(); }
 
-  /// A step that leads out of the grid from every pixel: such a wave keeps each pixel's own label.
-  int no_step() const { return diagram_.grid.longest_side(); }
+  /// A wave that keeps each pixel's own label.
+  static constexpr Wave none = {0, Neighbourhood::von_neumann};
 
   /// Stamps the seeds on an empty image, and runs a first wave over it.
   void first_wave(const Wave& wave);

@@ -15,12 +15,22 @@ int vector_width_for(const Device& device, const Grid& grid) {
   return width;
 }
 
-std::string build_options(int vector_width, const KernelOptions& options) {
+/// Whether there may be two images of a seed in the surroundings of a bin: see exact/sizes.cl.
+bool has_short_period(const Grid& grid) {
+  constexpr int surroundings = 64;
+  return (grid.periodic_x() && grid.width() < surroundings) ||
+         (grid.periodic_y() && grid.height() < surroundings);
+}
+
+std::string build_options(int vector_width, const Grid& grid, const KernelOptions& options) {
   return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(vector_width) +
          " -DVOROCL_GUARD=" + std::to_string(guard) +
          (options.metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
-                                                        : " -DVOROCL_NEIGHBOURS=5");
+                                                        : " -DVOROCL_NEIGHBOURS=5") +
+         (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
+         (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
+         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "");
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {
@@ -43,7 +53,7 @@ Kernel::Kernel(const Device& device, const char* file, const char* name, const G
       grid_(grid),
       options_(options),
       vector_width_(vector_width_for(device, grid)) {
-  const cl::Program program = program_for(device, file, build_options(vector_width_, options));
+  const cl::Program program = program_for(device, file, build_options(vector_width_, grid, options));
   cl_int code = CL_SUCCESS;
   kernel_ = cl::Kernel(clCreateKernel(program(), name, &code));
   check(code, [&] { return "making the kernel " + std::string(name_); });

@@ -19,8 +19,8 @@ namespace vorocl {
 /// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
 constexpr std::size_t guard = 16;
 
-/// What kernels are specialised for when they are built, besides the vector width. Kernels that read no
-/// distance or no neighbours are the same for all.
+/// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
+/// axes. Kernels that read no distance or no neighbours are the same for all.
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;

@@ -15,10 +15,11 @@ void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_
   SeedsState& state = Internal::state(seeds);
   const Grid& grid = state.grid;
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
+  const bool periodic = border == Border::periodic;
   state.kernels.get(state.device, "motion.cl", "random_step", grid)
       .over_items(state.size(), state.positions, static_cast<cl_uint>(state.size()), grid.width(),
-                  grid.height(), cl_int{max_displacement}, cl_int{border == Border::periodic ? 1 : 0},
-                  cl_uint{frame}, key);
+                  grid.height(), cl_int{max_displacement}, cl_int{periodic || grid.periodic_x()},
+                  cl_int{periodic || grid.periodic_y()}, cl_uint{frame}, key);
   state.moved();
 }
 

@@ -93,15 +93,26 @@ class Range {
   std::optional<Scale> scale_;
 };
 
+bool periodic_x(Periodic axes) { return axes == Periodic::x || axes == Periodic::xy; }
+bool periodic_y(Periodic axes) { return axes == Periodic::y || axes == Periodic::xy; }
+
+/// The pixel that comes before or behind one along an axis; none at the border of one that is not periodic.
+std::optional<int> neighbour(int at, int step, int size, bool periodic) {
+  const int next = at + step;
+  if (next >= 0 && next < size) return next;
+  return periodic ? std::optional<int>(next < 0 ? size - 1 : 0) : std::nullopt;
+}
+
 /// 255 for the pixels whose right or lower neighbour has another label.
-cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& size) {
+cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& size, Periodic axes) {
   cv::Mat edges(size, CV_8U, cv::Scalar(0));
-  const std::uint32_t* label = labels.data();
+  const auto row = [&](int y) { return labels.data() + static_cast<std::ptrdiff_t>(y) * size.width; };
   for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x, ++label) {
-      const bool right_differs = x + 1 < size.width && label[1] != label[0];
-      const bool lower_differs = y + 1 < size.height && label[size.width] != label[0];
-      if (right_differs || lower_differs) edges.at<std::uint8_t>(y, x) = 255;
+    const std::uint32_t* const own = row(y);
+    const std::uint32_t* const below = row(neighbour(y, 1, size.height, periodic_y(axes)).value_or(y));
+    for (int x = 0; x < size.width; ++x) {
+      const int right = x + 1 < size.width ? x + 1 : periodic_x(axes) ? 0 : x;
+      if (own[right] != own[x] || below[x] != own[x]) edges.at<std::uint8_t>(y, x) = 255;
     }
   }
   return edges;
@@ -173,19 +184,19 @@ cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid,
   return picture;
 }
 
-void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width) {
+void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width, Periodic axes) {
   check_picture(picture);
   check_count(labels.size(), "labels", picture.cols, picture.rows);
   if (width < 1 || width > widest_edge) {
     throw Error("edges cannot be " + std::to_string(width) + " pixels wide; they are 1 to " +
                 std::to_string(widest_edge));
   }
-  cv::Mat edges = thin_edges(labels, picture.size());
+  cv::Mat edges = thin_edges(labels, picture.size(), axes);
   if (width > 1) cv::dilate(edges, edges, disk(width));
   picture.setTo(dark, edges);
 }
 
-void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval) {
+void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval, Periodic axes) {
   check_picture(picture);
   check_count(distances.size(), "distances", picture.cols, picture.rows);
   if (!(interval > 0 && std::isfinite(interval))) {
@@ -199,9 +210,12 @@ void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double
     for (int x = 0; x < picture.cols; ++x) {
       const double here = band(y, x);
       if (!std::isfinite(here)) continue;
-      const bool is_on_line = (x > 0 && band(y, x - 1) < here) || (y > 0 && band(y - 1, x) < here) ||
-                              (x + 1 < picture.cols && band(y, x + 1) < here) ||
-                              (y + 1 < picture.rows && band(y + 1, x) < here);
+      const auto is_lower = [&](int dx, int dy) {
+        const auto next_x = neighbour(x, dx, picture.cols, periodic_x(axes));
+        const auto next_y = neighbour(y, dy, picture.rows, periodic_y(axes));
+        return next_x && next_y && band(*next_y, *next_x) < here;
+      };
+      const bool is_on_line = is_lower(-1, 0) || is_lower(0, -1) || is_lower(1, 0) || is_lower(0, 1);
       auto& pixel = picture.at<cv::Vec3b>(y, x);
       if (is_on_line) pixel = line_on(pixel);
     }

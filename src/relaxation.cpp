@@ -34,8 +34,8 @@ Motion move_to_centroids(Seeds& seeds, Rounds& rounds) {
   rounds.kernels.get(device, "relaxation.cl", "move_to_centroids", seeds.grid())
       .over_items((seeds.size() + seeds_per_item - 1) / seeds_per_item, seeds.positions(),
                   static_cast<cl_uint>(seeds.size()), static_cast<cl_uint>(seeds_per_item),
-                  rounds.cells.area(), rounds.cells.sum_x(), rounds.cells.sum_y(),
-                  rounds.moved_and_displacement);
+                  rounds.cells.area(), rounds.cells.sum_x(), rounds.cells.sum_y(), seeds.grid().width(),
+                  seeds.grid().height(), rounds.moved_and_displacement);
   Internal::state(seeds).moved();
   const auto words = download<cl_uint>(device, rounds.moved_and_displacement, 2);
   return {words[0], words[1]};

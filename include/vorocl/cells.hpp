@@ -16,21 +16,25 @@ namespace vorocl {
 struct CellSumsState;
 struct CellShapesState;
 
-/// What cell_sums() knows of a cell: exact integers, the same on every device.
+/// What cell_sums() knows of a cell: exact integers, the same on every device. Along a periodic axis each
+/// pixel counts where it lies the shorter way round from the seed (half a period away: behind it), which may
+/// be outside the grid.
 struct CellSums {
-  std::uint32_t area = 0;   ///< pixels
-  std::uint64_t sum_x = 0;  ///< of the pixels' columns ...
-  std::uint64_t sum_y = 0;  ///< ... and rows
+  std::uint32_t area = 0;  ///< pixels
+  std::int64_t sum_x = 0;  ///< of the pixels' columns ...
+  std::int64_t sum_y = 0;  ///< ... and rows
 
-  /// The mean of the centres of the pixels, in pixel units; (NaN, NaN) of an empty cell.
+  /// The mean of the centres of the pixels, in pixel units; (NaN, NaN) of an empty cell. It may be outside a
+  /// periodic grid, near the seed.
   VOROCL_API Point centroid() const;
 };
 
 /// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top and largest_distance -1.
 struct CellShape {
-  int left = 0, top = 0, right = 0, bottom = 0;  ///< the bounding box: first and last columns and rows
-  std::int32_t largest_distance = 0;             ///< of its pixels to its seed; squared if Euclidean
-  bool touches_border = false;                   ///< it has a pixel in the first or last row or column
+  int left = 0, top = 0, right = 0,
+      bottom = 0;                     ///< the bounding box of the pixels, where CellSums counts them
+  std::int32_t largest_distance = 0;  ///< of its pixels to its seed; squared if Euclidean
+  bool touches_border = false;        ///< it has a pixel next to a border; a periodic axis has none
 };
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
@@ -52,8 +56,8 @@ class VOROCL_API CellSumsResult {
 
   std::size_t size() const;
   const cl::Buffer& area() const;   ///< uint32 per cell
-  const cl::Buffer& sum_x() const;  ///< uint64 per cell
-  const cl::Buffer& sum_y() const;  ///< uint64 per cell
+  const cl::Buffer& sum_x() const;  ///< int64 per cell
+  const cl::Buffer& sum_y() const;  ///< int64 per cell
 
   /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<CellSums> read() const;

@@ -30,28 +30,38 @@ enum class Neighbourhood {
   von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it
 };
 
-/// The size of a diagram in pixels, row-major, (0, 0) at the top left.
+/// Which axes of a grid are periodic. The grid is then one period of a plane that repeats along them:
+/// distances go the shorter way round, and cells reach across the border.
+enum class Periodic { none, x, y, xy };
+
+/// The size of a diagram in pixels, row-major, (0, 0) at the top left, and which of its axes are periodic.
 class VOROCL_API Grid {
  public:
-  static constexpr int max_side = 32768;  ///< past it a squared distance leaves 31 bits
+  static constexpr int max_side = 32768;    ///< past it a squared distance leaves 31 bits
+  static constexpr int max_period = 32000;  ///< the longest side along a periodic axis
   static constexpr std::size_t max_pixels = 1u << 30;
 
-  /// Throws Error unless both sides are in [1, max_side] and width * height is at most max_pixels.
-  Grid(std::int64_t width, std::int64_t height);
+  /// Throws Error unless both sides are in [1, max_side], those along periodic axes in [1, max_period], and
+  /// width * height is at most max_pixels.
+  Grid(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
 
   int width() const { return width_; }
   int height() const { return height_; }
+  Periodic periodic() const { return periodic_; }
+  bool periodic_x() const { return periodic_ == Periodic::x || periodic_ == Periodic::xy; }
+  bool periodic_y() const { return periodic_ == Periodic::y || periodic_ == Periodic::xy; }
   int longest_side() const { return width_ > height_ ? width_ : height_; }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
   friend bool operator==(const Grid& a, const Grid& b) {
-    return a.width_ == b.width_ && a.height_ == b.height_;
+    return a.width_ == b.width_ && a.height_ == b.height_ && a.periodic_ == b.periodic_;
   }
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
   int width_;
   int height_;
+  Periodic periodic_;
 };
 
 }  // namespace vorocl

@@ -8,7 +8,8 @@
 
 namespace vorocl {
 
-/// What happens to a seed that would leave the grid.
+/// What happens to a seed that would leave the grid along an axis that is not periodic: along a periodic one
+/// it always comes in on the other side.
 enum class Border {
   reflect,   ///< it bounces off the grid's edge
   periodic,  ///< it comes in on the other side

@@ -88,7 +88,19 @@ enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAUL
 typedef int vorocl_variant;
 enum { VOROCL_JFA = 0, VOROCL_JFA_PLUS_1 = 1, VOROCL_JFA_PLUS_2 = 2, VOROCL_ONE_PLUS_JFA = 3 };
 
-/// One of VOROCL_REFLECT, VOROCL_PERIODIC.
+/// Which axes of a grid are periodic: see vorocl::Periodic. One of VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_X,
+/// VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY.
+typedef int vorocl_periodic;
+enum { VOROCL_PERIODIC_NONE = 0, VOROCL_PERIODIC_X = 1, VOROCL_PERIODIC_Y = 2, VOROCL_PERIODIC_XY = 3 };
+
+/// As vorocl::Grid. (vorocl_grid){640, 480, VOROCL_PERIODIC_NONE} is a grid of 640 x 480 pixels.
+typedef struct vorocl_grid {
+  int64_t width, height;  ///< pixels
+  vorocl_periodic periodic;
+} vorocl_grid;
+
+/// What happens at the border of an axis that is not periodic: see vorocl::Border. One of VOROCL_REFLECT,
+/// VOROCL_PERIODIC.
 typedef int vorocl_border;
 enum { VOROCL_REFLECT = 0, VOROCL_PERIODIC = 1 };
 
@@ -175,30 +187,30 @@ VOROCL_API vorocl_status vorocl_device_list_get(const vorocl_device_list* list, 
 
 typedef struct vorocl_seeds vorocl_seeds;
 
-/// On a grid of width x height pixels.
-VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, int64_t width, int64_t height,
+/// On a grid.
+VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
                                                   size_t count, vorocl_seeds** seeds);
 
 /// As above, from the caller's buffers.
-VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, int64_t width, int64_t height,
+VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, cl_mem present, size_t count,
                                                   vorocl_seeds** seeds);
 
 /// A seed for each pixel of the mask that is not 0, row-major: `count` must be width * height.
-VOROCL_API vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, int64_t width, int64_t height,
+VOROCL_API vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, vorocl_grid grid,
                                                 const uint8_t* mask, size_t count, vorocl_seeds** seeds);
 
 /// Uniformly random pixels, the same on every device.
-VOROCL_API vorocl_status vorocl_seeds_random(const vorocl_device* device, int64_t width, int64_t height,
-                                             size_t count, uint64_t rng_seed, vorocl_seeds** seeds);
+VOROCL_API vorocl_status vorocl_seeds_random(const vorocl_device* device, vorocl_grid grid, size_t count,
+                                             uint64_t rng_seed, vorocl_seeds** seeds);
 
 /// The same seeds once more, to be moved on their own.
 VOROCL_API vorocl_status vorocl_seeds_clone(const vorocl_seeds* seeds, vorocl_seeds** clone);
 
 VOROCL_API void vorocl_seeds_free(vorocl_seeds* seeds);
 
-VOROCL_API vorocl_status vorocl_seeds_grid(const vorocl_seeds* seeds, int64_t* width, int64_t* height);
+VOROCL_API vorocl_status vorocl_seeds_grid(const vorocl_seeds* seeds, vorocl_grid* grid);
 
 /// The number of ids, those of absent seeds too.
 VOROCL_API vorocl_status vorocl_seeds_count(const vorocl_seeds* seeds, size_t* count);
@@ -234,16 +246,16 @@ VOROCL_API vorocl_status vorocl_seeds_check(const vorocl_seeds* seeds);
 
 typedef struct vorocl_diagram vorocl_diagram;
 
-VOROCL_API vorocl_status vorocl_diagram_create(const vorocl_device* device, int64_t width, int64_t height,
+VOROCL_API vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_grid grid,
                                                vorocl_diagram** diagram);
 
 /// The labels go to the caller's buffer of width * height uint32_t.
-VOROCL_API vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, int64_t width,
-                                                    int64_t height, cl_mem labels, vorocl_diagram** diagram);
+VOROCL_API vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_grid grid,
+                                                    cl_mem labels, vorocl_diagram** diagram);
 
 VOROCL_API void vorocl_diagram_free(vorocl_diagram* diagram);
 
-VOROCL_API vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, int64_t* width, int64_t* height);
+VOROCL_API vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, vorocl_grid* grid);
 
 /// The labels, row-major uint32_t, for use in OpenCL without a copy.
 VOROCL_API vorocl_status vorocl_diagram_labels(const vorocl_diagram* diagram, cl_mem* labels);
@@ -338,8 +350,8 @@ VOROCL_API vorocl_status vorocl_run(const char* method, const vorocl_seeds* seed
 
 /// Builds all kernels that the method needs for so many seeds on a grid, so that the first diagram takes no
 /// longer than the next: see vorocl::prepare(). Waits.
-VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device* device, int64_t width,
-                                        int64_t height, size_t seeds, const vorocl_method_options* options);
+VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device* device, vorocl_grid grid,
+                                        size_t seeds, const vorocl_method_options* options);
 
 /// @}
 /// @name Sums of cells: see vorocl::cell_sums()
@@ -366,8 +378,8 @@ VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, 
                                                   cl_mem* sum_y);
 
 /// The same on the host, each into room for `count` cells, which must be all; each may be NULL. Waits.
-VOROCL_API vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, uint64_t* sum_x,
-                                               uint64_t* sum_y, size_t count);
+VOROCL_API vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
+                                               int64_t* sum_y, size_t count);
 
 /// The means of the centres of the cells' pixels, (NaN, NaN) of an empty cell. Waits.
 VOROCL_API vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,

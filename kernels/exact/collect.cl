@@ -5,9 +5,9 @@
 
 #include "exact/seed_index.cl"
 
-// The seeds of a row of the grid in one bin; outside the grid every pixel counts as a seed.
+// The seeds of a row of the frame in one bin; outside the frame every pixel counts as a seed.
 static inline uint seeds_in_row(const SeedIndex* index, int bin_x, int y) {
-  if (bin_x < 0 || bin_x >= index->columns || y < 0 || y >= index->height) return ALL_BITS;
+  if (bin_x < 0 || bin_x >= index->columns || y < 0 || y >= frame_height(index->height)) return ALL_BITS;
   return row_bits(index->bits[((y >> BIN_BITS) * index->columns + bin_x) * WORDS + y % BIN / ROWS_OF_WORD], y);
 }
 
@@ -15,7 +15,7 @@ static inline uint seeds_in_row(const SeedIndex* index, int bin_x, int y) {
 static inline int add_rim(const SeedIndex* index, int bin_x, int bin_y, uint* seeds, int count) {
   const int top = bin_y * BIN;
   uint above = seeds_in_row(index, bin_x, top - 1), own = seeds_in_row(index, bin_x, top);
-  for (int y = top; y < min(top + BIN, index->height); ++y) {
+  for (int y = top; y < min(top + BIN, frame_height(index->height)); ++y) {
     const uint below = seeds_in_row(index, bin_x, y + 1);
     const uint left = own << 1 | seeds_in_row(index, bin_x - 1, y) >> (BIN - 1);
     const uint right = own >> 1 | seeds_in_row(index, bin_x + 1, y) << (BIN - 1);
@@ -36,7 +36,7 @@ static inline int copy_seeds(const SeedIndex* index, uint begin, uint end, uint*
   return count + (int)(end - begin);
 }
 
-// Adds those seeds of the bins from (first_x, y) to (last_x, y), as far as they are in the grid, that can be candidates
+// Adds those seeds of the bins from (first_x, y) to (last_x, y), as far as they are in the frame, that can be candidates
 // for other bins: of a crowded bin only the rim. The crowded bin itself is labelled by rows, without candidates.
 static inline int add_seeds(const SeedIndex* index, int first_x, int last_x, int y, uint* seeds, int count) {
   first_x = max(first_x, 0);

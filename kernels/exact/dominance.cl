@@ -63,14 +63,19 @@ static inline int keep_entries(uint* list, int first, int_v condition, int kept)
 }
 
 // How much farther than a dominator seeds at these distances are from the corner where that is least: below 0 if they
-// win at a corner. At an equal distance the dominator wins if it comes first.
+// win at a corner. At an equal distance the dominator wins if it comes first; where there are images, whose seeds'
+// order is another one, it is left open who wins.
 static inline int_v least_lag(const Dominators* dominators, int i, uint_v seed, const uint_v* distance) {
   int_v lag = AS_INT_V(distance[0] - dominators->distance[i][0]);
 #pragma unroll
   for (int corner = 1; corner < CORNERS; ++corner) {
     lag = min(lag, AS_INT_V(distance[corner] - dominators->distance[i][corner]));
   }
+#ifdef VOROCL_PERIODIC
+  return lag - 1;
+#else
   return lag - AS_INT_V(select((uint_v)1, (uint_v)0, COMES_FIRST(dominators->seed[i], seed)));
+#endif
 }
 
 // Drops the seeds of a padded list that are dominated by one of the dominators from `begin` to `end`.

@@ -7,6 +7,21 @@
 // What a list's count says if there are more candidates than it holds.
 #define TOO_MANY 0xffffffffu
 
+// Along a periodic axis the image of a seed that is nearest to a region may be half a period away from it, outside the
+// frame. So a region has coordinates of its own there, with its centre in the middle of those that a position holds.
+#define MIDDLE ((LAST_COORDINATE + 1) / 2)
+static inline void centre_on_region(SeedIndex* index, int region_x, int region_y) {
+  const int size = 1 << bin_bits(REGION);
+  if (PERIODIC_X) index->x0 = MARGIN_X + MIDDLE - (region_x * size + size / 2);
+  if (PERIODIC_Y) index->y0 = MARGIN_Y + MIDDLE - (region_y * size + size / 2);
+}
+
+static inline uint id_of_image(const SeedIndex* index, uint image) {
+  uint seed[VOROCL_WIDTH];
+  STORE_VECTOR(seed_of_image(index, (uint_v)image), seed);
+  return id_of(index, seed[0]);
+}
+
 // Whether all pairs of a bin of some level are labelled.
 static inline bool all_labelled(const SeedIndex* index, global const uint* labelled, int level, int x, int y) {
   const int size = 1 << FAN_BITS * level;
@@ -21,7 +36,7 @@ static inline bool all_labelled(const SeedIndex* index, global const uint* label
 // The number of a tile or region among them, the tiles first.
 static inline int list_number(const SeedIndex* index, int level, int x, int y) {
   return level_start(index->width, index->height, level) - level_start(index->width, index->height, TILE) +
-         y * bins_along(index->width, level) + x;
+         y * columns_of(index->width, level) + x;
 }
 
 static inline uint seeds_in_bin(const SeedIndex* index, int level, int x, int y) {
@@ -47,13 +62,15 @@ static inline int take_candidates(global const uint* list, int count, Box box, D
 VECTOR_KERNEL void list_candidates(SEED_INDEX_PARAMETERS, int level, global const uint* restrict labelled,
                                    global const uint* restrict pyramid, int top_level, global uint* lists,
                                    global uint* counts, global uint* restrict labels) {
-  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
-  const int across = bins_along(width, level), bin = (int)get_global_id(0);
-  if (bin >= across * bins_along(height, level)) return;
-  const int x = bin % across, y = bin / across, number = list_number(&index, level, x, y);
+  const int across = columns_of(width, level), bin = (int)get_global_id(0);
+  if (bin >= across * rows_of(height, level)) return;
+  const int x = bin % across, y = bin / across, in_region = FAN_BITS * (REGION - level);
+  SeedIndex index = SEED_INDEX_OF_PARAMETERS;
+  centre_on_region(&index, x >> in_region, y >> in_region);
+  const int number = list_number(&index, level, x, y);
   if (all_labelled(&index, labelled, level, x, y)) return;
   const int size = 1 << bin_bits(level);
-  const Box box = box_of(x * size, y * size, size, size, width, height);
+  const Box box = box_of(&index, x * size, y * size, size, size);
   if (level == REGION && seeds_in_bin(&index, level, x, y) > MOST_OF_REGION) {
     counts[number] = TOO_MANY;
     return;
@@ -72,7 +89,7 @@ VECTOR_KERNEL void list_candidates(SEED_INDEX_PARAMETERS, int level, global cons
   }
   counts[number] = (uint)search.count;
   if (level == TILE && search.count <= 1) {
-    fill_box(box, search.count == 0 ? NO_LABEL : id_of(&index, search.seeds[0]), labels, width);
+    fill_box(&index, box, search.count == 0 ? NO_LABEL : id_of_image(&index, search.seeds[0]), labels);
     counts[number] = 0;
     return;
   }
@@ -91,12 +108,12 @@ static inline bool label_by_tile(const SeedIndex* index, global const uint* cand
   return true;
 }
 
+// Stores the ids of seeds at their positions in the frame.
 static inline void store_ids(uint_v seeds, const SeedIndex* index, global uint* labels, int x, int y) {
   uint seed[VOROCL_WIDTH];
   STORE_VECTOR(seeds, seed);
-  for (int lane = 0; lane < min(VOROCL_WIDTH, index->width - x); ++lane) {
-    labels[y * index->width + x + lane] = id_of(index, seed[lane]);
-  }
+  const int count = min(VOROCL_WIDTH, index->x0 + index->width - x);
+  for (int lane = 0; lane < count; ++lane) label_at(index, labels, x, y)[lane] = id_of(index, seed[lane]);
 }
 
 // Labels the bin that is a search's box by any number of candidates, list after list in any order.
@@ -112,8 +129,8 @@ static inline void label_by_search(Search* search, const SeedIndex* index, globa
       for (int x = box.left; x <= box.right; x += VOROCL_WIDTH, ++i) {
         const uint_v pixel = vector_positions(x, y);
         for (int c = 0; c < search->count; ++c) {
-          const uint_v seed = search->seeds[c];
-          const uint_v distance = distance_between(seed, pixel);
+          const uint_v distance = distance_between((uint_v)search->seeds[c], pixel);
+          const uint_v seed = seed_of_image(index, (uint_v)search->seeds[c]);
           nearest[i] = select(nearest[i], seed, WINS(seed, distance, nearest[i], least[i]));
           least[i] = min(least[i], distance);
         }
@@ -131,22 +148,24 @@ static inline void label_by_search(Search* search, const SeedIndex* index, globa
 VECTOR_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict labelled,
                              global const uint* restrict pyramid, int top_level, global const uint* restrict lists,
                              global const uint* restrict counts, global uint* restrict labels) {
-  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
+  SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int pair = (int)get_global_id(0);
   if (pair >= index.columns * pairs_down(&index) || labelled[pair] == BOTH) return;
   const int x = pair % index.columns, y = pair / index.columns * PAIR;
+  const int in_region = FAN_BITS * REGION;
+  centre_on_region(&index, x >> in_region, y >> in_region);
   const int tile = list_number(&index, TILE, x / FAN, y / FAN);
   if (counts[tile] == 0) return;  // list_candidates labelled it
   const int first = y + (labelled[pair] == UPPER);
-  const int end = min(labelled[pair] == LOWER ? y + 1 : y + PAIR, index.rows);
-  const Box box = box_of(x * BIN, first * BIN, BIN, (end - first) * BIN, width, height);
+  const int end = min(labelled[pair] == LOWER ? y + 1 : y + PAIR, rows_of_grid(&index));
+  const Box box = box_of(&index, x * BIN, first * BIN, BIN, (end - first) * BIN);
   if (counts[tile] != TOO_MANY &&
       label_by_tile(&index, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {
     return;
   }
   for (int bin_y = first; bin_y < end; ++bin_y) {
     Search search;
-    begin_search(&search, box_of(x * BIN, bin_y * BIN, BIN, BIN, width, height), &index, pyramid, top_level);
+    begin_search(&search, box_of(&index, x * BIN, bin_y * BIN, BIN, BIN), &index, pyramid, top_level);
     label_by_search(&search, &index, labels);
   }
 }

@@ -80,23 +80,24 @@ static inline void look_up_labels_in_memory(const uint* label_of, uint_v rank_ma
 }
 
 // Stores the labels of a block whose first row is `y`, as far as they lie in the box.
-static inline void store_block(const uint_v* label, Box box, int y, global uint* labels, int width) {
-  if (box.left + BIN <= width && y + BLOCK_ROWS <= box.bottom + 1) {
-    global uint* const first = labels + y * width + box.left;
+static inline void store_block(const SeedIndex* index, const uint_v* label, Box box, int y, global uint* labels) {
+  const int width = index->width;
+  if (box.left + BIN <= index->x0 + width && y + BLOCK_ROWS <= box.bottom + 1) {
+    global uint* const first = label_at(index, labels, box.left, y);
 #pragma unroll
     for (int i = 0; i < BLOCK_VECTORS; ++i) {
       STORE_WHOLE_VECTOR(label[i], first + i / VECTORS_OF_ROW * width + i % VECTORS_OF_ROW * VOROCL_WIDTH);
     }
   } else {
     for (int i = 0; i < min(BLOCK_ROWS, box.bottom + 1 - y) * VECTORS_OF_ROW; ++i) {
-      store_in_row(label[i], labels, box.left + i % VECTORS_OF_ROW * VOROCL_WIDTH, y + i / VECTORS_OF_ROW, width);
+      store_in_row(index, label[i], labels, box.left + i % VECTORS_OF_ROW * VOROCL_WIDTH, y + i / VECTORS_OF_ROW);
     }
   }
 }
 
 // Labels a box as wide as a bin by candidates and their ranks; `label_of` is in the order of the ranks.
-static inline void label_by_keys(const uint* seeds, const uint* ranks, const uint* label_of, int count, uint base,
-                                 Box box, global uint* labels, int width) {
+static inline void label_by_keys(const SeedIndex* index, const uint* seeds, const uint* ranks, const uint* label_of,
+                                 int count, uint base, Box box, global uint* labels) {
   const int rank_bits = 32 - (int)clz((uint)count - 1), tables = (count - 1) / VOROCL_WIDTH + 1;
   const uint_v rank_mask = (uint_v)((1u << rank_bits) - 1);
   uint_v of_column[MOST_KEYS * VECTORS_OF_ROW];
@@ -133,24 +134,28 @@ static inline void label_by_keys(const uint* seeds, const uint* ranks, const uin
       } else {
         look_up_labels_in_memory(label_of, rank_mask, least, label);
       }
-      store_block(label, box, top + first, labels, width);
+      store_block(index, label, box, top + first, labels);
     }
   }
 }
 
 // Labels a box by a padded list that holds its candidates. The dominators' first seed is the nearest one to its centre.
-static inline void label_by_list(const SeedIndex* index, const Dominators* dominators, const uint* seeds, int count,
+// (Inlined by PoCL into label_far it takes half as long again.)
+__attribute__((noinline)) static void label_by_list(const SeedIndex* index, const Dominators* dominators, const uint* seeds, int count,
                                  Box box, global uint* labels) {
-  uint ranks[MOST_KEYS + VOROCL_WIDTH], bits[MOST_KEYS + VOROCL_WIDTH], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
+  uint own[MOST_KEYS + VOROCL_WIDTH], bits[MOST_KEYS + VOROCL_WIDTH];
+  uint ranks[MOST_KEYS + VOROCL_WIDTH], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
   for (int i = 0; i < count; i += VOROCL_WIDTH) {
-    STORE_VECTOR(BIT_INDEX(LOAD_VECTOR(seeds + i), index->columns), bits + i);
+    const uint_v seed = seed_of_image(index, LOAD_VECTOR(seeds + i));
+    STORE_VECTOR(seed, own + i);
+    STORE_VECTOR(BIT_INDEX(seed, index->columns), bits + i);
   }
-  rank_by_tie_rule(seeds, count, ranks);
+  rank_by_tie_rule(own, count, ranks);
   for (int i = 0; i < count; ++i) label_of[ranks[i]] = index->ids[list_index(index->bits, index->word_starts, bits[i])];
   if (count == 1) {
-    fill_box(box, label_of[0], labels, index->width);
+    fill_box(index, box, label_of[0], labels);
   } else {
-    label_by_keys(seeds, ranks, label_of, count, dominators->seed[0], box, labels, index->width);
+    label_by_keys(index, seeds, ranks, label_of, count, dominators->seed[0], box, labels);
   }
 }
 

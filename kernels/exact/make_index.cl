@@ -7,17 +7,24 @@
 #define NO_BIT 0xffffffffu
 kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
                      global uint* restrict bit_of_seed, global uint* restrict duplicates,
-                     global uint* restrict duplicate_count, int width) {
+                     global uint* restrict duplicate_count, int width, int height) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   bit_of_seed[id] = NO_BIT;
   if (positions[id] & EMPTY_BIT) return;
-  const uint index = BIT_INDEX(positions[id], bins_along(width, 0)), bit = 1u << index % 32;
+  const int columns = columns_of(width, 0);
+  const uint index = BIT_INDEX(positions[id] + pack(MARGIN_X, MARGIN_Y), columns), bit = 1u << index % 32;
   if (atomic_or(bits + index / 32, bit) & bit) {
     duplicates[atomic_inc(duplicate_count)] = id;
-  } else {
-    bit_of_seed[id] = index;
+    return;
   }
+  bit_of_seed[id] = index;
+#ifdef VOROCL_PERIODIC
+  FOR_EACH_IMAGE(x, y, positions[id], width, height) {
+    const uint of_image = BIT_INDEX(pack(x, y), columns);
+    if (of_image != index) atomic_or(bits + of_image / 32, 1u << of_image % 32);
+  }
+#endif
 }
 
 // The pixel of a word's bit, as an offset from the word's first pixel.
@@ -26,8 +33,8 @@ static inline uint pixel_of_bit(uint bit) { return pack((int)(bit % BIN), (int)(
 // Level 0 of the pyramid: the first seed of each bin. And how many seeds the bin has.
 kernel void find_representatives(global const uint* restrict bits, global uint* restrict pyramid,
                                  global uint* restrict starts, int width, int height) {
-  const int bin = (int)get_global_id(0), columns = bins_along(width, 0);
-  if (bin >= columns * bins_along(height, 0)) return;
+  const int bin = (int)get_global_id(0), columns = columns_of(width, 0);
+  if (bin >= columns * rows_of(height, 0)) return;
   const int x = bin % columns, y = bin / columns;
   uint representative = EMPTY, count = 0, any = 0;
   for (int word = 0; word < WORDS; ++word) any |= bits[bin * WORDS + word];
@@ -46,10 +53,10 @@ kernel void find_representatives(global const uint* restrict bits, global uint* 
 
 // A level above 0: one of the representatives of a bin's FAN x FAN parts.
 kernel void find_representatives_above(global uint* pyramid, int width, int height, int level) {
-  const int bin = (int)get_global_id(0), columns = bins_along(width, level);
-  if (bin >= columns * bins_along(height, level)) return;
+  const int bin = (int)get_global_id(0), columns = columns_of(width, level);
+  if (bin >= columns * rows_of(height, level)) return;
   const int x = bin % columns, y = bin / columns, start = level_start(width, height, level);
-  const int parts_across = bins_along(width, level - 1), parts_down = bins_along(height, level - 1);
+  const int parts_across = columns_of(width, level - 1), parts_down = rows_of(height, level - 1);
   const int below = level_start(width, height, level - 1);
   uint representative = EMPTY, more = 0;
   for (int part_y = y * FAN; part_y < min((y + 1) * FAN, parts_down); ++part_y) {
@@ -64,8 +71,8 @@ kernel void find_representatives_above(global uint* pyramid, int width, int heig
 
 // Gives each row of bins its part of the list, in the order in which the rows come, and each bin its start.
 kernel void share_out_list(global uint* restrict starts, global uint* restrict end, int width, int height) {
-  const int y = (int)get_global_id(0), columns = bins_along(width, 0);
-  if (y >= bins_along(height, 0)) return;
+  const int y = (int)get_global_id(0), columns = columns_of(width, 0);
+  if (y >= rows_of(height, 0)) return;
   global uint* const row = starts + start_of(0, y, columns);
   uint seeds = 0;
   for (int x = 0; x < columns; ++x) seeds += row[x];
@@ -81,8 +88,8 @@ kernel void share_out_list(global uint* restrict starts, global uint* restrict e
 // Says where the seeds of each word of a bin begin in the list.
 kernel void start_words(global const uint* restrict bits, global const uint* restrict starts,
                         global uint* restrict word_starts, int width, int height) {
-  const int bin = (int)get_global_id(0), columns = bins_along(width, 0);
-  if (bin >= columns * bins_along(height, 0)) return;
+  const int bin = (int)get_global_id(0), columns = columns_of(width, 0);
+  if (bin >= columns * rows_of(height, 0)) return;
   const int start = start_of(bin % columns, bin / columns, columns);
   uint at = starts[start];
   if (at == starts[start + 1]) return;
@@ -95,20 +102,25 @@ kernel void start_words(global const uint* restrict bits, global const uint* res
 // Lists the seeds and their ids, but not the duplicates ...
 kernel void list_seeds(global const uint* restrict positions, global const uint* restrict bit_of_seed, uint count,
                        global const uint* restrict bits, global const uint* restrict word_starts,
-                       global uint* restrict list, global uint* restrict ids) {
+                       global uint* restrict list, global uint* restrict ids, int width, int height) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || bit_of_seed[id] == NO_BIT) return;
-  const uint at = list_index(bits, word_starts, bit_of_seed[id]);
-  list[at] = positions[id];
-  ids[at] = id;
+  FOR_EACH_IMAGE(x, y, positions[id], width, height) {
+    const uint at = list_index(bits, word_starts, BIT_INDEX(pack(x, y), columns_of(width, 0)));
+    list[at] = pack(x, y);
+    ids[at] = id;
+  }
 }
 
 // ... of which one with a lower id takes the seed's place.
 kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict duplicates,
                             global const uint* restrict duplicate_count, global const uint* restrict bits,
-                            global const uint* restrict word_starts, global uint* restrict ids, int width) {
+                            global const uint* restrict word_starts, global uint* restrict ids, int width,
+                            int height) {
   for (uint i = (uint)get_global_id(0); i < *duplicate_count; i += (uint)get_global_size(0)) {
     const uint id = duplicates[i];
-    atomic_min(ids + list_index(bits, word_starts, BIT_INDEX(positions[id], bins_along(width, 0))), id);
+    FOR_EACH_IMAGE(x, y, positions[id], width, height) {
+      atomic_min(ids + list_index(bits, word_starts, BIT_INDEX(pack(x, y), columns_of(width, 0))), id);
+    }
   }
 }

@@ -10,7 +10,6 @@
 
 // The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end.
 // The bins of a row, one beside the other, are added at once.
-#define MOST_AWAY 2
 #define MOST_NEAR MOST_CANDIDATES
 typedef struct {
   Box box;
@@ -40,7 +39,7 @@ static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, i
 // within that reach of some pixel.
 static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
   Near near;
-  near.box = box_of(x * BIN, y * BIN, BIN, bins * BIN, index->width, index->height);
+  near.box = box_of(index, x * BIN, y * BIN, BIN, bins * BIN);
   no_dominators(&near.dominators, near.box);
   if (!take_near(&near, index, x, y, bins, 1) || near.count == 0) return false;
   improve_dominator(&near.dominators, 0, near.seeds, near.count);
@@ -71,13 +70,15 @@ static inline int pairs_down(const SeedIndex* index) { return (index->rows - 1) 
 #error "UPPER and LOWER are not the bits of a pair"
 #endif
 static inline uint label_pair(const SeedIndex* index, int x, int y, global uint* labels) {
+  const Box box = box_of(index, x * BIN, y * BIN, BIN, PAIR * BIN);
+  if (box.left > box.right || box.top > box.bottom) return BOTH;  // in the margin
   const uint seeds = seeds_near(index, x, y, PAIR);
   if (seeds < SPARSE) return 0;
   if (seeds < MEDIUM) return label_by_near(index, x, y, PAIR, labels) ? BOTH : 0;
   NearestInRows rows;
   begin_rows(&rows, index, x, y);
   uint labelled = BOTH;
-  for (int i = 0; i < min(PAIR, index->rows - y); ++i) {
+  for (int i = 0; i < min(PAIR, rows_of_grid(index) - y); ++i) {
     if (seeds_near(index, x, y + i, 1) >= DENSE && label_by_rows(&rows, y + i, labels)) continue;
     if (!label_by_near(index, x, y + i, 1, labels)) labelled ^= 1u << i;
   }

@@ -13,7 +13,8 @@ kernel void label_by_all_seeds(global const uint* restrict positions, uint count
   for (uint id = 0; id < count; ++id) {
     const uint seed = positions[id];
     if (seed & EMPTY_BIT) continue;
-    const uint distance = distance_of_offset(packed_x(seed) - x, packed_y(seed) - y);
+    const int along_x = shorter_way_x(packed_x(seed) - x, width), along_y = shorter_way_y(packed_y(seed) - y, height);
+    const uint distance = distance_of_offset(along_x, along_y);
     if (WINS(seed, distance, nearest, least)) {
       label = id;
       nearest = seed;

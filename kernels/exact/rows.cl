@@ -18,18 +18,12 @@
 #define ROWS_IN_REACH (PAIR * BIN + 2 * REACH)
 #define BIN_LANES ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits how far down the row is,
-// so that of rows at equal distances the upper one has the least key.
-#define OFFSET_BITS 5
-#define ROW_KEY(distance, offset) (((distance) << OFFSET_BITS) + (offset) + REACH)
-// What stands for the part along x where a row has no seed near: more than the distance to any seed that rows find,
-// which is in the bin or next to it.
-#define NO_SEED_NEAR 1250
-#define MOST_ALONG_X ((2 << BIN_BITS) - 1)
-#if NO_SEED_NEAR <= MOST_ALONG_X * MOST_ALONG_X + REACH * REACH
-#error "A row without a seed near may win against one with a seed"
-#endif
-#if 2 * REACH >= 1 << OFFSET_BITS || ((NO_SEED_NEAR + REACH * REACH) << OFFSET_BITS) + 2 * REACH > 0xffff
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that of
+// rows at equal distances the one with the least number has the least key.
+#define ROW_BITS 6
+// What stands for the part along x where a row has no seed near: a distance beyond the reach.
+#define NO_SEED_NEAR ((REACH + 1) * (REACH + 1))
+#if ROWS_IN_REACH > 1 << ROW_BITS || (NO_SEED_NEAR + REACH * REACH + 1) << ROW_BITS > 0xffff
 #error "A row key does not fit in a ushort"
 #endif
 
@@ -43,18 +37,42 @@
 // The nearest seeds in the rows of a pair of bins and around it.
 typedef struct {
   const SeedIndex* index;
-  int bin_x, top;                    // the pair's column of bins; the row of the grid that is row 0 here
+  int bin_x, top;                    // the pair's column of bins; the row of the frame that is the topmost here
+  int first_column, first_row;       // where the grid begins again among the pixels around the pair: see number_of_row()
   int begin, end;                    // the rows that have been found
-  ushort16 along_x[ROWS_IN_REACH];   // the part along x of a row key
-  ushort16 nearest[ROWS_IN_REACH];   // the row's nearest seed, as a place in:
+  ushort16 along_x[ROWS_IN_REACH];   // a row key without the distance along y
+  ushort16 nearest[ROWS_IN_REACH];   // by the row's number: its nearest seed, as a place in:
   uint ids[ROWS_IN_REACH * IDS_OF_ROW];
 } NearestInRows;
+
+// Where the first pixel of a period is among `count` pixels from `first` on; `none` if it is not.
+static inline int first_of_period(int first, int count, int start, int period, int none) {
+  const int near_start = start - first, near_end = start + period - first;
+  if (near_start >= 0 && near_start < count) return near_start;
+  return near_end >= 0 && near_end < count ? near_end : none;
+}
 
 static inline void begin_rows(NearestInRows* rows, const SeedIndex* index, int bin_x, int bin_y) {
   rows->index = index;
   rows->bin_x = bin_x;
   rows->top = bin_y * BIN - REACH;
   rows->begin = rows->end = 0;
+#ifdef VOROCL_PERIODIC
+  rows->first_row = PERIODIC_Y ? first_of_period(rows->top, ROWS_IN_REACH, MARGIN_Y, index->height, 0) : 0;
+  rows->first_column =
+      PERIODIC_X ? first_of_period((bin_x - 1) * BIN, 3 * BIN, MARGIN_X, index->width, 0) - BIN : -BIN;
+#endif
+}
+
+// The rows are numbered in the order of the tie rule: from above to below, but where the border between two periods
+// lies in between, those behind it come first.
+static inline int number_of_row(const NearestInRows* rows, int row) {
+#ifdef VOROCL_PERIODIC
+  return row >= rows->first_row ? row - rows->first_row : row - rows->first_row + ROWS_IN_REACH;
+#else
+  (void)rows;
+  return row;
+#endif
 }
 
 // The place of the only bit, or of the highest one of 16, that is set in each lane, by the exponent of a float; -127
@@ -87,16 +105,16 @@ static inline RowOfBin row_of_bin(const SeedIndex* index, int word, int y, bool 
   return row;
 }
 
-// A row's nearest seeds, of two the left one, which the tie rule says: a pixel's is the last one up to it or the
-// first one behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the
+// A row's nearest seeds, of two the one that the tie rule says, which is the left one unless the border between two
+// periods lies in between: a pixel's is the last one up to it or the first one behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the
 // left and right only the seed next to this bin counts, and one FAR_AWAY if there is none; the right one's last pixel
 // is out of reach.
 #define FAR_AWAY 128
 #if FAR_AWAY < 3 << BIN_BITS
 #error "A seed that is not there may be nearer than one in the bin at the other side"
 #endif
-#if FAR_AWAY - (1 << BIN_BITS) <= MOST_ALONG_X + REACH
-#error "A seed that is not there may win against one in another row"
+#if FAR_AWAY - (1 << BIN_BITS) <= REACH
+#error "A seed that is not there may be within reach"
 #endif
 #if (FAR_AWAY + (1 << BIN_BITS)) * (FAR_AWAY + (1 << BIN_BITS)) > 0x7fff
 #error "The square of the way to a seed that is not there does not fit in a short"
@@ -105,9 +123,9 @@ static inline RowOfBin row_of_bin(const SeedIndex* index, int word, int y, bool 
 #define UP_TO_LAST_LANES (UP_TO_FIRST_LANES << 8 | 0xff)
 static inline void find_row(NearestInRows* rows, int row) {
   const SeedIndex* const index = rows->index;
-  const int y = rows->top + row;
-  if (y < 0 || y >= index->height) {
-    rows->along_x[row] = (ushort16)(NO_SEED_NEAR << OFFSET_BITS);
+  const int y = rows->top + row, number = number_of_row(rows, row);
+  if (y < 0 || y >= frame_height(index->height)) {
+    rows->along_x[row] = (ushort16)(ushort)(NO_SEED_NEAR << ROW_BITS | number);
     return;
   }
   const int word = ((y >> BIN_BITS) * index->columns + rows->bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
@@ -121,14 +139,21 @@ static inline void find_row(NearestInRows* rows, int row) {
   const int8 behind_first = to_come & ~UP_TO_FIRST_LANES, behind_last = to_come & ~UP_TO_LAST_LANES;
   const ushort16 place = as_ushort16(place_of_bit(behind_first & -behind_first, behind_last & -behind_last));
   const short16 right = as_short16(min(place, (ushort16)FAR_AWAY));
+#ifdef VOROCL_PERIODIC
+  const short first_column = (short)rows->first_column;
+  const short16 right_first = (left < first_column) & (right >= first_column);
+  const short16 nearer = BIN_LANES * (short)2 - right_first > left + right;
+#else
   const short16 nearer = BIN_LANES * (short)2 > left + right;
+#endif
   const short16 offset = select(left, right, nearer) - BIN_LANES;
-  rows->along_x[row] = as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)OFFSET_BITS;
+  rows->along_x[row] =
+      as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)ROW_BITS | (ushort)number;
 
   const ulong2 counts = (ulong2)(count_up(own.bits), count_up(own.bits >> 8) + popcount(own.bits & 0xffu) * ONES);
   const short16 up_to = convert_short16(as_uchar16(counts));
-  rows->nearest[row] = as_ushort16(up_to - nearer) + (ushort)(row * IDS_OF_ROW);
-  uint* const ids = rows->ids + row * IDS_OF_ROW;
+  rows->nearest[number] = as_ushort16(up_to - nearer) + (ushort)(number * IDS_OF_ROW);
+  uint* const ids = rows->ids + number * IDS_OF_ROW;
   ids[0] = index->ids[before.last];
   vstore8(vload8(0, index->ids + own.first), 0, ids + 1);
   vstore8(vload8(1, index->ids + own.first), 1, ids + 1);
@@ -156,19 +181,17 @@ static inline bool find_least_row_keys(NearestInRows* rows, int first, int count
   ushort16 worst = (ushort16)0;
   for (int y = 0; y < count; ++y) {
     need_row(rows, first + y);
-    least[y] = rows->along_x[first + y] + (ushort)ROW_KEY(0, 0);
+    least[y] = rows->along_x[first + y];
     worst = max(worst, least[y]);
   }
-  for (int offset = 1; any_from(worst, (ushort)ROW_KEY(ALONG(offset), -REACH)); ++offset) {
+  for (int offset = 1; any_from(worst, (ushort)(ALONG(offset) << ROW_BITS)); ++offset) {
     if (offset > REACH) return false;
     need_row(rows, first - offset);
     need_row(rows, first + count - 1 + offset);
-    const ushort above = (ushort)ROW_KEY(ALONG(offset), -offset), below = (ushort)ROW_KEY(ALONG(offset), offset);
+    const ushort along_y = (ushort)(ALONG(offset) << ROW_BITS);
     worst = (ushort16)0;
     for (int y = 0; y < count; ++y) {
-      const ushort16 to_above = rows->along_x[first + y - offset] + above;
-      const ushort16 to_below = rows->along_x[first + y + offset] + below;
-      least[y] = min(least[y], min(to_above, to_below));
+      least[y] = min(least[y], min(rows->along_x[first + y - offset], rows->along_x[first + y + offset]) + along_y);
       worst = max(worst, least[y]);
     }
   }
@@ -180,21 +203,21 @@ static inline bool find_least_row_keys(NearestInRows* rows, int first, int count
 static inline bool label_by_rows(NearestInRows* rows, int bin_y, global uint* labels) {
   const SeedIndex* const index = rows->index;
   const int left = rows->bin_x * BIN, top = bin_y * BIN;
-  const int count = min(BIN, index->height - top);
+  const int count = min(BIN, index->y0 + index->height - top);
   ushort16 least[BIN];
   if (!find_least_row_keys(rows, top - rows->top, count, least)) return false;
-  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << OFFSET_BITS) - 1)) * (ushort)BIN;
+  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << ROW_BITS) - 1)) * (ushort)BIN;
   // Gathered first and stored in vectors then, the labels fit in a CPU's store buffer, and it need not wait for memory.
   uint label[BIN * BIN];
   for (int y = 0; y < count; ++y) {
-    const ushort* const nearest = (const ushort*)(rows->nearest + (top - rows->top + y - REACH));
+    const ushort* const nearest = (const ushort*)rows->nearest;
     const ushort* const row = (const ushort*)(least + y);
 #pragma unroll
     for (int x = 0; x < BIN; ++x) label[y * BIN + x] = rows->ids[nearest[row[x] + x]];
   }
   for (int y = 0; y < count; ++y) {
     for (int x = 0; x < BIN; x += VOROCL_WIDTH) {
-      store_in_row(LOAD_VECTOR(label + y * BIN + x), labels, left + x, top + y, index->width);
+      store_in_row(index, LOAD_VECTOR(label + y * BIN + x), labels, left + x, top + y);
     }
   }
   return true;

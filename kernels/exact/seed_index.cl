@@ -7,13 +7,21 @@
 #include "exact/sizes.cl"
 #include "position.cl"
 
-#if VOROCL_WIDTH == 1
-#define AS_INT_V as_int
-#define AS_UINT_V as_uint
-#else
-#define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
-#define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
-#endif
+// THE FRAME. Along a periodic axis the index covers MARGIN pixels more at both ends, where the seeds of the other end
+// stand once more: their images. (In a period shorter than that there are more of a seed.) So what looks no farther
+// than MARGIN need not know of periods. Positions and bins count from the frame's corner.
+#define MARGIN_X (PERIODIC_X * MARGIN)
+#define MARGIN_Y (PERIODIC_Y * MARGIN)
+static inline int frame_width(int width) { return width + 2 * MARGIN_X; }
+static inline int frame_height(int height) { return height + 2 * MARGIN_Y; }
+
+// All images of a position in the frame, and the seed itself.
+static inline int first_image(int at, int size, int margin) {
+  return at + margin < size ? at + margin : (at + margin) % size;  // a division takes long, and few seeds need it
+}
+#define FOR_EACH_IMAGE(x, y, position, width, height)                                                               \
+  for (int y = first_image(packed_y(position), height, MARGIN_Y); y < frame_height(height); y += height)            \
+    for (int x = first_image(packed_x(position), width, MARGIN_X); x < frame_width(width); x += width)
 
 // THE BINS. Level 0 is the index itself; each bin of a higher level holds FAN x FAN bins of the level below.
 #define BIN (1 << BIN_BITS)
@@ -21,6 +29,8 @@
 
 static inline int bin_bits(int level) { return BIN_BITS + FAN_BITS * level; }
 static inline int bins_along(int pixels, int level) { return ((pixels - 1) >> bin_bits(level)) + 1; }
+static inline int columns_of(int width, int level) { return bins_along(frame_width(width), level); }
+static inline int rows_of(int height, int level) { return bins_along(frame_height(height), level); }
 
 // THE BITS. A bit per pixel says whether there is a seed; the bits of a bin stand together, row-major, one bin after
 // the other. This is the index of a pixel's bit, for a number or a vector.
@@ -51,7 +61,9 @@ static inline uint list_index(global const uint* bits, global const uint* word_s
 static inline int start_of(int bin_x, int bin_y, int columns) { return bin_y * (columns + 1) + bin_x; }
 
 typedef struct {
-  int width, height, columns, rows;  // of the grid in pixels, and in bins of level 0
+  int width, height;  // of the grid, in pixels
+  int columns, rows;  // of the frame, in bins of level 0
+  int x0, y0;         // where the grid's first pixel is, in the coordinates of seeds and boxes: see far.cl
   global const uint *bits, *starts, *word_starts;
   global const uint *list, *ids;  // the seeds' positions and ids
 } SeedIndex;
@@ -61,8 +73,31 @@ typedef struct {
   global const uint *restrict bits, global const uint *restrict starts, global const uint *restrict word_starts, \
       global const uint *restrict list, global const uint *restrict ids, int width, int height
 #define SEED_INDEX_OF_PARAMETERS \
-  {width, height, bins_along(width, 0), bins_along(height, 0), bits, starts, word_starts, list, ids}
+  {width, height, columns_of(width, 0), rows_of(height, 0), MARGIN_X, MARGIN_Y, bits, starts, word_starts, list, ids}
 
+// The rows of bins of the frame that end where the grid does.
+static inline int rows_of_grid(const SeedIndex* index) { return ((MARGIN_Y + index->height - 1) >> BIN_BITS) + 1; }
+
+// The remainder of a division that rounds down. Half a unit more keeps the quotient away from whole numbers, where a
+// rounding error would count.
+static inline int_v in_period(int_v at, int period) {
+  return at - period * CONVERT_INT_V_DOWN((CONVERT_FLOAT_V(at) + 0.5f) / (float)period);
+}
+
+// The position in the frame of the seed of which an image may be given. The tie rule is one of these positions.
+static inline uint_v seed_of_image(const SeedIndex* index, uint_v image) {
+#ifdef VOROCL_PERIODIC
+  int_v x = AS_INT_V(image & 0xffffu) - index->x0, y = AS_INT_V(image >> 16) - index->y0;
+  if (PERIODIC_X) x = in_period(x, index->width);
+  if (PERIODIC_Y) y = in_period(y, index->height);
+  return AS_UINT_V(y + MARGIN_Y) << 16 | AS_UINT_V(x + MARGIN_X);
+#else
+  (void)index;
+  return image;
+#endif
+}
+
+// The id of a seed at a position in the frame.
 static inline uint id_of(const SeedIndex* index, uint seed) {
   return index->ids[list_index(index->bits, index->word_starts, BIT_INDEX(seed, index->columns))];
 }
@@ -84,7 +119,7 @@ static inline uint count_seeds(const SeedIndex* index, int first_x, int last_x, 
 // Where a level begins in the pyramid.
 static inline int level_start(int width, int height, int level) {
   int start = 0;
-  for (int i = 0; i < level; ++i) start += bins_along(width, i) * bins_along(height, i);
+  for (int i = 0; i < level; ++i) start += columns_of(width, i) * rows_of(height, i);
   return start;
 }
 

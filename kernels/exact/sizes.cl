@@ -18,6 +18,11 @@
 // The top of the pyramid has at most so many bins.
 #define TOP_BINS 64
 
+// Bins are labelled by seeds in bins up to so many away. Along a periodic axis the index has so many bins more, at
+// both ends.
+#define MOST_AWAY 2
+#define MARGIN (MOST_AWAY << BIN_BITS)
+
 // How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
 #ifndef MOST_PARENTS
 #define MOST_PARENTS 64
@@ -32,6 +37,13 @@
 #define MEDIUM 24
 #define DENSE 56
 
+// In a period that is shorter than a bin's surroundings a seed's images are near each other, in an order that rows do
+// not know: there, nothing is labelled by rows.
+#ifdef VOROCL_SHORT_PERIOD
+#undef DENSE
+#define DENSE 0x7fffffff
+#endif
+
 // Rows look for seeds up to so many pixels away along each axis.
 #define REACH ((1 << BIN_BITS) - 1)
 
@@ -41,6 +53,10 @@
 // pixels.
 #define OUT_OF_REACH (REACH * (REACH + 1) / 2)
 #define CROWDED 160
+#ifdef VOROCL_SHORT_PERIOD
+#undef CROWDED
+#define CROWDED DENSE
+#endif
 #if CROWDED <= OUT_OF_REACH || CROWDED < DENSE || CROWDED < MEDIUM
 #error "A crowded bin is not always labelled by rows"
 #endif

@@ -74,11 +74,15 @@ void refuse(const char* what, int value) {
   throw Error(std::string(what) + " " + std::to_string(value) + " is unknown");
 }
 
-void store_grid(const Grid& grid, int64_t* width, int64_t* height) {
-  given(width, "width");
-  given(height, "height");
-  *width = grid.width();
-  *height = grid.height();
+Grid to_grid(const vorocl_grid& grid) {
+  if (grid.periodic < VOROCL_PERIODIC_NONE || grid.periodic > VOROCL_PERIODIC_XY) {
+    refuse("choice of periodic axes", grid.periodic);
+  }
+  return Grid(grid.width, grid.height, static_cast<Periodic>(grid.periodic));
+}
+
+vorocl_grid to_c(const Grid& grid) {
+  return {grid.width(), grid.height(), static_cast<vorocl_periodic>(grid.periodic())};
 }
 
 Metric to_metric(vorocl_metric metric) {

@@ -102,8 +102,8 @@ const T& at(const std::vector<T>& list, std::size_t index, const char* what) {
 /// For a choice that is none of its constants.
 [[noreturn]] void refuse(const char* what, int value);
 
-/// The sides of a grid.
-void store_grid(const Grid& grid, int64_t* width, int64_t* height);
+Grid to_grid(const vorocl_grid& grid);
+vorocl_grid to_c(const Grid& grid);
 
 Metric to_metric(vorocl_metric metric);
 vorocl_point to_c(const Point& point);

@@ -4,25 +4,24 @@
 
 using namespace vorocl;
 
-vorocl_status vorocl_diagram_create(const vorocl_device* device, int64_t width, int64_t height,
-                                    vorocl_diagram** diagram) {
+vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_grid grid, vorocl_diagram** diagram) {
   return make_object(diagram, "diagram", [&] {
-    return vorocl_diagram{Diagram(of(device), Grid(width, height)), {}};
+    return vorocl_diagram{Diagram(of(device), to_grid(grid)), {}};
   });
 }
 
-vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, int64_t width, int64_t height,
-                                         cl_mem labels, vorocl_diagram** diagram) {
+vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem labels,
+                                         vorocl_diagram** diagram) {
   return make_object(diagram, "diagram", [&] {
     given(labels, "labels");
-    return vorocl_diagram{Diagram(of(device), Grid(width, height), retained(labels)), {}};
+    return vorocl_diagram{Diagram(of(device), to_grid(grid), retained(labels)), {}};
   });
 }
 
 void vorocl_diagram_free(vorocl_diagram* diagram) { delete diagram; }
 
-vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, int64_t* width, int64_t* height) {
-  return guarded([&] { store_grid(of(diagram).grid(), width, height); });
+vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, vorocl_grid* grid) {
+  return answer(grid, "grid", [&] { return to_c(of(diagram).grid()); });
 }
 
 vorocl_status vorocl_diagram_labels(const vorocl_diagram* diagram, cl_mem* labels) {

@@ -57,8 +57,8 @@ vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, cl_mem* are
   });
 }
 
-vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, uint64_t* sum_x,
-                                    uint64_t* sum_y, size_t count) {
+vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
+                                    int64_t* sum_y, size_t count) {
   return guarded([&] {
     check_count(of(sums).size(), "cells", count);
     std::size_t id = 0;

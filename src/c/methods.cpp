@@ -82,9 +82,9 @@ vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_dia
   return guarded([&] { run(&given(name, "method"), seeds, diagram, max_displacement, to_options(options)); });
 }
 
-vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, int64_t width, int64_t height,
-                             size_t seeds, const vorocl_method_options* options) {
+vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, vorocl_grid grid, size_t seeds,
+                             const vorocl_method_options* options) {
   return guarded([&] {
-    prepare(method(&given(name, "method")), of(device), Grid(width, height), seeds, to_options(options));
+    prepare(method(&given(name, "method")), of(device), to_grid(grid), seeds, to_options(options));
   });
 }

@@ -30,37 +30,36 @@ Border to_border(vorocl_border border) {
 
 }  // namespace
 
-vorocl_status vorocl_seeds_from_points(const vorocl_device* device, int64_t width, int64_t height,
+vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                        const vorocl_point* points, const uint8_t* present, size_t count,
                                        vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{Seeds(of(device), Grid(width, height), to_points(points, present, count))};
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count))};
   });
 }
 
-vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, int64_t width, int64_t height,
-                                       cl_mem points, cl_mem present, size_t count, vorocl_seeds** seeds) {
+vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem points,
+                                       cl_mem present, size_t count, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     given(points, "points");
-    return vorocl_seeds{Seeds(of(device), Grid(width, height), retained(points), count, retained(present))};
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), retained(points), count, retained(present))};
   });
 }
 
-vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, int64_t width, int64_t height,
-                                     const uint8_t* mask, size_t count, vorocl_seeds** seeds) {
+vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, vorocl_grid grid, const uint8_t* mask,
+                                     size_t count, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
-    const Grid grid(width, height);
-    check_count(grid.pixels(), "pixels", count);
+    const Grid of_mask = to_grid(grid);
+    check_count(of_mask.pixels(), "pixels", count);
     const uint8_t* const first = &given(mask, "mask");
-    return vorocl_seeds{Seeds::from_mask(of(device), grid, {first, first + count})};
+    return vorocl_seeds{Seeds::from_mask(of(device), of_mask, {first, first + count})};
   });
 }
 
-vorocl_status vorocl_seeds_random(const vorocl_device* device, int64_t width, int64_t height, size_t count,
+vorocl_status vorocl_seeds_random(const vorocl_device* device, vorocl_grid grid, size_t count,
                                   uint64_t rng_seed, vorocl_seeds** seeds) {
-  return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{Seeds::random(of(device), Grid(width, height), count, rng_seed)};
-  });
+  return make_object(seeds, "seeds",
+                     [&] { return vorocl_seeds{Seeds::random(of(device), to_grid(grid), count, rng_seed)}; });
 }
 
 vorocl_status vorocl_seeds_clone(const vorocl_seeds* seeds, vorocl_seeds** clone) {
@@ -69,8 +68,8 @@ vorocl_status vorocl_seeds_clone(const vorocl_seeds* seeds, vorocl_seeds** clone
 
 void vorocl_seeds_free(vorocl_seeds* seeds) { delete seeds; }
 
-vorocl_status vorocl_seeds_grid(const vorocl_seeds* seeds, int64_t* width, int64_t* height) {
-  return guarded([&] { store_grid(of(seeds).grid(), width, height); });
+vorocl_status vorocl_seeds_grid(const vorocl_seeds* seeds, vorocl_grid* grid) {
+  return answer(grid, "grid", [&] { return to_c(of(seeds).grid()); });
 }
 
 vorocl_status vorocl_seeds_count(const vorocl_seeds* seeds, size_t* count) {

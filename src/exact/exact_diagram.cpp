@@ -18,13 +18,29 @@ constexpr std::size_t most_items_for_duplicates = 4096;  // there are seldom any
 static_assert(MOST_CANDIDATES % most_lanes == 0, "the last list is read in whole vectors");
 constexpr std::size_t word = sizeof(std::uint32_t);
 
+/// The index has a margin along periodic axes: see exact/seed_index.cl.
+int frame_width(const Grid& grid) { return grid.width() + (grid.periodic_x() ? 2 * MARGIN : 0); }
+int frame_height(const Grid& grid) { return grid.height() + (grid.periodic_y() ? 2 * MARGIN : 0); }
+
 std::size_t bins_along(int pixels, int level) {
   const int bits = BIN_BITS + FAN_BITS * level;
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
 std::size_t bins(const Grid& grid, int level) {
-  return bins_along(grid.width(), level) * bins_along(grid.height(), level);
+  return bins_along(frame_width(grid), level) * bins_along(frame_height(grid), level);
+}
+
+/// The most seeds that the index lists: each with all its images, of which a pixel has one.
+std::size_t most_listed(const Grid& grid, std::size_t seeds) {
+  const auto frame =
+      static_cast<std::size_t>(frame_width(grid)) * static_cast<std::size_t>(frame_height(grid));
+  const auto images = [](int frame_side, int side) {
+    return static_cast<std::size_t>((frame_side - 1) / side) + 1;
+  };
+  const std::size_t of_a_seed =
+      images(frame_width(grid), grid.width()) * images(frame_height(grid), grid.height());
+  return std::min(seeds * of_a_seed, seeds + frame - grid.pixels());
 }
 
 int top_level(const Grid& grid) {
@@ -64,14 +80,14 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const int width = grid.width(), height = grid.height();
   const int top = top_level(grid);
   const auto count = static_cast<cl_uint>(seeds.size());
-  const std::size_t across = bins_along(width, 0), down = bins_along(height, 0);
+  const std::size_t across = bins_along(frame_width(grid), 0), down = bins_along(frame_height(grid), 0);
   const std::size_t pairs = across * ((down - 1) / PAIR + 1);
 
   ExactWorkspace& memory = state.workspace<ExactWorkspace>();
   const std::size_t bit_words = bins(grid, 0) * pixels_of_bin / 32;
   const std::size_t list_count = bins(grid, TILE) + bins(grid, REGION);
   // Lists are read in whole vectors, ids in rows of a bin.
-  const std::size_t list_room = seeds.size() + most_lanes;
+  const std::size_t list_room = most_listed(grid, seeds.size()) + most_lanes;
   state.reserve(memory.bits, bit_words * word);
   state.reserve(memory.word_starts, bit_words * word);
   state.reserve(memory.starts, (bins(grid, 0) + down) * word);
@@ -102,17 +118,19 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   fill(device, duplicate_count, cl_uint{0}, 1);
   fill(device, list_end, cl_uint{0}, 1);
   kernel("set_bits")
-      .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, duplicate_count, width);
+      .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, duplicate_count, width,
+                  height);
   kernel("find_representatives").over_items(bins(grid, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top; ++level) {
     kernel("find_representatives_above").over_items(bins(grid, level), pyramid, width, height, level);
   }
   kernel("share_out_list").over_items(down, starts, list_end, width, height);
   kernel("start_words").over_items(bins(grid, 0), bits, starts, word_starts, width, height);
-  kernel("list_seeds").over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids);
+  kernel("list_seeds")
+      .over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")
       .over_items(std::min(seeds.size(), most_items_for_duplicates), seeds.positions(), duplicates,
-                  duplicate_count, bits, word_starts, ids, width);
+                  duplicate_count, bits, word_starts, ids, width, height);
   heavy("label_near", 64)
       .over_items(pairs, bits, starts, word_starts, list, ids, width, height, state.labels, labelled);
   for (const int level : {REGION, TILE}) {

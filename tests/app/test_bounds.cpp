@@ -42,6 +42,20 @@ BOOST_AUTO_TEST_CASE(bounds_map_to_pixels) {
   BOOST_TEST((pixel({5.1, 0}, {0, 0, 10, 1}, Grid(100, 1)) == Pairs{{50.5, 0.5}}));
 }
 
+BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
+  const Bounds world = {-180, -90, 180, 90};
+  const Grid grid(360, 180, Periodic::x);
+  BOOST_TEST((pixel({180, 0}, world, grid) == Pairs{{0.5, 90.5}}));  // the period begins again
+  BOOST_TEST((pixel({-181, 0}, world, grid) == Pairs{{359.5, 90.5}}));
+  BOOST_TEST((pixel({181.5 + 720, 0}, world, grid) == Pairs{{1.5, 90.5}}));
+  BOOST_TEST((pixel({-180, 90}, world, grid, true) == Pairs{{0.5, 0.5}}));
+  const double column = pixel({1e300, 0}, world, grid).front().first;
+  BOOST_TEST((column >= 0.5 && column <= 359.5));
+  check_error([&] { pixel({0, 91}, world, grid); }, {"(0, 91)", "outside the bounds"});
+  check_error([] { pixel({1, 1}, {1, 0, 1, 2}, Grid(10, 5, Periodic::xy)); }, {"no extent in x", "periodic"});
+  BOOST_TEST((grid_of_width(world, 720, Periodic::xy) == Grid(720, 360, Periodic::xy)));
+}
+
 BOOST_AUTO_TEST_CASE(points_outside_are_named) {
   const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
   const auto map = [](const Point& bad) {

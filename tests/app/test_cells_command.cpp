@@ -22,11 +22,12 @@ const std::string all_files =
 
 /// Runs, and checks all files.
 json checked(const TemporaryFolder& folder, const std::string& arguments, const SeedsById& seeds,
-             Metric metric = Metric::euclidean) {
+             Metric metric = Metric::euclidean, Periodic axes = Periodic::none) {
   json result;
   BOOST_TEST_CONTEXT(arguments) {
     result = json::parse(succeeds(folder, arguments + all_files + " --json"));
-    const LabelImage image = command::read_labels(folder / "l.npy");
+    LabelImage image = command::read_labels(folder / "l.npy");
+    image.grid = Grid(image.grid.width(), image.grid.height(), axes);  // which the file does not know
     check_cells_table(folder / "c.csv", image, seeds, metric);
     check_adjacency_table(folder / "a.csv", image);
     const auto distances = read_raw_npy<float>(folder / "d.npy");
@@ -79,6 +80,15 @@ BOOST_AUTO_TEST_CASE(random_seeds_have_the_cells_of_a_recount) {
   checked(folder, "cells --random 1 --size 5x1", numbered(random_seeds(Grid(5, 1), 1)));
 }
 
+BOOST_AUTO_TEST_CASE(cells_reach_across_periodic_borders) {
+  const TemporaryFolder folder;
+  for (const auto& [name, axes] : {std::pair{"x", Periodic::x}, std::pair{"xy", Periodic::xy}}) {
+    const Grid grid(150, 90, axes);
+    checked(folder, fmt::format("cells --random 40 --size 150x90 --periodic {}", name),
+            numbered(random_seeds(grid, 40)), Metric::euclidean, axes);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(cities_some_of_which_share_a_pixel) {
   const TemporaryFolder folder;
   const json result =
@@ -105,7 +115,8 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
     }
     BOOST_TEST(seeds.begin()->first == 1u);  // not an index
     const json result =
-        checked(folder, fmt::format("cells --trajectory '{}' --width 170 --frame {}", path, number), seeds);
+        checked(folder, fmt::format("cells --trajectory '{}' --width 170 --frame {}", path, number), seeds,
+                Metric::euclidean, Periodic::xy);
     BOOST_TEST(result.at("empty_cells").get<int>() > 0);  // particles that share a pixel
   }
 }

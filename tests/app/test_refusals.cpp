@@ -81,6 +81,12 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--width 32769", usage, {"--width", "32768"});
   refuses(folder, points + "--size 10x10 --bounds 0,0,1", usage, {"--bounds", "X0,Y0,X1,Y1"});
   refuses(folder, points + "--size 10x10 --columns x", usage, {"--columns"});
+  refuses(folder, points + "--size 10x10 --periodic z", usage, {"--periodic", "xy"});
+  refuses(folder, points + "--size 10x10 --periodic x --bounds 1,0,1,9", failure,
+          {"p.csv", "no extent in x"});
+  refuses(folder, render + "--size 32001x10 --periodic x", failure, {"32001", "periodic", "32000"});
+  refuses(folder, "bench --random 5 --size 10x10 --periodic x --methods opencv", failure,
+          {"opencv", "periodic"});
   refuses(folder, render + "--size 10x10 --bounds 0,0,1,1", usage, {"--bounds", "--points"});
   refuses(folder, "render --method jfa --size 10x10 -o a.png", usage, {"--random", "--points", "--mask"});
   refuses(folder, points + "--random 5 --size 10x10", usage, {"--random", "--points"});

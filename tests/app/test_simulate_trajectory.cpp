@@ -76,7 +76,7 @@ std::vector<Particles> drifting(int frames) {
 
 BOOST_AUTO_TEST_CASE(labels_are_the_ids_of_particles_that_come_and_go) {
   const TemporaryFolder folder;
-  const Grid grid(120, 120);
+  const Grid grid(120, 120, Periodic::xy);
   const std::vector<Particles> frames = drifting(12);
   std::string text;
   for (const Particles& particles : frames) text += frame_text(particles);
@@ -102,7 +102,8 @@ BOOST_AUTO_TEST_CASE(of_particles_on_one_pixel_the_lowest_id_has_the_cell) {
   folder.file("t.lammpstrj", frame_text(frames[0]) + frame_text(frames[1]));
   succeeds(folder, "simulate --trajectory t.lammpstrj --size 20x20 --method djfa --labels l%d.npy");
   for (std::size_t i = 0; i < 2; ++i) {
-    BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) == exact_labels(frames[i], Grid(20, 20)));
+    BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) ==
+               exact_labels(frames[i], Grid(20, 20, Periodic::xy)));
   }
 }
 
@@ -124,6 +125,47 @@ BOOST_AUTO_TEST_CASE(each_frame_is_seen_in_its_own_box_and_one_frame_can_be_rend
   BOOST_TEST(labels[10 * 50 + 47] == 8u);
   refuses(folder, "render --trajectory t.lammpstrj --frame 2 --size 9x9 --method jfa -o b.png", failure,
           {"t.lammpstrj", "no frame 2", "is 1"});
+}
+
+BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
+  const TemporaryFolder folder;
+  const Particles particles = {{1, {0.5, 5}}, {2, {6, 5}}};
+  const std::string x_alone = "pp ff pp\n0 10\n0 10\n-0.5 0.5";
+  folder.file("xy.lammpstrj", frame_text(particles));
+  folder.file("x.lammpstrj", frame_text(particles, x_alone));
+  folder.file("none.lammpstrj", frame_text(particles, walled_box));
+  const auto labels = [&](const std::string& file, const std::string& more, const std::string& note = "") {
+    const Result result = run(folder, "render --trajectory " + file +
+                                          ".lammpstrj --size 40x40 --method exact "
+                                          "--labels l.npy " +
+                                          more);
+    BOOST_TEST(result.exit_code == 0, result.error);
+    BOOST_TEST((note.empty() ? result.error.empty() : result.error.find(note) != std::string::npos),
+               result.error);
+    return labels_of(folder, "l.npy");
+  };
+  const auto expected = [&](Periodic axes) { return exact_labels(particles, Grid(40, 40, axes)); };
+  BOOST_TEST(expected(Periodic::x) != expected(Periodic::none));
+  BOOST_TEST(labels("xy", "") == expected(Periodic::xy));
+  BOOST_TEST(labels("x", "") == expected(Periodic::x));
+  BOOST_TEST(labels("none", "") == expected(Periodic::none));
+  BOOST_TEST(labels("xy", "--periodic none") == expected(Periodic::none));
+  BOOST_TEST(labels("none", "--periodic x") == expected(Periodic::x));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10", "--bounds cuts it") == expected(Periodic::none));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic xy") == expected(Periodic::xy));
+
+  folder.file("tilted.lammpstrj",
+              dump("xy xz yz pp pp pp\n0 12 2\n0 10 0\n-0.5 0.5 0", "id x y", {"1 0.5 5", "2 6 5"}));
+  labels("tilted", "", "periodic in x only");
+  refuses(folder, "render --trajectory tilted.lammpstrj --size 9x9 --method exact --periodic xy -o t.png",
+          failure, {"tilted", "--periodic x"});
+  folder.file("both.lammpstrj", frame_text(particles) + frame_text(particles, x_alone));
+  const Result result =
+      run(folder, "simulate --trajectory both.lammpstrj --size 9x9 --method exact --labels both%d.npy");
+  BOOST_TEST(result.exit_code == failure);
+  for (const char* part : {"both.lammpstrj", "frame 1", "--periodic"}) {
+    BOOST_TEST(result.error.find(part) != std::string::npos, result.error);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(without_a_box_the_first_frame_gives_the_bounds) {

@@ -21,8 +21,9 @@ void recount(const std::string& name, const Seeds& seeds, const Diagram& diagram
   std::vector<std::uint32_t> neighbours(seeds.size()), perimeters(seeds.size());
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
     for (const auto& [right, below] : {std::pair{1, 0}, std::pair{0, 1}}) {
-      if (x + right >= grid.width() || y + below >= grid.height()) continue;
-      const std::uint32_t other = label_at(grid, labels, x + right, y + below);
+      const auto next = in_grid(grid, {x + right, y + below});
+      if (!next) continue;
+      const std::uint32_t other = label_at(grid, labels, next->x, next->y);
       if (other != label && other != no_label) ++lengths[in_order(label, other)];
     }
   });
@@ -41,11 +42,13 @@ void recount(const std::string& name, const Seeds& seeds, const Diagram& diagram
   BOOST_TEST((result.read_perimeters() == perimeters), name);
 
   std::size_t vertices = 0;
-  for (int y = 0; y + 1 < grid.height(); ++y) {
-    for (int x = 0; x + 1 < grid.width(); ++x) {
-      std::set<std::uint32_t> cells = {label_at(grid, labels, x, y), label_at(grid, labels, x + 1, y),
-                                       label_at(grid, labels, x, y + 1),
-                                       label_at(grid, labels, x + 1, y + 1)};
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      const auto opposite = in_grid(grid, {x + 1, y + 1});
+      if (!opposite) continue;
+      std::set<std::uint32_t> cells = {label_at(grid, labels, x, y), label_at(grid, labels, opposite->x, y),
+                                       label_at(grid, labels, x, opposite->y),
+                                       label_at(grid, labels, opposite->x, opposite->y)};
       cells.erase(no_label);
       vertices += cells.size() >= 3 ? 1 : 0;
     }

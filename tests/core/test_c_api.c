@@ -78,9 +78,9 @@ static void test_methods(const vorocl_device* device) {
   cl_event event = NULL;
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
   search_all(points, present, seed_count, VOROCL_MANHATTAN, nearest_manhattan);
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
-  OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_create(device, width, height, &exact));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_diagram_create(device, grid, &exact));
   OK(vorocl_diagram_event(diagram, &event));
   CHECK(event == NULL);
 
@@ -96,7 +96,7 @@ static void test_methods(const vorocl_device* device) {
     OK(vorocl_method_get(i, &method));
     CHECK(strcmp(method.name, some_methods[i].name) == 0);
     CHECK(method.exact == some_methods[i].exact && method.continues == some_methods[i].continues);
-    OK(vorocl_prepare(method.name, device, width, height, seed_count, NULL));
+    OK(vorocl_prepare(method.name, device, grid, seed_count, NULL));
     OK(vorocl_run(method.name, seeds, diagram, 0, &options));
     OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
     CHECK(some_methods[i].waves < 0 || waves == some_methods[i].waves);
@@ -148,9 +148,9 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   int waves = -1;
   size_t changed = 1;
   double percent = 0, milliseconds = -1, host_milliseconds = -1;
-  OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
-  OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_create(device, width, height, &exact));
+  OK(vorocl_seeds_random(device, grid, 200, 7, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_diagram_create(device, grid, &exact));
   OK(vorocl_dynamic_jump_flooding(seeds, diagram, 0, NULL));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6);
@@ -224,15 +224,15 @@ static void test_seeds(const vorocl_device* device) {
   cl_mem buffer = NULL;
   cl_command_queue queue = NULL;
   size_t count = 0;
-  int64_t w = 0, h = 0;
+  vorocl_grid read_grid = {0, 0, 0};
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
-  OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_grid(diagram, &w, &h));
-  CHECK(w == width && h == height);
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_diagram_grid(diagram, &read_grid));
+  CHECK(read_grid.width == width && read_grid.height == height && read_grid.periodic == VOROCL_PERIODIC_NONE);
 
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
-  OK(vorocl_seeds_grid(seeds, &w, &h));
-  CHECK(w == width && h == height);
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
+  OK(vorocl_seeds_grid(seeds, &read_grid));
+  CHECK(read_grid.width == width && read_grid.height == height && read_grid.periodic == VOROCL_PERIODIC_NONE);
   OK(vorocl_seeds_count(seeds, &count));
   CHECK(count == seed_count);
   OK(vorocl_seeds_alive(seeds, &count));
@@ -268,7 +268,7 @@ static void test_seeds(const vorocl_device* device) {
   mask[2] = 1;
   mask[width] = 200;
   mask[pixels - 1] = 1;
-  OK(vorocl_seeds_from_mask(device, width, height, mask, pixels, &seeds));
+  OK(vorocl_seeds_from_mask(device, grid, mask, pixels, &seeds));
   OK(vorocl_seeds_count(seeds, &count));
   CHECK(count == 3);
   OK(vorocl_seeds_read(seeds, read, 3));
@@ -276,8 +276,8 @@ static void test_seeds(const vorocl_device* device) {
   vorocl_seeds_free(seeds);
 
   /* Random seeds are the same for the same number, and move no farther than they may. */
-  OK(vorocl_seeds_random(device, width, height, 200, 7, &seeds));
-  OK(vorocl_seeds_random(device, width, height, 200, 7, &again));
+  OK(vorocl_seeds_random(device, grid, 200, 7, &seeds));
+  OK(vorocl_seeds_random(device, grid, 200, 7, &again));
   OK(vorocl_seeds_read(seeds, read, 200));
   OK(vorocl_seeds_read(again, moved, 200));
   CHECK(memcmp(read, moved, sizeof read) == 0);
@@ -290,7 +290,7 @@ static void test_seeds(const vorocl_device* device) {
   vorocl_seeds_free(seeds);
   vorocl_seeds_free(again);
 
-  OK(vorocl_seeds_from_points(device, width, height, NULL, NULL, 0, &seeds)); /* no seeds are allowed */
+  OK(vorocl_seeds_from_points(device, grid, NULL, NULL, 0, &seeds)); /* no seeds are allowed */
   OK(vorocl_seeds_read(seeds, NULL, 0));
   OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
   search_all(NULL, NULL, 0, VOROCL_EUCLIDEAN, nearest);
@@ -325,10 +325,10 @@ static void test_own_buffers(const vorocl_device* device) {
   CHECK(clEnqueueWriteBuffer(queue, own_points, CL_FALSE, 0, sizeof pairs, pairs, 0, NULL, &uploaded) ==
         CL_SUCCESS);
   OK(vorocl_device_wait_for(device, 1, &uploaded));
-  OK(vorocl_seeds_from_buffer(device, width, height, own_points, own_marks, seed_count, &seeds));
+  OK(vorocl_seeds_from_buffer(device, grid, own_points, own_marks, seed_count, &seeds));
   OK(vorocl_seeds_alive(seeds, &alive));
   CHECK(alive == seed_count - 1);
-  OK(vorocl_diagram_over_buffer(device, width, height, own_labels, &diagram));
+  OK(vorocl_diagram_over_buffer(device, grid, own_labels, &diagram));
   OK(vorocl_diagram_labels(diagram, &same_labels));
   CHECK(same_labels == own_labels);
   OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
@@ -358,8 +358,8 @@ static void test_order_of_freeing(void) {
   uint32_t nearest[pixels];
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
   OK(vorocl_device_select("", &device));
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
-  OK(vorocl_diagram_create(device, width, height, &diagram));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
   vorocl_device_free(device);
   OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
   vorocl_seeds_free(seeds);

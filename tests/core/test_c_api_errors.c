@@ -73,17 +73,17 @@ static void test_bad_devices(const vorocl_device* device) {
 
   /* Objects of another context. */
   foreign = clCreateBuffer(other, CL_MEM_READ_WRITE, pixels * sizeof(uint32_t), NULL, &code);
-  FAILS(vorocl_seeds_from_buffer(device, width, height, foreign, NULL, 2, &seeds), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_seeds_from_buffer(device, grid, foreign, NULL, 2, &seeds), VOROCL_BAD_ARGUMENT,
         "another OpenCL context");
-  FAILS(vorocl_diagram_over_buffer(device, width, height, foreign, &diagram), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_diagram_over_buffer(device, grid, foreign, &diagram), VOROCL_BAD_ARGUMENT,
         "another OpenCL context");
-  OK(vorocl_diagram_create(device, width, height, &here));
+  OK(vorocl_diagram_create(device, grid, &here));
   FAILS(vorocl_diagram_write_buffer(here, foreign), VOROCL_BAD_ARGUMENT, "another OpenCL context");
 
   /* Seeds and diagrams of two devices. */
   OK(vorocl_device_select(NULL, &made));
-  OK(vorocl_seeds_from_points(made, width, height, points, NULL, seed_count, &seeds));
-  OK(vorocl_diagram_create(made, width, height, &diagram));
+  OK(vorocl_seeds_from_points(made, grid, points, NULL, seed_count, &seeds));
+  OK(vorocl_diagram_create(made, grid, &diagram));
   FAILS(vorocl_jump_flooding(seeds, here, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_BAD_ARGUMENT,
         "different devices");
   FAILS(vorocl_exact_diagram(seeds, here, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "different devices");
@@ -104,47 +104,37 @@ static void test_bad_seeds(const vorocl_device* device) {
   uint8_t mask[pixels] = {1};
   vorocl_point read[seed_count];
   size_t count = 0;
-  int64_t side = 0;
-  FAILS(vorocl_seeds_from_points(device, width, height, NULL, NULL, 1, &made), VOROCL_NULL_ARGUMENT,
-        "points is NULL");
-  FAILS(vorocl_seeds_from_points(device, width, height, points, NULL, (size_t)-1, &made), VOROCL_BAD_ARGUMENT,
+  vorocl_grid read_grid = {0, 0, 0};
+  FAILS(vorocl_seeds_from_points(device, grid, NULL, NULL, 1, &made), VOROCL_NULL_ARGUMENT, "points is NULL");
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, (size_t)-1, &made), VOROCL_BAD_ARGUMENT,
         "too many");
-  FAILS(vorocl_seeds_from_points(NULL, width, height, points, NULL, 1, &made), VOROCL_NULL_ARGUMENT,
-        "device is NULL");
-  FAILS(vorocl_seeds_from_points(device, width, height, points, NULL, 1, NULL), VOROCL_NULL_ARGUMENT,
-        "seeds is NULL");
-  FAILS(vorocl_seeds_random(device, 0, height, 1, 1, &made), VOROCL_BAD_ARGUMENT, "width is 0");
-  FAILS(vorocl_seeds_random(NULL, width, height, 1, 1, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_seeds_random(device, width, height, 1, 1, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_seeds_from_mask(device, width, height, mask, pixels - 1, &made), VOROCL_BAD_ARGUMENT,
-        "2440 pixels");
-  FAILS(vorocl_seeds_from_mask(device, width, height, NULL, pixels, &made), VOROCL_NULL_ARGUMENT,
-        "mask is NULL");
-  FAILS(vorocl_seeds_from_mask(NULL, width, height, mask, pixels, &made), VOROCL_NULL_ARGUMENT,
-        "device is NULL");
-  FAILS(vorocl_seeds_from_mask(device, width, height, mask, pixels, NULL), VOROCL_NULL_ARGUMENT,
-        "seeds is NULL");
+  FAILS(vorocl_seeds_from_points(NULL, grid, points, NULL, 1, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_seeds_random(device, (vorocl_grid){0, height, 0}, 1, 1, &made), VOROCL_BAD_ARGUMENT,
+        "width is 0");
+  FAILS(vorocl_seeds_random(NULL, grid, 1, 1, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_seeds_random(device, grid, 1, 1, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_seeds_from_mask(device, grid, mask, pixels - 1, &made), VOROCL_BAD_ARGUMENT, "2440 pixels");
+  FAILS(vorocl_seeds_from_mask(device, grid, NULL, pixels, &made), VOROCL_NULL_ARGUMENT, "mask is NULL");
+  FAILS(vorocl_seeds_from_mask(NULL, grid, mask, pixels, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_seeds_from_mask(device, grid, mask, pixels, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
 
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_READ_ONLY, 5 * 2 * sizeof(float), NULL, &code);
   few_marks = clCreateBuffer(context, CL_MEM_READ_ONLY, 4, NULL, &code);
-  FAILS(vorocl_seeds_from_buffer(device, width, height, buffer, NULL, 6, &made), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, NULL, 6, &made), VOROCL_BAD_ARGUMENT,
         "40 bytes; 48 are needed");
-  FAILS(vorocl_seeds_from_buffer(device, width, height, buffer, few_marks, 5, &made), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, few_marks, 5, &made), VOROCL_BAD_ARGUMENT,
         "4 bytes; 5 are needed");
-  FAILS(vorocl_seeds_from_buffer(device, width, height, NULL, NULL, 1, &made), VOROCL_NULL_ARGUMENT,
-        "points is NULL");
-  FAILS(vorocl_seeds_from_buffer(NULL, width, height, buffer, NULL, 1, &made), VOROCL_NULL_ARGUMENT,
-        "device is NULL");
-  FAILS(vorocl_seeds_from_buffer(device, width, height, buffer, NULL, 1, NULL), VOROCL_NULL_ARGUMENT,
-        "seeds is NULL");
+  FAILS(vorocl_seeds_from_buffer(device, grid, NULL, NULL, 1, &made), VOROCL_NULL_ARGUMENT, "points is NULL");
+  FAILS(vorocl_seeds_from_buffer(NULL, grid, buffer, NULL, 1, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, NULL, 1, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
 
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
   FAILS(vorocl_seeds_clone(NULL, &made), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_seeds_clone(seeds, NULL), VOROCL_NULL_ARGUMENT, "clone is NULL");
-  FAILS(vorocl_seeds_grid(NULL, &side, &side), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_seeds_grid(seeds, NULL, &side), VOROCL_NULL_ARGUMENT, "width is NULL");
-  FAILS(vorocl_seeds_grid(seeds, &side, NULL), VOROCL_NULL_ARGUMENT, "height is NULL");
+  FAILS(vorocl_seeds_grid(NULL, &read_grid), VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_seeds_grid(seeds, NULL), VOROCL_NULL_ARGUMENT, "grid is NULL");
   FAILS(vorocl_seeds_count(NULL, &count), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_seeds_count(seeds, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
   FAILS(vorocl_seeds_alive(NULL, &count), VOROCL_NULL_ARGUMENT, "seeds is NULL");
@@ -184,20 +174,19 @@ static void test_bad_points(const vorocl_device* device) {
   uint32_t labels[pixels];
   size_t index = 0;
   FAILS(vorocl_bad_point(&index, &point), VOROCL_BAD_ARGUMENT, "no call");
-  FAILS(vorocl_seeds_from_points(device, width, height, list, NULL, 3, &seeds), VOROCL_BAD_POINT,
-        "point 2 (nan, 3");
+  FAILS(vorocl_seeds_from_points(device, grid, list, NULL, 3, &seeds), VOROCL_BAD_POINT, "point 2 (nan, 3");
   CHECK(seeds == NULL);
   OK(vorocl_bad_point(&index, &point));
   CHECK(index == 2 && isnan(point.x) && point.y == 3);
 
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
   FAILS(vorocl_seeds_move_to(seeds, list, NULL, 3), VOROCL_BAD_POINT, "not finite");
   OK(vorocl_seeds_count(seeds, &index));
   CHECK(index == seed_count); /* they stay as they were */
 
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof pairs, pairs, &code);
-  OK(vorocl_diagram_create(device, width, height, &diagram));
+  OK(vorocl_diagram_create(device, grid, &diagram));
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_adjacency_create(&adjacency));
   OK(vorocl_seeds_move_to_buffer(seeds, buffer, NULL, 3));
@@ -233,28 +222,35 @@ static void test_bad_diagrams(const vorocl_device* device) {
   cl_event event = NULL;
   cl_int code = CL_SUCCESS;
   uint32_t labels[pixels] = {0};
-  int64_t side = 0;
+  vorocl_grid read_grid = {0, 0, 0};
   size_t count = 0;
   double percent = 0;
   int waves = 0;
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof labels, NULL, &code);
-  FAILS(vorocl_diagram_create(device, width, 40000, &made), VOROCL_BAD_ARGUMENT, "height is 40000");
-  FAILS(vorocl_diagram_create(NULL, width, height, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_diagram_create(device, width, height, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
-  FAILS(vorocl_diagram_over_buffer(device, width, height + 1, buffer, &made), VOROCL_BAD_ARGUMENT,
-        "are needed");
-  FAILS(vorocl_diagram_over_buffer(device, 2, 2, buffer, &made), VOROCL_BAD_ARGUMENT, "read-only");
-  FAILS(vorocl_diagram_over_buffer(device, 2, 2, NULL, &made), VOROCL_NULL_ARGUMENT, "labels is NULL");
-  FAILS(vorocl_diagram_over_buffer(NULL, 2, 2, buffer, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_diagram_over_buffer(device, 2, 2, buffer, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_diagram_create(device, (vorocl_grid){width, 40000, 0}, &made), VOROCL_BAD_ARGUMENT,
+        "height is 40000");
+  FAILS(vorocl_diagram_create(NULL, grid, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_diagram_create(device, grid, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_diagram_over_buffer(device, (vorocl_grid){width, height + 1, 0}, buffer, &made),
+        VOROCL_BAD_ARGUMENT, "are needed");
+  FAILS(vorocl_diagram_over_buffer(device, (vorocl_grid){2, 2, 0}, buffer, &made), VOROCL_BAD_ARGUMENT,
+        "read-only");
+  FAILS(vorocl_diagram_over_buffer(device, (vorocl_grid){2, 2, 0}, NULL, &made), VOROCL_NULL_ARGUMENT,
+        "labels is NULL");
+  FAILS(vorocl_diagram_over_buffer(NULL, (vorocl_grid){2, 2, 0}, buffer, &made), VOROCL_NULL_ARGUMENT,
+        "device is NULL");
+  FAILS(vorocl_diagram_over_buffer(device, (vorocl_grid){2, 2, 0}, buffer, NULL), VOROCL_NULL_ARGUMENT,
+        "diagram is NULL");
+  FAILS(vorocl_diagram_create(device, (vorocl_grid){2, 2, 4}, &made), VOROCL_BAD_ARGUMENT, "periodic axes 4");
+  FAILS(vorocl_diagram_create(device, (vorocl_grid){32001, 2, VOROCL_PERIODIC_X}, &made), VOROCL_BAD_ARGUMENT,
+        "32000");
   CHECK(made == NULL);
 
-  OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_create(device, height, width, &other));
-  FAILS(vorocl_diagram_grid(NULL, &side, &side), VOROCL_NULL_ARGUMENT, "diagram is NULL");
-  FAILS(vorocl_diagram_grid(diagram, NULL, &side), VOROCL_NULL_ARGUMENT, "width is NULL");
-  FAILS(vorocl_diagram_grid(diagram, &side, NULL), VOROCL_NULL_ARGUMENT, "height is NULL");
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_diagram_create(device, (vorocl_grid){height, width, 0}, &other));
+  FAILS(vorocl_diagram_grid(NULL, &read_grid), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_diagram_grid(diagram, NULL), VOROCL_NULL_ARGUMENT, "grid is NULL");
   FAILS(vorocl_diagram_labels(NULL, &buffer), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_diagram_labels(diagram, NULL), VOROCL_NULL_ARGUMENT, "labels is NULL");
   FAILS(vorocl_diagram_write(NULL, labels, pixels), VOROCL_NULL_ARGUMENT, "diagram is NULL");
@@ -285,9 +281,9 @@ static void test_bad_methods(const vorocl_device* device) {
   vorocl_diagram *diagram = NULL, *other = NULL;
   vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
   vorocl_method_description method;
-  OK(vorocl_seeds_from_points(device, width, height, points, NULL, seed_count, &seeds));
-  OK(vorocl_diagram_create(device, width, height, &diagram));
-  OK(vorocl_diagram_create(device, height, width, &other));
+  OK(vorocl_seeds_from_points(device, grid, points, NULL, seed_count, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_diagram_create(device, (vorocl_grid){height, width, 0}, &other));
   FAILS(vorocl_jump_flooding(seeds, other, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_BAD_ARGUMENT,
         "61 x 40");
   FAILS(vorocl_jump_flooding(NULL, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_NULL_ARGUMENT,
@@ -324,13 +320,14 @@ static void test_bad_methods(const vorocl_device* device) {
   FAILS(vorocl_run(NULL, seeds, diagram, 0, NULL), VOROCL_NULL_ARGUMENT, "method is NULL");
   FAILS(vorocl_run("jfa", NULL, diagram, 0, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_run("jfa", seeds, NULL, 0, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
-  FAILS(vorocl_prepare("fast", device, width, height, 9, NULL), VOROCL_BAD_ARGUMENT, "no method");
-  FAILS(vorocl_prepare(NULL, device, width, height, 9, NULL), VOROCL_NULL_ARGUMENT, "method is NULL");
-  FAILS(vorocl_prepare("jfa", NULL, width, height, 9, NULL), VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_prepare("jfa", device, 0, height, 9, NULL), VOROCL_BAD_ARGUMENT, "width is 0");
+  FAILS(vorocl_prepare("fast", device, grid, 9, NULL), VOROCL_BAD_ARGUMENT, "no method");
+  FAILS(vorocl_prepare(NULL, device, grid, 9, NULL), VOROCL_NULL_ARGUMENT, "method is NULL");
+  FAILS(vorocl_prepare("jfa", NULL, grid, 9, NULL), VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_prepare("jfa", device, (vorocl_grid){0, height, 0}, 9, NULL), VOROCL_BAD_ARGUMENT,
+        "width is 0");
   options.metric = 9;
   FAILS(vorocl_run("jfa", seeds, diagram, 0, &options), VOROCL_BAD_ARGUMENT, "metric 9");
-  FAILS(vorocl_prepare("jfa", device, width, height, 9, &options), VOROCL_BAD_ARGUMENT, "metric 9");
+  FAILS(vorocl_prepare("jfa", device, grid, 9, &options), VOROCL_BAD_ARGUMENT, "metric 9");
   options.metric = VOROCL_EUCLIDEAN;
   options.neighbourhood = 9;
   FAILS(vorocl_run("jfa", seeds, diagram, 0, &options), VOROCL_BAD_ARGUMENT, "neighbourhood 9");

@@ -6,7 +6,7 @@ static uint32_t labels[pixels];
 /* What a count of the labels says of one cell. */
 typedef struct cell {
   uint32_t area, neighbours, perimeter;
-  uint64_t sum_x, sum_y;
+  int64_t sum_x, sum_y;
   vorocl_cell_shape shape;
 } cell;
 static cell cells[seed_count];
@@ -27,8 +27,8 @@ static void count_cells(vorocl_metric metric) {
     cell* const here = &cells[labels[pixel]];
     vorocl_cell_shape* const shape = &here->shape;
     if (here->area++ == 0) *shape = (vorocl_cell_shape){x, y, x, y, d, 0};
-    here->sum_x += (uint64_t)x;
-    here->sum_y += (uint64_t)y;
+    here->sum_x += x;
+    here->sum_y += y;
     if (x < shape->left) shape->left = x;
     if (x > shape->right) shape->right = x;
     if (y > shape->bottom) shape->bottom = y; /* pixels come row by row: the top is the first one's */
@@ -74,7 +74,7 @@ static void test_sums(const vorocl_device* device, const vorocl_seeds* seeds, co
   vorocl_cell_statistics statistics;
   vorocl_point centroids[seed_count];
   uint32_t area[seed_count];
-  uint64_t sum_x[seed_count], sum_y[seed_count];
+  int64_t sum_x[seed_count], sum_y[seed_count];
   cl_mem buffers[3] = {NULL, NULL, NULL}, same[3] = {NULL, NULL, NULL};
   double mean = 0, variance = 0;
   size_t count = 7;
@@ -227,7 +227,7 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   vorocl_cell_shape cells_read[seed_count];
   vorocl_cell_pair pairs[seed_count];
   size_t count = 7;
-  OK(vorocl_diagram_create(device, height, width, &other));
+  OK(vorocl_diagram_create(device, (vorocl_grid){height, width, 0}, &other));
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_cell_shapes_create(&shapes));
   OK(vorocl_adjacency_create(&adjacency));
@@ -302,8 +302,8 @@ int main(void) {
   vorocl_diagram* diagram = NULL;
   OK(vorocl_device_select(NULL, &device));
   if (device == NULL) return EXIT_FAILURE;
-  OK(vorocl_seeds_from_points(device, width, height, points, present, seed_count, &seeds));
-  OK(vorocl_diagram_create(device, width, height, &diagram));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, labels);
   OK(vorocl_diagram_write(diagram, labels, pixels));
   test_sums(device, seeds, diagram);

@@ -20,11 +20,11 @@ DistanceErrors on_the_host(const Grid& grid, const std::vector<Pixel>& seeds, Me
   for (int y = 0; y < grid.height(); ++y) {
     for (int x = 0; x < grid.width(); ++x, ++i) {
       if (exact[i] == no_label) continue;
-      const std::int64_t least = distance({x, y}, seeds.at(exact[i]), metric);
+      const std::int64_t least = distance(grid, {x, y}, seeds.at(exact[i]), metric);
       if (labels[i] >= seeds.size()) {
         ++errors.wrong_pixels;
         ++errors.unlabelled_pixels;
-      } else if (const std::int64_t d = distance({x, y}, seeds[labels[i]], metric); d > least) {
+      } else if (const std::int64_t d = distance(grid, {x, y}, seeds[labels[i]], metric); d > least) {
         ++errors.wrong_pixels;
         const double excess = in_pixels(d) - in_pixels(least);
         errors.largest_excess = std::max(errors.largest_excess, excess);
@@ -57,7 +57,7 @@ void check(const std::string& name, const Device& device, const Case& example, M
 
 BOOST_AUTO_TEST_CASE(errors_are_those_of_the_host) {
   for (const Device& device : shapes()) {
-    for (const Case& example : edge_cases()) {
+    for (const Case& example : all_edge_cases()) {
       for (const Metric metric : both_metrics) {
         const auto cells = static_cast<std::uint32_t>(example.seeds.size());
         check("random labels", device, example, metric, random_labels(example.grid, cells, 4));

@@ -93,7 +93,7 @@ void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metri
 
 BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
   for (const Metric metric : both_metrics) {
-    for (const Case& c : edge_cases()) {
+    for (const Case& c : all_edge_cases()) {
       const Labels expected = brute_force(c.grid, c.seeds, metric);
       BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", reference") {
         BOOST_TEST(count_differences(reference_labels(c.grid, c.seeds, metric), expected) == 0);
@@ -110,16 +110,18 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
 
 BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
   std::mt19937 rng(1);
-  const auto below = [&](std::size_t n) { return static_cast<int>(rng() % n); };
+  const auto below = [&](int n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); };
   for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
-    const Grid grid(1 + below(64), 1 + below(64));
+    constexpr Periodic axes[] = {Periodic::none, Periodic::none, Periodic::xy, Periodic::xy};
+    // Long enough for rows across the border of a period, and shorter.
+    const int most_pixels = i % 4 == 0 ? 160 : 64;
+    const Grid grid(1 + below(most_pixels), 1 + below(most_pixels), axes[rng() % 4]);
     // All orders of magnitude alike, in a part of the grid, so that some of it is empty.
-    const Grid part(1 + below(static_cast<std::size_t>(grid.width())),
-                    1 + below(static_cast<std::size_t>(grid.height())));
+    const Grid part(1 + below(grid.width()), 1 + below(grid.height()));
     const double most = std::log(static_cast<double>(grid.pixels()) + 1);
     const auto count = static_cast<std::size_t>(std::exp(most * below(1001) / 1000.0) - 0.99);
     auto seeds = random_pixels(part, count, static_cast<unsigned>(rng()));
-    const int right = below(static_cast<std::size_t>(grid.width() - part.width() + 1));
+    const int right = below(grid.width() - part.width() + 1);
     for (Pixel& seed : seeds) seed.x += right;
     const Metric metric = both_metrics[rng() % 2];
     const ListLength lists = both_lengths[rng() % 4 == 0 ? 1 : 0];
@@ -128,19 +130,22 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
     BOOST_TEST(count_differences(reference_labels(grid, seeds, metric), expected) == 0);
     const std::size_t wrong = count_differences(labels, expected);
     BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
-                                   << grid.height() << " with " << count << " seeds, "
-                                   << vorocl::name_of(metric) << ", " << name_of(lists));
+                                   << grid.height() << " (periodic " << static_cast<int>(grid.periodic())
+                                   << ") with " << count << " seeds, " << vorocl::name_of(metric) << ", "
+                                   << name_of(lists));
     if (wrong > 0) return;
   }
 }
 
 BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
-  const Grid grid = long_tests ? Grid(2048, 2048) : Grid(509, 384);
-  for (const Metric metric : both_metrics) {
-    for (const Case& c : hurtful_cases(grid)) {
-      BOOST_TEST_CONTEXT(c.name) {
-        check_against_tree(grid, c.seeds, metric);
-        if (!long_tests) check_against_tree(grid, c.seeds, metric, ListLength::two_entries);
+  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+    const Grid grid = long_tests ? Grid(2048, 2048, axes) : Grid(509, 384, axes);
+    for (const Metric metric : both_metrics) {
+      for (const Case& c : hurtful_cases(grid)) {
+        BOOST_TEST_CONTEXT(c.name) {
+          check_against_tree(grid, c.seeds, metric);
+          if (!long_tests) check_against_tree(grid, c.seeds, metric, ListLength::two_entries);
+        }
       }
     }
   }
@@ -153,6 +158,13 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   check_against_tree({64, 32768}, random_pixels({64, 32768}, 3000, 23), Metric::manhattan);
   // Seeds that are as far apart as they can be: distances just below 2^31.
   check_against_tree({32768, 40}, {{0, 0}, {32767, 39}});
+  // The longest periods, and seeds half of one away.
+  check_against_tree({32000, 40, Periodic::xy}, {{31999, 39}});
+  check_against_tree({32000, 64, Periodic::x}, random_pixels({32000, 64}, 30, 26));
+  check_against_tree({40, 31999, Periodic::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
+  const Grid torus(2048, 2048, Periodic::xy);
+  for (const std::size_t count : {3u, 400u, 20000u})
+    check_against_tree(torus, random_pixels(torus, count, 28));
   if (!long_tests) return;
   for (const Metric metric : both_metrics) {
     for (const std::size_t count : {1u, 2u, 64u, 1024u, 16384u, 65536u, 262144u}) {

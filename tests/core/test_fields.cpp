@@ -29,15 +29,14 @@ void check_fields(const std::string& name, const Seeds& seeds, const std::vector
         wrong_integers += integer[i] != no_distance ? 1 : 0;
         wrong_floats += !std::isinf(in_pixels[i]) ? 1 : 0;
       } else {
-        const auto d = static_cast<double>(distance({x, y}, pixels[labels[i]], metric));
+        const auto d = static_cast<double>(distance(grid, {x, y}, pixels[labels[i]], metric));
         const double length = metric == Metric::euclidean ? std::sqrt(d) : d;
         wrong_integers += integer[i] != d ? 1 : 0;
         wrong_floats += std::abs(in_pixels[i] - length) > length * 4e-7 ? 1 : 0;
       }
       const auto differs = [&](int dx, int dy) {
-        const int u = x + dx, v = y + dy;
-        return u >= 0 && u < grid.width() && v >= 0 && v < grid.height() &&
-               label_at(grid, labels, u, v) != labels[i];
+        const auto other = in_grid(grid, {x + dx, y + dy});
+        return other && label_at(grid, labels, other->x, other->y) != labels[i];
       };
       const bool expected = differs(-1, 0) || differs(1, 0) || differs(0, -1) || differs(0, 1);
       wrong_border += border[i] != (expected ? 1 : 0) ? 1 : 0;

@@ -14,7 +14,7 @@ std::uint64_t energy_on_host(const Grid& grid, const std::vector<std::uint32_t>&
                              const std::vector<Pixel>& seeds) {
   std::uint64_t sum = 0;
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
-    sum += static_cast<std::uint64_t>(distance({x, y}, seeds[label], Metric::euclidean));
+    sum += static_cast<std::uint64_t>(distance(grid, {x, y}, seeds[label], Metric::euclidean));
   });
   return sum;
 }
@@ -34,21 +34,23 @@ std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32
   };
   std::vector<Sums> sums(seeds.size());
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
+    const Pixel image = nearest_image(grid, {x, y}, seeds[label]);
     ++sums[label].area;
-    sums[label].x += x;
-    sums[label].y += y;
+    sums[label].x += image.x;
+    sums[label].y += image.y;
   });
   const auto nearest = [](std::int64_t area, std::int64_t sum, int present, int size) {
     int best = present;
-    for (int at = 0; at < size; ++at) {
+    for (int at = -size; at < 2 * size; ++at) {
       if (std::abs(at * area - sum) < std::abs(best * area - sum)) best = at;
     }
     return best;
   };
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     if (sums[id].area == 0) continue;
-    seeds[id] = {nearest(sums[id].area, sums[id].x, seeds[id].x, grid.width()),
-                 nearest(sums[id].area, sums[id].y, seeds[id].y, grid.height())};
+    const Pixel image = {nearest(sums[id].area, sums[id].x, seeds[id].x, grid.width()),
+                         nearest(sums[id].area, sums[id].y, seeds[id].y, grid.height())};
+    seeds[id] = in_grid(grid, image).value();
   }
   return seeds;
 }

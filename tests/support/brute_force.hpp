@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -31,6 +32,39 @@ inline std::int64_t distance(const Pixel& a, const Pixel& b, Metric metric) {
   return metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
 }
 
+/// Of the images of a coordinate along an axis the one nearest to another one; of two the one behind it.
+inline int nearest_image(int at, int to, int size, bool periodic) {
+  int nearest = at;
+  if (periodic) {
+    for (const int image : {at - size, at + size}) {
+      const int nearer = std::abs(nearest - to) - std::abs(image - to);
+      if (nearer > 0 || (nearer == 0 && image > nearest)) nearest = image;
+    }
+  }
+  return nearest;
+}
+
+inline Pixel nearest_image(const Grid& grid, const Pixel& pixel, const Pixel& to) {
+  return {nearest_image(pixel.x, to.x, grid.width(), grid.periodic_x()),
+          nearest_image(pixel.y, to.y, grid.height(), grid.periodic_y())};
+}
+
+/// The distance in a grid, which may be periodic.
+inline std::int64_t distance(const Grid& grid, const Pixel& a, const Pixel& b, Metric metric) {
+  return distance(nearest_image(grid, a, b), b, metric);
+}
+
+/// The pixel of the grid that one outside is an image of, if there is one.
+inline std::optional<Pixel> in_grid(const Grid& grid, const Pixel& pixel) {
+  const auto along = [](int at, int size, bool periodic) {
+    return periodic ? (at % size + size) % size : at;
+  };
+  const Pixel own = {along(pixel.x, grid.width(), grid.periodic_x()),
+                     along(pixel.y, grid.height(), grid.periodic_y())};
+  const bool inside = own.x >= 0 && own.x < grid.width() && own.y >= 0 && own.y < grid.height();
+  return inside ? std::optional<Pixel>(own) : std::nullopt;
+}
+
 /// The labels of the exact diagram with the tie rule: the least distance, then the first seed in row-major
 /// order of position, then the lowest id.
 inline std::vector<std::uint32_t> brute_force(const Grid& grid, const std::vector<Pixel>& seeds,
@@ -42,7 +76,7 @@ inline std::vector<std::uint32_t> brute_force(const Grid& grid, const std::vecto
       std::uint32_t best = no_label;
       std::int64_t least = 0;
       for (std::uint32_t id = 0; id < seeds.size(); ++id) {
-        const std::int64_t d = distance({x, y}, seeds[id], metric);
+        const std::int64_t d = distance(grid, {x, y}, seeds[id], metric);
         if (best == no_label || d < least || (d == least && seeds[id] < seeds[best])) {
           best = id;
           least = d;
@@ -75,8 +109,8 @@ inline Verdict judge(const Grid& grid, const std::vector<Pixel>& seeds, Metric m
     } else if (labels[i] >= seeds.size()) {
       ++verdict.invalid;
     } else {
-      const std::int64_t d = distance(pixel, seeds[labels[i]], metric);
-      const std::int64_t least = distance(pixel, seeds[ground_truth[i]], metric);
+      const std::int64_t d = distance(grid, pixel, seeds[labels[i]], metric);
+      const std::int64_t least = distance(grid, pixel, seeds[ground_truth[i]], metric);
       verdict.wrong += d > least ? 1 : 0;
       verdict.too_near += d < least ? 1 : 0;
     }
@@ -109,15 +143,14 @@ struct Case {
   std::vector<Pixel> seeds;
 };
 
-/// Grids at the edges of what is possible (single pixels and lines, primes, powers of two and their
-/// neighbours, wide, tall) with all kinds of seeds.
-inline std::vector<Case> edge_cases() {
-  const Grid grids[] = {{1, 1},   {1, 17},  {31, 1},  {2, 2},   {3, 5},   {7, 13},  {16, 16}, {15, 17},
-                        {17, 15}, {31, 33}, {64, 64}, {63, 65}, {67, 29}, {128, 9}, {5, 130}, {101, 97}};
+/// All kinds of seeds on each of the grids.
+inline std::vector<Case> cases_on(const std::vector<Grid>& grids) {
   std::vector<Case> cases;
   for (const Grid& grid : grids) {
     const int right = grid.width() - 1, bottom = grid.height() - 1;
-    const std::string size = std::to_string(grid.width()) + "x" + std::to_string(grid.height()) + " ";
+    constexpr const char* periodic[] = {" ", " periodic in x ", " periodic in y ", " periodic "};
+    const std::string size = std::to_string(grid.width()) + "x" + std::to_string(grid.height()) +
+                             periodic[static_cast<int>(grid.periodic())];
     const Pixel middle = {grid.width() / 2, grid.height() / 2};
     std::vector<Pixel> row, diagonal;
     for (int x = 0; x <= right; x += 2) row.push_back({x, bottom / 2});
@@ -133,6 +166,47 @@ inline std::vector<Case> edge_cases() {
     cases.push_back({size + "random sparse", grid, random_pixels(grid, 1 + grid.pixels() / 100, 1)});
     cases.push_back({size + "random dense", grid, random_pixels(grid, 1 + grid.pixels() / 4, 2)});
   }
+  return cases;
+}
+
+/// Grids at the edges of what is possible: single pixels and lines, primes, powers of two and their
+/// neighbours, wide, tall.
+inline std::vector<Case> edge_cases() {
+  return cases_on({{1, 1},
+                   {1, 17},
+                   {31, 1},
+                   {2, 2},
+                   {3, 5},
+                   {7, 13},
+                   {16, 16},
+                   {15, 17},
+                   {17, 15},
+                   {31, 33},
+                   {64, 64},
+                   {63, 65},
+                   {67, 29},
+                   {128, 9},
+                   {5, 130},
+                   {101, 97}});
+}
+
+/// The same with periodic axes, not all of them: kernels are built anew for these.
+inline std::vector<Case> periodic_cases() {
+  constexpr Periodic x = Periodic::x, y = Periodic::y, xy = Periodic::xy;
+  return cases_on({{1, 17, xy},
+                   {31, 1, xy},
+                   {2, 2, xy},
+                   {5, 130, xy},
+                   {64, 64, xy},
+                   {67, 29, xy},
+                   {101, 97, xy},
+                   {63, 65, x},
+                   {16, 80, y}});
+}
+
+inline std::vector<Case> all_edge_cases() {
+  std::vector<Case> cases = edge_cases(), periodic = periodic_cases();
+  cases.insert(cases.end(), periodic.begin(), periodic.end());
   return cases;
 }
 

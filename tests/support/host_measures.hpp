@@ -54,25 +54,27 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
                                            Metric metric) {
   struct Cell {
     double area = 0, sum_x = 0, sum_y = 0, farthest = 0, perimeter = 0;
-    int left = 1 << 20, top = 1 << 20, right = -1, bottom = -1;
+    int left = 1 << 20, top = 1 << 20, right = -(1 << 20), bottom = -(1 << 20);
     std::set<std::uint32_t> neighbours;
   };
   const Grid& grid = image.grid;
   std::map<std::uint32_t, Cell> cells;
   each_pixel(grid, image.labels, [&](std::uint32_t label, int x, int y) {
     Cell& cell = cells[label];
+    const Pixel pixel = nearest_image(grid, {x, y}, seeds.at(label));
     ++cell.area;
-    cell.sum_x += x;
-    cell.sum_y += y;
-    cell.left = std::min(cell.left, x);
-    cell.top = std::min(cell.top, y);
-    cell.right = std::max(cell.right, x);
-    cell.bottom = std::max(cell.bottom, y);
-    const auto far = static_cast<double>(distance({x, y}, seeds.at(label), metric));
+    cell.sum_x += pixel.x;
+    cell.sum_y += pixel.y;
+    cell.left = std::min(cell.left, pixel.x);
+    cell.top = std::min(cell.top, pixel.y);
+    cell.right = std::max(cell.right, pixel.x);
+    cell.bottom = std::max(cell.bottom, pixel.y);
+    const auto far = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
     cell.farthest = std::max(cell.farthest, metric == Metric::euclidean ? std::sqrt(far) : far);
     for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-      if (x + dx < 0 || x + dx >= grid.width() || y + dy < 0 || y + dy >= grid.height()) continue;
-      const std::uint32_t other = label_at(grid, image.labels, x + dx, y + dy);
+      const auto next = in_grid(grid, {x + dx, y + dy});
+      if (!next) continue;
+      const std::uint32_t other = label_at(grid, image.labels, next->x, next->y);
       if (other == label || other == no_label) continue;
       ++cell.perimeter;
       cell.neighbours.insert(other);
@@ -88,8 +90,8 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
     } else {
       const Cell& cell = found->second;
       row[3] = cell.area;
-      const bool touches = cell.left == 0 || cell.top == 0 || cell.right == grid.width() - 1 ||
-                           cell.bottom == grid.height() - 1;
+      const bool touches = (!grid.periodic_x() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
+                           (!grid.periodic_y() && (cell.top == 0 || cell.bottom == grid.height() - 1));
       row.insert(row.end(),
                  {cell.sum_x / cell.area + 0.5, cell.sum_y / cell.area + 0.5, cell.left, cell.top, cell.right,
                   cell.bottom, cell.perimeter, cell.neighbours.size(), cell.farthest, touches ? 1 : 0});
@@ -104,8 +106,9 @@ inline std::vector<TableRow> pairs_on_host(const command::LabelImage& image) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> lengths;
   each_pixel(grid, image.labels, [&](std::uint32_t label, int x, int y) {
     for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
-      if (x + dx >= grid.width() || y + dy >= grid.height()) continue;
-      const std::uint32_t other = label_at(grid, image.labels, x + dx, y + dy);
+      const auto next = in_grid(grid, {x + dx, y + dy});
+      if (!next) continue;
+      const std::uint32_t other = label_at(grid, image.labels, next->x, next->y);
       if (other != label && other != no_label) ++lengths[std::minmax(label, other)];
     }
   });
@@ -150,7 +153,7 @@ inline std::size_t wrong_distances(const command::LabelImage& image, const std::
   BOOST_TEST_REQUIRE(distances.size() == image.grid.pixels());
   std::size_t wrong = 0, i = 0;
   each_pixel(image.grid, image.labels, [&](std::uint32_t label, int x, int y) {
-    const auto d = static_cast<double>(distance({x, y}, seeds.at(label), metric));
+    const auto d = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
     const double expected = metric == Metric::euclidean ? std::sqrt(d) : d;
     wrong += std::abs(distances[i++] - expected) > 1e-6 * expected ? 1 : 0;
   });

@@ -11,10 +11,10 @@
 namespace vorocl {
 
 /// Whether seed a is to be preferred to seed b at a pixel (any seed is preferred to no_label).
-inline bool preferred(std::uint32_t a, std::uint32_t b, const Pixel& at, const std::vector<Pixel>& seeds,
-                      Metric metric) {
+inline bool preferred(const Grid& grid, std::uint32_t a, std::uint32_t b, const Pixel& at,
+                      const std::vector<Pixel>& seeds, Metric metric) {
   if (a == no_label || b == no_label) return a != no_label;
-  const std::int64_t da = distance(at, seeds[a], metric), db = distance(at, seeds[b], metric);
+  const std::int64_t da = distance(grid, at, seeds[a], metric), db = distance(grid, at, seeds[b], metric);
   if (da != db) return da < db;
   if (seeds[a] < seeds[b] || seeds[b] < seeds[a]) return seeds[a] < seeds[b];
   return a < b;
@@ -31,7 +31,7 @@ inline std::vector<std::uint32_t> reference_flood(const Grid& grid, const std::v
   labels.resize(grid.pixels(), no_label);
   for (std::uint32_t id = 0; id < seeds.size(); ++id) {
     std::uint32_t& label = labels[at(seeds[id].x, seeds[id].y)];
-    if (preferred(id, label, seeds[id], seeds, metric)) label = id;
+    if (preferred(grid, id, label, seeds[id], seeds, metric)) label = id;
   }
   for (const Wave& wave : plan) {
     const std::vector<std::uint32_t> before = labels;
@@ -41,10 +41,10 @@ inline std::vector<std::uint32_t> reference_flood(const Grid& grid, const std::v
         for (int dy = -1; dy <= 1; ++dy) {
           for (int dx = -1; dx <= 1; ++dx) {
             if (wave.neighbourhood == Neighbourhood::von_neumann && dx != 0 && dy != 0) continue;
-            const int from_x = x + dx * wave.step, from_y = y + dy * wave.step;
-            if (from_x < 0 || from_x >= width || from_y < 0 || from_y >= height) continue;
-            const std::uint32_t candidate = before[at(from_x, from_y)];
-            if (preferred(candidate, label, {x, y}, seeds, metric)) label = candidate;
+            const auto from = in_grid(grid, {x + dx * wave.step, y + dy * wave.step});
+            if (!from) continue;
+            const std::uint32_t candidate = before[at(from->x, from->y)];
+            if (preferred(grid, candidate, label, {x, y}, seeds, metric)) label = candidate;
           }
         }
       }

@@ -25,9 +25,14 @@ class SeedTree {
     build(0, nodes_.size());
   }
 
-  std::uint32_t nearest(const Pixel& pixel) const {
+  /// The seed nearest to some image of the pixel.
+  std::uint32_t nearest(const Grid& grid, const Pixel& pixel) const {
     Nearest found;
-    search(0, nodes_.size(), pixel, found);
+    for (int y = grid.periodic_y() ? -1 : 0; y <= (grid.periodic_y() ? 1 : 0); ++y) {
+      for (int x = grid.periodic_x() ? -1 : 0; x <= (grid.periodic_x() ? 1 : 0); ++x) {
+        search(0, nodes_.size(), {pixel.x + x * grid.width(), pixel.y + y * grid.height()}, found);
+      }
+    }
     return found.node == nullptr ? no_label : found.node->id;
   }
 
@@ -90,7 +95,7 @@ inline std::vector<std::uint32_t> tree_labels(const Grid& grid, const std::vecto
   std::vector<std::uint32_t> labels;
   labels.reserve(grid.pixels());
   for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) labels.push_back(tree.nearest({x, y}));
+    for (int x = 0; x < grid.width(); ++x) labels.push_back(tree.nearest(grid, {x, y}));
   }
   return labels;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <nanoflann.hpp>
 #include <opencv2/core/utility.hpp>
 #include <tuple>
@@ -27,6 +28,17 @@ struct Cloud {
   }
 };
 
+/// Where a pixel is along an axis, and a period before and behind that.
+std::vector<int> images(int at, int size, bool periodic) {
+  return periodic ? std::vector<int>{at - size, at, at + size} : std::vector<int>{at};
+}
+
+/// The length of a way along an axis, round the grid if that is shorter.
+int along(int offset, int size, bool periodic) {
+  const int inside = std::abs(offset);
+  return periodic ? std::min(inside, size - inside) : inside;
+}
+
 /// Calls found(x, y, a nearest seed's pixel) for every pixel, from several threads.
 template <template <class, class, class, class> class Distance, typename Found>
 void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) {
@@ -35,11 +47,20 @@ void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) 
   cv::parallel_for_(cv::Range(0, grid.height()), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
       for (int x = 0; x < grid.width(); ++x) {
-        const double query[2] = {static_cast<double>(x), static_cast<double>(y)};
-        std::uint32_t index = 0;
-        double distance = 0;
-        tree.knnSearch(query, 1, &index, &distance);
-        found(x, y, cloud.points[index]);
+        std::uint32_t nearest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (const int image_y : images(y, grid.height(), grid.periodic_y())) {
+          for (const int image_x : images(x, grid.width(), grid.periodic_x())) {
+            const double query[2] = {static_cast<double>(image_x), static_cast<double>(image_y)};
+            std::uint32_t index = 0;
+            double distance = 0;
+            tree.knnSearch(query, 1, &index, &distance);
+            if (distance >= least) continue;
+            least = distance;
+            nearest = index;
+          }
+        }
+        found(x, y, cloud.points[nearest]);
       }
     }
   });
@@ -85,7 +106,8 @@ std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) 
 }
 
 std::uint32_t GroundTruth::distance(const Position& seed, int x, int y) const {
-  const int dx = std::abs(seed.x - x), dy = std::abs(seed.y - y);
+  const int dx = along(seed.x - x, grid_.width(), grid_.periodic_x());
+  const int dy = along(seed.y - y, grid_.height(), grid_.periodic_y());
   return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? dx * dx + dy * dy : dx + dy);
 }
 

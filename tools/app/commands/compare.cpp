@@ -85,7 +85,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   SeedOptions seed_options = options.seeds;
   if (!seed_options.size && seed_options.width == 0) seed_options.size = image.grid;
   const Input input = read_input(seed_options);
-  check_grids(options.a, image.grid, "the diagram of the seeds", input.grid);
+  check_grids(options.a, image.grid, "the diagram of the seeds", {input.grid.width(), input.grid.height()});
 
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);

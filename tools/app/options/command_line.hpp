@@ -99,8 +99,9 @@ class Command {
     return add_texts(name, set, about);
   }
 
-  template <typename T>
-  Option add_choice(const std::string& name, T& value, const Choices<T>& choices, const std::string& about) {
+  template <typename Value, typename T>
+  Option add_choice(const std::string& name, Value& value, const Choices<T>& choices,
+                    const std::string& about) {
     const auto parse = [choices](const std::string& text) { return choose(choices, text); };
     return add_parsed(name, value, parse, about + ": " + names_of(choices)).value_name("NAME");
   }

@@ -46,6 +46,13 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "Rectangle in data units that the grid shows; else each frame's own box, or the bounding box "
           "of the points (of the first frame)")
       .value_name("X0,Y0,X1,Y1");
+  const Choices<Periodic> axes = {
+      {"none", Periodic::none}, {"x", Periodic::x}, {"y", Periodic::y}, {"xy", Periodic::xy}};
+  command
+      .add_choice("--periodic", options.periodic, axes,
+                  "Axes along which the grid repeats: distances go the shorter way round, cells reach across "
+                  "the border, and points outside the bounds wrap")
+      .default_text("what a trajectory's file says, else none");
   command.add("--y-up", options.y_up, "The data's y axis points up");
 }
 
@@ -72,7 +79,8 @@ void add_motion_options(Command& command, MotionOptions& options) {
   const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
   command
       .add_choice("--border", options.border, borders,
-                  "What seeds that move at random do at the border of the grid")
+                  "What seeds that move at random do at the border of the grid, along an axis that is not "
+                  "periodic")
       .default_text("reflect")
       .excludes(trajectory);
 }

@@ -63,9 +63,11 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values) {
   const Grid& grid = measures.grid();
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
-  if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), grid, enlargement));
+  if (options_.contours)
+    draw_contour_lines(picture, enlarged(measures.distances(), grid, enlargement), grid.periodic());
   if (options_.edge_width > 0) {
-    draw_edges(picture, enlarged(measures.labels().labels, grid, enlargement), options_.edge_width);
+    draw_edges(picture, enlarged(measures.labels().labels, grid, enlargement), options_.edge_width,
+               grid.periodic());
   }
   if (options_.points_overlay) draw_points(picture, enlarged(measures.seeds(), enlargement));
   if (!options_.color_bar) return picture;
@@ -110,13 +112,13 @@ Scale Painter::scale(const std::optional<Scale>& range) {
   return scale_.value_or(Scale{});
 }
 
-void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances) {
+void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes) {
   if (!contour_interval_) {
     const double step = round_step({0, range_of(distances).value_or(Scale{0, 0}).high}, most_contours);
     if (step == 0) return;  // no pixel but the seeds'
     contour_interval_ = step;
   }
-  draw_contours(picture, distances, *contour_interval_);
+  draw_contours(picture, distances, *contour_interval_, axes);
 }
 
 }  // namespace vorocl::command

@@ -46,7 +46,7 @@ class Painter {
   cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one.
   Scale scale(const std::optional<Scale>& range);
-  void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances);
+  void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes);
 
   PictureOptions options_;
   bool many_;

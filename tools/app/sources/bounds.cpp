@@ -27,10 +27,26 @@ void check_extents(const Bounds& bounds) {
 }
 
 /// Written in the order of operations that is documented, so that rounding is the same everywhere.
-int pixel(double value, double low, double high, int count) {
-  if (low == high) return count / 2;
-  const double position = std::floor((value - low) * count / (high - low));
-  return std::min(static_cast<int>(position), count - 1);
+int pixel(double value, double low, double high, int count, bool periodic) {
+  const double extent = high - low;
+  if (extent == 0) return count / 2;
+  double offset = value - low;
+  if (periodic) {
+    offset = std::fmod(offset, extent);
+    if (offset < 0) offset += extent;
+  }
+  const double position = std::floor(offset * count / extent);
+  return static_cast<int>(std::min(std::max(0.0, position), count - 1.0));
+}
+
+bool is_outside(double value, double low, double high, bool periodic) {
+  return !periodic && (value < low || value > high);
+}
+
+void check_period(double low, double high, const char* axis) {
+  if (low == high) {
+    throw Error(fmt::format("the bounds have no extent in {}, which is to be periodic", axis));
+  }
 }
 
 }  // namespace
@@ -66,7 +82,7 @@ Bounds bounding_box(const std::vector<Point>& points) {
   return box;
 }
 
-Grid grid_of_width(const Bounds& bounds, int width) {
+Grid grid_of_width(const Bounds& bounds, int width, Periodic periodic) {
   check_extents(bounds);
   if (bounds.x0 == bounds.x1) {
     throw Error("the bounds " + to_string(bounds) +
@@ -78,7 +94,7 @@ Grid grid_of_width(const Bounds& bounds, int width) {
         "a width of {} makes a height of {:.0f} pixels with the bounds {}; at most {} are possible", width,
         height, to_string(bounds), Grid::max_side));
   }
-  return Grid(width, std::max(1, static_cast<int>(height)));
+  return Grid(width, std::max(1, static_cast<int>(height)), periodic);
 }
 
 bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
@@ -100,17 +116,20 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid) {
 std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
                              bool y_up) {
   check_extents(bounds);
+  if (grid.periodic_x()) check_period(bounds.x0, bounds.x1, "x");
+  if (grid.periodic_y()) check_period(bounds.y0, bounds.y1, "y");
   std::vector<Point> pixels;
   pixels.reserve(points.size());
   for (const Point& point : points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
       throw Error(describe(pixels.size(), point) + " is not finite");
     }
-    if (point.x < bounds.x0 || point.x > bounds.x1 || point.y < bounds.y0 || point.y > bounds.y1) {
+    if (is_outside(point.x, bounds.x0, bounds.x1, grid.periodic_x()) ||
+        is_outside(point.y, bounds.y0, bounds.y1, grid.periodic_y())) {
       throw Error(describe(pixels.size(), point) + " is outside the bounds " + to_string(bounds));
     }
-    const int column = pixel(point.x, bounds.x0, bounds.x1, grid.width());
-    const int row = pixel(point.y, bounds.y0, bounds.y1, grid.height());
+    const int column = pixel(point.x, bounds.x0, bounds.x1, grid.width(), grid.periodic_x());
+    const int row = pixel(point.y, bounds.y0, bounds.y1, grid.height(), grid.periodic_y());
     pixels.push_back({column + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5});
   }
   return pixels;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/sources/trajectory_seeds.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/mask.hpp"
@@ -26,15 +27,26 @@ CsvPoints read_points(const SeedOptions& options) {
   return {read_npy_points(options.points), {}};
 }
 
+Periodic axes_of(const SeedOptions& options) { return options.periodic.value_or(Periodic::none); }
+
+Grid with_axes(const Grid& size, const SeedOptions& options) {
+  return {size.width(), size.height(), axes_of(options)};
+}
+
 Input input_from_points(const SeedOptions& options) {
   if (!options.size && options.width == 0)
     throw UsageError("--size WxH or --width W is required with --points");
   const auto [points, values] = read_points(options);
   try {
     const Bounds bounds = options.bounds ? *options.bounds : bounding_box(points);
-    const Grid grid = options.size ? *options.size : grid_of_width(bounds, options.width);
+    const Grid grid = options.size ? with_axes(*options.size, options)
+                                   : grid_of_width(bounds, options.width, axes_of(options));
     const std::vector<Point> pixels = to_pixels(points, bounds, grid, options.y_up);
     warn_of_scales(bounds, grid);
+    if (grid.periodic() != Periodic::none && !options.bounds) {
+      print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
+                             to_string(bounds)));
+    }
     return {grid, [grid, pixels](const Device& device) { return Seeds(device, grid, pixels); }, {}, values};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -43,23 +55,25 @@ Input input_from_points(const SeedOptions& options) {
 
 Input input_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask);
-  const Grid grid = mask.grid;
-  if (options.size && *options.size != grid) {
+  if (options.size && *options.size != mask.grid) {
     throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough",
-                            options.mask, grid.width(), grid.height(), options.size->width(),
+                            options.mask, mask.grid.width(), mask.grid.height(), options.size->width(),
                             options.size->height()));
   }
-  return {grid,
-          [mask](const Device& device) { return Seeds::from_mask(device, mask.grid, mask.pixels); },
-          {},
-          {}};
+  const Grid grid = with_axes(mask.grid, options);
+  return {
+      grid,
+      [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
+      {},
+      {}};
 }
 
 Input input_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
-  return {*options.size,
-          [options](const Device& device) {
-            return Seeds::random(device, *options.size, options.random, options.rng_seed);
+  const Grid grid = with_axes(*options.size, options);
+  return {grid,
+          [grid, options](const Device& device) {
+            return Seeds::random(device, grid, options.random, options.rng_seed);
           },
           {},
           {}};

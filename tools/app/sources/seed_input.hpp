@@ -23,6 +23,7 @@ struct SeedOptions {
   std::optional<Grid> size;
   int width = 0;
   std::optional<Bounds> bounds;
+  std::optional<Periodic> periodic;  // else none, or what the trajectory says
   bool y_up = false;
   std::optional<Columns> columns;
   std::string value_column;  // whose values are read with the points

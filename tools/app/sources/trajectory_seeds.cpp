@@ -9,14 +9,17 @@
 
 #include "app/sources/periodic_step.hpp"
 #include "app/sources/seed_input.hpp"
+#include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-bool holds(const Bounds& bounds, const Point& point) {
-  return point.x >= bounds.x0 && point.x <= bounds.x1 && point.y >= bounds.y0 && point.y <= bounds.y1;
+/// Along a periodic axis the bounds repeat.
+bool holds(const Bounds& bounds, const Point& point, const Grid& grid) {
+  return (grid.periodic_x() || (point.x >= bounds.x0 && point.x <= bounds.x1)) &&
+         (grid.periodic_y() || (point.y >= bounds.y0 && point.y <= bounds.y1));
 }
 
 /// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
@@ -46,7 +49,10 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 }  // namespace
 
 TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
-    : path_(options.trajectory), given_bounds_(options.bounds), grid_(options.size), y_up_(options.y_up) {
+    : path_(options.trajectory),
+      given_bounds_(options.bounds),
+      axes_are_told_(options.periodic.has_value()),
+      y_up_(options.y_up) {
   if (!options.size && options.width == 0) {
     throw UsageError("--size WxH or --width W is required with --trajectory");
   }
@@ -59,7 +65,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     }
     bounds = bounds_of_frame();
   }
-  if (!grid_) grid_ = grid_of_width_in(bounds, options.width);
+  grid_ = make_grid(options, bounds);
   take_frame(bounds);
 }
 
@@ -82,20 +88,51 @@ std::optional<Bounds> TrajectorySeeds::bounds_of_frame() {
   return first_bounds_;
 }
 
-Grid TrajectorySeeds::grid_of_width_in(const std::optional<Bounds>& bounds, int width) const {
+Periodic TrajectorySeeds::axes_of_frame() const {
+  if (!frame_.box || given_bounds_) return Periodic::none;  // the bounds need not be the box
+  const bool y = frame_.box->periodic_y && frame_.box->tilt == 0;
+  if (frame_.box->periodic_x) return y ? Periodic::xy : Periodic::x;
+  return y ? Periodic::y : Periodic::none;
+}
+
+Periodic TrajectorySeeds::choose_axes(std::optional<Periodic> told) const {
+  const bool tilted = frame_.box && frame_.box->tilt != 0;
+  if (told && tilted && !given_bounds_ && (*told == Periodic::y || *told == Periodic::xy)) {
+    throw Error(path_ + ": the box is tilted, so what is drawn of it repeats in x only; give --periodic x");
+  }
+  if (told) return *told;
+  if (given_bounds_ && frame_.box && (frame_.box->periodic_x || frame_.box->periodic_y)) {
+    print_note(
+        "the box is periodic and the diagram is not, because --bounds cuts it; --periodic says "
+        "otherwise");
+  } else if (tilted) {
+    print_note("the box is tilted: the diagram is periodic in x only, and cells end at its border in y");
+  }
+  return axes_of_frame();
+}
+
+Grid TrajectorySeeds::make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
+  const Periodic axes = choose_axes(options.periodic);
+  if (options.size) return {options.size->width(), options.size->height(), axes};
   if (!bounds) {
     throw Error(path_ +
                 ": the frame has neither a box nor particles to tell the height by: give --size "
                 "instead of --width, or --bounds");
   }
   try {
-    return grid_of_width(*bounds, width);
+    return grid_of_width(*bounds, options.width, axes);
   } catch (const Error& error) {
     throw Error(path_ + ": " + error.what());
   }
 }
 
 void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
+  if (!axes_are_told_ && axes_of_frame() != grid_->periodic()) {
+    throw Error(
+        fmt::format("{}: the box of frame {} is periodic along other axes than that of the first frame; "
+                    "give --periodic none, x, y or xy for all frames",
+                    path_, number_));
+  }
   std::vector<Point> pixels;
   Periods periods;
   if (bounds) {
@@ -125,7 +162,7 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
 void TrajectorySeeds::check_inside(const Bounds& bounds) const {
   for (std::size_t i = 0; i < frame_.positions.size(); ++i) {
     const Point& point = frame_.positions[i];
-    if (holds(bounds, point)) continue;
+    if (holds(bounds, point, *grid_)) continue;
     throw Error(
         fmt::format("{}: particle {} of frame {} is at ({}, {}), outside the {} {}; give --bounds "
                     "X0,Y0,X1,Y1 that hold the particles of all frames",

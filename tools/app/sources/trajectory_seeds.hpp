@@ -20,13 +20,14 @@ struct SeedOptions;
 class TrajectorySeeds {
  public:
   /// Reads the first frames, up to the one to start from. Throws UsageError where no size is given, Error if
-  /// the file is bad or has fewer frames; warns on standard error where the axes get different scales.
+  /// the file is bad or has fewer frames; warns on standard error where the axes get different scales, and
+  /// notes there which periodic axes of the box are left out.
   explicit TrajectorySeeds(const SeedOptions& options, int start = 0);
 
   const Grid& grid() const { return *grid_; }
 
-  /// Reads the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is bad
-  /// or has a particle outside the bounds.
+  /// Reads the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is
+  /// bad, has a particle outside the bounds, or has other periodic axes.
   bool next();
 
   /// The seeds of the frame, by slot, to move_to() from.
@@ -53,7 +54,10 @@ class TrajectorySeeds {
   bool read();
   /// None for a frame that has neither a box nor particles.
   std::optional<Bounds> bounds_of_frame();
-  Grid grid_of_width_in(const std::optional<Bounds>& bounds, int width) const;
+  /// Along which axes the frame's box, as it is drawn, repeats.
+  Periodic axes_of_frame() const;
+  Periodic choose_axes(std::optional<Periodic> told) const;
+  Grid make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void take_frame(const std::optional<Bounds>& bounds);
   void check_inside(const Bounds& bounds) const;
 
@@ -62,6 +66,7 @@ class TrajectorySeeds {
   std::optional<Bounds> given_bounds_;
   std::optional<Bounds> first_bounds_;  // for frames without a box
   std::optional<Grid> grid_;            // set by the constructor
+  bool axes_are_told_;                  // by the caller, not by the file
   bool y_up_;
   bool scales_checked_ = false;
 
