@@ -155,10 +155,12 @@ Tuning default_tuning(cl_device_id device) {
     while (tuning.vector_width < 16 && tuning.vector_width * 2 <= lanes) tuning.vector_width *= 2;
     tuning.group_width = 64;
     tuning.group_height = 1;
+    tuning.shape = Shape::vector;
   }
   const auto most = device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE);
   while (tuning.group_height > 1 && tuning.group_width * tuning.group_height > most) tuning.group_height /= 2;
   while (tuning.group_width > 1 && tuning.group_width > most) tuning.group_width /= 2;
+  if (tuning.patch_items > most) tuning.shape = Shape::vector;
   return tuning;
 }
 
@@ -267,6 +269,13 @@ Device Device::with_tuning(const Tuning& tuning) const {
     throw Error("a work-group of " + std::to_string(tuning.group_width) + " x " +
                 std::to_string(tuning.group_height) + " is not possible; " + name() + " allows 1 to " +
                 std::to_string(most) + " work-items");
+  }
+  const std::size_t patch = tuning.patch_items;
+  if (patch < 32 || patch > 256 || (patch & (patch - 1)) != 0 ||
+      (tuning.shape == Shape::group && patch > most)) {
+    throw Error("a patch cannot be labelled by " + std::to_string(patch) +
+                " work-items; they must be 32, 64, 128 or 256, and " + name() + " allows " +
+                std::to_string(most));
   }
   Device tuned = *this;
   tuned.tuning_ = tuning;

@@ -4,6 +4,7 @@
 
 #include "buffer.hpp"
 #include "diagram_state.hpp"
+#include "exact/group_shape.hpp"
 #include "exact/lists.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
@@ -57,6 +58,9 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
 
 Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
                                 ListLength length) {
+  if (Internal::state(diagram).device.tuning().shape == Shape::group) {
+    return exact_diagram_in_groups(seeds, diagram, options, length);
+  }
   Filling filling(seeds, diagram);
   DiagramState& state = Internal::state(diagram);
   const Device& device = state.device;
