@@ -36,7 +36,7 @@ namespace {
 
 std::set<std::string> kernels_in_the_sources() {
   std::set<std::string> names;
-  const std::regex definition("^ *(?:RUN_KERNEL|kernel) void (\\w+)\\(", std::regex::multiline);
+  const std::regex definition("^ *(?:VECTOR_KERNEL|kernel) void (\\w+)\\(", std::regex::multiline);
   for (const auto& [file, source] : kernel_sources()) {
     for (std::sregex_iterator match(source.begin(), source.end(), definition), end; match != end; ++match) {
       names.insert((*match)[1]);
@@ -120,7 +120,9 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
 int main() {
   const Device device = Device::select();
   for (const int vector_width : {1, 4}) {
-    const Device shaped = device.with_tuning({vector_width, 4, 2});
+    // Both shapes: of the group shape, which has no vectors, one is enough.
+    const Shape shape = vector_width == 1 ? Shape::group : Shape::vector;
+    const Device shaped = device.with_tuning({vector_width, 4, 2, shape, 32});
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
       for (const Grid& grid : {Grid(13, 9), Grid(3, 11)}) {
         make_diagrams(shaped, grid, metric);

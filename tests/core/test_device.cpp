@@ -68,6 +68,7 @@ BOOST_AUTO_TEST_CASE(unfit_tunings_are_refused) {
   check_error([] { test_device().with_tuning({32, 8, 8}); }, {"vector width of 32"});
   check_error([] { test_device().with_tuning({1, 0, 8}); }, {"0 x 8"});
   check_error([] { test_device().with_tuning({1, 1 << 20, 8}); }, {"1048576 x 8"});
+  check_error([] { test_device().with_tuning({1, 8, 8, Shape::group, 48}); }, {"48", "32, 64, 128 or 256"});
 }
 
 BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {

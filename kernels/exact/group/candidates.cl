@@ -83,6 +83,7 @@ static inline bool is_dominated(local const Winners* winners, int count, Box pat
   const int to_bottom = along_to(patch.bottom, seeds.top, seeds.bottom);
   const uint first_pixel = pack(seeds.left, seeds.top);
   bool dominated = false;
+#pragma unroll 1  // unrolled, it takes too many registers
   for (int i = 0; i < count; ++i) {
     local const uint* const distance = winners->distance[i];
     const int lag = min(min(to_left + to_top - (int)distance[0], to_right + to_top - (int)distance[1]),
@@ -171,7 +172,6 @@ static inline void rank_candidates(local Ranked* ranked, Box patch, uint base, l
 static inline int8 find_least_keys_below(local const Ranked* ranked, int count, int column, int row) {
   const uint rank_bits = bits_of_rank(count);
   int8 least = (int8)INT_MAX;
-#pragma unroll 2
   for (int i = 0; i < count; ++i) least = min(least, keys_of(ranked->term[i], column, row, rank_bits));
   return least;
 }

@@ -20,9 +20,6 @@
 
 // Pixels of an item, one below the other, that look at the same rows.
 #define RUN 4
-#if ((2 << BIN_BITS) * (2 << BIN_BITS) + (REACH + RUN) * (REACH + RUN)) << ROW_BITS > 0x1ffff
-#error "A row key does not fit"
-#endif
 #if (((REACH + 1) * (REACH + 1)) << ROW_BITS) + (1 << ROW_BITS) > 0xffff
 #error "The part of a row key along x does not fit in a ushort"
 #endif
@@ -104,7 +101,7 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
   barrier(CLK_LOCAL_MEM_FENCE);
   for (int row = item_row(); row < PATCH_ROWS; row += item_rows()) {
     const int offset = offset_in_row(mask[row], column);
-    along_x[row * PATCH + column] = (ushort)(min(ALONG(offset) << ROW_BITS, TOO_FAR) + row);
+    along_x[row * PATCH + column] = (ushort)((ALONG(offset) << ROW_BITS) + row);
   }
   barrier(CLK_LOCAL_MEM_FENCE);
   for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
