@@ -174,12 +174,14 @@ Tuning default_tuning(cl_device_id device) {
     while (tuning.vector_width < 16 && tuning.vector_width * 2 <= lanes) tuning.vector_width *= 2;
     tuning.group_width = 64;
     tuning.group_height = 1;
+    tuning.shape = Shape::vector;
   }
   const GroupLimits limits = group_limits(device);
   while (tuning.group_height > 1 && !limits.allow(tuning.group_width, tuning.group_height))
     tuning.group_height /= 2;
   while (tuning.group_width > 1 && !limits.allow(tuning.group_width, tuning.group_height))
     tuning.group_width /= 2;
+  if (tuning.patch_items > limits.items) tuning.shape = Shape::vector;
   return tuning;
 }
 
@@ -288,6 +290,13 @@ Device Device::with_tuning(const Tuning& tuning) const {
                 std::to_string(tuning.group_height) + " is not possible; " + name() + " allows 1 to " +
                 std::to_string(limits.items) + " work-items in 1 to " + std::to_string(limits.rows) +
                 " rows");
+  }
+  const std::size_t patch = tuning.patch_items;
+  if (patch < 32 || patch > 256 || (patch & (patch - 1)) != 0 ||
+      (tuning.shape == Shape::group && patch > limits.items)) {
+    throw Error("a patch cannot be labelled by " + std::to_string(patch) +
+                " work-items; they must be 32, 64, 128 or 256, and " + name() + " allows " +
+                std::to_string(limits.items));
   }
   Device tuned = *this;
   tuned.tuning_ = tuning;

@@ -13,7 +13,12 @@ for group in "$@"; do
       libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev)
     ;;
   test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
-  check) packages+=(clang clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9 python3-numpy) ;;
+  check)
+    # libclc is of the version of the distribution's clang.
+    clang=$(apt-cache depends clang | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p')
+    packages+=(clang "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
+      python3-numpy python3-pip)
+    ;;
   *) echo "setup.sh: there is no group \"$group\", but build, test and check" >&2; exit 2 ;;
   esac
 done
@@ -24,13 +29,19 @@ for package in "${packages[@]}"; do
     missing+=("$package")
   fi
 done
-[ ${#missing[@]} -eq 0 ] && exit 0
-
-as_root=()
-if [ "$(id -u)" -ne 0 ]; then
-  command -v sudo >/dev/null || { echo "setup.sh: ${missing[*]} must be installed, and there is no sudo" >&2; exit 1; }
-  as_root=(sudo)
+if [ ${#missing[@]} -gt 0 ]; then
+  as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "setup.sh: ${missing[*]} must be installed, and there is no sudo" >&2; exit 1; }
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 fi
-echo "Installing ${missing[*]}"
-"${as_root[@]}" apt-get update -qq
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+
+# ptxas, where no CUDA is installed: tools/check_gpu.sh looks for it there.
+ptxas=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas
+if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/null; then
+  python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12
+fi

@@ -134,11 +134,17 @@ VOROCL_API vorocl_status vorocl_device_wait_for(const vorocl_device* device, siz
 /// Waits until all that was enqueued is done.
 VOROCL_API vorocl_status vorocl_device_finish(const vorocl_device* device);
 
+/// One of VOROCL_GROUP, VOROCL_VECTOR.
+typedef int vorocl_shape;
+enum { VOROCL_GROUP = 0, VOROCL_VECTOR = 1 };
+
 /// As vorocl::Tuning: how kernels are shaped. Results never depend on it, only speed does.
 typedef struct vorocl_tuning {
   int vector_width;     ///< pixels of a row that one work-item computes: 1, 2, 4, 8 or 16
   size_t group_width;   ///< work-items of a work-group along a row ...
   size_t group_height;  ///< ... and across rows
+  vorocl_shape shape;   ///< of exact diagrams
+  size_t patch_items;   ///< work-items of a work-group of VOROCL_GROUP: 32, 64, 128 or 256
 } vorocl_tuning;
 
 /// To begin with, the default of the device's class.

@@ -67,7 +67,8 @@ vorocl_status vorocl_device_finish(const vorocl_device* device) {
 vorocl_status vorocl_device_tuning(const vorocl_device* device, vorocl_tuning* tuning) {
   return guarded([&] {
     const Tuning& from = of(device).tuning();
-    given(tuning, "tuning") = {from.vector_width, from.group_width, from.group_height};
+    given(tuning, "tuning") = {from.vector_width, from.group_width, from.group_height,
+                               from.shape == Shape::group ? VOROCL_GROUP : VOROCL_VECTOR, from.patch_items};
   });
 }
 
@@ -75,7 +76,10 @@ vorocl_status vorocl_device_with_tuning(const vorocl_device* device, const voroc
                                         vorocl_device** tuned) {
   return make_object(tuned, "tuned", [&] {
     const vorocl_tuning& to = given(tuning, "tuning");
-    return vorocl_device(of(device).with_tuning({to.vector_width, to.group_width, to.group_height}));
+    if (to.shape != VOROCL_GROUP && to.shape != VOROCL_VECTOR) refuse("shape", to.shape);
+    const Shape shape = to.shape == VOROCL_GROUP ? Shape::group : Shape::vector;
+    return vorocl_device(
+        of(device).with_tuning({to.vector_width, to.group_width, to.group_height, shape, to.patch_items}));
   });
 }
 

@@ -124,7 +124,9 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
 int main() {
   const Device device = Device::select();
   for (const int vector_width : {1, 4}) {
-    const Device shaped = device.with_tuning({vector_width, 4, 2});
+    // Both shapes: of the group shape, which has no vectors, one is enough.
+    const Shape shape = vector_width == 1 ? Shape::group : Shape::vector;
+    const Device shaped = device.with_tuning({vector_width, 4, 2, shape, 32});
     for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
       for (const Grid& grid : {Grid(13, 9), Grid(3, 11)}) {
         make_diagrams(shaped, grid, metric);

@@ -59,10 +59,13 @@ static void test_devices(const vorocl_device* device) {
   tuning.vector_width = tuning.vector_width == 1 ? 2 : 1;
   tuning.group_width = 3;
   tuning.group_height = 2;
+  tuning.shape = tuning.shape == VOROCL_GROUP ? VOROCL_VECTOR : VOROCL_GROUP;
+  tuning.patch_items = 128;
   OK(vorocl_device_with_tuning(adopted, &tuning, &tuned));
   vorocl_device_free(adopted);
   OK(vorocl_device_tuning(tuned, &read));
   CHECK(read.vector_width == tuning.vector_width && read.group_width == 3 && read.group_height == 2);
+  CHECK(read.shape == tuning.shape && read.patch_items == 128);
   vorocl_device_free(tuned);
 }
 

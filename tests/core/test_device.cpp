@@ -86,6 +86,7 @@ BOOST_AUTO_TEST_CASE(unfit_tunings_are_refused) {
   check_error([] { test_device().with_tuning({32, 8, 8}); }, {"vector width of 32"});
   check_error([] { test_device().with_tuning({1, 0, 8}); }, {"0 x 8"});
   check_error([] { test_device().with_tuning({1, 1 << 20, 8}); }, {"1048576 x 8"});
+  check_error([] { test_device().with_tuning({1, 8, 8, Shape::group, 48}); }, {"48", "32, 64, 128 or 256"});
   const std::size_t half_of_all = std::size_t{1} << 63;  // twice as many, and two more, are two
   check_error([&] { test_device().with_tuning({1, half_of_all + 1, 2}); }, {"9223372036854775809 x 2"});
 }

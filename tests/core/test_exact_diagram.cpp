@@ -24,6 +24,38 @@ const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 constexpr ListLength both_lengths[] = {ListLength::full, ListLength::two_entries};
 const char* name_of(ListLength lists) { return lists == ListLength::full ? "full lists" : "short lists"; }
 
+/// The test device with another shape of the engine.
+Device shaped(Shape shape, std::size_t patch_items = 64) {
+  Tuning tuning = test_device().tuning();
+  tuning.shape = shape;
+  tuning.patch_items = patch_items;
+  return test_device().with_tuning(tuning);
+}
+
+/// The ways in which the engine works: its shapes and work-groups, and its lists.
+struct Engine {
+  std::string name;
+  Device device;
+  ListLength lists;
+};
+
+const std::vector<Engine>& engines() {
+  static const std::vector<Engine> all = [] {
+    std::vector<Engine> made;
+    for (const ListLength lists : both_lengths) {
+      const std::string of_lists = std::string(", ") + name_of(lists);
+      made.push_back({"vector shape" + of_lists, shaped(Shape::vector), lists});
+      for (const std::size_t items : {64u, 256u}) {
+        if (items != 64 && lists != ListLength::full) continue;
+        made.push_back({"group shape, " + std::to_string(items) + " items" + of_lists,
+                        shaped(Shape::group, items), lists});
+      }
+    }
+    return made;
+  }();
+  return all;
+}
+
 Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
                     Metric metric = Metric::euclidean, ListLength lists = ListLength::full) {
   Diagram diagram(device, grid);
@@ -81,11 +113,15 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
 }
 
 void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric = Metric::euclidean,
-                        ListLength lists = ListLength::full) {
-  BOOST_TEST_CONTEXT(grid.width() << " x " << grid.height() << ", " << seeds.size() << " seeds, "
-                                  << vorocl::name_of(metric) << ", " << name_of(lists)) {
-    BOOST_TEST(count_differences(exact_labels(test_device(), grid, seeds, metric, lists),
-                                 tree_labels(grid, seeds, metric)) == 0);
+                        bool short_lists_too = false) {
+  const Labels expected = tree_labels(grid, seeds, metric);
+  for (const Engine& engine : engines()) {
+    if (engine.lists != ListLength::full && !short_lists_too) continue;
+    BOOST_TEST_CONTEXT(grid.width() << " x " << grid.height() << ", " << seeds.size() << " seeds, "
+                                    << vorocl::name_of(metric) << ", " << engine.name) {
+      BOOST_TEST(
+          count_differences(exact_labels(engine.device, grid, seeds, metric, engine.lists), expected) == 0);
+    }
   }
 }
 
@@ -98,9 +134,9 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
       BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", reference") {
         BOOST_TEST(count_differences(reference_labels(c.grid, c.seeds, metric), expected) == 0);
       }
-      for (const ListLength lists : both_lengths) {
-        BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << name_of(lists)) {
-          const Labels labels = exact_labels(test_device(), c.grid, c.seeds, metric, lists);
+      for (const Engine& engine : engines()) {
+        BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << engine.name) {
+          const Labels labels = exact_labels(engine.device, c.grid, c.seeds, metric, engine.lists);
           BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }
@@ -124,16 +160,20 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
     const int right = below(grid.width() - part.width() + 1);
     for (Pixel& seed : seeds) seed.x += right;
     const Metric metric = both_metrics[rng() % 2];
-    const ListLength lists = both_lengths[rng() % 4 == 0 ? 1 : 0];
-    const Labels labels = exact_labels(test_device(), grid, seeds, metric, lists);
     const Labels expected = brute_force(grid, seeds, metric);
     BOOST_TEST(count_differences(reference_labels(grid, seeds, metric), expected) == 0);
-    const std::size_t wrong = count_differences(labels, expected);
-    BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
-                                   << grid.height() << " (periodic " << static_cast<int>(grid.periodic())
-                                   << ") with " << count << " seeds, " << vorocl::name_of(metric) << ", "
-                                   << name_of(lists));
-    if (wrong > 0) return;
+    for (const Engine& engine : engines()) {
+      // The usual ways each time, the others now and then.
+      const bool usual = engine.lists == ListLength::full && engine.device.tuning().patch_items == 64;
+      if (!usual && rng() % 4 != 0) continue;
+      const Labels labels = exact_labels(engine.device, grid, seeds, metric, engine.lists);
+      const std::size_t wrong = count_differences(labels, expected);
+      BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
+                                     << grid.height() << " (periodic " << static_cast<int>(grid.periodic())
+                                     << ") with " << count << " seeds, " << vorocl::name_of(metric) << ", "
+                                     << engine.name);
+      if (wrong > 0) return;
+    }
   }
 }
 
@@ -142,10 +182,7 @@ BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
     const Grid grid = long_tests ? Grid(2048, 2048, axes) : Grid(509, 384, axes);
     for (const Metric metric : both_metrics) {
       for (const Case& c : hurtful_cases(grid)) {
-        BOOST_TEST_CONTEXT(c.name) {
-          check_against_tree(grid, c.seeds, metric);
-          if (!long_tests) check_against_tree(grid, c.seeds, metric, ListLength::two_entries);
-        }
+        BOOST_TEST_CONTEXT(c.name) { check_against_tree(grid, c.seeds, metric, !long_tests); }
       }
     }
   }

@@ -1,0 +1,179 @@
+// The candidates of a patch: which seeds can be nearest somewhere in it, and labelling its pixels by them. A work-group
+// does it together, with lists in local memory.
+
+#ifndef VOROCL_EXACT_GROUP_CANDIDATES
+#define VOROCL_EXACT_GROUP_CANDIDATES
+
+#include "exact/group/patch.cl"
+#include "exact/keys.cl"
+
+#define SYNC() barrier(CLK_LOCAL_MEM_FENCE)
+
+// WINNERS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the four
+// corners. What one of them wins against at all corners is no candidate (dominance.cl).
+typedef struct {
+  uint seed[DOMINATORS];
+  uint least[DOMINATORS];              // from each seed to its place
+  uint distance[DOMINATORS][CORNERS];  // from each seed to each corner
+} Winners;
+
+static inline int place_x(Box box, int place) {
+  if (place == 0) return (box.left + box.right) / 2;
+  return place % 2 == 1 ? box.left : box.right;
+}
+static inline int place_y(Box box, int place) {
+  if (place == 0) return (box.top + box.bottom) / 2;
+  return place <= 2 ? box.top : box.bottom;
+}
+static inline uint distance_to_place(Box box, int place, uint seed) {
+  return distance_of_offset(packed_x(seed) - place_x(box, place), packed_y(seed) - place_y(box, place));
+}
+
+// Begins with the only seed known.
+static inline void begin_winners(local Winners* winners, Box box, uint seed) {
+  for (int i = (int)get_local_id(0); i < DOMINATORS * CORNERS; i += (int)get_local_size(0)) {
+    winners->distance[i / CORNERS][i % CORNERS] = distance_to_place(box, 1 + i % CORNERS, seed);
+    if (i < DOMINATORS) {
+      winners->seed[i] = seed;
+      winners->least[i] = distance_to_place(box, i, seed);
+    }
+  }
+  SYNC();
+}
+
+// Takes the seeds of a list that win at a place.
+static inline void improve_winners(local Winners* winners, Box box, local const uint* seeds, int count) {
+  const int item = (int)get_local_id(0), items = (int)get_local_size(0);
+  for (int i = item; i < count; i += items) {
+#pragma unroll
+    for (int place = 0; place < DOMINATORS; ++place) {
+      atomic_min(winners->least + place, distance_to_place(box, place, seeds[i]));
+    }
+  }
+  SYNC();
+  if (item < DOMINATORS && winners->least[item] < distance_to_place(box, item, winners->seed[item])) {
+    winners->seed[item] = EMPTY;
+  }
+  SYNC();
+  for (int i = item; i < count; i += items) {
+#pragma unroll
+    for (int place = 0; place < DOMINATORS; ++place) {
+      if (distance_to_place(box, place, seeds[i]) == winners->least[place]) {
+        atomic_min(winners->seed + place, seeds[i]);
+      }
+    }
+  }
+  SYNC();
+  for (int i = item; i < DOMINATORS * CORNERS; i += items) {
+    winners->distance[i / CORNERS][i % CORNERS] =
+        distance_to_place(box, 1 + i % CORNERS, winners->seed[i / CORNERS]);
+  }
+  SYNC();
+}
+
+// The part of the distance from a pixel to an interval of pixels that lies along one axis.
+static inline int along_to(int from, int first, int last) { return ALONG(max(max(first - from, from - last), 0)); }
+
+// Whether one of the first `count` winners dominates all seeds in a box, of which the first pixel stands for them in the
+// tie rule: a bin, a row of it or a single seed. A distance of seeds is at most 0x7fffffff, so differences fit in an int.
+static inline bool is_dominated(local const Winners* winners, int count, Box patch, Box seeds) {
+  const int to_left = along_to(patch.left, seeds.left, seeds.right);
+  const int to_right = along_to(patch.right, seeds.left, seeds.right);
+  const int to_top = along_to(patch.top, seeds.top, seeds.bottom);
+  const int to_bottom = along_to(patch.bottom, seeds.top, seeds.bottom);
+  const uint first_pixel = pack(seeds.left, seeds.top);
+  bool dominated = false;
+#pragma unroll 1  // unrolled, it takes too many registers
+  for (int i = 0; i < count; ++i) {
+    local const uint* const distance = winners->distance[i];
+    const int lag = min(min(to_left + to_top - (int)distance[0], to_right + to_top - (int)distance[1]),
+                        min(to_left + to_bottom - (int)distance[2], to_right + to_bottom - (int)distance[3]));
+    dominated |= lag >= (COMES_FIRST(winners->seed[i], first_pixel) ? 0 : 1);
+  }
+  return dominated;
+}
+
+static inline Box box_of_seed(uint seed) {
+  const Box box = {packed_x(seed), packed_y(seed), packed_x(seed), packed_y(seed)};
+  return box;
+}
+
+// Copies those seeds of a list that no winner dominates; counts all of them, and copies as many as there is room for.
+static inline void keep_candidates(local uint* kept, local uint* kept_count, int room, local const Winners* winners,
+                                   Box patch, local const uint* seeds, int count) {
+  for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
+    if (!is_dominated(winners, DOMINATORS, patch, box_of_seed(seeds[i]))) {
+      const uint at = atomic_inc(kept_count);
+      if (at < (uint)room) kept[at] = seeds[i];
+    }
+  }
+  SYNC();
+}
+
+// RANKED: candidates in the order of the tie rule, with what their keys (keys.cl) are made of.
+typedef struct {
+  int4 term[MOST_RANKED];
+  uint value[MOST_RANKED];
+} Ranked;
+
+#if 2 * LAST_COORDINATE * (2 * ((1 << PATCH_BITS) - 1)) >= 1 << DIFFERENCE_BITS
+#error "A difference of distances in a patch does not fit in its bits"
+#endif
+#if MOST_RANKED > MOST_KEYS
+#error "A rank does not fit in the bits of a key"
+#endif
+
+static inline uint bits_of_rank(int count) { return 32 - clz((uint)max(count, 1) - 1); }
+
+#ifdef VOROCL_EUCLIDEAN
+// The difference of two squared distances is affine in the pixel. So a key is the sum of three parts: of the patch's
+// first pixel, times the column, and times the row.
+static inline int4 term_of(int x, int y, int base_x, int base_y, uint rank, uint rank_bits) {
+  const uint difference = (uint)(x * x + y * y) - (uint)(base_x * base_x + base_y * base_y);
+  return (int4)((int)((difference << rank_bits) + rank), (int)((uint)(2 * (base_x - x)) << rank_bits),
+                (int)((uint)(2 * (base_y - y)) << rank_bits), 0);
+}
+static inline int8 keys_of(int4 term, int column, int row, uint rank_bits) {
+  (void)rank_bits;
+  const int a = term.s0 + term.s1 * column + term.s2 * row, b = a + term.s2, c = b + term.s2, d = c + term.s2;
+  const int e = d + term.s2, f = e + term.s2, g = f + term.s2, h = g + term.s2;
+  return (int8)(a, b, c, d, e, f, g, h);
+}
+#else
+// Distances themselves fit in a key, and need no base: the candidate's place in the patch, and its rank.
+static inline int4 term_of(int x, int y, int base_x, int base_y, uint rank, uint rank_bits) {
+  (void)base_x, (void)base_y, (void)rank_bits;
+  return (int4)(x, y, (int)rank, 0);
+}
+static inline int8 keys_of(int4 term, int column, int row, uint rank_bits) {
+  const int along_x = ALONG(column - term.s0);
+  const int8 y = row - term.s1 + (int8)(0, 1, 2, 3, 4, 5, 6, 7);
+  return (along_x + ALONG(y) << (int8)(int)rank_bits) + term.s2;
+}
+#endif
+
+// Ranks the candidates of a list. The base is the winner at the centre.
+static inline void rank_candidates(local Ranked* ranked, Box patch, uint base, local const uint* seeds, int count) {
+  const uint rank_bits = bits_of_rank(count);
+  for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
+    const uint seed = seeds[i];
+    uint rank = 0;
+#pragma unroll 4
+    for (int other = 0; other < count; ++other) rank += COMES_FIRST(seeds[other], seed) ? 1 : 0;
+    ranked->term[rank] = term_of(packed_x(seed) - patch.left, packed_y(seed) - patch.top, packed_x(base) - patch.left,
+                                 packed_y(base) - patch.top, rank, rank_bits);
+    ranked->value[rank] = seed;
+  }
+  SYNC();
+}
+
+// The least keys of PIXELS pixels of an item, one below the other.
+#define PIXELS 8
+static inline int8 find_least_keys_below(local const Ranked* ranked, int count, int column, int row) {
+  const uint rank_bits = bits_of_rank(count);
+  int8 least = (int8)INT_MAX;
+  for (int i = 0; i < count; ++i) least = min(least, keys_of(ranked->term[i], column, row, rank_bits));
+  return least;
+}
+
+#endif

@@ -1,0 +1,195 @@
+// Labelling a patch that has any number of candidates: the pyramid is searched for them, and whenever a list is full the
+// patch's pixels take the best of it.
+
+#ifndef VOROCL_EXACT_GROUP_SEARCH
+#define VOROCL_EXACT_GROUP_SEARCH
+
+#include "exact/group/candidates.cl"
+
+// What the search opens: a bin of some level, whose parts are FAN x FAN bins of the level below; a bin of level 0, whose
+// parts are its rows; and a row, whose parts are its pixels. Each has PARTS parts, and as many items look at them. An
+// entry holds the column of its bin, its level + 1 (0: a row), and its bin's row or the row of the grid.
+#define PARTS (FAN * FAN)
+#if FAN * FAN != 1 << BIN_BITS
+#error "A bin has not as many rows, or a row not as many pixels, as a bin has parts"
+#endif
+#define LEVEL_SHIFT 12
+#if LAST_COORDINATE >> BIN_BITS >= 1 << LEVEL_SHIFT
+#error "The column of a bin does not fit in its bits"
+#endif
+#define NO_ENTRY 0xffffffffu
+static inline uint entry_of(int x, int y, int level) { return pack(x, y) | (uint)(level + 1) << LEVEL_SHIFT; }
+static inline int entry_x(uint entry) { return packed_x(entry) & ((1 << LEVEL_SHIFT) - 1); }
+static inline int entry_level(uint entry) { return (packed_x(entry) >> LEVEL_SHIFT) - 1; }
+
+// A list is full from MOST_GATHERED seeds on, and then there is one more from each item at most.
+#define MOST_LISTED (MOST_GATHERED + MOST_ITEMS)
+typedef struct {
+  uint stack[STACK];
+  uint stack_count;
+  uint seeds[MOST_LISTED], kept[MOST_LISTED];
+  uint count, kept_count;
+} Search;
+
+// How many entries are opened at once: of each level below so many parts less one stay on the stack, and one entry can
+// always be opened.
+#define MOST_LEVELS (LEVELS_OF_PYRAMID + 1)
+#define LEVELS_OF_PYRAMID 8
+#if STACK < TOP_BINS + 2 * FAN * FAN * MOST_LEVELS
+#error "The stack may overflow"
+#endif
+static inline int entries_to_open(int stack_count, int items) {
+  const int room = STACK - stack_count - (PARTS - 1) * MOST_LEVELS;
+  return max(min(min(items / PARTS, stack_count), room / (PARTS - 1)), 1);
+}
+
+// A part of an entry: the pixels that it may have seeds in, the entry that stands for it, and its only seed, or EMPTY if
+// it has more.
+typedef struct {
+  bool empty;
+  Box box;
+  uint entry, seed;
+} Part;
+
+static inline void part_of_bin(Part* part, const SeedIndex* index, global const uint* pyramid, int x, int y,
+                               int level) {
+  const bool inside = x < bins_along(index->width, level) && y < bins_along(index->height, level);
+  const int bin = level_start(index->width, index->height, level) + y * bins_along(index->width, level) + x;
+  const uint representative = inside ? pyramid[bin] : EMPTY;
+  const bool only = (representative & MORE) == 0;
+  const int bits = bin_bits(level);
+  part->empty = representative == EMPTY;
+  part->entry = entry_of(x, y, level);
+  part->seed = only ? representative : EMPTY;
+  part->box.left = only ? packed_x(representative) : x << bits;
+  part->box.top = only ? packed_y(representative) : y << bits;
+  part->box.right = only ? packed_x(representative) : ((x + 1) << bits) - 1;
+  part->box.bottom = only ? packed_y(representative) : ((y + 1) << bits) - 1;
+}
+
+// Of a row: all of it, or one pixel.
+static inline void part_of_row(Part* part, const SeedIndex* index, int bin_x, int y, int first, int last) {
+  const int word = ((y >> BIN_BITS) * index->columns + bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
+  const uint seeds = y < index->height ? row_bits(index->bits[word], y) : 0;
+  part->empty = (seeds >> first & ALL_BITS >> (BIN - 1 - last + first)) == 0;
+  part->entry = entry_of(bin_x, y, -1);
+  part->seed = first == last ? pack(bin_x * BIN + first, y) : EMPTY;
+  part->box.left = bin_x * BIN + first;
+  part->box.right = bin_x * BIN + last;
+  part->box.top = part->box.bottom = y;
+}
+
+static inline void part_of(Part* part, const SeedIndex* index, global const uint* pyramid, uint entry, int number) {
+  const int level = entry_level(entry), x = entry_x(entry), y = packed_y(entry);
+  if (level > 0) {
+    part_of_bin(part, index, pyramid, x * FAN + number % FAN, y * FAN + number / FAN, level - 1);
+  } else {
+    part_of_row(part, index, x, level == 0 ? y * BIN + number : y, level == 0 ? 0 : number,
+                level == 0 ? BIN - 1 : number);
+  }
+}
+
+// Puts a part of an entry on the stack, or takes its only seed, unless it is empty or dominated.
+static inline void take_part(local Search* search, local const Winners* winners, Box patch, const Part* part) {
+  if (!part->empty && !is_dominated(winners, DOMINATORS, patch, part->box)) {
+    if (part->seed == EMPTY) {
+      search->stack[atomic_inc(&search->stack_count)] = part->entry;
+    } else {
+      search->seeds[atomic_inc(&search->count)] = part->seed;
+    }
+  }
+}
+
+// Takes entries off the stack and opens them. Begins and ends with what the whole group knows.
+static inline void open_entries(local Search* search, local const Winners* winners, const SeedIndex* index,
+                                global const uint* pyramid, Box patch) {
+  const int item = (int)get_local_id(0), slot = item / PARTS, stack_count = (int)search->stack_count;
+  const int open = entries_to_open(stack_count, (int)get_local_size(0));
+  const uint entry = slot < open ? search->stack[stack_count - 1 - slot] : NO_ENTRY;
+  SYNC();
+  if (item == 0) search->stack_count = (uint)(stack_count - open);
+  SYNC();
+  if (entry != NO_ENTRY) {
+    Part part;
+    part_of(&part, index, pyramid, entry, item % PARTS);
+    take_part(search, winners, patch, &part);
+  }
+  SYNC();
+}
+
+// Gives the patch's pixels the best seeds of the list, unless they have better ones. What they have is in `labels`, as
+// positions. An item has the same pixels each time.
+static inline void take_best(local const uint* seeds, int seed_count, local Ranked* ranked, uint base, Box patch,
+                             int width, global uint* labels) {
+  for (int begin = 0; begin < seed_count; begin += MOST_RANKED) {
+    const int count = min(seed_count - begin, MOST_RANKED);
+    rank_candidates(ranked, patch, base, seeds + begin, count);
+    const uint mask = (1u << bits_of_rank(count)) - 1;
+    for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
+      int8 least = find_least_keys_below(ranked, count, item_column(), row);
+#pragma unroll
+      for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {
+        const int x = patch.left + item_column(), y = patch.top + row + k;
+        if (x <= patch.right && y <= patch.bottom) {
+          global uint* const label = labels + y * width + x;
+          const uint seed = ranked->value[(uint)least.s0 & mask], other = *label;
+          const uint distance = distance_of_offset(packed_x(seed) - x, packed_y(seed) - y);
+          const uint other_distance = distance_of_offset(packed_x(other) - x, packed_y(other) - y);
+          if (WINS(seed, distance, other, other_distance)) *label = seed;
+        }
+      }
+    }
+    SYNC();
+  }
+}
+
+// Labels a patch of the queue for each work-group.
+kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyramid, int top_level,
+                           global const uint* restrict queue, global uint* labels) {
+  local Search search;
+  local Winners winners;
+  local Ranked ranked;
+  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
+  const int item = (int)get_local_id(0), items = (int)get_local_size(0);
+  if (get_group_id(0) >= queue[0]) return;
+  const Box patch = box_of_patch((int)queue[1 + 2 * get_group_id(0)], width, height);
+  const uint near = queue[2 + 2 * get_group_id(0)];
+  begin_winners(&winners, patch, near);
+  for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
+    for (int k = 0; k < PIXELS; ++k) {
+      const int x = patch.left + item_column(), y = patch.top + row + k;
+      if (x <= patch.right && y <= patch.bottom) labels[y * width + x] = near;
+    }
+  }
+
+  // The top of the pyramid is put on the stack as a whole.
+  if (item == 0) search.stack_count = search.count = 0;
+  SYNC();
+  const int top_across = bins_along(width, top_level), top_bins = top_across * bins_along(height, top_level);
+  for (int bin = item; bin < top_bins; bin += items) {
+    search.stack[atomic_inc(&search.stack_count)] = entry_of(bin % top_across, bin / top_across, top_level);
+  }
+  SYNC();
+  while (search.stack_count > 0) {
+    open_entries(&search, &winners, &index, pyramid, patch);
+    const bool take = search.stack_count == 0 || search.count > MOST_GATHERED;
+    const int count = (int)search.count;
+    SYNC();
+    if (take) {
+      improve_winners(&winners, patch, search.seeds, count);
+      if (item == 0) search.count = search.kept_count = 0;
+      SYNC();
+      keep_candidates(search.kept, &search.kept_count, MOST_LISTED, &winners, patch, search.seeds, count);
+      take_best(search.kept, (int)search.kept_count, &ranked, winners.seed[0], patch, width, labels);
+    }
+    SYNC();
+  }
+  for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
+    for (int k = 0; k < PIXELS; ++k) {
+      const int x = patch.left + item_column(), y = patch.top + row + k;
+      if (x <= patch.right && y <= patch.bottom) labels[y * width + x] = id_of(&index, labels[y * width + x]);
+    }
+  }
+}
+
+#endif

@@ -1,0 +1,32 @@
+// Sizes of the exact engine's group shape, for its kernels and for the host that launches them. Only speed and memory
+// depend on them.
+
+#include "exact/sizes.cl"
+
+// A patch is a square of pixels that a work-group labels, 2 x 2 bins. Its side in pixels, as a power of two.
+#define PATCH_BITS 5
+#if PATCH_BITS != BIN_BITS + 1
+#error "The row masks of a patch hold its two bins and the one on each side"
+#endif
+
+// A work-group has 32, 64, 128 or 256 items: whole rows of a patch.
+#define MOST_ITEMS 256
+
+// A patch with so many seeds in the 4 x 4 bins around its middle is first tried by rows. Measured in simulated warps: at
+// about 100 pixels per seed rows and lists take the same number of instructions.
+#define DENSE_AROUND 40
+
+// Lists of one patch: seeds that the nearest known one does not dominate, and candidates that are ranked at a time.
+#ifndef MOST_GATHERED
+#define MOST_GATHERED 256
+#define MOST_RANKED 128
+#endif
+
+// A patch whose window holds more seeds is left to the search.
+#define MOST_SCANNED 4096
+
+// The descent to a seed near the patch looks at no more bins of a level.
+#define MOST_LOOKED_AT 256
+
+// Bins and rows of bins that the search has yet to open.
+#define STACK 512

@@ -1,0 +1,13 @@
+// The exact diagram in the group shape, for GPUs: a work-group labels a square of pixels together
+// (kernels/exact/group/).
+#pragma once
+
+#include "exact/lists.hpp"
+
+namespace vorocl {
+
+/// As exact_diagram_with_lists(), whatever the shape of the device's tuning.
+Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
+                               ListLength length);
+
+}  // namespace vorocl

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Checks without a GPU that every kernel which a GPU gets fits one: clang compiles it for NVIDIA's PTX as the library
+# builds it, ptxas assembles it for an A100 (sm_80) and an H100 (sm_90), and then no kernel has a stack frame or spilled
+# registers, more than 64 registers or more than 16 KB of local memory. Prints the table.
+# Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
+#   CLANG   a clang with the NVPTX target     LIBCLC   libclc's nvptx64--nvidiacl.bc of the same version
+#   PTXAS   ptxas, of CUDA 11.4 or newer
+set -euo pipefail
+cd "$(dirname "$0")/.."
+: "${CLANG:=clang}" "${LIBCLC:=/usr/lib/clc/nvptx64--nvidiacl.bc}"
+installed=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas/nvidia/cuda_nvcc/bin/ptxas
+: "${PTXAS:=$(command -v ptxas || echo "$installed")}"
+most_registers=64 most_local=16384
+
+command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
+[ -e "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
+command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
+
+# A GPU gets all programs but those of the exact engine's vector shape; short lists and references are for tests.
+kernel_files() {
+  grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/*.cl
+  echo kernels/exact/group/diagram.cl
+}
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# NVIDIA's compiler inlines every function, as far as is known.
+compile() { # FILE METRIC NEIGHBOURS
+  "$CLANG" -S -x cl -cl-std=CL1.2 -target nvptx64-nvidia-nvcl -Xclang -target-cpu -Xclang sm_80 \
+    -Xclang -target-feature -Xclang +ptx74 -Xclang -finclude-default-header -O3 \
+    -mllvm -inline-threshold=1000000 -mllvm -inlinehint-threshold=1000000 \
+    -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC" -Wno-linker-warnings -Ikernels \
+    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "-DVOROCL_$2" "-DVOROCL_NEIGHBOURS=$3" "$1" -o "$work/kernel.ptx"
+}
+
+# ptxas's report as lines of: file, kernel, options, architecture, registers, stack, spilled bytes, local memory.
+assemble() { # FILE OPTIONS ARCHITECTURE
+  "$PTXAS" -v "-arch=$3" "$work/kernel.ptx" -o "$work/kernel.cubin" 2>"$work/log" || { cat "$work/log" >&2; return 1; }
+  awk -v OFS='\t' -v file="${1#kernels/}" -v options="$2" -v architecture="$3" '
+    /Compiling entry function/ { split($0, quoted, "\047"); kernel = quoted[2] }
+    /bytes stack frame/ { stack += $1; spilled += $5 + $9 }
+    /Used [0-9]+ registers/ {
+      match($0, /Used [0-9]+/); registers = substr($0, RSTART + 5, RLENGTH - 5)
+      memory = match($0, /[0-9]+ bytes smem/) ? substr($0, RSTART, RLENGTH) + 0 : 0
+      print file, kernel, options, architecture, registers, stack, spilled, memory
+      stack = spilled = 0
+    }' "$work/log"
+}
+
+for file in $(kernel_files); do
+  for metric in EUCLIDEAN MANHATTAN; do
+    for neighbours in 9 5; do
+      compile "$file" $metric $neighbours
+      for architecture in sm_80 sm_90; do assemble "$file" "$metric,$neighbours" $architecture; done
+    done
+  done
+done >"$work/rows"
+
+# One line for all options with the same figures.
+awk -F '\t' -v OFS='\t' -v registers=$most_registers -v memory=$most_local '
+  BEGIN { print "file", "kernel", "GPU", "registers", "stack", "spilled", "local", "verdict" }
+  !seen[$1, $2, $4, $5, $6, $7, $8]++ {
+    fits = $5 <= registers && $6 == 0 && $7 == 0 && $8 <= memory
+    print $1, $2, $4, $5, $6, $7, $8, fits ? "fits" : "TOO MUCH (" $3 ")"
+    if (!fits) ++failed
+  }
+  END { exit failed > 0 }' "$work/rows" >"$work/table" && verdict=0 || verdict=1
+column -t -s $'\t' "$work/table"
+exit $verdict
