@@ -174,7 +174,8 @@ Tuning default_tuning(cl_device_id device) {
     while (tuning.vector_width < 16 && tuning.vector_width * 2 <= lanes) tuning.vector_width *= 2;
     tuning.group_width = 64;
     tuning.group_height = 1;
-    tuning.shape = Shape::vector;
+  } else {
+    tuning.shape = Shape::group;
   }
   const GroupLimits limits = group_limits(device);
   while (tuning.group_height > 1 && !limits.allow(tuning.group_width, tuning.group_height))
@@ -292,8 +293,8 @@ Device Device::with_tuning(const Tuning& tuning) const {
                 " rows");
   }
   const std::size_t patch = tuning.patch_items;
-  if (patch < 32 || patch > 256 || (patch & (patch - 1)) != 0 ||
-      (tuning.shape == Shape::group && patch > limits.items)) {
+  if (tuning.shape == Shape::group &&
+      (patch < 32 || patch > 256 || (patch & (patch - 1)) != 0 || patch > limits.items)) {
     throw Error("a patch cannot be labelled by " + std::to_string(patch) +
                 " work-items; they must be 32, 64, 128 or 256, and " + name() + " allows " +
                 std::to_string(limits.items));

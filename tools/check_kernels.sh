@@ -14,18 +14,26 @@ refuse_plain_inline() {
   fi
 }
 
+compile() { # KERNEL OPTION...
+  local kernel=$1
+  shift
+  clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Ikernels -Wall -Wextra -Wconversion -Werror \
+    -Wno-unused-function -Wno-unused-const-variable -DVOROCL_GUARD=16 "$@" "$kernel"
+}
+
 strict_compile() {
   command -v clang >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
   refuse_plain_inline
-  local kernel width metric neighbours
+  local kernel width metric neighbours axes
   for kernel in $(kernel_files); do
     for width in 1 2 4 8 16; do
       for metric in EUCLIDEAN MANHATTAN; do
         for neighbours in 5 9; do
-          clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Ikernels \
-            -Wall -Wextra -Wconversion -Werror -Wno-unused-function -Wno-unused-const-variable \
-            -DVOROCL_WIDTH=$width -DVOROCL_GUARD=16 -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours "$kernel"
+          compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours
         done
+      done
+      for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
+        compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes
       done
     done
   done

@@ -5,6 +5,17 @@
 set -euo pipefail
 [ $# -gt 0 ] || set -- build test
 
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then
+    "$@"
+  elif command -v sudo >/dev/null; then
+    sudo "$@"
+  else
+    echo "setup.sh: there is no sudo, and as another user than root it cannot run: $*" >&2
+    exit 1
+  fi
+}
+
 packages=()
 for group in "$@"; do
   case $group in
@@ -14,7 +25,8 @@ for group in "$@"; do
     ;;
   test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
   check)
-    # libclc is of the version of the distribution's clang.
+    # libclc is of the version of the distribution's clang, which a fresh system does not know yet.
+    apt-cache show clang >/dev/null 2>&1 || as_root apt-get update -qq
     clang=$(apt-cache depends clang | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p')
     packages+=(clang "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
       python3-numpy python3-pip)
@@ -30,14 +42,9 @@ for package in "${packages[@]}"; do
   fi
 done
 if [ ${#missing[@]} -gt 0 ]; then
-  as_root=()
-  if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "setup.sh: ${missing[*]} must be installed, and there is no sudo" >&2; exit 1; }
-    as_root=(sudo)
-  fi
   echo "Installing ${missing[*]}"
-  "${as_root[@]}" apt-get update -qq
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+  as_root apt-get update -qq
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
 fi
 
 # ptxas, where no CUDA is installed: tools/check_gpu.sh looks for it there.

@@ -134,9 +134,9 @@ VOROCL_API vorocl_status vorocl_device_wait_for(const vorocl_device* device, siz
 /// Waits until all that was enqueued is done.
 VOROCL_API vorocl_status vorocl_device_finish(const vorocl_device* device);
 
-/// One of VOROCL_GROUP, VOROCL_VECTOR.
+/// One of VOROCL_VECTOR, VOROCL_GROUP.
 typedef int vorocl_shape;
-enum { VOROCL_GROUP = 0, VOROCL_VECTOR = 1 };
+enum { VOROCL_VECTOR = 0, VOROCL_GROUP = 1 };
 
 /// As vorocl::Tuning: how kernels are shaped. Results never depend on it, only speed does.
 typedef struct vorocl_tuning {

@@ -72,6 +72,7 @@ static inline int_v least_lag(const Dominators* dominators, int i, uint_v seed, 
     lag = min(lag, AS_INT_V(distance[corner] - dominators->distance[i][corner]));
   }
 #ifdef VOROCL_PERIODIC
+  (void)seed;
   return lag - 1;
 #else
   return lag - AS_INT_V(select((uint_v)1, (uint_v)0, COMES_FIRST(dominators->seed[i], seed)));

@@ -27,8 +27,8 @@
 #define SHIFT_Y(index, bin) (PERIODS_Y(bin) * (uint)(index)->height + (uint)((index)->y0 - MARGIN_Y))
 #else
 #define MOST_IMAGES 1
-#define SHIFT_X(index, bin) 0u
-#define SHIFT_Y(index, bin) 0u
+#define SHIFT_X(index, bin) ((void)(index), (void)(bin), 0u)
+#define SHIFT_Y(index, bin) ((void)(index), (void)(bin), 0u)
 #endif
 #define MOST_BINS (FAN * FAN * MOST_PARENTS + TOP_BINS * MOST_IMAGES)
 

@@ -24,6 +24,8 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
     const uint of_image = BIT_INDEX(pack(x, y), columns);
     if (of_image != index) atomic_or(bits + of_image / 32, 1u << of_image % 32);
   }
+#else
+  (void)height;
 #endif
 }
 

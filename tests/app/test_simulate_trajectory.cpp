@@ -118,7 +118,8 @@ BOOST_AUTO_TEST_CASE(each_frame_is_seen_in_its_own_box_and_one_frame_can_be_rend
            "render --trajectory t.lammpstrj --frame 1 --size 50x50 --method jfa --labels a.npy -o a.png");
   BOOST_TEST(labels_of(folder, "a.npy") == labels_of(folder, "l1.npy"));
   succeeds(folder,
-           "render --trajectory t.lammpstrj --size 50x50 --method jfa --bounds -10,-10,10,10 --y-up --labels "
+           "render --trajectory t.lammpstrj --size 50x50 --method jfa --bounds -10,-10,10,10 --periodic none "
+           "--y-up --labels "
            "b.npy");
   const auto labels = labels_of(folder, "b.npy");
   BOOST_TEST(labels[22 * 50 + 27] == 7u);  // (1, 1) is column floor(11 * 50 / 20), row 49 - 27

@@ -69,8 +69,7 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
 
 /// Seeds on every pixel at the left, some in the middle and none at the right: the exact engine takes another
 /// way in each part. Its lists of two entries overflow nearly always.
-void make_exact_diagrams(const Device& device, Metric metric) {
-  const Grid grid(176, 90);
+void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) {
   std::vector<Pixel> pixels = every_pixel({35, grid.height()});
   for (Pixel pixel : random_pixels({40, grid.height()}, 40, 4)) pixels.push_back({pixel.x + 35, pixel.y});
   pixels.push_back(pixels.back());
@@ -132,8 +131,10 @@ int main() {
         make_diagrams(shaped, grid, metric);
         make_seeds(shaped, grid);
       }
-      make_exact_diagrams(shaped, metric);
-      for (const Grid& grid : {Grid(40, 19), Grid(3, 11)}) measure(shaped, grid, metric);
+      make_exact_diagrams(shaped, Grid(176, 90), metric);
+      make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
+      for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
+        measure(shaped, grid, metric);
     }
   }
   const std::set<std::string> kernels = kernels_in_the_sources(device);

@@ -193,15 +193,8 @@ inline std::vector<Case> edge_cases() {
 /// The same with periodic axes, not all of them: kernels are built anew for these.
 inline std::vector<Case> periodic_cases() {
   constexpr Periodic x = Periodic::x, y = Periodic::y, xy = Periodic::xy;
-  return cases_on({{1, 17, xy},
-                   {31, 1, xy},
-                   {2, 2, xy},
-                   {5, 130, xy},
-                   {64, 64, xy},
-                   {67, 29, xy},
-                   {101, 97, xy},
-                   {63, 65, x},
-                   {16, 80, y}});
+  return cases_on(
+      {{1, 17, xy}, {31, 1, xy}, {130, 5, xy}, {64, 64, xy}, {101, 97, xy}, {67, 65, x}, {16, 80, y}});
 }
 
 inline std::vector<Case> all_edge_cases() {

@@ -10,12 +10,25 @@
 
 namespace vorocl {
 
+inline std::optional<Device>& device_of_tests() {
+  static std::optional<Device> device;
+  return device;
+}
+
 /// The device of all tests of a program: VOROCL_DEVICE, else the library's choice. One, so that kernels are
 /// built once.
 inline const Device& test_device() {
-  static const Device device = Device::select();
-  return device;
+  if (!device_of_tests()) device_of_tests() = Device::select();
+  return *device_of_tests();
 }
+
+/// Leaves no work behind: PoCL crashes a process that exits while its threads still build or run a kernel.
+struct FinishAtEnd {
+  ~FinishAtEnd() {
+    if (device_of_tests()) device_of_tests()->finish();
+  }
+};
+BOOST_TEST_GLOBAL_FIXTURE(FinishAtEnd);
 
 /// The points of seeds that are all present.
 inline std::vector<Point> points_of(const Seeds& seeds) {
