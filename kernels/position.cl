@@ -140,12 +140,9 @@ DEFINE_DISTANCE_BETWEEN(distance_between, uint_v, short_2v, AS_UINT_V, AS_SHORT_
 // periods().
 static inline uint_v distance_in_grid(uint_v a, uint_v b, uint period) {
 #ifdef VOROCL_PERIODIC
-  // Past half a period the way inside the grid less the period is the shorter one, below 0. (Of the least of two ways,
-  // which is never below 0, compilers make no multiply-add.)
-  const short_2v offset = AS_SHORT_2V(a) - AS_SHORT_2V(b), sign = offset >> (short)15;
-  const short_2v inside = (offset ^ sign) - sign, whole = AS_SHORT_2V((uint_v)period);
+  const short_2v offset = AS_SHORT_2V(a) - AS_SHORT_2V(b), whole = AS_SHORT_2V((uint_v)period);
   const short_2v half_of_it = AS_SHORT_2V(AS_USHORT_2V(whole) >> (ushort)1);
-  return distance_between_by_offset(inside - (whole & (inside > half_of_it)));
+  return distance_between_by_offset(offset - (whole & (offset > half_of_it)) + (whole & (offset < -half_of_it)));
 #else
   (void)period;
   return distance_between(a, b);

@@ -86,7 +86,7 @@ Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& res
     last = run_over_cells("unwrap_sums", count, width, grid.height(), sums.periods_x, sums.periods_y,
                           sums.sum_x, sums.sum_y);
   }
-  const Report report = report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
+  Report report = report_of(stopwatch, device, count > 0 ? first : added, count > 0 ? last : added);
   sums.frames = std::move(measured);
   return report;
 }
@@ -121,7 +121,7 @@ Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult&
   const cl::Event last = blocks.run(shapes.kernels, "shapes.cl", "add_shapes", {metric}, diagram.labels(),
                                     seeds.positions(), count, grid.width(), grid.height(), blocks.wide(),
                                     blocks.high(), shapes.boxes, shapes.distances);
-  const Report report = report_of(stopwatch, device, count > 0 ? first : last, last);
+  Report report = report_of(stopwatch, device, count > 0 ? first : last, last);
   shapes.frames = std::move(measured);
   return report;
 }

@@ -30,15 +30,15 @@ FieldState<T>& emptied(Field<T>& field) {
 
 /// Fills a field by one kernel: `launch` gets the kernel and the values.
 template <typename T, typename Launch>
-Report fill_field(FieldState<T>& state, const Diagram& diagram, MeasuredFrames frames, const char* name,
-                  const KernelOptions& options, Launch launch) {
+Report fill_field(FieldState<T>& state, const Diagram& diagram, const MeasuredFrames& frames,
+                  const char* name, const KernelOptions& options, Launch launch) {
   const Stopwatch stopwatch;
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   make_room(state.values, device, grid.pixels() * sizeof(T));
   const cl::Event event = launch(state.kernels.get(device, "fields.cl", name, grid, options), state.values);
-  const Report report = report_of(stopwatch, device, event, event);
-  state.frames = std::move(frames);
+  Report report = report_of(stopwatch, device, event, event);
+  state.frames = frames;
   state.pixels = grid.pixels();
   state.device = device;
   return report;

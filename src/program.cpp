@@ -106,7 +106,7 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
     throw Error(what + " failed:\n" + info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
                 ErrorKind::kernel_build);
   }
-  check(code, [&] { return what; });
+  check(code, what.c_str());
   dump(name + ".bin", [&] { return binary_of(program); });
   return program;
 }

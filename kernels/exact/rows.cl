@@ -140,9 +140,11 @@ static inline void find_row(NearestInRows* rows, int row) {
   const ushort16 place = as_ushort16(place_of_bit(behind_first & -behind_first, behind_last & -behind_last));
   const short16 right = as_short16(min(place, (ushort16)FAR_AWAY));
 #ifdef VOROCL_PERIODIC
-  const short first_column = (short)rows->first_column;
-  const short16 right_first = (left < first_column) & (right >= first_column);
-  const short16 nearer = BIN_LANES * (short)2 - right_first > left + right;
+  // 1 where the border lies between the two, so that the right one comes first. (Of two comparisons Oclgrind makes
+  // another number.)
+  const short16 zero = (short16)(short)0, one = (short16)(short)1, first_column = (short16)(short)rows->first_column;
+  const short16 right_first = clamp(first_column - left, zero, one) & clamp(right - first_column + one, zero, one);
+  const short16 nearer = BIN_LANES * (short)2 + right_first > left + right;
 #else
   const short16 nearer = BIN_LANES * (short)2 > left + right;
 #endif

@@ -80,7 +80,7 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   };
   const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
                pyramid] = memory;
-  const cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
+  cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
   fill(device, duplicate_count, cl_uint{0}, 1);
   fill(device, list_end, cl_uint{0}, 1);
   kernel("set_bits")
