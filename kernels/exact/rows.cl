@@ -105,10 +105,10 @@ static inline RowOfBin row_of_bin(const SeedIndex* index, int word, int y, bool 
   return row;
 }
 
-// A row's nearest seeds, of two the one that the tie rule says, which is the left one unless the border between two
-// periods lies in between: a pixel's is the last one up to it or the first one behind it. Without a branch or a loop, which would go one way as often as the other. Of the bins at the
-// left and right only the seed next to this bin counts, and one FAR_AWAY if there is none; the right one's last pixel
-// is out of reach.
+// A row's nearest seeds: a pixel's is the last one up to it or the first one behind it, of two at equal distances the
+// left one, unless the border between two periods lies in between. Without a branch or a loop, which would go one way
+// as often as the other. Of the bins at the left and right only the seed next to this bin counts, and one FAR_AWAY if
+// there is none; the right one's last pixel is out of reach.
 #define FAR_AWAY 128
 #if FAR_AWAY < 3 << BIN_BITS
 #error "A seed that is not there may be nearer than one in the bin at the other side"
@@ -140,11 +140,11 @@ static inline void find_row(NearestInRows* rows, int row) {
   const ushort16 place = as_ushort16(place_of_bit(behind_first & -behind_first, behind_last & -behind_last));
   const short16 right = as_short16(min(place, (ushort16)FAR_AWAY));
 #ifdef VOROCL_PERIODIC
-  // 1 where the border lies between the two, so that the right one comes first. (Of two comparisons Oclgrind makes
-  // another number.)
+  // 1 where the border lies between the two, so that the right one comes first. By arithmetic, not by comparisons, of
+  // whose single bits Oclgrind makes other numbers.
   const short16 zero = (short16)(short)0, one = (short16)(short)1, first_column = (short16)(short)rows->first_column;
   const short16 right_first = clamp(first_column - left, zero, one) & clamp(right - first_column + one, zero, one);
-  const short16 nearer = BIN_LANES * (short)2 + right_first > left + right;
+  const short16 nearer = (left + right - BIN_LANES * (short)2 - right_first) >> (short16)(short)15;
 #else
   const short16 nearer = BIN_LANES * (short)2 > left + right;
 #endif

@@ -132,6 +132,7 @@ int main() {
         make_seeds(shaped, grid);
       }
       make_exact_diagrams(shaped, Grid(176, 90), metric);
+      make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
       for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
         measure(shaped, grid, metric);
     }
