@@ -239,77 +239,89 @@ static inline KEY key_of(int2 seed) {
 #endif
 }
 
-// Gives the pixels of each box to the seeds of its list, where they win. Each work-item has a vector of a box.
+// A pixel's label, and what it is chosen by.
+typedef struct {
+  KEY label, key;  // of one size, as vectors of conditions want it
+  LENGTH distance;
+} Choice;
+
+// Tries the rest of the tree, from a leaf on, at one pixel.
+static inline void choose_from_rest(const Tree* tree, uint leaf, global const int2* seeds, global const uint* ids,
+                                    int x, int y, Choice* choice) {
+  Walk walk = {0, leaf, 0};
+  while (goes_on(tree, &walk)) {
+    const int4 node = node_of(tree, &walk);
+    if (along_to_range(x, node.LEFT, node.RIGHT) + along_to_range(y, node.TOP, node.BOTTOM) > choice->distance) {
+      pass(tree, &walk);
+    } else if (walk.level > 0) {
+      enter(tree, &walk);
+    } else {
+      const uint end = end_of_leaf(tree, walk.index);
+      for (uint i = first_of_leaf(walk.index); i < end; ++i) {
+        const Choice other = {ids[i], key_of(seeds[ids[i]]),
+                              along((LENGTH)tree->places[i].x - x) + along((LENGTH)tree->places[i].y - y)};
+        if (WINS(other.key, other.distance, choice->key, choice->distance)) *choice = other;
+      }
+      pass(tree, &walk);
+    }
+  }
+}
+
+// Gives the pixels of each box to the seeds of its list, where they win. Each work-item has a square of the box, as
+// wide as a vector.
+#define SQUARES_OF_ROW (OUTER_BOX / VOROCL_WIDTH)
 VECTOR_KERNEL void compare_outer_seeds(TREE_PARAMETERS, global uint* restrict labels,
                                        global const int2* restrict seeds, global const uint* restrict ids,
                                        int4 region, int width, int height, global const uint* restrict lists,
                                        global const uint2* restrict counts) {
-  const int vectors_of_row = OUTER_BOX / VOROCL_WIDTH, vectors = OUTER_BOX * vectors_of_row;
-  const int box = (int)(get_global_id(0) / (size_t)vectors), vector = (int)(get_global_id(0) % (size_t)vectors);
+  const int box = (int)get_global_id(0) / (SQUARES_OF_ROW * SQUARES_OF_ROW);
+  const int square = (int)get_global_id(0) % (SQUARES_OF_ROW * SQUARES_OF_ROW);
   if (box >= boxes_along(width) * boxes_along(height)) return;
-  const uint2 count_and_rest = counts[box];
-  if (count_and_rest.s0 == 0) return;
+  const uint count = counts[box].s0, rest = counts[box].s1;
+  if (count == 0) return;
   const Tree tree = TREE_OF_PARAMETERS;
-  const int first = (box % boxes_along(width) << OUTER_BOX_BITS) + vector % vectors_of_row * VOROCL_WIDTH;
+  const int first = (box % boxes_along(width) << OUTER_BOX_BITS) + square % SQUARES_OF_ROW * VOROCL_WIDTH;
+  const int top_row = (box / boxes_along(width) << OUTER_BOX_BITS) + square / SQUARES_OF_ROW * VOROCL_WIDTH;
   const int left = max(first, region.LEFT), right = min(first + VOROCL_WIDTH - 1, region.RIGHT);
-  const int y = (box / boxes_along(width) << OUTER_BOX_BITS) + vector / vectors_of_row;
-  if (right < left || y < region.TOP || y > region.BOTTOM) return;
-
+  const int end_row = min(top_row + VOROCL_WIDTH, region.BOTTOM + 1);
+  if (right < left) return;
   // Lanes outside the region do what the nearest one inside does.
-  KEY label[VOROCL_WIDTH], key[VOROCL_WIDTH];
-  LENGTH distance[VOROCL_WIDTH];
-#pragma unroll
-  for (int lane = 0; lane < VOROCL_WIDTH; ++lane) {
-    const int x = clamp(first + lane, left, right);
-    const uint present = labels[y * width + x];
-    const int2 seed = seeds[present == NO_LABEL ? 0 : present];
-    label[lane] = present;
-    key[lane] = key_of(seed);
-    distance[lane] =
-        present == NO_LABEL ? MOST_LENGTH : along((LENGTH)seed.x - x) + along((LENGTH)seed.y - y);
-  }
-  key_v labels_of_pixels = LOAD_VECTOR(label), keys = LOAD_VECTOR(key);
-  length_v least = LOAD_VECTOR(distance);
   const length_v columns = clamp(CONVERT_LENGTH_V(LANES) + (LENGTH)first, (length_v)left, (length_v)right);
   global const uint* const list = lists + (size_t)box * OUTER_LIST;
-  for (uint i = 0; i < count_and_rest.s0; ++i) {
-    const int2 place = places[list[i]];
-    const uint id = ids[list[i]];
-    const KEY key_of_id = key_of(seeds[id]);
-    const length_v offset = columns - (LENGTH)place.x, away = ALONG(offset) + along((LENGTH)place.y - y);
-    const key_v of_seed = (key_v)key_of_id;
-    labels_of_pixels = WINS(of_seed, away, keys, least) ? (key_v)id : labels_of_pixels;
-    keys = WINS(of_seed, away, keys, least) ? of_seed : keys;
-    least = min(least, away);
-  }
-  STORE_VECTOR(labels_of_pixels, label);
-  STORE_VECTOR(keys, key);
-  STORE_VECTOR(least, distance);
+
+  for (int y = max(top_row, region.TOP); y < end_row; ++y) {
+    KEY label[VOROCL_WIDTH], key[VOROCL_WIDTH];
+    LENGTH distance[VOROCL_WIDTH];
+    global uint* const row = labels + y * width;
 #pragma unroll
-  for (int lane = 0; lane < VOROCL_WIDTH; ++lane) {
-    const int x = clamp(first + lane, left, right);
-    // The list was full: the rest of the tree, pixel by pixel.
-    Walk walk = {0, count_and_rest.s1, 0};
-    while (count_and_rest.s1 < nodes_of_level(&tree, 0) && goes_on(&tree, &walk)) {
-      const int4 node = node_of(&tree, &walk);
-      if (along_to_range(x, node.LEFT, node.RIGHT) + along_to_range(y, node.TOP, node.BOTTOM) > distance[lane]) {
-        pass(&tree, &walk);
-      } else if (walk.level > 0) {
-        enter(&tree, &walk);
-      } else {
-        const uint end = end_of_leaf(&tree, walk.index);
-        for (uint i = first_of_leaf(walk.index); i < end; ++i) {
-          const KEY of_seed = key_of(seeds[ids[i]]);
-          const LENGTH away = along((LENGTH)places[i].x - x) + along((LENGTH)places[i].y - y);
-          if (!WINS(of_seed, away, key[lane], distance[lane])) continue;
-          label[lane] = ids[i];
-          key[lane] = of_seed;
-          distance[lane] = away;
-        }
-        pass(&tree, &walk);
-      }
+    for (int lane = 0; lane < VOROCL_WIDTH; ++lane) {
+      const int x = clamp(first + lane, left, right);
+      label[lane] = row[x];
+      const int2 seed = seeds[row[x] == NO_LABEL ? 0 : row[x]];
+      key[lane] = key_of(seed);
+      distance[lane] = row[x] == NO_LABEL ? MOST_LENGTH : along((LENGTH)seed.x - x) + along((LENGTH)seed.y - y);
     }
-    labels[y * width + x] = (uint)label[lane];
+    key_v labels_of_row = LOAD_VECTOR(label), keys = LOAD_VECTOR(key);
+    length_v least = LOAD_VECTOR(distance);
+    for (uint i = 0; i < count; ++i) {
+      const int2 place = places[list[i]];
+      const uint id = ids[list[i]];
+      const key_v of_seed = (key_v)key_of(seeds[id]);
+      const length_v offset = columns - (LENGTH)place.x, away = ALONG(offset) + along((LENGTH)place.y - y);
+      labels_of_row = WINS(of_seed, away, keys, least) ? (key_v)id : labels_of_row;
+      keys = WINS(of_seed, away, keys, least) ? of_seed : keys;
+      least = min(least, away);
+    }
+    STORE_VECTOR(labels_of_row, label);
+    STORE_VECTOR(keys, key);
+    STORE_VECTOR(least, distance);
+#pragma unroll
+    for (int lane = 0; lane < VOROCL_WIDTH; ++lane) {
+      const int x = clamp(first + lane, left, right);
+      Choice choice = {label[lane], key[lane], distance[lane]};
+      if (rest < nodes_of_level(&tree, 0)) choose_from_rest(&tree, rest, seeds, ids, x, y, &choice);
+      row[x] = (uint)choice.label;
+    }
   }
 }
 

@@ -44,9 +44,10 @@ cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric
         .over_items(boxes, outer->places, outer->nodes, outer->count, outer->top, outer->top_start,
                     state.labels, outer->seeds, region, width, height, memory.lists, memory.counts);
     Kernel& compare = kernel("compare_outer_seeds");
-    event = compare.over_items(boxes * OUTER_BOX * OUTER_BOX / compare.vector_width(), outer->places,
-                               outer->nodes, outer->count, outer->top, outer->top_start, state.labels,
-                               outer->seeds, outer->ids, region, width, height, memory.lists, memory.counts);
+    const std::size_t squares_of_row = OUTER_BOX / compare.vector_width();
+    event = compare.over_items(boxes * squares_of_row * squares_of_row, outer->places, outer->nodes,
+                               outer->count, outer->top, outer->top_start, state.labels, outer->seeds,
+                               outer->ids, region, width, height, memory.lists, memory.counts);
   }
   if (!outer->labels_all(grid)) {
     event = kernel("clear_outside_region").over_grid(state.labels, region, width, height);
