@@ -19,16 +19,16 @@ namespace vorocl {
 /// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
 constexpr std::size_t guard = 16;
 
-/// How far away seeds may lie outside the grid: whether distances to them take 32 bits or 64
+/// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64
 /// (kernels/plane.cl).
-enum class Reach { near, far };
+enum class Reach { grid, near, far };
 
 /// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
 /// axes. Kernels that read no distance or no neighbours are the same for all.
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
-  Reach reach = Reach::near;
+  Reach reach = Reach::grid;
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
     return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.reach == b.reach;
