@@ -71,7 +71,11 @@ void each_outer_place(const Region& region, const std::optional<Domain>& domain,
 /// nearest to.
 class Rim {
  public:
-  explicit Rim(const Region& region) : region_(region) { witnesses_.resize(4 * most_stretches); }
+  explicit Rim(const Region& region) : region_(region) {
+    while (std::max(region.right - region.left, region.bottom - region.top) >> shift_ >= stretches_of_side)
+      ++shift_;
+    witnesses_.resize(4 * stretches_of_side);
+  }
 
   void add(const Place& place) {
     std::optional<Witness>& witness = witnesses_[stretch_of(place)];
@@ -85,7 +89,7 @@ class Rim {
   }
 
  private:
-  static constexpr std::int64_t most_stretches = 1024;  // of a side
+  static constexpr std::int64_t stretches_of_side = 1024;  // at most
   struct Witness {
     Place place;
     std::int64_t away;
@@ -105,10 +109,10 @@ class Rim {
     const auto sides = to_sides(place);
     const auto side = std::max_element(sides.begin(), sides.end()) - sides.begin();
     const bool along_x = side < 2;
-    const std::int64_t low = along_x ? region_.left : region_.top,
-                       high = along_x ? region_.right : region_.bottom;
+    const std::int64_t low = along_x ? region_.left : region_.top;
+    const std::int64_t high = along_x ? region_.right : region_.bottom;
     const std::int64_t at = std::min(std::max(along_x ? place.x : place.y, low), high) - low;
-    return static_cast<std::size_t>(side * most_stretches + at * most_stretches / (high - low + 1));
+    return static_cast<std::size_t>(side * stretches_of_side + (at >> shift_));
   }
 
   /// Whether a place is nearer than another one at all corners, by both metrics.
@@ -125,6 +129,7 @@ class Rim {
   }
 
   Region region_;
+  int shift_ = 0;  // a stretch has 2^shift pixels
   std::vector<std::optional<Witness>> witnesses_;
 };
 
