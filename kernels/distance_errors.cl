@@ -1,10 +1,6 @@
 // Errors of labels: how much farther a pixel's seed is than the nearest one.
 
-#ifdef VOROCL_OUTER_SEEDS
 #include "plane.cl"
-#else
-#include "position.cl"
-#endif
 
 // The distance from a pixel to a seed's position; NO_SEED without one.
 #ifdef VOROCL_OUTER_SEEDS

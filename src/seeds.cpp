@@ -40,7 +40,10 @@ class Snapping {
   }
 
   PlanePosition operator()(std::size_t id, const Point& point) const {
-    return {{along(id, point, point.x, grid_.width(), 0), along(id, point, point.y, grid_.height(), 1)}};
+    const PlanePosition at = {
+        {along(id, point, point.x, grid_.width(), 0), along(id, point, point.y, grid_.height(), 1)}};
+    if (grid_.periodic() != Periodic::none && !is_inside(grid_, at)) throw BadPoint(id, point, grid_);
+    return at;
   }
 
   PlanePosition operator()(std::size_t id, const std::optional<Point>& point) const {

@@ -36,8 +36,8 @@ struct SeedsState;
 class VOROCL_API Seeds {
  public:
   /// From points in pixel units from the grid's corner. Throws BadPoint naming the first point that is NaN,
-  /// infinite or 2^31 pixels or more away from a pixel of the grid along an axis, before any device work. No
-  /// points at all are allowed.
+  /// infinite or 2^31 pixels or more away from a pixel of the grid along an axis, before any device work. Of
+  /// a grid that is periodic itself all points must lie in it. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points);
 

@@ -282,6 +282,12 @@ BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
   check_error([&] { with({side, 1}); }, {"point 1", "2147483648", "too far away", "2^31"});
   check_error([&] { with({1, 9 - side}); }, {"point 1", "too far away"});
   check_error([&] { with({nan, 1}); }, {"point 1", "not finite"});
+  const Grid periodic(20, 10, Periodic::x);
+  check_error(
+      [&] {
+        Seeds(test_device(), periodic, {Point{1, 1}, Point{20, 1}});
+      },
+      {"point 1", "outside the grid"});
 
   const std::vector<Point> points = {{1, 1}};
   const auto in = [&](const Domain& domain) { Seeds(test_device(), grid, points, domain); };
