@@ -61,18 +61,28 @@ ErrorKind kind_of(cl_int code) {
   }
 }
 
+std::string complaint(std::size_t index, const Point& point, const char* otherwise) {
+  const bool finite = std::isfinite(point.x) && std::isfinite(point.y);
+  return "point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " + std::to_string(point.y) +
+         ") is " + (finite ? otherwise : "not finite");
+}
+
 }  // namespace
 
 void fail(cl_int code, const std::string& what) {
   throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
 }
 
+BadPoint::BadPoint(std::size_t index, const Point& point)
+    : Error(complaint(index, point, "too far away") +
+                "; x and y must be less than 2^31 pixels from all pixels of the grid",
+            ErrorKind::bad_point),
+      index_(index),
+      point_(point) {}
+
 BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
-    : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
-                std::to_string(point.y) + ") is " +
-                (std::isfinite(point.x) && std::isfinite(point.y) ? "outside the grid" : "not finite") +
-                "; x must be in [0, " + std::to_string(grid.width()) + ") and y in [0, " +
-                std::to_string(grid.height()) + ")",
+    : Error(complaint(index, point, "outside the grid") + "; x must be in [0, " +
+                std::to_string(grid.width()) + ") and y in [0, " + std::to_string(grid.height()) + ")",
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}
