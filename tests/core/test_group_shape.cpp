@@ -120,6 +120,10 @@ BOOST_AUTO_TEST_CASE(rows_within_reach) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(rows_of_many_bins) {
+  for (const int width : {1040, 4111}) check_all({"wide", {width, 40}, random_pixels({width, 40}, 700, 2)});
+}
+
 BOOST_AUTO_TEST_CASE(hurtful_sets) {
   for (const Case& c : hurtful_cases({321, 255})) check_all(c);
 }
