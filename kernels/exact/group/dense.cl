@@ -9,9 +9,9 @@
 // The rows of a patch and those up to REACH above and below it.
 #define PATCH_ROWS (PATCH + 2 * REACH)
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows at
-// equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which is too
-// far for a label.
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows
+// at equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which
+// is too far for a label.
 #define ROW_BITS 6
 #if (1 << PATCH_BITS) + 2 * REACH > 1 << ROW_BITS
 #error "A row does not fit in the bits of a row key"
@@ -79,8 +79,8 @@ static inline uint nearest_in_row(local const Rows* rows, int row, int column, c
 
 static inline int greatest(int4 values) { return max(max(values.s0, values.s1), max(values.s2, values.s3)); }
 
-// The least row keys of RUN pixels, the first one in `row`: goes up and down from them, at most `reach` rows, until no row
-// farther away can have a nearer seed.
+// The least row keys of RUN pixels, the first one in `row`: goes up and down from them, at most `reach` rows, until
+// no row farther away can have a nearer seed.
 static inline int4 find_least_row_keys_below(local const ushort* along_x, int row, int column, int reach) {
   local const ushort* above = along_x + row * PATCH + column;
   local const ushort* below = above + (RUN - 1) * PATCH;
@@ -107,8 +107,8 @@ static inline int count_seeds_around(const SeedIndex* index, Box patch) {
   return (int)(count_seeds(index, bin_x - 1, bin_x + 2, bin_y) + count_seeds(index, bin_x - 1, bin_x + 2, bin_y + 1));
 }
 
-// How many rows above and below are looked at first: twice the side of the square that a seed has on average. At random,
-// one patch in 300 has a pixel whose seed is farther away.
+// How many rows above and below are looked at first: twice the side of the square that a seed has on average. At
+// random, one patch in 300 has a pixel whose seed is farther away.
 static inline int first_reach(int seeds_around) {
   return min((int)(2 * sqrt((float)PIXELS_AROUND / (float)seeds_around)) + 1, REACH);
 }
