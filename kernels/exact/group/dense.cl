@@ -74,7 +74,7 @@ static inline uint nearest_in_row(local const Rows* rows, int row, int column, c
   const int left = (int)WAY_TO_LEFT(window), right = (int)WAY_TO_RIGHT(window);
   const uint bit = (uint)(BIN + column + (right < left ? right : -left));
   const uint before = (uint)popcount(mask & ((1ul << bit) - 1));
-  return index->ids[rows->start[row * BINS_OF_ROW + bit / BIN] + before];
+  return index->ids[rows->start[(uint)row * BINS_OF_ROW + bit / BIN] + before];
 }
 
 static inline int greatest(int4 values) { return max(max(values.s0, values.s1), max(values.s2, values.s3)); }
@@ -138,7 +138,7 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
     barrier(CLK_LOCAL_MEM_FENCE);
     const int quad = item & (QUADS_OF_ROW - 1);
     for (int row = REACH - reach + item / QUADS_OF_ROW; row < REACH + PATCH + reach; row += items / QUADS_OF_ROW) {
-      vstore4(keys_along_x(&rows, row, 4 * quad), row * QUADS_OF_ROW + quad, along_x);
+      vstore4(keys_along_x(&rows, row, 4 * quad), (size_t)(row * QUADS_OF_ROW + quad), along_x);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
