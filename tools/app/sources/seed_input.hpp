@@ -23,7 +23,7 @@ struct SeedOptions {
   std::optional<Grid> size;
   int width = 0;
   std::optional<Bounds> bounds;
-  std::optional<Periodic> periodic;  // else none, or what the trajectory says
+  std::optional<Periodic> periodic;   // else none, or what the trajectory says
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
   std::string value_column;  // whose values are read with the points
