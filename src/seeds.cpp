@@ -14,10 +14,6 @@ namespace {
 
 constexpr std::size_t most_seeds = Grid::max_pixels;  // ids are uint32, and work-item ids must not wrap
 
-std::uint32_t pack(int x, int y) {
-  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
-}
-
 std::uint32_t snap(const Grid& grid, std::size_t index, const Point& point) {
   // Written so that a NaN fails.
   if (!(point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height())) {
@@ -88,14 +84,17 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
 }
 
 void SeedsState::place(std::vector<std::uint32_t> packed) {
-  std::vector<bool> there(packed.size());
-  for (std::size_t id = 0; id < packed.size(); ++id) there[id] = packed[id] != absent_position;
+  const auto absent = static_cast<std::size_t>(std::count(packed.begin(), packed.end(), absent_position));
+  std::vector<bool> there(packed.size(), true);
   bool vanished = there.size() < present.size();
-  for (std::size_t id = 0; id < std::min(there.size(), present.size()); ++id) {
-    vanished = vanished || (present[id] && !there[id]);
+  if (absent > 0) {
+    for (std::size_t id = 0; id < there.size(); ++id) {
+      there[id] = packed[id] != absent_position;
+      vanished = vanished || (id < present.size() && present[id] && !there[id]);
+    }
   }
   SeedsFrame next = next_frame(there.size(), vanished);
-  next.absent = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));
+  next.absent = absent;
   auto made = std::make_shared<const SeedsFrame>(next);
   packed.push_back(absent_position);
   upload(device, next_positions(there.size()), packed);

@@ -176,9 +176,7 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
     return true;
   };
   const Simulation::Engine fills = engine(method(name), options_with(metric));
-  Relaxation relaxation = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
-  seeds.pixels = seeds.seeds.read();
-  return relaxation;
+  return vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
 }
 
 }  // namespace

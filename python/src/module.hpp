@@ -52,7 +52,7 @@ struct SeedsObject {
   std::mutex mutex;
   Placement placement;
   Seeds seeds;
-  std::vector<std::optional<Point>> pixels, last_pixels;
+  std::vector<std::uint32_t> positions, last_positions;
 };
 
 /// A diagram, and what was measured of it last, so that the next measurement allocates nothing.

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <tuple>
 
 #include "module.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl::python {
 
@@ -32,69 +34,75 @@ double wrapped(double position, int count, bool periodic) {
   return position < count ? position : 0;  // the sum may be rounded up to the period
 }
 
-/// The pixel's centre; none outside the grid.
+/// Where a point in pixels is; none outside the grid.
 std::optional<Point> to_pixel(const Point& point, const Grid& grid, bool y_up) {
-  const double x = std::floor(wrapped(point.x, grid.width(), grid.periodic_x()));
-  const double y = std::floor(wrapped(point.y, grid.height(), grid.periodic_y()));
+  const double x = wrapped(point.x, grid.width(), grid.periodic_x());
+  const double y = wrapped(point.y, grid.height(), grid.periodic_y());
   if (!(x >= 0 && x < grid.width() && y >= 0 && y < grid.height())) return std::nullopt;
-  return Point{x + 0.5, (y_up ? grid.height() - 1 - y : y) + 0.5};
+  return Point{x, y_up ? grid.height() - 1 - static_cast<int>(y) : y};
 }
 
-void place(const Placement& placement, const Points& points, std::vector<std::optional<Point>>& pixels) {
+[[noreturn]] void refuse(std::size_t row, const Point& point, const Placement& placement) {
+  if (std::isinf(point.x) || std::isinf(point.y)) {
+    throw BadPoint(row, point, "is infinite; a seed that is absent is NaN");
+  }
   const Grid& grid = placement.grid;
-  pixels.clear();
-  pixels.reserve(points.shape(0));
-  for (const double* xy = points.data(); pixels.size() < points.shape(0); xy += 2) {
+  const std::string pixels = std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " pixels";
+  throw BadPoint(row, point, placement.bounds ? "is outside the bounds" : "is outside the grid of " + pixels);
+}
+
+/// Writes the positions, with room for the one more that the library adds.
+void place(const Placement& placement, const Points& points, std::vector<std::uint32_t>& positions) {
+  const Grid& grid = placement.grid;
+  positions.clear();
+  positions.reserve(points.shape(0) + 1);
+  for (const double* xy = points.data(); positions.size() < points.shape(0); xy += 2) {
     const Point point = {xy[0], xy[1]};
     if (std::isnan(point.x) || std::isnan(point.y)) {
-      pixels.emplace_back();
+      positions.push_back(absent_position);
       continue;
     }
-    if (std::isinf(point.x) || std::isinf(point.y)) {
-      throw BadPoint(pixels.size(), point, "is infinite; a seed that is absent is NaN");
+    std::optional<Point> pixel;
+    if (std::isfinite(point.x) && std::isfinite(point.y)) {
+      pixel = placement.bounds ? to_pixel(point, *placement.bounds, grid, placement.y_up)
+                               : to_pixel(point, grid, placement.y_up);
     }
-    pixels.push_back(placement.bounds ? to_pixel(point, *placement.bounds, grid, placement.y_up)
-                                      : to_pixel(point, grid, placement.y_up));
-    if (!pixels.back()) {
-      const std::string where = placement.bounds ? "the bounds"
-                                                 : "the grid of " + std::to_string(grid.width()) + " x " +
-                                                       std::to_string(grid.height()) + " pixels";
-      throw BadPoint(pixels.size() - 1, point, "is outside " + where);
-    }
+    if (!pixel) refuse(positions.size(), point, placement);
+    positions.push_back(pack(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
   }
 }
 
 /// How far apart two positions are along an axis, the shorter way round if that is periodic.
-double along(double a, double b, int count, bool periodic) {
-  const double apart = std::abs(a - b);
+int along(std::uint32_t a, std::uint32_t b, int count, bool periodic) {
+  const int apart = std::abs(static_cast<int>(a) - static_cast<int>(b));
   return periodic ? std::min(apart, count - apart) : apart;
 }
 
-/// Of the seeds that are in both frames.
-double greatest_displacement(const SeedsObject& seeds) {
+/// Of the seeds that are in the last two frames, along an axis.
+int displacement(SeedsObject& seeds) {
+  const std::lock_guard<std::mutex> lock(seeds.mutex);
   const Grid& grid = seeds.placement.grid;
-  double greatest = 0;
-  for (std::size_t id = 0; id < std::min(seeds.pixels.size(), seeds.last_pixels.size()); ++id) {
-    const std::optional<Point>&now = seeds.pixels[id], &before = seeds.last_pixels[id];
-    if (!now || !before) continue;
-    greatest = std::max({greatest, along(now->x, before->x, grid.width(), grid.periodic_x()),
-                         along(now->y, before->y, grid.height(), grid.periodic_y())});
+  const std::size_t count = std::min(seeds.positions.size(), seeds.last_positions.size());
+  int greatest = 0;
+  for (std::size_t id = 0; id < count; ++id) {
+    const std::uint32_t now = seeds.positions[id], before = seeds.last_positions[id];
+    if (now == absent_position || before == absent_position) continue;
+    greatest = std::max({greatest, along(now & 0xffff, before & 0xffff, grid.width(), grid.periodic_x()),
+                         along(now >> 16, before >> 16, grid.height(), grid.periodic_y())});
   }
   return greatest;
 }
 
-/// Returns the greatest displacement.
-double move_to(SeedsObject& seeds, const Points& points) {
+void move_to(SeedsObject& seeds, const Points& points) {
   const std::lock_guard<std::mutex> lock(seeds.mutex);
-  std::swap(seeds.pixels, seeds.last_pixels);
+  std::swap(seeds.positions, seeds.last_positions);
   try {
-    place(seeds.placement, points, seeds.pixels);
-    seeds.seeds.move_to(seeds.pixels);
+    place(seeds.placement, points, seeds.positions);
+    Internal::state(seeds.seeds).place(seeds.positions);
   } catch (...) {
-    std::swap(seeds.pixels, seeds.last_pixels);  // the seeds are where they were
+    std::swap(seeds.positions, seeds.last_positions);  // the seeds are where they were
     throw;
   }
-  return greatest_displacement(seeds);
 }
 
 void make(SeedsObject* memory, const Device& device, const Grid& grid, const std::optional<Corners>& bounds,
@@ -105,10 +113,7 @@ void make(SeedsObject* memory, const Device& device, const Grid& grid, const std
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
                                        const Array<const std::uint8_t, nb::ndim<2>>& mask) {
   const std::vector<std::uint8_t> pixels(mask.data(), mask.data() + mask.size());
-  auto seeds =
-      std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels), Placement{grid, {}, false});
-  seeds->pixels = seeds->seeds.read();
-  return seeds;
+  return std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels), Placement{grid, {}, false});
 }
 
 std::size_t size(SeedsObject& seeds) {
@@ -141,6 +146,7 @@ void bind_seeds(nb::module_& module) {
            without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
       .def("move_to", move_to, nb::arg("points"), without_gil())
+      .def_prop_ro("displacement", displacement, without_gil())
       .def("read", read, nb::arg("points"), without_gil())
       .def_prop_ro("size", size, without_gil())
       .def_prop_ro("alive", alive, without_gil());

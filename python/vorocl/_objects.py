@@ -155,7 +155,8 @@ class Seeds:
         >>> seeds.move_to([(1, 3), (5, 2)])
         2.0
         """
-        return self._seeds.move_to(to_points(points))
+        self._seeds.move_to(to_points(points))
+        return self._seeds.displacement
 
     def read(self) -> NDArray[np.float64]:
         """Return the centres of the seeds' pixels.
@@ -389,6 +390,7 @@ class Simulation:
             (), shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=self.diagram.device
         )
         self.report: Optional[_vorocl.Report] = None
+        self._displacement = 0.0  # since the diagram was last filled
 
     def step(self, points: ArrayLike) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
@@ -409,6 +411,7 @@ class Simulation:
             The frame counts as not made then.
         BadArgument, DeviceMemoryError, DeviceError
         """
-        displacement = self.seeds.move_to(points)
-        self.report = self.diagram.fill(self.seeds, self._method, self._metric, displacement)
+        self._displacement += self.seeds.move_to(points)
+        self.report = self.diagram.fill(self.seeds, self._method, self._metric, self._displacement)
+        self._displacement = 0.0
         return self.diagram
