@@ -60,7 +60,8 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
         add_border(labels, width, height, edge_of(pixel, 0), 1u, mask, slots, lengths, overflow);
       }
       if (below[last] < count && below[last] != label) {
-        add_border(labels, width, height, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths, overflow);
+        add_border(labels, width, height, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths,
+                   overflow);
       }
     }
   }

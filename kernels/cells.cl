@@ -9,10 +9,10 @@ static inline void add_to_pair(global uint* pair, uint value) {
 
 // Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs
 // no atomics, for no other work-item adds to the same place. Blocks are so small that three sums fit in 64 bits
-// (src/measurement.cpp asserts it): the pixels, and their columns and rows counted from the block's corner. They and the
-// homes are kept small and apart from the rest, because with many cells the time goes into waiting for memory: of the
-// home's index 16 bits are kept. With small blocks on a large grid they may belong to another block; then that one is
-// the cell's home: the sums stay right, but fewer atomics are saved.
+// (src/measurement.cpp asserts it): the pixels, and their columns and rows counted from the block's corner. They and
+// the homes are kept small and apart from the rest, because with many cells the time goes into waiting for memory: of
+// the home's index 16 bits are kept. With small blocks on a large grid they may belong to another block; then that one
+// is the cell's home: the sums stay right, but fewer atomics are saved.
 #define HOME_X_SHIFT 16
 #define HOME_Y_SHIFT 40
 #define HOME_AREA(sums) ((uint)(sums) & 0xffffu)
@@ -59,8 +59,9 @@ kernel void add_sums(global const uint* restrict labels, uint count, int width, 
 
 // How many periods the pixels of a cell are away, in sum, from where they lie the shorter way round from its seed. For
 // grids with a periodic axis.
-kernel void add_periods(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
-                        int height, int wide, int high, global int* restrict periods_x, global int* restrict periods_y) {
+kernel void add_periods(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                        int width, int height, int wide, int high, global int* restrict periods_x,
+                        global int* restrict periods_y) {
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
   for (int y = block.top; y < block.bottom; ++y) {
@@ -84,7 +85,8 @@ kernel void add_periods(global const uint* restrict labels, global const uint* r
 
 // Moves the sums there.
 kernel void unwrap_sums(uint count, int width, int height, global const int* restrict periods_x,
-                        global const int* restrict periods_y, global long* restrict sum_x, global long* restrict sum_y) {
+                        global const int* restrict periods_y, global long* restrict sum_x,
+                        global long* restrict sum_y) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   sum_x[id] += (long)periods_x[id] * width;

@@ -5,7 +5,8 @@
 // The distance from a pixel to a packed position; NO_DISTANCE without a seed.
 static inline uint distance_to(uint position, int x, int y, int width, int height) {
   if (position & EMPTY_BIT) return NO_DISTANCE;
-  return distance_of_offset(shorter_way_x(packed_x(position) - x, width), shorter_way_y(packed_y(position) - y, height));
+  const int along_x = shorter_way_x(packed_x(position) - x, width);
+  return distance_of_offset(along_x, shorter_way_y(packed_y(position) - y, height));
 }
 
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.

@@ -112,9 +112,9 @@ static inline uint_v positions_in_grid(int x, int y, int width, int height) {
 
 // Two 16-bit numbers per lane: the coordinates of a vector of positions.
 #if VOROCL_WIDTH == 16
-// The vectors of OpenCL C end at 16 values. Those of clang do not, and the drivers of CPUs are built on clang. Two halves
-// of 8 pixels that are joined afterwards become 17 instructions instead of 2 from LLVM 18 on, because it joins them
-// before it looks for the multiply-add.
+// The vectors of OpenCL C end at 16 values. Those of clang do not, and the drivers of CPUs are built on clang. Two
+// halves of 8 pixels that are joined afterwards become 17 instructions instead of 2 from LLVM 18 on, because it joins
+// them before it looks for the multiply-add.
 typedef short short_2v __attribute__((ext_vector_type(32)));
 typedef ushort ushort_2v __attribute__((ext_vector_type(32)));
 #define AS_SHORT_2V(values) __builtin_astype(values, short_2v)

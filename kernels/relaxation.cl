@@ -34,8 +34,8 @@ static inline int nearest_to_mean(long sum, uint area, int present) {
   return twice_the_rest < (long)area ? (int)low : (int)low + 1;
 }
 
-// Counts the seeds that moved, and finds the greatest displacement along an axis; each work-item for a chunk of the seeds,
-// so that few meet there.
+// Counts the seeds that moved, and finds the greatest displacement along an axis; each work-item for a chunk of the
+// seeds, so that few meet there.
 kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
                               global const long* restrict sum_x, global const long* restrict sum_y, int width,
                               int height, global uint* restrict moved_and_displacement) {

@@ -1,5 +1,5 @@
-// The extent of each cell: bounding box and largest distance to the seed. Along a periodic axis a pixel is where it lies
-// the shorter way round from the seed, so a box may reach out of the grid.
+// The extent of each cell: bounding box and largest distance to the seed. Along a periodic axis a pixel is where it
+// lies the shorter way round from the seed, so a box may reach out of the grid.
 
 #include "runs.cl"
 
@@ -11,8 +11,8 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   largest[id] = -1;
 }
 
-// Whether the next pixel along an axis is there, and as far from the seed as its place says: along a periodic axis the way
-// from the seed jumps half a period away from it.
+// Whether the next pixel along an axis is there, and as far from the seed as its place says: along a periodic axis the
+// way from the seed jumps half a period away from it.
 static inline bool goes_on_x(int x, int step, int seed_x, int width) {
   if (!PERIODIC_X) return x + step >= 0 && x + step < width;
   return shorter_way_x(wrapped_x(x + step, width) - seed_x, width) == shorter_way_x(x - seed_x, width) + step;

@@ -93,9 +93,6 @@ class Range {
   std::optional<Scale> scale_;
 };
 
-bool periodic_x(Periodic axes) { return axes == Periodic::x || axes == Periodic::xy; }
-bool periodic_y(Periodic axes) { return axes == Periodic::y || axes == Periodic::xy; }
-
 /// The pixel that comes before or behind one along an axis; none at the border of one that is not periodic.
 std::optional<int> neighbour(int at, int step, int size, bool periodic) {
   const int next = at + step;
@@ -109,9 +106,9 @@ cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& siz
   const auto row = [&](int y) { return labels.data() + static_cast<std::ptrdiff_t>(y) * size.width; };
   for (int y = 0; y < size.height; ++y) {
     const std::uint32_t* const own = row(y);
-    const std::uint32_t* const below = row(neighbour(y, 1, size.height, periodic_y(axes)).value_or(y));
+    const std::uint32_t* const below = row(neighbour(y, 1, size.height, has_y(axes)).value_or(y));
     for (int x = 0; x < size.width; ++x) {
-      const int right = x + 1 < size.width ? x + 1 : periodic_x(axes) ? 0 : x;
+      const int right = x + 1 < size.width ? x + 1 : has_x(axes) ? 0 : x;
       if (own[right] != own[x] || below[x] != own[x]) edges.at<std::uint8_t>(y, x) = 255;
     }
   }
@@ -211,8 +208,8 @@ void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double
       const double here = band(y, x);
       if (!std::isfinite(here)) continue;
       const auto is_lower = [&](int dx, int dy) {
-        const auto next_x = neighbour(x, dx, picture.cols, periodic_x(axes));
-        const auto next_y = neighbour(y, dy, picture.rows, periodic_y(axes));
+        const auto next_x = neighbour(x, dx, picture.cols, has_x(axes));
+        const auto next_y = neighbour(y, dy, picture.rows, has_y(axes));
         return next_x && next_y && band(*next_y, *next_x) < here;
       };
       const bool is_on_line = is_lower(-1, 0) || is_lower(0, -1) || is_lower(1, 0) || is_lower(0, 1);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks that clang-format (of version 14) and clang-tidy have nothing to say:
-#   check_style.sh format              all sources
+#   check_style.sh format              all sources; of kernels the length of lines alone
 #   check_style.sh lint [FOLDER]...    the sources in the folders, or in all; takes some 10 seconds for each
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -8,6 +8,10 @@ cd "$(dirname "$0")/.."
 case ${1-} in
 format)
   find include src tools tests -name '*.[ch]' -o -name '*.[ch]pp' | xargs clang-format --dry-run -Werror
+  if grep -rnE '^.{121,}' kernels; then
+    echo "These lines of kernels have more than 120 columns." >&2
+    exit 1
+  fi
   ;;
 lint)
   shift

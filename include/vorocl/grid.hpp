@@ -34,6 +34,10 @@ enum class Neighbourhood {
 /// distances go the shorter way round, and cells reach across the border.
 enum class Periodic { none, x, y, xy };
 
+/// Whether x, or y, is among the periodic axes.
+constexpr bool has_x(Periodic axes) { return axes == Periodic::x || axes == Periodic::xy; }
+constexpr bool has_y(Periodic axes) { return axes == Periodic::y || axes == Periodic::xy; }
+
 /// The size of a diagram in pixels, row-major, (0, 0) at the top left, and which of its axes are periodic.
 class VOROCL_API Grid {
  public:
@@ -48,8 +52,8 @@ class VOROCL_API Grid {
   int width() const { return width_; }
   int height() const { return height_; }
   Periodic periodic() const { return periodic_; }
-  bool periodic_x() const { return periodic_ == Periodic::x || periodic_ == Periodic::xy; }
-  bool periodic_y() const { return periodic_ == Periodic::y || periodic_ == Periodic::xy; }
+  bool periodic_x() const { return has_x(periodic_); }
+  bool periodic_y() const { return has_y(periodic_); }
   int longest_side() const { return width_ > height_ ? width_ : height_; }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 

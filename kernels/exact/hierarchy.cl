@@ -7,8 +7,8 @@
 #include "exact/collect.cl"
 #include "exact/dominance.cl"
 
-// A bin of a search: its column and row in its level, packed, MORE, and where axes are periodic which image of the bin is
-// meant along each: 0 is a period before the bin itself, 1 is the bin itself, 2 is a period behind it.
+// A bin of a search: its column and row in its level, packed, MORE, and where axes are periodic which image of the bin
+// is meant along each: 0 is a period before the bin itself, 1 is the bin itself, 2 is a period behind it.
 #define COLUMN_BITS 11
 #define IMAGE_X_BIT COLUMN_BITS
 #define IMAGE_Y_BIT (COLUMN_BITS + 2)
@@ -76,14 +76,14 @@ static inline void drop_dominated_bins(Search* search, const SeedIndex* index, i
   pad(search->representatives, kept);
 }
 
-// Whether pixels from box_first to box_last may be nearest to some from `first` to `last` the way that does not go round
-// the grid: that is half a period at most.
+// Whether pixels from box_first to box_last may be nearest to some from `first` to `last` the way that does not go
+// round the grid: that is half a period at most.
 static inline bool within_half_a_period(int first, int last, int box_first, int box_last, int period) {
   return 2 * max(first - box_last, box_first - last) <= period;
 }
 
-// A coordinate that a position cannot hold is brought to another image of its seed. That is a seed too, and the one that
-// was meant is too far away to matter.
+// A coordinate that a position cannot hold is brought to another image of its seed. That is a seed too, and the one
+// that was meant is too far away to matter.
 static inline int held_by_position(int at, int period) {
   return at < 0 ? at + period : at > LAST_COORDINATE ? at - period : at;
 }
@@ -106,7 +106,8 @@ static inline uint image_of_seed(const SeedIndex* index, uint seed, uint bin) {
 typedef struct {
   int first, last;
 } Bins;
-static inline Bins bins_that_matter(int box_first, int box_last, int shift, int size, int margin, int periodic, int bits) {
+static inline Bins bins_that_matter(int box_first, int box_last, int shift, int size, int margin, int periodic,
+                                    int bits) {
   const int reach = periodic ? size / 2 : LAST_COORDINATE;
   const Bins bins = {max(box_first - reach - shift, margin) >> bits,
                      min(box_last + reach - shift, margin + size - 1) >> bits};
@@ -114,8 +115,8 @@ static inline Bins bins_that_matter(int box_first, int box_last, int shift, int 
 }
 
 // Adds those bins of a square of the search's level, of one image, that are not empty and may matter.
-static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, uint image, int x, int y,
-                            int size) {
+static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, uint image, int x,
+                            int y, int size) {
   const Box box = search->box;
   const int bits = bin_bits(search->level), columns = columns_of(index->width, search->level);
   const Bins across = bins_that_matter(box.left, box.right, (int)SHIFT_X(index, image), index->width, MARGIN_X,

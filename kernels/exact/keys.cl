@@ -141,8 +141,8 @@ static inline void label_by_keys(const SeedIndex* index, const uint* seeds, cons
 
 // Labels a box by a padded list that holds its candidates. The dominators' first seed is the nearest one to its centre.
 // (Inlined by PoCL into label_far it takes half as long again.)
-__attribute__((noinline)) static void label_by_list(const SeedIndex* index, const Dominators* dominators, const uint* seeds, int count,
-                                 Box box, global uint* labels) {
+__attribute__((noinline)) static void label_by_list(const SeedIndex* index, const Dominators* dominators,
+                                                    const uint* seeds, int count, Box box, global uint* labels) {
   uint own[MOST_KEYS + VOROCL_WIDTH], bits[MOST_KEYS + VOROCL_WIDTH];
   uint ranks[MOST_KEYS + VOROCL_WIDTH], label_of[MOST_KEYS + 4 * VOROCL_WIDTH];
   for (int i = 0; i < count; i += VOROCL_WIDTH) {

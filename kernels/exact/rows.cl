@@ -18,8 +18,8 @@
 #define ROWS_IN_REACH (PAIR * BIN + 2 * REACH)
 #define BIN_LANES ((short16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that of
-// rows at equal distances the one with the least number has the least key.
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that
+// of rows at equal distances the one with the least number has the least key.
 #define ROW_BITS 6
 // What stands for the part along x where a row has no seed near: a distance beyond the reach.
 #define NO_SEED_NEAR ((REACH + 1) * (REACH + 1))
@@ -38,7 +38,7 @@
 typedef struct {
   const SeedIndex* index;
   int bin_x, top;                    // the pair's column of bins; the row of the frame that is the topmost here
-  int first_column, first_row;       // where the grid begins again among the pixels around the pair: see number_of_row()
+  int first_column, first_row;       // where the grid begins again among the pixels around: see number_of_row()
   int begin, end;                    // the rows that have been found
   ushort16 along_x[ROWS_IN_REACH];   // a row key without the distance along y
   ushort16 nearest[ROWS_IN_REACH];   // by the row's number: its nearest seed, as a place in:

@@ -74,8 +74,9 @@ static inline void improve_winners(local Winners* winners, Box box, local const 
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
 static inline int along_to(int from, int first, int last) { return ALONG(max(max(first - from, from - last), 0)); }
 
-// Whether one of the first `count` winners dominates all seeds in a box, of which the first pixel stands for them in the
-// tie rule: a bin, a row of it or a single seed. A distance of seeds is at most 0x7fffffff, so differences fit in an int.
+// Whether one of the first `count` winners dominates all seeds in a box, of which the first pixel stands for them in
+// the tie rule: a bin, a row of it or a single seed. A distance of seeds is at most 0x7fffffff, so differences fit in
+// an int.
 static inline bool is_dominated(local const Winners* winners, int count, Box patch, Box seeds) {
   const int to_left = along_to(patch.left, seeds.left, seeds.right);
   const int to_right = along_to(patch.right, seeds.left, seeds.right);

@@ -9,9 +9,9 @@
 // The rows of a patch and those up to REACH above and below it.
 #define PATCH_ROWS (PATCH + 2 * REACH)
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows at
-// equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which is too
-// far for a label.
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows
+// at equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which is
+// too far for a label.
 #define ROW_BITS 6
 #define TOO_FAR (ALONG(REACH + 1) << ROW_BITS)
 #if (1 << PATCH_BITS) + 2 * REACH > 1 << ROW_BITS
@@ -37,8 +37,8 @@ static inline ulong mask_of_row(const SeedIndex* index, int bin_x, int y) {
   return mask;
 }
 
-// How far to the right of a pixel the nearest seed of its row is, of two the left one, which the tie rule says. REACH + 1
-// or more away stands for none.
+// How far to the right of a pixel the nearest seed of its row is, of two the left one, which the tie rule says. REACH +
+// 1 or more away stands for none.
 static inline int offset_in_row(ulong mask, int column) {
   const uint window = (uint)(mask >> (column + BIN - REACH)), behind = window >> (REACH + 1);
   const int left = (int)clz(window & ALL_BITS) - (31 - REACH);
@@ -48,8 +48,8 @@ static inline int offset_in_row(ulong mask, int column) {
 
 static inline int greatest(int4 values) { return max(max(values.s0, values.s1), max(values.s2, values.s3)); }
 
-// The least row keys of RUN pixels, the first one in `row`: goes up and down from them until no row farther away can have
-// a nearer seed.
+// The least row keys of RUN pixels, the first one in `row`: goes up and down from them until no row farther away can
+// have a nearer seed.
 static inline int4 find_least_row_keys_below(local const ushort* along_x, int row, int column) {
   local const ushort* above = along_x + row * PATCH + column;
   local const ushort* below = above + (RUN - 1) * PATCH;

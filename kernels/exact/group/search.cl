@@ -1,14 +1,14 @@
-// Labelling a patch that has any number of candidates: the pyramid is searched for them, and whenever a list is full the
-// patch's pixels take the best of it.
+// Labelling a patch that has any number of candidates: the pyramid is searched for them, and whenever a list is full
+// the patch's pixels take the best of it.
 
 #ifndef VOROCL_EXACT_GROUP_SEARCH
 #define VOROCL_EXACT_GROUP_SEARCH
 
 #include "exact/group/candidates.cl"
 
-// What the search opens: a bin of some level, whose parts are FAN x FAN bins of the level below; a bin of level 0, whose
-// parts are its rows; and a row, whose parts are its pixels. Each has PARTS parts, and as many items look at them. An
-// entry holds the column of its bin, its level + 1 (0: a row), and its bin's row or the row of the grid.
+// What the search opens: a bin of some level, whose parts are FAN x FAN bins of the level below; a bin of level 0,
+// whose parts are its rows; and a row, whose parts are its pixels. Each has PARTS parts, and as many items look at
+// them. An entry holds the column of its bin, its level + 1 (0: a row), and its bin's row or the row of the grid.
 #define PARTS (FAN * FAN)
 #if FAN * FAN != 1 << BIN_BITS
 #error "A bin has not as many rows, or a row not as many pixels, as a bin has parts"
@@ -43,8 +43,8 @@ static inline int entries_to_open(int stack_count, int items) {
   return max(min(min(items / PARTS, stack_count), room / (PARTS - 1)), 1);
 }
 
-// A part of an entry: the pixels that it may have seeds in, the entry that stands for it, and its only seed, or EMPTY if
-// it has more.
+// A part of an entry: the pixels that it may have seeds in, the entry that stands for it, and its only seed, or EMPTY
+// if it has more.
 typedef struct {
   bool empty;
   Box box;
