@@ -3,6 +3,7 @@
 # The groups are build (the libraries and the command), test (their tests) and check (what .ci/run checks with besides).
 # Without any: build and test.
 set -euo pipefail
+cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- build test
 
 as_root() {
@@ -21,7 +22,8 @@ for group in "$@"; do
   case $group in
   build)
     packages+=(g++ cmake ninja-build ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-      libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev)
+      libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
+      python3-dev python3-venv)
     ;;
   test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
   check)
@@ -51,4 +53,11 @@ fi
 ptxas=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas
 if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/null; then
   python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12
+fi
+
+# What the tests of the Python package need, as wheels: python/tests/run.sh installs them into an environment of its own.
+wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/python
+if [[ " $* " == *" check "* ]] && ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
+  python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt
+  cp python/tests/requirements.txt "$wheels"
 fi

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+import reprlib
 from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -18,6 +19,11 @@ Bounds = Tuple[float, float, float, float]
 Periodic = Union[Tuple[bool, bool], Sequence[bool]]
 
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
+
+
+def shown(value: object) -> str:
+    """A value in an error, on one line and short."""
+    return " ".join(reprlib.repr(value).split())
 
 
 def to_points(points: ArrayLike) -> NDArray[np.float64]:
@@ -44,11 +50,11 @@ def to_grid(shape: Shape, periodic: Periodic) -> _vorocl.Grid:
     try:
         height, width = (operator.index(side) for side in shape)
     except (TypeError, ValueError):
-        raise BadArgument(f"shape must be two whole numbers (H, W); this is {shape!r}") from None
+        raise BadArgument(f"shape must be two whole numbers (H, W); this is {shown(shape)}") from None
     try:
         periodic_x, periodic_y = (_to_bool(axis) for axis in periodic)
     except (TypeError, ValueError):
-        raise BadArgument(f"periodic must be two booleans (x, y); this is {periodic!r}") from None
+        raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}") from None
     far = 2**31  # past every limit, of which the library tells
     height, width = (max(-far, min(side, far)) for side in (height, width))
     return _vorocl.Grid(width, height, periodic_x, periodic_y)
@@ -65,7 +71,7 @@ def to_flag(value: bool, name: str) -> bool:
     try:
         return _to_bool(value)
     except TypeError:
-        raise BadArgument(f"{name} must be True or False; this is {value!r}") from None
+        raise BadArgument(f"{name} must be True or False; this is {shown(value)}") from None
 
 
 def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
@@ -75,21 +81,21 @@ def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
     try:
         x0, y0, x1, y1 = (float(value) for value in bounds)
     except (TypeError, ValueError, OverflowError):
-        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); this is {bounds!r}") from None
+        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); this is {shown(bounds)}") from None
     return x0, y0, x1, y1
 
 
 def check_outside(outside: str) -> None:
     """Points outside are refused: the library has no windows of a larger plane yet."""
     if outside != "refuse":
-        raise BadArgument(f'outside must be "refuse"; this is {outside!r}')
+        raise BadArgument(f'outside must be "refuse"; this is {shown(outside)}')
 
 
 def to_number(value: float, name: str) -> float:
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise BadArgument(f"{name} must be a number; this is {value!r}") from None
+        raise BadArgument(f"{name} must be a number; this is {shown(value)}") from None
 
 
 def to_count(value: int, name: str) -> int:
@@ -97,15 +103,15 @@ def to_count(value: int, name: str) -> int:
     try:
         count = operator.index(value)
     except TypeError:
-        raise BadArgument(f"{name} must be a whole number; this is {value!r}") from None
+        raise BadArgument(f"{name} must be a whole number; this is {shown(value)}") from None
     if not 0 <= count < 2**31:
         raise BadArgument(f"{name} must be from 0 to 2^31 - 1; this is {count}")
     return count
 
 
 def to_text(value: str, name: str) -> str:
-    if not isinstance(value, str):
-        raise BadArgument(f"{name} must be a string; this is {value!r}")
+    if not isinstance(value, str) or not value.isascii():
+        raise BadArgument(f"{name} must be a string of ASCII; this is {shown(value)}")
     return value
 
 

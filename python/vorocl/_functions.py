@@ -15,6 +15,7 @@ from ._arguments import (
     Shape,
     check_outside,
     output,
+    shown,
     to_bounds,
     to_count,
     to_flag,
@@ -250,7 +251,7 @@ def expand_labels(
         raise BadArgument(f"labels must be integers; this array has the dtype {image.dtype}")
     farthest = math.inf if distance is None else to_number(distance, "distance")
     if not farthest >= 0:
-        raise BadArgument(f"distance must be at least 0; this is {distance!r}")
+        raise BadArgument(f"distance must be at least 0; this is {shown(distance)}")
     made, seeds = _of_mask(image, (False, False), device, "exact", "euclidean")
     known = image[image != 0]
     if len(known) == 0:
@@ -462,8 +463,7 @@ def vertices(
         + ((d != NO_LABEL) & (d != a) & (d != b) & (d != c))
     )
     rows, columns = np.nonzero(cells_there >= 3)
-    corners: NDArray[np.float64] = np.column_stack([columns, rows]) + 1.0
-    return corners
+    return np.column_stack([columns + 1, rows + 1]).astype(np.float64)
 
 
 class Relaxation(NamedTuple):

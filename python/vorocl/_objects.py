@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Tuple, cast
 
 import numpy as np
 
@@ -303,8 +303,7 @@ class Diagram:
         """
         import pyopencl
 
-        labels: pyopencl.Buffer = pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True)
-        return labels
+        return cast("pyopencl.Buffer", pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True))
 
     def distances(
         self, seeds: Seeds, metric: str = "euclidean", out: Optional[NDArray[np.float32]] = None
