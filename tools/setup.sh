@@ -56,7 +56,7 @@ if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/
 fi
 
 # What the tests of the Python package need, as wheels: python/tests/run.sh installs them into an environment of its own.
-wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/python
+wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
 if [[ " $* " == *" check "* ]] && ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
   python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt
   cp python/tests/requirements.txt "$wheels"

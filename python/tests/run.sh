@@ -5,7 +5,7 @@ set -euo pipefail
 folder=$1
 cd "$(dirname "$0")/../.."
 
-wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/python
+wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
 if ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
   echo "the Python packages of python/tests/requirements.txt are not installed: skipped"
   exit 77
@@ -22,4 +22,4 @@ export PIP_NO_INDEX=1 PIP_FIND_LINKS=$wheels PIP_DISABLE_PIP_VERSION_CHECK=1
 for example in python/examples/*.py; do
   "$python" "$example" "$folder/$(basename "$example" .py).png"
 done
-"$python" python/benchmarks/compare.py --size 256 --repeat 1
+"$python" python/benchmarks/compare.py --size 256 --seeds 64 1024 --repeat 1
