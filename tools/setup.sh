@@ -55,7 +55,7 @@ if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/
   python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12
 fi
 
-# What the tests of the Python package need, as wheels: python/tests/run.sh installs them into an environment of its own.
+# What the tests of the Python package need, as wheels: python/tests/run.sh installs them into a fresh environment.
 wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
 if [[ " $* " == *" check "* ]] && ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
   python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt

@@ -1,7 +1,7 @@
 """Times VoroCL beside SciPy, scikit-image, OpenCV, edt and freud, in one run: compare.py [--size 2048] [--repeat 11]
 
-Prints tables in Markdown: for each number of seeds and each task the least and the median time of every package, which take
-turns, and how many pixels it has wrong. All packages may use all cores. Put POCL_AFFINITY=1 before it.
+Prints a table in Markdown: for each number of seeds and each task the least and the median time of every package, and how
+many pixels it has wrong. The packages take turns and may use all cores. Put POCL_AFFINITY=1 before it.
 """
 
 import argparse
@@ -50,7 +50,7 @@ def timed(ways, repeat):
 
 
 def tasks(points, size):
-    """For each task and package: what is timed, and what makes every pixel's distance of its result, if that can be wrong."""
+    """For each task and package: what is timed, and what makes distances of its result, if these can be wrong."""
     shape = (size, size)
     count, pixels = len(points), np.floor(points).astype(int)
     seeds = pixels[:, 1] * size + pixels[:, 0]  # as numbers of pixels

@@ -19,7 +19,7 @@ from matplotlib import pyplot  # noqa: E402
 warnings.filterwarnings("ignore", module="MDAnalysis")  # a dump has no masses, and none are needed
 dump = (Path(__file__).parents[2] / "samples" / "lj-clusters.lammpstrj").read_text()
 # MDAnalysis wants three coordinates, and these particles live in a plane: all get z = 0.
-dump = re.sub(r"(?m)^(\d+ \d+ \S+ \S+)\s*$", r"\1 0", dump).replace("ITEM: ATOMS id type x y", "ITEM: ATOMS id type x y z")
+dump = re.sub(r"(?m)^(\d+ \d+ \S+ \S+)\s*$", r"\1 0", dump).replace("id type x y", "id type x y z")
 stream = NamedStream(io.StringIO(dump), "lj-clusters.lammpstrj")
 universe = MDAnalysis.Universe(stream, format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
 

@@ -19,7 +19,7 @@ labels = vorocl.diagram(points, **plane)
 
 figure, axis = pyplot.subplots(figsize=(10, 4.6), layout="constrained")
 picture = axis.imshow(degrees, extent=(-180, 180, -90, 90), cmap="magma", norm="asinh")
-borders = (labels != np.roll(labels, 1, axis=1)) | (labels != np.roll(labels, 1, axis=0))
+borders = (np.diff(labels, axis=1, prepend=labels[:, -1:]) != 0) | (np.diff(labels, axis=0, prepend=labels[:1]) != 0)
 axis.imshow(np.ma.masked_equal(borders, 0), extent=(-180, 180, -90, 90), cmap="gray_r", alpha=0.25, vmin=0)
 axis.plot(points[:, 0] - 180, 90 - points[:, 1], ",", color="white", alpha=0.5)
 axis.set(xlabel="longitude", ylabel="latitude")

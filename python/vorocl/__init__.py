@@ -1,8 +1,9 @@
 """VoroCL: raster Voronoi diagrams of seeds that stand still or move, in OpenCL.
 
-`diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `adjacency`, `vertices` and `relax`
-measure the diagram of points or change it; `from_mask` and `expand_labels` take images; `similarity` and `errors` compare
-labels. `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs that use OpenCL too.
+`diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `adjacency`, `vertices` and
+`relax` measure the diagram of points or change it; `from_mask` and `expand_labels` take images; `similarity` and
+`errors` compare labels. `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs
+that use OpenCL too.
 """
 
 try:

@@ -95,15 +95,15 @@ def diagram(
 ) -> NDArray[np.uint32]:
     """Give every pixel the row of its nearest point.
 
-    Distances are between pixel centres, in integers: points are snapped to pixels, which limits their accuracy to half a
-    pixel, and "exact" labels are the same on every device. Of several points at the least distance the one that comes
-    first, row by row of the grid, wins; of points in one pixel the one with the lowest row of `points`.
+    Distances are between pixel centres, in integers: points are snapped to pixels, which limits their accuracy to
+    half a pixel, and "exact" labels are the same on every device. Of several points at the least distance the one
+    that comes first, row by row of the grid, wins; of points in one pixel the one with the lowest row of `points`.
 
     Parameters
     ----------
     points : array_like
-        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers [i, i + 1).
-        A row with a NaN is absent, and so is a row that is masked.
+        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
+        [i, i + 1). A row with a NaN is absent, and so is a row that is masked.
     shape : (int, int)
         The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
     method : str, optional
@@ -137,8 +137,8 @@ def diagram(
 
     Notes
     -----
-    A thread keeps the device memory of its last call, 5.4 bytes per pixel for "exact" and 13 for the others, until it makes
-    a call with another grid. `Diagram` keeps its own.
+    A thread keeps the device memory of its last call, 5.4 bytes per pixel for "exact" and 13 for the others, until it
+    makes a call with another grid. `Diagram` keeps its own.
 
     Examples
     --------
@@ -216,9 +216,9 @@ def expand_labels(
 ) -> NDArray[Any]:
     """Grow labelled regions into the background, as ``skimage.segmentation.expand_labels`` does, without overlaps.
 
-    Each pixel of the background takes the label of the nearest pixel that has one, by exact Euclidean distance between
-    pixel centres. Of several at the least distance the one that comes first, row by row of the image, wins; scikit-image
-    leaves it open which one does.
+    Each pixel of the background takes the label of the nearest pixel that has one, by exact Euclidean distance
+    between pixel centres. Of several at the least distance the one that comes first, row by row of the image, wins;
+    scikit-image leaves it open which one does.
 
     Parameters
     ----------
@@ -383,8 +383,8 @@ def adjacency(
 ) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
     """Find the cells that touch, and how long their borders are.
 
-    In an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch along less than
-    a few pixels.
+    In an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch along
+    less than a few pixels.
 
     Parameters
     ----------
@@ -577,7 +577,8 @@ def errors(
 ) -> _vorocl.DistanceErrors:
     """Judge labels by the exact diagram of the points: how many are wrong, and by how many pixels.
 
-    A pixel that is as near to the point of its label as to that of the exact one is right: a tie may be given to any point.
+    A pixel that is as near to the point of its label as to that of the exact one is right: a tie may be given to any
+    point.
 
     Parameters
     ----------

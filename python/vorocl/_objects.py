@@ -57,19 +57,20 @@ def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
 class Seeds:
     """Points as seeds of a diagram, on the device: each is snapped to the pixel that holds it.
 
-    A seed's id is its row. A seed may be absent: it has an id and no cell. Of seeds that share a pixel the lowest id owns
-    the cell, and the others have empty cells.
+    A seed's id is its row. A seed may be absent: it has an id and no cell. Of seeds that share a pixel the lowest id
+    owns the cell, and the others have empty cells.
 
     Parameters
     ----------
     points : array_like
-        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers [i, i + 1).
-        A row with a NaN is absent, and so is a row that is masked.
+        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
+        [i, i + 1). A row with a NaN is absent, and so is a row that is masked.
     shape : (int, int)
         The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
     bounds : (float, float, float, float), optional
         (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-        floor((x - x0) * W / (x1 - x0)), or in the last one for x1 itself; rows likewise. Without it, points are in pixels.
+        floor((x - x0) * W / (x1 - x0)), or in the last one for x1 itself; rows likewise.
+        Without it, points are in pixels.
     periodic : (bool, bool), optional
         Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
     outside : {"refuse"}, optional
@@ -246,12 +247,12 @@ class Diagram:
         seeds : Seeds
             Of the diagram's shape, periodic axes and device.
         method : str, optional
-            "exact", or a method that floods, which is approximate but for "exact": "standard-flooding", "jfa", "jfa+1",
+            "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1",
             "jfa+2", "1+jfa", "djfa". "djfa" goes on from the labels that the diagram holds.
         metric : {"euclidean", "manhattan"}, optional
         max_displacement : float, optional
-            For "djfa" alone: how far a seed has moved along an axis, at most, since the diagram was last filled, in pixels.
-            Without it, seeds may have moved anywhere.
+            For "djfa" alone: how far a seed has moved along an axis, at most, since the diagram was last filled, in
+            pixels. Without it, seeds may have moved anywhere.
 
         Returns
         -------
