@@ -1,6 +1,6 @@
 """Times VoroCL beside SciPy, scikit-image, OpenCV, edt and freud, in one run: compare.py [--size 2048] [--repeat 11]
 
-Prints a table in Markdown: for each number of seeds and each task the least and the median time of every package, and how
+Prints a table in Markdown: for each number of seeds and task the least and the median time of every package, and how
 many pixels it has wrong. The packages take turns and may use all cores. Put POCL_AFFINITY=1 before it.
 """
 

@@ -54,7 +54,11 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"));
+           nb::arg("periodic_y"))
+      .def_prop_ro("width", &Grid::width)
+      .def_prop_ro("height", &Grid::height)
+      .def_prop_ro("periodic_x", &Grid::periodic_x)
+      .def_prop_ro("periodic_y", &Grid::periodic_y);
 
   nb::class_<Report>(module, "Report")
       .def_prop_ro("waves", &Report::waves)

@@ -60,6 +60,11 @@ def to_grid(shape: Shape, periodic: Periodic) -> _vorocl.Grid:
     return _vorocl.Grid(width, height, periodic_x, periodic_y)
 
 
+def shape_of(grid: _vorocl.Grid) -> Tuple[int, int]:
+    """(H, W) of a grid."""
+    return grid.height, grid.width
+
+
 def _to_bool(value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError

@@ -15,6 +15,7 @@ from ._arguments import (
     Shape,
     check_outside,
     output,
+    shape_of,
     shown,
     to_bounds,
     to_count,
@@ -63,9 +64,10 @@ def _filled(
 ) -> Tuple[Seeds, Diagram]:
     """The seeds and their diagram, which are the thread's until its next call."""
     check_outside(outside)
-    to_grid(shape, periodic)  # throws before all else
+    grid = to_grid(shape, periodic)
+    shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
     corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
-    wanted = (*shape, *periodic, corners, upwards, to_device(device))
+    wanted = (shape, periodic, corners, upwards, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
         seeds = Seeds(array, shape, bounds=corners, periodic=periodic, y_up=upwards, device=device)
@@ -151,7 +153,9 @@ def diagram(
     >>> vorocl.diagram([(-180, 0), (0, 0)], (1, 8), bounds=(-180, -90, 180, 90), periodic=(True, False))
     array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
     """
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)[1].read(out)
+    labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
+    _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    return made.read(labels)
 
 
 def _of_mask(
@@ -201,14 +205,11 @@ def from_mask(
            [1, 1, 0, 0],
            [1, 1, 1, 0]], dtype=uint32)
     """
-    return _of_mask(_numeric(mask, "mask"), periodic, device, method, metric)[0].read(out)
-
-
-def _numeric(image: ArrayLike, name: str) -> NDArray[Any]:
-    array = to_image(image, name)
-    if array.dtype.kind not in "biuf":
-        raise BadArgument(f"{name} must be numbers or booleans; this array has the dtype {array.dtype}")
-    return array
+    image = to_image(mask, "mask")
+    if image.dtype.kind not in "biuf":
+        raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
+    labels = output(out, image.shape, np.uint32)
+    return _of_mask(image, periodic, device, method, metric)[0].read(labels)
 
 
 def expand_labels(
@@ -305,8 +306,9 @@ def distances(
     array([[0., 1., 2., 3.],
            [1., 2., 3., 4.]], dtype=float32)
     """
+    values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
     seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    return made.distances(seeds, metric, out)
+    return made.distances(seeds, metric, values)
 
 
 def cells(
@@ -452,9 +454,8 @@ def vertices(
     """
     _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
     # The next column and row of every corner's pixel: past the last ones there are the first, or no corner.
-    labels = made.read()
-    around_x, around_y = periodic
-    labels = np.pad(labels, ((0, int(around_y)), (0, int(around_x))), mode="wrap")
+    grid = to_grid(shape, periodic)
+    labels = np.pad(made.read(), ((0, int(grid.periodic_y)), (0, int(grid.periodic_x))), mode="wrap")
     a, b, c, d = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
     cells_there = (
         (a != NO_LABEL).astype(np.int8)
@@ -523,7 +524,7 @@ def relax(
     seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, y_up=y_up, device=device)
     made = Diagram(shape, periodic=periodic, device=device)
     done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
-    height, width = shape
+    height, width = made.shape
     places = seeds.read()
     if y_up:
         places[:, 1] = height - places[:, 1]

@@ -13,6 +13,7 @@ from ._arguments import (
     Shape,
     check_outside,
     output,
+    shape_of,
     to_bounds,
     to_flag,
     to_grid,
@@ -216,7 +217,7 @@ class Diagram:
         labels: Optional[pyopencl.Buffer] = None,
     ) -> None:
         grid = to_grid(shape, periodic)
-        self._shape: Shape = (int(shape[0]), int(shape[1]))
+        self._shape = shape_of(grid)
         self._device = to_device(device)
         if labels is None:
             self._diagram = _vorocl.Diagram(self._device._device, grid)
@@ -229,7 +230,7 @@ class Diagram:
         return self._device
 
     @property
-    def shape(self) -> Shape:
+    def shape(self) -> Tuple[int, int]:
         """(H, W) in pixels."""
         return self._shape
 
