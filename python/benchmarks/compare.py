@@ -60,6 +60,7 @@ def tasks(points, size):
     rows, columns = np.indices(shape)
     centres = np.column_stack([columns.ravel(), rows.ravel()])
     labels, distances = np.empty(shape, np.uint32), np.empty(shape, np.float32)
+    held, diagram, copy = vorocl.Seeds(points, shape), vorocl.Diagram(shape), np.empty_like(labels)
     voronoi, box = freud.locality.Voronoi(), freud.box.Box(size, size, is2D=True)
     centred = np.column_stack([points - size / 2, np.zeros(count)])  # as they are: freud ends at two in one place
 
@@ -76,12 +77,18 @@ def tasks(points, size):
     def opencv_labels():
         return cv2.distanceTransformWithLabels(background, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL)[1]
 
+    def device_alone():
+        diagram.fill(held)
+        diagram.device.finish()
+
     def itself(found):
         return found
 
     return {
         "labels": {
             "VoroCL": (lambda: vorocl.diagram(points, shape, out=labels), to_seed),
+            "(VoroCL's device alone)": (device_alone, None),
+            "(a copy of the labels)": (lambda: np.copyto(copy, labels), None),
             "SciPy, k-d tree": (lambda: scipy.spatial.cKDTree(pixels).query(centres, workers=-1)[1], to_seed),
             "SciPy, distance transform": (scipy_transform, to_pixel),
             "OpenCV": (opencv_labels, lambda found: to_pixel(np.unique(seeds)[found - 1])),  # from 1, row by row

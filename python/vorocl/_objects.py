@@ -130,7 +130,7 @@ class Seeds:
         """How many seeds are not absent."""
         return self._seeds.alive
 
-    def move_to(self, points: ArrayLike) -> float:
+    def move_to(self, points: ArrayLike) -> int:
         """Move the seeds to new points: a new frame. Their number may change.
 
         Parameters
@@ -140,7 +140,7 @@ class Seeds:
 
         Returns
         -------
-        float
+        int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
             shorter way round. Seeds that appear or vanish do not count.
 
@@ -155,7 +155,7 @@ class Seeds:
         >>> import vorocl
         >>> seeds = vorocl.Seeds([(1, 1), (6, 2)], (4, 8))
         >>> seeds.move_to([(1, 3), (5, 2)])
-        2.0
+        2
         """
         self._seeds.move_to(to_points(points))
         return self._seeds.displacement
@@ -391,7 +391,7 @@ class Simulation:
             (), shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=self.diagram.device
         )
         self.report: Optional[_vorocl.Report] = None
-        self._displacement = 0.0  # since the diagram was last filled
+        self._displacement = 0  # since the diagram was last filled
 
     def step(self, points: ArrayLike) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
@@ -414,5 +414,5 @@ class Simulation:
         """
         self._displacement += self.seeds.move_to(points)
         self.report = self.diagram.fill(self.seeds, self._method, self._metric, self._displacement)
-        self._displacement = 0.0
+        self._displacement = 0
         return self.diagram
