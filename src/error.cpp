@@ -61,10 +61,9 @@ ErrorKind kind_of(cl_int code) {
   }
 }
 
-std::string complaint(std::size_t index, const Point& point, const char* otherwise) {
-  const bool finite = std::isfinite(point.x) && std::isfinite(point.y);
-  return "point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " + std::to_string(point.y) +
-         ") is " + (finite ? otherwise : "not finite");
+/// What is bad about a point that is not finite, or else.
+std::string complaint(const Point& point, const char* otherwise) {
+  return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
 }
 
 }  // namespace
@@ -73,18 +72,21 @@ void fail(cl_int code, const std::string& what) {
   throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
 }
 
-BadPoint::BadPoint(std::size_t index, const Point& point)
-    : Error(complaint(index, point, "too far away") +
-                "; x and y must be less than 2^31 pixels from all pixels of the grid",
+BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)
+    : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
+                std::to_string(point.y) + ") " + what,
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}
 
 BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
-    : Error(complaint(index, point, "outside the grid") + "; x must be in [0, " +
-                std::to_string(grid.width()) + ") and y in [0, " + std::to_string(grid.height()) + ")",
-            ErrorKind::bad_point),
-      index_(index),
-      point_(point) {}
+    : BadPoint(index, point,
+               complaint(point, "outside the grid") + "; x must be in [0, " + std::to_string(grid.width()) +
+                   ") and y in [0, " + std::to_string(grid.height()) + ")") {}
+
+BadPoint::BadPoint(std::size_t index, const Point& point)
+    : BadPoint(index, point,
+               complaint(point, "too far away") +
+                   "; x and y must be less than 2^31 pixels from all pixels of the grid") {}
 
 }  // namespace vorocl

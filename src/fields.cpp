@@ -121,8 +121,16 @@ const cl::Buffer& Field<T>::values() const {
 template <typename T>
 std::vector<T> Field<T>::read() const {
   if (!state_ || state_->empty()) return {};
+  std::vector<T> values(state_->pixels);
+  read(values.data());
+  return values;
+}
+
+template <typename T>
+void Field<T>::read(T* values) const {
+  if (!state_ || state_->empty()) return;
   state_->frames.check();
-  return download<T>(*state_->device, state_->values, state_->pixels);
+  download(*state_->device, state_->values, state_->pixels, values);
 }
 
 template class Field<std::int32_t>;

@@ -16,10 +16,6 @@ namespace {
 
 constexpr std::size_t most_seeds = Grid::max_pixels;  // ids are uint32, and work-item ids must not wrap
 
-std::uint32_t pack(int x, int y) {
-  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
-}
-
 /// A coordinate in its period, which begins at `first`; any one if there is no period.
 std::int64_t wrapped(std::int64_t at, std::int64_t first, std::int64_t period) {
   if (period == 0) return at;

@@ -14,6 +14,11 @@ namespace vorocl {
 /// The position of a seed that is absent, or outside the grid: EMPTY of position.cl.
 constexpr std::uint32_t absent_position = 0x80008000u;
 
+/// The position of a seed in a pixel.
+inline std::uint32_t pack(int x, int y) {
+  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
+}
+
 /// Where the host has placed seeds.
 struct Placement {
   std::vector<std::uint32_t> packed;  // by id; absent_position if absent or outside the grid

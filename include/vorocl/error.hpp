@@ -45,6 +45,9 @@ class VOROCL_API BadPoint : public Error {
   /// Of points that must lie in the grid: "... is outside the grid; ..."
   BadPoint(std::size_t index, const Point& point, const Grid& grid);
 
+  /// "point 7 (12, 3) " and what is bad about it.
+  BadPoint(std::size_t index, const Point& point, const std::string& what);
+
   std::size_t index() const noexcept { return index_; }  ///< in the caller's list: the seed's id
   const Point& point() const noexcept { return point_; }
 

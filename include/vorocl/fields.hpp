@@ -41,6 +41,9 @@ class VOROCL_API Field {
   /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<T> read() const;
 
+  /// As above, to where all pixels of the grid fit, if the field is not empty.
+  void read(T* values) const;
+
  private:
   friend struct Internal;
   std::unique_ptr<FieldState<T>> state_;
