@@ -11,6 +11,19 @@ VECTOR_KERNEL void advance_labels(global const uint* restrict labels, global con
   store_looked_up(positions, at, out, VOROCL_GUARD + first);
 }
 
+// The same, and notes by row how far a label's seed is, at most, where that is more than `enough`. An empty label is
+// farther than any seed.
+VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                                  global uint* restrict out, int width, int height, uint enough,
+                                  global uint* restrict farthest) {
+  if (!has_vector(width, height)) return;
+  const int x = vector_x(width), y = vector_y();
+  const uint_v position = look_up_positions(labels + y * width + x, positions, count);
+  STORE_VECTOR(position, out + VOROCL_GUARD + y * width + x);
+  const uint_v distance = distance_to_label_in_grid(position, vector_positions(x, y), periods(width, height));
+  if (ANY(distance > enough)) atomic_max(farthest + y, ~lane_min(~distance));
+}
+
 // Stamps the seeds at their new pixels. Seeds on one pixel write the same value.
 kernel void stamp_positions(global const uint* restrict positions, uint count, global uint* restrict out, int width) {
   const uint id = (uint)get_global_id(0);

@@ -8,11 +8,13 @@
 
 namespace vorocl {
 
-/// The working memory of flooding: 9 bytes per pixel.
+/// The working memory of flooding: 9 bytes per pixel, and 8 per row.
 struct FloodWorkspace {
   cl::Buffer front, back;  // images of packed positions, which change places with every wave
   cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
   cl::Buffer flag;         // one word, for kernels that report
+  cl::Buffer farthest;     // by row: the greatest distance of a label
+  cl::Buffer far_pixels;   // by row: how many pixels are far from their seed
 };
 
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
@@ -34,6 +36,14 @@ class Flood {
   /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
   void advance_labels();
 
+  /// The same, and says how far the labels are from their seeds. If none is farther than `enough` pixels, that
+  /// counts as the greatest distance. Waits.
+  LabelDistances measure_labels(int enough);
+
+  /// Has the last wave count the pixels that are far from their seeds (see LabelDistances), for the next
+  /// frame's measure_labels().
+  void count_far_pixels();
+
   void wave(const Wave& wave);
 
   /// Clears the number of the last wave that changed a label; a wave of step 1 that stores its number there
@@ -48,14 +58,20 @@ class Flood {
   /// Whether a pixel was left without a label. Waits.
   bool some_unlabelled();
 
-  /// All waves of a plan, from the seeds alone.
+  /// All waves of a plan, from the seeds alone; or from the labels, which advance_labels() or
+  /// measure_labels() has looked up.
   void run(const Plan& plan);
+  void run_from_labels(const Plan& plan);
 
   /// Says that the diagram is filled: see Filling::commit().
   Report commit(std::size_t waves, int age = 0);
 
  private:
   void begins_with(const cl::Event& event);
+  void stamp_seeds();
+
+  /// The squared distance, or in the Manhattan metric the distance, past which a pixel is far from its seed.
+  std::uint32_t near() const;
 
   const Seeds& seeds_;
   DiagramState& diagram_;
@@ -63,6 +79,8 @@ class Flood {
   Metric metric_;
   FloodWorkspace& memory_;
   cl::Event first_event_, last_event_;
+  FloodStart start_;
+  bool counting_ = false;
 };
 
 }  // namespace vorocl
