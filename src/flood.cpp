@@ -11,7 +11,7 @@ namespace vorocl {
 
 namespace {
 
-constexpr int row_interval = 8;  // of the rows in which far pixels are counted
+constexpr int row_interval = 8;                          // of the rows in which far pixels are counted
 constexpr std::uint32_t farther_than_any = 0x80000000u;  // the distance to an empty label, at least
 
 double in_pixels(std::uint32_t distance, Metric metric) {
@@ -103,8 +103,8 @@ void Flood::count_far_pixels() {
 
 std::uint32_t Flood::near() const {
   constexpr double half_pi = 1.5707963267948966;
-  const double pixels_per_seed =
-      static_cast<double>(diagram_.grid.pixels()) / static_cast<double>(std::max<std::size_t>(seeds_.alive(), 1));
+  const double pixels_per_seed = static_cast<double>(diagram_.grid.pixels()) /
+                                 static_cast<double>(std::max<std::size_t>(seeds_.alive(), 1));
   return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? pixels_per_seed
                                                                  : std::sqrt(half_pi * pixels_per_seed));
 }

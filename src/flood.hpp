@@ -36,8 +36,8 @@ class Flood {
   /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
   void advance_labels();
 
-  /// The same, and says how far the labels are from their seeds. If none is farther than `enough` pixels, that
-  /// counts as the greatest distance. Waits.
+  /// The same, and says how far the labels are from their seeds. If none is farther than `enough` pixels,
+  /// that counts as the greatest distance. Waits.
   LabelDistances measure_labels(int enough);
 
   /// Has the last wave count the pixels that are far from their seeds (see LabelDistances), for the next

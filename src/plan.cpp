@@ -41,10 +41,12 @@ int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_displacem
 /// Whether the paper's plan can be relied on: the reasons are in docs/moving_seeds.md.
 bool is_reliable(const Plan& plan, const Grid& grid, std::size_t seeds, double max_displacement,
                  const LabelDistances& distances, Metric metric) {
-  constexpr double most_far = 0.125;
+  constexpr double most_far = 0.1;
   const double to_corner = reach_of(plan) * (metric == Metric::euclidean ? std::sqrt(2.0) : 2.0);
-  const double two_cells = 2 * std::sqrt(static_cast<double>(grid.pixels()) / static_cast<double>(seeds));
-  return distances.greatest <= to_corner && distances.far <= most_far && max_displacement < two_cells;
+  const double length = std::sqrt(static_cast<double>(grid.pixels()) / static_cast<double>(seeds));
+  const bool shorter_than_jfa = !plan.empty() && plan.front().step < first_step(grid);
+  const bool labels_help = max_displacement < (shorter_than_jfa ? 2 : 0.5) * length;
+  return distances.greatest <= to_corner && distances.far <= most_far && labels_help;
 }
 
 void append_extra_waves(Plan& plan, int waves, Neighbourhood neighbourhood) {
@@ -96,7 +98,8 @@ DynamicPlan reaching_plan(const Grid& grid, std::size_t seeds, double max_displa
   const Neighbourhood neighbourhood = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan = jump_flooding_plan(grid, JumpFloodingVariant::jfa, neighbourhood);
   // Without its first wave, JFA's plan still reaches the sum of the other steps.
-  while (plan.size() > 1 && reach_of(plan) - plan.front().step >= distances.greatest) plan.erase(plan.begin());
+  while (plan.size() > 1 && reach_of(plan) - plan.front().step >= distances.greatest)
+    plan.erase(plan.begin());
   if (!plan.empty()) append_extra_waves(plan, options.extra_waves, neighbourhood);
   return {true, plan};
 }

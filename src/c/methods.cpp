@@ -34,7 +34,7 @@ const char* to_name(vorocl_variant variant) {
 MethodOptions to_options(const vorocl_method_options* options) {
   if (options == nullptr) return {};
   return {to_metric(options->metric), to_mix(options->neighbourhood), options->von_neumann_waves,
-          options->extra_waves, options->refresh_interval, to_reach(options->reach)};
+          options->extra_waves,       options->refresh_interval,      to_reach(options->reach)};
 }
 
 /// Runs a method and keeps its report; if it fails, there is none.
