@@ -39,32 +39,12 @@ VECTOR_KERNEL void wave(global const uint* restrict in, global uint* restrict ou
   store_labels(nearest_label(in, x, y, width, height, step), out, x, y, width);
 }
 
-// The ids of a vector's labels, which are looked up in the ids at the seeds' pixels (see seeds.cl).
-static inline void store_ids(uint_v label, global const uint* ids, global uint* labels, int x, int y, int width) {
-  const uint_v at = select(FIRST_ID + pixel_index(label, width), (uint_v)0, (label & EMPTY_BIT) != 0);
-  store_looked_up(ids, at, labels, y * width + x);
-}
-
-// The last wave writes ids.
+// The last wave writes ids, which it looks up in the ids at the seeds' pixels (see seeds.cl).
 VECTOR_KERNEL void last_wave(global const uint* restrict in, global const uint* restrict ids,
                              global uint* restrict labels, int width, int height, int step) {
   if (!has_vector(width, height)) return;
   const int x = vector_x(width), y = vector_y();
-  store_ids(nearest_label(in, x, y, width, height, step), ids, labels, x, y, width);
-}
-
-// The same, and counts by row the pixels that are farther than `near` from their seed. Every `row_interval`-th row is
-// enough to tell how evenly the seeds are spread.
-VECTOR_KERNEL void counting_last_wave(global const uint* restrict in, global const uint* restrict ids,
-                                      global uint* restrict labels, int width, int height, int step, int row_interval,
-                                      uint near, global uint* restrict far_pixels) {
-  if (!has_vector(width, height)) return;
-  const int x = vector_x(width), y = vector_y();
-  const uint_v label = nearest_label(in, x, y, width, height, step);
-  store_ids(label, ids, labels, x, y, width);
-  if (y % row_interval != 0) return;
-  const uint_v distance = distance_to_label_in_grid(label, vector_positions(x, y), periods(width, height));
-  const uint own = (uint)get_global_id(0) * VOROCL_WIDTH;  // pixels before it are another vector's too
-  const uint found = lane_sum(select((uint_v)0, (uint_v)1, distance > near && (uint)x + LANES >= (uint_v)own));
-  if (found > 0) atomic_add(far_pixels + y, found);
+  const uint_v best = nearest_label(in, x, y, width, height, step);
+  const uint_v at = select(FIRST_ID + pixel_index(best, width), (uint_v)0, (best & EMPTY_BIT) != 0);
+  store_looked_up(ids, at, labels, y * width + x);
 }

@@ -43,30 +43,30 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_di
   const bool refresh =
       options.refresh_interval > 0 && previous && previous->age + 1 >= options.refresh_interval;
   const bool measured = options.reach == Reach::measured;
-  const auto start_anew = [&](std::size_t waves_before) {
-    if (measured) flood.count_far_pixels();
-    flood.run(full);
-    return flood.commit(waves_before + full.size());
+  const auto commit = [&](std::size_t waves, int age) {
+    if (measured && seeds.alive() > 0) flood.count_far_pixels();
+    return flood.commit(waves, age);
   };
-  if (refresh || seeds.alive() == 0 || !is_sound(previous)) return start_anew(0);
-
+  if (refresh || seeds.alive() == 0 || !is_sound(previous)) {
+    flood.run(full);
+    return commit(full.size(), 0);
+  }
   if (measured) {
-    const LabelDistances distances = flood.measure_labels(reach_of(plan));
-    const DynamicPlan reaching = reaching_plan(diagram.grid(), seeds.alive(), max_displacement, distances,
-                                               options.metric, options.plan);
-    flood.count_far_pixels();
+    const DynamicPlan reaching =
+        reaching_plan(diagram.grid(), seeds.alive(), max_displacement, flood.label_distances(reach_of(plan)),
+                      options.metric, options.plan);
     if (reaching.from_seeds) {
       flood.run(reaching.waves);
-    } else {
-      flood.run_from_labels(reaching.waves);
+      return commit(reaching.waves.size(), previous->age + 1);
     }
-    return flood.commit(reaching.waves.size(), previous->age + 1);
   }
-  flood.advance_labels();
   flood.run_from_labels(plan);
   const bool all_labelled = all_labels_live(*previous, *Internal::state(seeds).frame());
-  if (!all_labelled && flood.some_unlabelled()) return start_anew(plan.size());
-  return flood.commit(plan.size(), previous->age + 1);
+  if (!all_labelled && flood.some_unlabelled()) {
+    flood.run(full);
+    return commit(plan.size() + full.size(), 0);
+  }
+  return commit(plan.size(), previous->age + 1);
 }
 
 }  // namespace vorocl

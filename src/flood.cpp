@@ -14,6 +14,10 @@ namespace {
 constexpr int row_interval = 8;                          // of the rows in which far pixels are counted
 constexpr std::uint32_t farther_than_any = 0x80000000u;  // the distance to an empty label, at least
 
+std::size_t measured_rows(const Grid& grid) {
+  return static_cast<std::size_t>((grid.height() + row_interval - 1) / row_interval);
+}
+
 double in_pixels(std::uint32_t distance, Metric metric) {
   return metric == Metric::euclidean ? std::sqrt(distance) : distance;
 }
@@ -54,59 +58,54 @@ void Flood::first_wave(const Wave& wave) {
 }
 
 void Flood::advance_labels() {
+  start_ = {0, false};
   const Grid& grid = diagram_.grid;
   const auto count = static_cast<cl_uint>(seeds_.size());
   begins_with(
       diagram_.kernel("dynamic_jump_flooding.cl", "advance_labels")
           .over_grid(diagram_.labels, seeds_.positions(), count, memory_.front, grid.width(), grid.height()));
-  stamp_seeds();
-}
-
-void Flood::stamp_seeds() {
-  start_ = {0, false};
-  const auto count = static_cast<cl_uint>(seeds_.size());
   diagram_.kernel("dynamic_jump_flooding.cl", "stamp_positions")
-      .over_items(count, seeds_.positions(), count, memory_.front, diagram_.grid.width());
+      .over_items(count, seeds_.positions(), count, memory_.front, grid.width());
 }
 
-LabelDistances Flood::measure_labels(int enough) {
+cl::Event Flood::measure_labels(std::uint32_t near) {
   const Grid& grid = diagram_.grid;
-  const auto count = static_cast<cl_uint>(seeds_.size());
-  const auto rows = static_cast<std::size_t>(grid.height());
-  diagram_.reserve(memory_.farthest, rows * sizeof(std::uint32_t));
-  begins_with(fill(diagram_.device, memory_.farthest, cl_uint{0}, rows));
-  diagram_.kernel("dynamic_jump_flooding.cl", "measure_labels", {metric_})
-      .over_grid(diagram_.labels, seeds_.positions(), count, memory_.front, grid.width(), grid.height(),
-                 as_distance(enough, metric_), memory_.farthest);
-  stamp_seeds();
-  LabelDistances distances;
-  const auto farthest = download<std::uint32_t>(diagram_.device, memory_.farthest, rows);
-  const std::uint32_t greatest = *std::max_element(farthest.begin(), farthest.end());
-  if (greatest < farther_than_any) {
-    distances.greatest = std::max(in_pixels(greatest, metric_), static_cast<double>(enough));
+  const std::size_t rows = measured_rows(grid);
+  for (cl::Buffer* const buffer : {&memory_.greatest, &memory_.far_pixels}) {
+    diagram_.reserve(*buffer, rows * sizeof(std::uint32_t));
+    begins_with(fill(diagram_.device, *buffer, cl_uint{0}, rows));
   }
-  if (previous()->counted) {
+  return diagram_.kernel("dynamic_jump_flooding.cl", "measure_labels", {metric_})
+      .over_grid(diagram_.labels, seeds_.positions(), static_cast<cl_uint>(seeds_.size()), grid.width(),
+                 grid.height(), row_interval, near, memory_.greatest, memory_.far_pixels);
+}
+
+LabelDistances Flood::label_distances(int enough) {
+  const Grid& grid = diagram_.grid;
+  const std::size_t rows = measured_rows(grid);
+  LabelDistances distances;
+  distances.margin = row_interval;
+  if (previous()->far_counted) {
     const auto far_pixels = download<std::uint32_t>(diagram_.device, memory_.far_pixels, rows);
-    const auto counted_rows = (rows + row_interval - 1) / row_interval;
     distances.far = std::accumulate(far_pixels.begin(), far_pixels.end(), 0.0) /
-                    static_cast<double>(counted_rows * static_cast<std::size_t>(grid.width()));
+                    static_cast<double>(rows * static_cast<std::size_t>(grid.width()));
+  }
+  measure_labels(as_distance(enough, metric_));
+  const auto greatest = download<std::uint32_t>(diagram_.device, memory_.greatest, rows);
+  const std::uint32_t most = *std::max_element(greatest.begin(), greatest.end());
+  if (most < farther_than_any) {
+    distances.greatest = most == 0 ? enough : in_pixels(most, metric_);
   }
   return distances;
 }
 
 void Flood::count_far_pixels() {
-  counting_ = true;
-  const auto rows = static_cast<std::size_t>(diagram_.grid.height());
-  diagram_.reserve(memory_.far_pixels, rows * sizeof(std::uint32_t));
-  begins_with(fill(diagram_.device, memory_.far_pixels, cl_uint{0}, rows));
-}
-
-std::uint32_t Flood::near() const {
   constexpr double half_pi = 1.5707963267948966;
-  const double pixels_per_seed = static_cast<double>(diagram_.grid.pixels()) /
-                                 static_cast<double>(std::max<std::size_t>(seeds_.alive(), 1));
-  return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? pixels_per_seed
-                                                                 : std::sqrt(half_pi * pixels_per_seed));
+  const double pixels_per_seed =
+      static_cast<double>(diagram_.grid.pixels()) / static_cast<double>(seeds_.alive());
+  const double near = metric_ == Metric::euclidean ? pixels_per_seed : std::sqrt(half_pi * pixels_per_seed);
+  last_event_ = measure_labels(static_cast<std::uint32_t>(near));
+  far_counted_ = true;
 }
 
 void Flood::wave(const Wave& wave) {
@@ -139,13 +138,9 @@ void Flood::last_wave(const Wave& wave) {
         .over_items(count, seeds_.positions(), count, memory_.back, grid.width());
   }
   if (start_.first_step == 0) start_.first_step = wave.step;
-  const KernelOptions options = {metric_, wave.neighbourhood};
-  last_event_ = counting_ ? diagram_.kernel("jump_flooding.cl", "counting_last_wave", options)
-                                .over_grid(memory_.front, memory_.back, diagram_.labels, grid.width(),
-                                           grid.height(), wave.step, row_interval, near(), memory_.far_pixels)
-                          : diagram_.kernel("jump_flooding.cl", "last_wave", options)
-                                .over_grid(memory_.front, memory_.back, diagram_.labels, grid.width(),
-                                           grid.height(), wave.step);
+  last_event_ =
+      diagram_.kernel("jump_flooding.cl", "last_wave", {metric_, wave.neighbourhood})
+          .over_grid(memory_.front, memory_.back, diagram_.labels, grid.width(), grid.height(), wave.step);
 }
 
 bool Flood::some_unlabelled() {
@@ -163,12 +158,13 @@ void Flood::run(const Plan& plan) {
 }
 
 void Flood::run_from_labels(const Plan& plan) {
+  advance_labels();
   for (std::size_t i = 0; i + 1 < plan.size(); ++i) wave(plan[i]);
   last_wave(plan.empty() ? none : plan.back());
 }
 
 Report Flood::commit(std::size_t waves, int age) {
-  return filling_.commit(static_cast<int>(waves), first_event_, last_event_, age, counting_, start_);
+  return filling_.commit(static_cast<int>(waves), first_event_, last_event_, age, far_counted_, start_);
 }
 
 }  // namespace vorocl

@@ -8,13 +8,12 @@
 
 namespace vorocl {
 
-/// The working memory of flooding: 9 bytes per pixel, and 8 per row.
+/// The working memory of flooding: 9 bytes per pixel, and 1 per row.
 struct FloodWorkspace {
-  cl::Buffer front, back;  // images of packed positions, which change places with every wave
-  cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
-  cl::Buffer flag;         // one word, for kernels that report
-  cl::Buffer farthest;     // by row: the greatest distance of a label
-  cl::Buffer far_pixels;   // by row: how many pixels are far from their seed
+  cl::Buffer front, back;           // images of packed positions, which change places with every wave
+  cl::Buffer seeded;                // a byte per pixel: whether it holds a seed
+  cl::Buffer flag;                  // one word, for kernels that report
+  cl::Buffer greatest, far_pixels;  // by measured row: see measure_labels()
 };
 
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
@@ -36,12 +35,12 @@ class Flood {
   /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
   void advance_labels();
 
-  /// The same, and says how far the labels are from their seeds. If none is farther than `enough` pixels,
+  /// How far the labels that the diagram holds are from their seeds. If none is farther than `enough` pixels,
   /// that counts as the greatest distance. Waits.
-  LabelDistances measure_labels(int enough);
+  LabelDistances label_distances(int enough);
 
-  /// Has the last wave count the pixels that are far from their seeds (see LabelDistances), for the next
-  /// frame's measure_labels().
+  /// Behind the last wave: counts the pixels that are far from their seeds (see LabelDistances), for the next
+  /// frame. Every eighth row is enough to tell how evenly the seeds are spread. Needs a seed that is there.
   void count_far_pixels();
 
   void wave(const Wave& wave);
@@ -58,8 +57,7 @@ class Flood {
   /// Whether a pixel was left without a label. Waits.
   bool some_unlabelled();
 
-  /// All waves of a plan, from the seeds alone; or from the labels, which advance_labels() or
-  /// measure_labels() has looked up.
+  /// All waves of a plan, from the seeds alone; or from the diagram's labels.
   void run(const Plan& plan);
   void run_from_labels(const Plan& plan);
 
@@ -68,10 +66,9 @@ class Flood {
 
  private:
   void begins_with(const cl::Event& event);
-  void stamp_seeds();
 
-  /// The squared distance, or in the Manhattan metric the distance, past which a pixel is far from its seed.
-  std::uint32_t near() const;
+  /// Enqueues measure_labels(), for a squared distance, or in the Manhattan metric a distance.
+  cl::Event measure_labels(std::uint32_t near);
 
   const Seeds& seeds_;
   DiagramState& diagram_;
@@ -80,7 +77,7 @@ class Flood {
   FloodWorkspace& memory_;
   cl::Event first_event_, last_event_;
   FloodStart start_;
-  bool counting_ = false;
+  bool far_counted_ = false;
 };
 
 }  // namespace vorocl

@@ -98,7 +98,7 @@ DynamicPlan reaching_plan(const Grid& grid, std::size_t seeds, double max_displa
   const Neighbourhood neighbourhood = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan = jump_flooding_plan(grid, JumpFloodingVariant::jfa, neighbourhood);
   // Without its first wave, JFA's plan still reaches the sum of the other steps.
-  while (plan.size() > 1 && reach_of(plan) - plan.front().step >= distances.greatest)
+  while (plan.size() > 1 && reach_of(plan) - plan.front().step >= distances.greatest + distances.margin)
     plan.erase(plan.begin());
   if (!plan.empty()) append_extra_waves(plan, options.extra_waves, neighbourhood);
   return {true, plan};

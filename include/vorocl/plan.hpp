@@ -69,14 +69,17 @@ enum class Reach {
 
 /// What a diagram's labels say of a new frame of seeds.
 struct LabelDistances {
-  /// The greatest distance of a pixel from its label's seed, where that is now, in pixels; infinite if a
-  /// pixel has no label whose seed is there. No pixel is farther from its nearest seed.
+  /// The greatest distance of a measured pixel from its label's seed, where that is now, in pixels; infinite if
+  /// one has no label whose seed is there. No measured pixel is farther from its nearest seed.
   double greatest = std::numeric_limits<double>::infinity();
 
   /// The share of pixels that were far from their seed when the labels were made: farther than L, or in the
   /// Manhattan metric than the distance that as many pixels are within. exp(-pi) = 0.043 of them are, where
   /// seeds are spread evenly; 1 if it is not known.
   double far = 1;
+
+  /// How much farther pixels may be that were not measured.
+  double margin = 0;
 };
 
 /// Waves, and what they start from.

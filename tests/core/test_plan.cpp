@@ -81,6 +81,7 @@ BOOST_AUTO_TEST_CASE(a_plan_from_the_seeds_covers_the_greatest_distance) {
   BOOST_TEST(reaching(grid, 100, 0, {3, 1}) == "seeds: 2 1");
   BOOST_TEST(reaching(grid, 100, 0, {511, 1}) == "seeds: 256 128 64 32 16 8 4 2 1");
   BOOST_TEST(reaching(grid, 100, 0, {511.5, 1}) == "seeds: " + to_string(jump_flooding_plan(grid)));
+  BOOST_TEST(reaching(grid, 100, 0, {3, 1, 12}) == "seeds: 8 4 2 1");
   BOOST_TEST(reaching(grid, 100, 0, {}) == "seeds: " + to_string(jump_flooding_plan(grid)));
   const DynamicPlanOptions options = {NeighbourhoodMix::von_neumann, 0, 2};
   BOOST_TEST(reaching(grid, 100, 0, {6, 1}, Metric::euclidean, options) == "seeds: 4v 2v 1v 2v 1v");
