@@ -36,7 +36,8 @@ static inline float excess(distance_t distance, distance_t least) {
 // greatest of the others' excess distances. Where labels are equal, nothing is looked up.
 VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
                                 global const position_t* restrict positions, uint count, uint2 periods, int width,
-                                int height, uint chunk, global uint2* restrict wrong, global float2* restrict excesses) {
+                                int height, uint chunk, global uint2* restrict wrong,
+                                global float2* restrict excesses) {
   const uint item = (uint)get_global_id(0), pixels = (uint)(width * height);
   if (item >= (pixels + chunk - 1) / chunk) return;
   const uint end = min((item + 1) * chunk, pixels);

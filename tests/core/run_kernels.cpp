@@ -81,13 +81,14 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   }
 }
 
-/// A window with seeds in and around it, at a distance, and a zoom into a periodic domain. The right and the lower
-/// part of the grid are outside the domain.
+/// A window with seeds in and around it, at a distance, and a zoom into a periodic domain. The right and the
+/// lower part of the grid are outside the domain.
 void make_windows(const Device& device, const Grid& grid, Metric metric) {
   Diagram diagram(device, grid);
   for (const int distance : {40, 100000}) {
     std::vector<Point> points = {{3, 4}, {30, 8}};
-    for (int i = 0; i < 90; ++i) points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
+    for (int i = 0; i < 90; ++i)
+      points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
     Seeds seeds(device, grid, points);
     const auto measure_labels = [&] {
       for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
