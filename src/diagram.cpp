@@ -133,9 +133,11 @@ void Diagram::write(const cl::Buffer& labels) {
 
 std::vector<std::uint32_t> Diagram::read() const {
   std::vector<std::uint32_t> labels(grid().pixels());
-  state().read(labels.data());
+  read(labels.data());
   return labels;
 }
+
+void Diagram::read(std::uint32_t* labels) const { state().read(labels); }
 
 void Diagram::wait() const { state().wait(); }
 

@@ -61,20 +61,32 @@ ErrorKind kind_of(cl_int code) {
   }
 }
 
+/// What is bad about a point that is not finite, or else.
+std::string complaint(const Point& point, const char* otherwise) {
+  return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
+}
+
 }  // namespace
 
 void fail(cl_int code, const std::string& what) {
   throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
 }
 
-BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
+BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)
     : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
-                std::to_string(point.y) + ") is " +
-                (std::isfinite(point.x) && std::isfinite(point.y) ? "outside the grid" : "not finite") +
-                "; x must be in [0, " + std::to_string(grid.width()) + ") and y in [0, " +
-                std::to_string(grid.height()) + ")",
+                std::to_string(point.y) + ") " + what,
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}
+
+BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
+    : BadPoint(index, point,
+               complaint(point, "outside the grid") + "; x must be in [0, " + std::to_string(grid.width()) +
+                   ") and y in [0, " + std::to_string(grid.height()) + ")") {}
+
+BadPoint::BadPoint(std::size_t index, const Point& point)
+    : BadPoint(index, point,
+               complaint(point, "too far away") +
+                   "; x and y must be less than 2^31 pixels from all pixels of the grid") {}
 
 }  // namespace vorocl

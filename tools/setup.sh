@@ -3,6 +3,7 @@
 # The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides) and
 # drivers (what tools/check_drivers.sh runs the tests on). Without any: build and test.
 set -euo pipefail
+cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- build test
 
 as_root() {
@@ -21,7 +22,8 @@ for group in "$@"; do
   case $group in
   build)
     packages+=(g++ cmake ninja-build ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-      libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev)
+      libopencv-dev libtiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
+      python3-dev python3-venv)
     ;;
   test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
   check)
@@ -62,4 +64,13 @@ if [[ " $* " == *" drivers "* ]] && [ ! -e "$intel" ]; then
   python3 -m pip install --quiet --ignore-installed --prefix "$intel.part" intel-opencl-rt intel-cmplr-lib-rt
   rm -f "$intel.part"/lib/libOpenCL.so*
   mv "$intel.part" "$intel"
+fi
+
+# What the tests of the Python package need, as wheels: python/tests/run.sh installs them into a fresh environment.
+if [[ " $* " == *" check "* ]]; then
+  wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
+  if ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
+    python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt
+    cp python/tests/requirements.txt "$wheels"
+  fi
 fi

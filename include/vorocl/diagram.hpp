@@ -60,6 +60,9 @@ class VOROCL_API Diagram {
   /// The labels on the host, size width * height. Waits. Throws as wait().
   std::vector<std::uint32_t> read() const;
 
+  /// As above, to where width * height labels fit: without a second image on the host.
+  void read(std::uint32_t* labels) const;
+
   /// Waits for the queue. Throws BadPoint if the frame of seeds that the diagram was made from had a bad
   /// point, and Error if the device failed.
   void wait() const;

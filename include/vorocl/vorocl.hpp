@@ -3,6 +3,7 @@
 #pragma once
 
 #include "vorocl/analysis.hpp"
+#include "vorocl/bounds.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"

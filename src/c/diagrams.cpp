@@ -1,6 +1,5 @@
 // The C functions of diagrams.
 #include "calls.hpp"
-#include "diagram_state.hpp"
 
 using namespace vorocl;
 
@@ -62,8 +61,7 @@ vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves, d
 vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count) {
   return guarded([&] {
     check_count(of(diagram).grid().pixels(), "pixels", count);
-    // Straight to where they go: Diagram::read() would need a second image on the host.
-    Internal::state(of(diagram)).read(&given(labels, "labels"));
+    of(diagram).read(&given(labels, "labels"));
   });
 }
 

@@ -17,38 +17,6 @@ std::string describe(std::size_t index, const Point& point) {
   return fmt::format("point {} at ({}, {})", index, point.x, point.y);
 }
 
-/// Throws Error unless an axis has a scale that double can hold, in pixels per unit and in units per grid.
-void check_extents(const Bounds& bounds) {
-  for (const double extent : {bounds.x1 - bounds.x0, bounds.y1 - bounds.y0}) {
-    if (extent == 0 || (std::isfinite(extent * Grid::max_side) && std::isfinite(Grid::max_side / extent)))
-      continue;
-    throw Error("the bounds " + to_string(bounds) + " are too far apart, or too near, to compute with");
-  }
-}
-
-/// Written in the order of operations that is documented, so that rounding is the same everywhere.
-int pixel(double value, double low, double high, int count, bool periodic) {
-  const double extent = high - low;
-  if (extent == 0) return count / 2;
-  double offset = value - low;
-  if (periodic) {
-    offset = std::fmod(offset, extent);
-    if (offset < 0) offset += extent;
-  }
-  const double position = std::floor(offset * count / extent);
-  return static_cast<int>(std::min(std::max(0.0, position), count - 1.0));
-}
-
-bool is_outside(double value, double low, double high, bool periodic) {
-  return !periodic && (value < low || value > high);
-}
-
-void check_period(double low, double high, const char* axis) {
-  if (low == high) {
-    throw Error(fmt::format("the bounds have no extent in {}, which is to be periodic", axis));
-  }
-}
-
 }  // namespace
 
 Bounds parse_bounds(const std::string& text) {
@@ -83,7 +51,7 @@ Bounds bounding_box(const std::vector<Point>& points) {
 }
 
 Grid grid_of_width(const Bounds& bounds, int width, Periodic periodic) {
-  check_extents(bounds);
+  check_bounds(bounds, Grid(1, 1));
   if (bounds.x0 == bounds.x1) {
     throw Error("the bounds " + to_string(bounds) +
                 " have no width to scale by: give --size instead of --width");
@@ -115,22 +83,16 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid) {
 
 std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
                              bool y_up) {
-  check_extents(bounds);
-  if (grid.periodic_x()) check_period(bounds.x0, bounds.x1, "x");
-  if (grid.periodic_y()) check_period(bounds.y0, bounds.y1, "y");
+  check_bounds(bounds, grid);
   std::vector<Point> pixels;
   pixels.reserve(points.size());
   for (const Point& point : points) {
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
       throw Error(describe(pixels.size(), point) + " is not finite");
     }
-    if (is_outside(point.x, bounds.x0, bounds.x1, grid.periodic_x()) ||
-        is_outside(point.y, bounds.y0, bounds.y1, grid.periodic_y())) {
-      throw Error(describe(pixels.size(), point) + " is outside the bounds " + to_string(bounds));
-    }
-    const int column = pixel(point.x, bounds.x0, bounds.x1, grid.width(), grid.periodic_x());
-    const int row = pixel(point.y, bounds.y0, bounds.y1, grid.height(), grid.periodic_y());
-    pixels.push_back({column + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5});
+    const std::optional<Point> pixel = to_pixel(point, bounds, grid, y_up);
+    if (!pixel) throw Error(describe(pixels.size(), point) + " is outside the bounds " + to_string(bounds));
+    pixels.push_back(*pixel);
   }
   return pixels;
 }

@@ -1,0 +1,75 @@
+// What the sources of the extension module share: the objects behind Python's, and how arrays are passed.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "vorocl/vorocl.hpp"
+
+namespace vorocl::python {
+
+namespace nb = nanobind;
+
+/// While a function runs, other threads of Python may: it touches no object of Python's.
+using without_gil = nb::call_guard<nb::gil_scoped_release>;
+
+/// Arrays of Python's, C-contiguous and in this machine's byte order: Python has seen to it.
+template <typename... What>
+using Array = nb::ndarray<nb::c_contig, nb::device::cpu, What...>;
+using Points = Array<const double, nb::shape<-1, 2>>;
+
+/// A new array of NumPy's that owns the rows: as many numbers T in each as fit.
+template <typename T, typename Row>
+nb::ndarray<nb::numpy, T, nb::ndim<2>> to_numpy(std::vector<Row>&& rows) {
+  static_assert(sizeof(Row) % sizeof(T) == 0);
+  auto* const owned = new std::vector<Row>(std::move(rows));
+  const nb::capsule owner(owned,
+                          [](void* vector) noexcept { delete static_cast<std::vector<Row>*>(vector); });
+  return {owned->data(), {owned->size(), sizeof(Row) / sizeof(T)}, owner};
+}
+
+/// How points become pixels.
+struct Placement {
+  Grid grid;
+  std::optional<Bounds> bounds;  // none: points are in pixels
+  bool y_up;                     // rows are counted from the bottom
+};
+
+/// Seeds, and the points of their present and last frame, so that a move allocates nothing. The library wants
+/// one thread at a time; threads of Python take turns.
+struct SeedsObject {
+  SeedsObject(const Device& device, const Placement& of_points)
+      : placement(of_points), seeds(device, of_points.grid, std::vector<Point>()) {}
+  SeedsObject(Seeds made, const Placement& of_points) : placement(of_points), seeds(std::move(made)) {}
+
+  std::mutex mutex;
+  Placement placement;
+  Seeds seeds;
+  std::vector<std::uint32_t> positions, last_positions;
+};
+
+/// A diagram, and what was measured of it last, so that the next measurement allocates nothing.
+struct DiagramObject {
+  explicit DiagramObject(Diagram made) : diagram(std::move(made)) {}
+
+  std::mutex mutex;
+  Diagram diagram;
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  AdjacencyResult adjacency;
+  Field<float> distances;
+};
+
+void bind_errors(nb::module_& module);
+void bind_devices(nb::module_& module);
+void bind_seeds(nb::module_& module);
+void bind_diagrams(nb::module_& module);
+
+}  // namespace vorocl::python

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Builds the wheel, and runs in a fresh environment the tests, all examples and the benchmark: run.sh FOLDER
+# Exits with 77 where "tools/setup.sh check" has not laid ready the packages that they need.
+set -euo pipefail
+folder=$1
+cd "$(dirname "$0")/../.."
+
+wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
+if ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
+  echo "the Python packages of python/tests/requirements.txt are not installed: skipped"
+  exit 77
+fi
+
+rm -rf "$folder"
+python3 -m venv "$folder/environment"
+python=$folder/environment/bin/python
+export PIP_NO_INDEX=1 PIP_FIND_LINKS=$wheels PIP_DISABLE_PIP_VERSION_CHECK=1
+"$python" -m pip wheel --quiet --no-deps --wheel-dir "$folder" . \
+  --config-settings cmake.define.VOROCL_WARNINGS_AS_ERRORS=ON
+"$python" -m pip install --quiet "$folder"/vorocl-*.whl --requirement python/tests/requirements.txt
+
+"$python" -m pytest -q -p no:cacheprovider --doctest-modules --pyargs vorocl python/tests
+for example in python/examples/*.py; do
+  "$python" "$example" "$folder/$(basename "$example" .py).png"
+done
+sed -n '/^```python$/,/^```$/{/^```/!p}' README.md | "$python" -
+"$python" python/benchmarks/compare.py --size 256 --seeds 64 1024 --repeat 1

@@ -1,0 +1,113 @@
+"""Labels, against brute force and SciPy's k-d tree."""
+
+import numpy as np
+import pytest
+from oracles import assert_nearest, brute_force
+
+import vorocl
+
+AXES = [(False, False), (True, False), (False, True), (True, True)]
+rng = np.random.default_rng(17)
+
+
+@pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
+@pytest.mark.parametrize("periodic", AXES)
+@pytest.mark.parametrize("count, shape", [(1, (5, 9)), (12, (31, 17)), (300, (40, 63))])
+def test_ties_fall_as_defined(count, shape, periodic, metric):
+    points = rng.uniform(0, shape[::-1], (count, 2))  # many share a pixel
+    labels = vorocl.diagram(points, shape, periodic=periodic, metric=metric)
+    assert labels.dtype == np.uint32 and labels.shape == shape
+    np.testing.assert_array_equal(labels, brute_force(points, shape, periodic, metric))
+
+
+@pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
+@pytest.mark.parametrize("periodic", AXES)
+def test_the_k_d_tree_finds_nothing_nearer(periodic, metric):
+    points = rng.uniform(0, (511, 300), (2000, 2))
+    assert_nearest(vorocl.diagram(points, (300, 511), periodic=periodic, metric=metric), points, periodic, metric)
+
+
+@pytest.mark.parametrize("method", ["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa"])
+def test_methods_that_flood_are_nearly_right(method):
+    points = rng.uniform(0, 128, (60, 2))
+    vorocl.diagram(rng.uniform(0, 128, (60, 2)), (128, 128), method=method)
+    labels = vorocl.diagram(points, (128, 128), method=method)
+    assert vorocl.similarity(labels, brute_force(points, (128, 128))) > 98
+    again = vorocl.diagram(points, (128, 128), method=method)
+    np.testing.assert_array_equal(labels, again)  # whatever the call before was
+
+
+def test_rows_with_nan_are_absent():
+    points = np.array([[1, 1], [np.nan, 2], [3, np.nan], [8, 5], [np.nan, np.nan]])
+    labels = vorocl.diagram(points, (7, 10))
+    np.testing.assert_array_equal(labels, brute_force(points, (7, 10)))
+    masked = np.ma.masked_array(np.nan_to_num(points, nan=4), np.isnan(points))
+    np.testing.assert_array_equal(labels, vorocl.diagram(masked, (7, 10)))
+
+
+def test_no_points_leave_no_label():
+    for none in [], np.empty((0, 2)), [[np.nan, np.nan]]:
+        assert (vorocl.diagram(none, (3, 5)) == vorocl.NO_LABEL).all()
+    assert np.isinf(vorocl.distances([], (3, 5))).all()
+
+
+def test_bounds_map_to_pixels():
+    points = rng.uniform((-180, -90), (180, 90), (50, 2))
+    points[0] = 180, 90  # falls in the last pixel
+    pixels = np.minimum(np.floor((points + (180, 90)) * (144, 72) / (360, 180)), (143, 71))
+    bounds = (-180, -90, 180, 90)
+    np.testing.assert_array_equal(vorocl.diagram(points, (72, 144), bounds=bounds), brute_force(pixels, (72, 144)))
+    upside_down = vorocl.diagram(points, (72, 144), bounds=bounds, y_up=True)
+    pixels[:, 1] = 71 - pixels[:, 1]
+    np.testing.assert_array_equal(upside_down, brute_force(pixels, (72, 144)))
+
+
+def test_y_goes_up_in_pixels():
+    points = rng.uniform(0, (40, 30), (20, 2))
+    flipped = np.column_stack([points[:, 0], 29 - np.floor(points[:, 1])])
+    np.testing.assert_array_equal(vorocl.diagram(points, (30, 40), y_up=True), brute_force(flipped, (30, 40)))
+
+
+@pytest.mark.parametrize("bounds", [None, (0, 0, 40, 30), (-20.0, 5.0, 20.0, 35.0)])
+def test_points_wrap_along_periodic_axes(bounds):
+    points = rng.uniform(0, (40, 30), (20, 2)) + ((bounds or (0, 0))[:2])
+    periods = rng.integers(-3, 4, (20, 2)) * (40, 30)
+    inside = vorocl.diagram(points, (30, 40), periodic=(True, True), bounds=bounds)
+    wrapped = vorocl.diagram(np.round(points, 3) + periods, (30, 40), periodic=(True, True), bounds=bounds)
+    np.testing.assert_array_equal(inside, wrapped)
+    edge = vorocl.diagram([(-1e-20, 3)], (30, 40), periodic=(True, False))  # -1e-20 + 40 is 40
+    assert (edge == 0).all()
+
+
+def test_points_outside_are_named():
+    points = np.full((9, 2), 3.0)
+    for bad, bounds in [((10, 3), None), ((3, -0.001), None), ((np.inf, 1), None), ((5.001, 2), (0, 0, 5, 5))]:
+        points[7] = bad
+        with pytest.raises(vorocl.BadPoint, match="point 7") as caught:
+            vorocl.diagram(points, (6, 10), bounds=bounds)
+        assert caught.value.row == 7 and caught.value.value == bad
+
+
+def test_labels_go_where_they_are_wanted():
+    points = rng.uniform(0, 50, (10, 2))
+    out = np.zeros((50, 50), np.uint32)
+    assert vorocl.diagram(points, (50, 50), out=out) is out
+    np.testing.assert_array_equal(out, brute_force(points, (50, 50)))
+
+
+@pytest.mark.parametrize("dtype", ["f4", ">f8", "i2", "u8", "f2"])
+def test_points_of_all_types_and_strides(dtype):
+    points = rng.integers(0, 20, (15, 2))
+    expected = brute_force(points, (20, 20))
+    for layout in points, np.asfortranarray(points), points[::-1][::-1], points.repeat(2, 0)[::2], points.tolist():
+        np.testing.assert_array_equal(vorocl.diagram(np.array(layout, dtype), (20, 20)), expected)
+        np.testing.assert_array_equal(vorocl.diagram(layout, (20, 20)), expected)
+    fixed = points.astype(dtype)
+    fixed.flags.writeable = False
+    np.testing.assert_array_equal(vorocl.diagram(fixed, (20, 20)), expected)
+
+
+def test_shapes_are_numbers_of_any_kind():
+    wanted = vorocl.diagram([(1, 1)], (3, 4))
+    for shape in [3, 4], np.array([3, 4]), (np.int64(3), np.uint8(4)):
+        np.testing.assert_array_equal(vorocl.diagram([(1, 1)], shape), wanted)

@@ -1,0 +1,127 @@
+"""Measures of cells, against NumPy, freud and the labels themselves."""
+
+import freud
+import numpy as np
+import pandas
+import pytest
+from oracles import brute_force, offsets, pixel_centres
+
+import vorocl
+
+rng = np.random.default_rng(19)
+SHAPE = (70, 91)
+
+
+@pytest.fixture(scope="module")
+def points():
+    points = rng.uniform(0, SHAPE[::-1], (60, 2))
+    points[5] = np.nan
+    points[9] = points[8]
+    return points
+
+
+def test_cells_are_measured_as_numpy_does(points):
+    labels = brute_force(points, SHAPE)
+    cells = vorocl.cells(points, SHAPE)
+    assert cells.dtype == vorocl.CELL and cells.shape == (60,)
+    assert cells["area"].sum() == labels.size and cells["area"][5] == cells["area"][9] == 0
+    assert np.isnan(cells[["x", "y", "centroid_x", "largest_distance"]][5].tolist()).all()
+    assert cells["right"][9] < cells["left"][9] and np.isnan(cells["largest_distance"][9])
+    for row, cell in enumerate(cells):
+        y, x = np.nonzero(labels == row)
+        assert cell["area"] == len(x)
+        if len(x) == 0:
+            continue
+        assert (cell["x"], cell["y"]) == tuple(np.floor(points[row]) + 0.5)
+        assert (cell["left"], cell["top"], cell["right"], cell["bottom"]) == (x.min(), y.min(), x.max(), y.max())
+        np.testing.assert_allclose((cell["centroid_x"], cell["centroid_y"]), (x.mean() + 0.5, y.mean() + 0.5))
+        farthest = np.hypot(x + 0.5 - cell["x"], y + 0.5 - cell["y"]).max()
+        np.testing.assert_allclose(cell["largest_distance"], farthest)
+        at_border = x.min() == 0 or y.min() == 0 or x.max() == SHAPE[1] - 1 or y.max() == SHAPE[0] - 1
+        assert cell["touches_border"] == at_border
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
+def test_pairs_are_those_of_the_labels(points, periodic):
+    labels = brute_force(points, SHAPE, periodic)
+    edges = []
+    for axis in 0, 1:
+        there = np.roll(labels, -1, axis)
+        inside = labels.shape[axis] - (0 if periodic[1 - axis] else 1)
+        edges.append(np.stack([labels, there], -1).take(range(inside), axis).reshape(-1, 2))
+    edges = np.sort(np.concatenate(edges), axis=1)
+    expected, lengths = np.unique(edges[edges[:, 0] != edges[:, 1]], axis=0, return_counts=True)
+    pairs, found = vorocl.adjacency(points, SHAPE, periodic=periodic)
+    np.testing.assert_array_equal(pairs, expected)
+    np.testing.assert_array_equal(found, lengths)
+    cells = vorocl.cells(points, SHAPE, periodic=periodic)
+    np.testing.assert_array_equal(cells["neighbours"], np.bincount(pairs.ravel(), minlength=60))
+    weights = np.repeat(lengths, 2)
+    np.testing.assert_array_equal(cells["perimeter"], np.bincount(pairs.ravel(), weights, minlength=60))
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (True, False), (False, True), (True, True)])
+def test_vertices_are_as_many_as_the_device_counts(points, periodic):
+    found = vorocl.vertices(points, SHAPE, periodic=periodic)
+    diagram = vorocl.Diagram(SHAPE, periodic=periodic)
+    diagram.fill(vorocl.Seeds(points, SHAPE, periodic=periodic))
+    assert len(found) == diagram.count_vertices() > 60
+    labels = diagram.read()
+    for x, y in found.astype(int):
+        around = labels[np.ix_([y - 1, y % SHAPE[0]], [x - 1, x % SHAPE[1]])]
+        assert len(np.unique(around)) >= 3
+
+
+def test_areas_are_those_of_freud():
+    shape = (400, 500)
+    points = np.floor(rng.uniform(0, shape[::-1], (200, 2))) + 0.5
+    cells = vorocl.cells(points, shape, periodic=(True, True))
+    voronoi = freud.locality.Voronoi()
+    centred = np.column_stack([points - (250, 200), np.zeros(200)])
+    voronoi.compute((freud.box.Box(500, 400, is2D=True), centred))
+    # A pixel is in the wrong cell only where a border cuts it.
+    error = np.abs(cells["area"] - voronoi.volumes)
+    assert (error <= 0.25 * cells["perimeter"]).all()
+    assert error.max() > 0  # they are two ways to measure
+
+
+def test_a_frame_of_pandas_takes_the_cells(points):
+    frame = pandas.DataFrame(vorocl.cells(points, SHAPE))
+    assert frame["area"].sum() == SHAPE[0] * SHAPE[1] and list(frame.columns) == list(vorocl.CELL.names)
+
+
+def test_relaxed_points_are_centroids():
+    points = rng.uniform((-1, 2), (1, 4), (30, 2))
+    bounds = (-1, 2, 1, 4)
+    relaxed = vorocl.relax(points, (80, 80), rounds=300, bounds=bounds, y_up=True)
+    assert relaxed.converged and len(relaxed.energies) == len(relaxed.moved) + 1
+    assert (np.diff(relaxed.energies.astype(float)) <= 0).all() and relaxed.moved[0] > 0
+    labels = vorocl.diagram(relaxed.points, (80, 80), bounds=bounds, y_up=True)
+    centres = pixel_centres((80, 80))
+    energy = 0
+    for row, (x, y) in enumerate(relaxed.points):
+        own = centres[labels.ravel() == row]
+        place = ((x + 1) * 40, 80 - (y - 2) * 40)
+        assert np.abs(own.mean(axis=0) - place).max() <= 0.5
+        energy += ((own - place) ** 2).sum()
+    assert round(energy) == relaxed.energies[-1]
+    assert len(vorocl.relax(points, (80, 80), rounds=0, bounds=bounds).energies) == 1
+
+
+def test_errors_are_those_of_brute_force():
+    points = rng.uniform(0, (60, 50), (40, 2))
+    right = brute_force(points, (50, 60), (True, False))
+    labels = np.where(rng.random((50, 60)) < 0.1, rng.integers(0, 40, (50, 60)), right)
+    labels[3, 4] = 40  # no point's
+    found = vorocl.errors(labels, points, periodic=(True, False))
+    centres, snapped = pixel_centres((50, 60)), np.floor(points) + 0.5
+
+    def distances(of):
+        return np.linalg.norm(offsets(centres, snapped[of.ravel()], (50, 60), (True, False)), axis=1)
+
+    excess = distances(np.where(labels == 40, right, labels)) - distances(right)
+    assert found.pixels == 3000 and found.unlabelled_pixels == 1
+    assert found.wrong_pixels == (excess > 0).sum() + 1
+    np.testing.assert_allclose((found.largest_excess, found.mean_excess), (excess.max(), excess.mean()), rtol=2e-4)
+    assert found.wrong_percent == 100 * found.wrong_pixels / 3000
+    assert vorocl.similarity(labels, right) == 100 * (labels == right).mean()

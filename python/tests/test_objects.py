@@ -1,0 +1,239 @@
+"""What stays on the device: seeds, diagrams, simulations; threads, OpenCL's own objects, and memory."""
+
+import gc
+import os
+import pickle
+import sys
+import threading
+
+import numpy as np
+import pyopencl
+import pytest
+from oracles import brute_force
+
+import vorocl
+
+rng = np.random.default_rng(20)
+
+
+def test_seeds_move_and_say_how_far():
+    seeds = vorocl.Seeds([(1, 1), (30, 5), (np.nan, 0)], (20, 40), periodic=(True, False))
+    assert len(seeds) == 3 and seeds.alive == 2
+    assert seeds.move_to([(39, 1), (30, 9), (7, 7)]) == 4  # the first one moved by 2, round the border
+    assert seeds.alive == 3
+    np.testing.assert_array_equal(seeds.read(), [(39.5, 1.5), (30.5, 9.5), (7.5, 7.5)])
+    with pytest.raises(vorocl.BadPoint):
+        seeds.move_to([(1, 1), (1, 21)])
+    np.testing.assert_array_equal(seeds.read(), [(39.5, 1.5), (30.5, 9.5), (7.5, 7.5)])
+    assert seeds.move_to([(38, 1)]) == 1 and len(seeds) == 1
+
+
+def test_a_diagram_is_filled_read_and_written():
+    points = rng.uniform(0, 64, (20, 2))
+    seeds, diagram = vorocl.Seeds(points, (64, 64)), vorocl.Diagram((64, 64))
+    assert (diagram.read() == vorocl.NO_LABEL).all()
+    report = diagram.fill(seeds, "jfa")
+    assert report.waves == 6 and report.milliseconds > 0
+    out = np.empty((64, 64), np.uint32)
+    assert diagram.read(out) is out
+    assert diagram.errors(seeds).wrong_percent < 2
+    diagram.write(np.zeros((64, 64), np.int64))
+    assert (diagram.read() == 0).all()
+
+
+def test_frames_of_a_simulation_are_right():
+    points, velocity = rng.uniform(0, 96, (40, 2)), rng.normal(0, 2, (40, 2))
+    exact = vorocl.Simulation((96, 96), method="exact", periodic=(True, True))
+    dynamic = vorocl.Simulation((96, 96), periodic=(True, True))
+    for frame in range(12):
+        now = points + frame * velocity
+        if frame % 3 == 1:
+            now[frame] = np.nan
+        labels = exact.step(now).read()
+        np.testing.assert_array_equal(labels, brute_force(now % 96, (96, 96), (True, True)))
+        assert vorocl.similarity(dynamic.step(now).read(), labels) > 97
+        assert dynamic.report.waves > 0
+        assert exact.diagram.cells(exact.seeds)["area"].sum() == 96 * 96
+
+
+def test_a_simulation_adds_up_the_moves_of_frames_that_failed():
+    simulation = vorocl.Simulation((200, 200))
+    simulation.step([(10, 10), (20, 190)])
+    simulation.seeds.move_to([(150, 10), (20, 190)])  # as if the diagram had not been filled
+    simulation._displacement += 140
+    labels = simulation.step([(190, 10), (20, 190)]).read()
+    assert vorocl.similarity(labels, brute_force([(190, 10), (20, 190)], (200, 200))) > 99
+
+
+# --- threads ---
+
+
+def test_other_threads_run_while_the_device_works():
+    seeds, diagram = vorocl.Seeds([(0, 0)], (1024, 1024)), vorocl.Diagram((1024, 1024))
+    diagram.fill(seeds, "standard-flooding")
+    diagram.read()
+    started, finished = threading.Event(), threading.Event()
+
+    def work():
+        started.set()
+        diagram.fill(seeds, "standard-flooding")  # a thousand waves, for which it waits
+        finished.set()
+
+    thread, interval = threading.Thread(target=work), sys.getswitchinterval()
+    sys.setswitchinterval(1000)  # no thread is made to give way: only a call that lets go does
+    try:
+        thread.start()
+        started.wait()
+        ran_meanwhile = not finished.is_set()
+        thread.join()
+    finally:
+        sys.setswitchinterval(interval)
+    assert ran_meanwhile
+
+
+def test_threads_have_diagrams_of_their_own():
+    shapes = [(70, 90), (90, 70), (70, 90), (33, 40)]
+    points = [rng.uniform(0, shape[::-1], (30, 2)) for shape in shapes]
+    expected = [brute_force(*arguments) for arguments in zip(points, shapes)]
+    wrong = []
+
+    def work(index):
+        out = np.empty(shapes[index], np.uint32)
+        for _ in range(50):
+            vorocl.diagram(points[index], shapes[index], out=out)
+            if not np.array_equal(out, expected[index]):
+                wrong.append(index)
+
+    threads = [threading.Thread(target=work, args=(index,)) for index in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_threads_that_share_a_diagram_take_turns():
+    seeds, diagram = vorocl.Seeds([(3, 3)], (40, 40)), vorocl.Diagram((40, 40))
+
+    def work():
+        for _ in range(100):
+            seeds.move_to(rng.uniform(0, 40, (int(rng.integers(1, 50)), 2)))
+            diagram.fill(seeds)
+            diagram.read()
+            diagram.cells(seeds)
+
+    threads = [threading.Thread(target=work) for _ in range(3)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    seeds.move_to([(3, 3)])
+    diagram.fill(seeds)
+    assert (diagram.read() == 0).all()
+
+
+# --- pyopencl ---
+
+
+@pytest.fixture(scope="module")
+def opencl():
+    selected = next(device for device in vorocl.devices() if device.selected)
+    platform = pyopencl.get_platforms()[selected.platform_index]
+    context = pyopencl.Context([platform.get_devices()[selected.device_index]])
+    return context, pyopencl.CommandQueue(context)
+
+
+def test_labels_are_a_buffer_of_pyopencl(opencl):
+    context, queue = opencl
+    device = vorocl.Device.from_pyopencl(*opencl)
+    points = rng.uniform(0, (50, 40), (12, 2))
+    seeds, diagram = vorocl.Seeds(points, (40, 50), device=device), vorocl.Diagram((40, 50), device=device)
+    diagram.fill(seeds)
+    program = pyopencl.Program(
+        context, "kernel void add_one(global uint* labels) { labels[get_global_id(0)] += 1; }"
+    ).build()
+    program.add_one(queue, (2000,), None, diagram.buffer)  # in the same queue: behind the diagram
+    np.testing.assert_array_equal(diagram.read(), brute_force(points, (40, 50)) + 1)
+    buffer = diagram.buffer
+    del diagram, seeds, device
+    gc.collect()
+    labels = np.empty((40, 50), np.uint32)
+    pyopencl.enqueue_copy(queue, labels, buffer)
+    np.testing.assert_array_equal(labels, brute_force(points, (40, 50)) + 1)
+
+
+def test_labels_are_written_into_a_buffer_of_pyopencl(opencl):
+    context, queue = opencl
+    device = vorocl.Device.from_pyopencl(*opencl)
+    points = rng.uniform(0, (50, 40), (12, 2))
+    buffer = pyopencl.Buffer(context, pyopencl.mem_flags.READ_WRITE, 4 * 2000)
+    diagram = vorocl.Diagram((40, 50), device=device, labels=buffer)
+    diagram.fill(vorocl.Seeds(points, (40, 50), device=device))
+    labels = np.empty((40, 50), np.uint32)
+    pyopencl.enqueue_copy(queue, labels, buffer)
+    np.testing.assert_array_equal(labels, brute_force(points, (40, 50)))
+    assert diagram.buffer == buffer
+
+
+def test_foreign_objects_that_do_not_fit_are_refused(opencl):
+    context, queue = opencl
+    device = vorocl.Device.from_pyopencl(*opencl)
+    other = pyopencl.Context(context.devices)
+    out_of_order = pyopencl.command_queue_properties.OUT_OF_ORDER_EXEC_MODE_ENABLE
+    small = pyopencl.Buffer(context, pyopencl.mem_flags.READ_WRITE, 7999)
+    foreign = pyopencl.Buffer(other, pyopencl.mem_flags.READ_WRITE, 8000)
+    unwritable = pyopencl.Buffer(context, pyopencl.mem_flags.READ_ONLY, 8000)
+    for buffer in small, foreign, unwritable, np.empty(2000, np.uint32), 12345:
+        with pytest.raises(vorocl.BadArgument):
+            vorocl.Diagram((40, 50), device=device, labels=buffer)
+    for wrong in (other, queue), (queue, context), (context, None), (1, 2):
+        with pytest.raises(vorocl.BadArgument):
+            vorocl.Device.from_pyopencl(*wrong)
+    with pytest.raises(vorocl.BadArgument, match="in-order"):
+        vorocl.Device.from_pyopencl(context, pyopencl.CommandQueue(context, properties=out_of_order))
+    with pytest.raises(vorocl.BadArgument, match="different devices"):
+        vorocl.Diagram((4, 4), device=device).fill(vorocl.Seeds([(1, 1)], (4, 4)))
+
+
+# --- devices, errors, memory ---
+
+
+def test_devices_are_listed_and_chosen_by_name():
+    listed = vorocl.devices()
+    chosen = [device for device in listed if device.selected]
+    assert len(chosen) == 1 and chosen[0].compute_units > 0
+    device = vorocl.Device(f"{chosen[0].platform_index}:{chosen[0].device_index}")
+    assert (device.name, device.platform) == (chosen[0].name, chosen[0].platform)
+    with pytest.raises(vorocl.DeviceError, match="no such thing.*there is"):
+        vorocl.Device("no such thing")
+
+
+def test_errors_can_be_pickled():
+    with pytest.raises(vorocl.BadPoint) as caught:
+        vorocl.diagram([(1, 1), (5, 1)], (4, 4))
+    copy = pickle.loads(pickle.dumps(caught.value))
+    assert (copy.row, copy.value, str(copy)) == (1, (5, 1), str(caught.value))
+
+
+def resident_bytes():
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+def test_ten_thousand_calls_keep_no_memory():
+    points, shapes = rng.uniform(0, 30, (25, 2)), [(30, 40), (40, 31)]
+
+    def calls(count):
+        for index in range(count):
+            vorocl.diagram(points, shapes[index // 100 % 2])
+            if index % 10 == 0:
+                vorocl.cells(points, (30, 40))
+                vorocl.adjacency(points, (30, 40))
+                with pytest.raises(vorocl.BadPoint):
+                    vorocl.diagram(points + 30, (30, 40))
+        gc.collect()
+
+    calls(2000)
+    before = resident_bytes()
+    calls(10000)
+    assert resident_bytes() - before < 8 * 2**20  # 840 bytes per call would be too many

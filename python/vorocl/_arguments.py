@@ -1,0 +1,155 @@
+"""Arguments as users give them, converted or refused in one sentence."""
+
+from __future__ import annotations
+
+import operator
+import reprlib
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Union
+
+import numpy as np
+
+from . import _vorocl
+from ._errors import BadArgument
+
+if TYPE_CHECKING:  # numpy.typing is not needed at run time
+    from numpy.typing import ArrayLike, NDArray
+
+Shape = Tuple[int, int]
+Bounds = Tuple[float, float, float, float]
+Periodic = Union[Tuple[bool, bool], Sequence[bool]]
+
+MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
+
+
+def shown(value: object) -> str:
+    """A value in an error, on one line and short."""
+    return " ".join(reprlib.repr(value).split())
+
+
+def to_points(points: ArrayLike) -> NDArray[np.float64]:
+    """(N, 2) numbers, C-contiguous; the masked rows of a masked array as NaN."""
+    if isinstance(points, np.ma.MaskedArray):
+        points = np.ma.filled(points.astype(np.float64), np.nan)
+    try:
+        array = np.asarray(points)
+    except ValueError as error:
+        raise BadArgument(f"points must be an array of N rows (x, y): {error}") from None
+    if array.shape == (0,):
+        array = array.reshape(0, 2)
+    if array.ndim != 2 or array.shape[1] != 2:
+        raise BadArgument(f"points must have the shape (N, 2), rows (x, y); this array has the shape {array.shape}")
+    if array.dtype.kind not in "biuf":
+        raise BadArgument(f"points must be real numbers; this array has the dtype {array.dtype}")
+    if len(array) > MOST_SEEDS:
+        raise BadArgument(f"there are {len(array)} points; at most 2^30 are possible")
+    return np.ascontiguousarray(array, dtype=np.float64)
+
+
+def to_grid(shape: Shape, periodic: Periodic) -> _vorocl.Grid:
+    """The grid of a shape (H, W) and of its periodic axes (x, y)."""
+    try:
+        height, width = (operator.index(side) for side in shape)
+    except (TypeError, ValueError):
+        raise BadArgument(f"shape must be two whole numbers (H, W); this is {shown(shape)}") from None
+    try:
+        periodic_x, periodic_y = (_to_bool(axis) for axis in periodic)
+    except (TypeError, ValueError):
+        raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}") from None
+    far = 2**31  # past every limit, of which the library tells
+    height, width = (max(-far, min(side, far)) for side in (height, width))
+    return _vorocl.Grid(width, height, periodic_x, periodic_y)
+
+
+def shape_of(grid: _vorocl.Grid) -> Tuple[int, int]:
+    """(H, W) of a grid."""
+    return grid.height, grid.width
+
+
+def _to_bool(value: object) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise TypeError
+    return bool(value)
+
+
+def to_flag(value: bool, name: str) -> bool:
+    """A boolean, and nothing that only counts as one."""
+    try:
+        return _to_bool(value)
+    except TypeError:
+        raise BadArgument(f"{name} must be True or False; this is {shown(value)}") from None
+
+
+def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
+    """Four floats (x0, y0, x1, y1)."""
+    if bounds is None:
+        return None
+    try:
+        x0, y0, x1, y1 = (float(value) for value in bounds)
+    except (TypeError, ValueError, OverflowError):
+        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); this is {shown(bounds)}") from None
+    return x0, y0, x1, y1
+
+
+def check_outside(outside: str) -> None:
+    """Points outside are refused: the library has no windows of a larger plane yet."""
+    if outside != "refuse":
+        raise BadArgument(f'outside must be "refuse"; this is {shown(outside)}')
+
+
+def to_number(value: float, name: str) -> float:
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise BadArgument(f"{name} must be a number; this is {shown(value)}") from None
+
+
+def to_count(value: int, name: str) -> int:
+    """A whole number that C holds."""
+    try:
+        count = operator.index(value)
+    except TypeError:
+        raise BadArgument(f"{name} must be a whole number; this is {shown(value)}") from None
+    if not 0 <= count < 2**31:
+        raise BadArgument(f"{name} must be from 0 to 2^31 - 1; this is {count}")
+    return count
+
+
+def to_text(value: str, name: str) -> str:
+    if not isinstance(value, str) or not value.isascii():
+        raise BadArgument(f"{name} must be a string of ASCII; this is {shown(value)}")
+    return value
+
+
+def to_image(image: ArrayLike, name: str) -> NDArray[Any]:
+    """An array with two axes, none of them empty."""
+    try:
+        array = np.asarray(image)
+    except ValueError as error:
+        raise BadArgument(f"{name} must be an array of the shape (H, W): {error}") from None
+    if array.ndim != 2 or array.size == 0:
+        raise BadArgument(f"{name} must have the shape (H, W); this array has the shape {array.shape}")
+    return array
+
+
+def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
+    """(H, W) labels, C-contiguous, of any integers that uint32 holds."""
+    array = to_image(labels, name)
+    if array.dtype.kind not in "iu":
+        raise BadArgument(f"{name} must be integers; this array has the dtype {array.dtype}")
+    if array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
+        raise BadArgument(f"{name} must be from 0 to 2^32 - 1, as uint32")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
+def output(out: Optional[NDArray[Any]], shape: Shape, dtype: Any) -> NDArray[Any]:
+    """The caller's array, or a new one."""
+    if out is None:
+        return np.empty(shape, dtype)
+    wanted = np.dtype(dtype)
+    if not isinstance(out, np.ndarray):
+        raise BadArgument(f"out must be an array of NumPy; this is of type {type(out).__name__}")
+    if out.shape != tuple(shape) or out.dtype != wanted:
+        raise BadArgument(f"out must be {wanted} of the shape {tuple(shape)}; this array is {out.dtype} of {out.shape}")
+    if not out.flags.c_contiguous or not out.flags.writeable or not out.flags.aligned:
+        raise BadArgument("out must be C-contiguous, aligned and writable; this array is not")
+    return out

@@ -1,0 +1,615 @@
+"""Diagrams and their measures by one call each, from arrays to arrays."""
+
+from __future__ import annotations
+
+import math
+import threading
+from typing import TYPE_CHECKING, Any, NamedTuple, Optional, Tuple
+
+import numpy as np
+
+from . import _vorocl
+from ._arguments import (
+    Bounds,
+    Periodic,
+    Shape,
+    check_outside,
+    output,
+    shape_of,
+    shown,
+    to_bounds,
+    to_count,
+    to_flag,
+    to_grid,
+    to_image,
+    to_labels,
+    to_number,
+    to_points,
+    to_text,
+)
+from ._device import Device, to_device
+from ._errors import BadArgument
+from ._objects import Diagram, Seeds
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
+
+NO_LABEL = 0xFFFFFFFF
+"""The label of a pixel that has no nearest seed, because there are no seeds."""
+
+_CONTINUING = {method.name for method in _vorocl.methods() if method.continues}
+
+
+class _Workspace(threading.local):
+    """What the last call of a thread worked in, for the next one that is like it."""
+
+    made_for: Optional[Tuple[Any, ...]] = None
+    seeds: Seeds
+    diagram: Diagram
+
+
+_workspace = _Workspace()
+
+
+def _filled(
+    points: ArrayLike,
+    shape: Shape,
+    method: str,
+    metric: str,
+    bounds: Optional[Bounds],
+    periodic: Periodic,
+    outside: str,
+    y_up: bool,
+    device: Optional[Device],
+) -> Tuple[Seeds, Diagram]:
+    """The seeds and their diagram, which are the thread's until its next call."""
+    check_outside(outside)
+    grid = to_grid(shape, periodic)
+    shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
+    corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
+    wanted = (shape, periodic, corners, upwards, to_device(device))
+    if _workspace.made_for != wanted:
+        _workspace.made_for = None
+        seeds = Seeds(array, shape, bounds=corners, periodic=periodic, y_up=upwards, device=device)
+        _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
+        _workspace.made_for = wanted
+    else:
+        _workspace.seeds._seeds.move_to(array)  # without asking how far
+    made = _workspace.diagram
+    if method in _CONTINUING:
+        made = Diagram(shape, periodic=periodic, device=device)  # or it would go on from the last call's labels
+    made.fill(_workspace.seeds, method, metric)
+    return _workspace.seeds, made
+
+
+def diagram(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    out: Optional[NDArray[np.uint32]] = None,
+    device: Optional[Device] = None,
+) -> NDArray[np.uint32]:
+    """Give every pixel the row of its nearest point.
+
+    Distances are between pixel centres, in integers: points are snapped to pixels, which limits their accuracy to
+    half a pixel, and "exact" labels are the same on every device. Of several points at the least distance the one
+    that comes first, row by row of the grid, wins; of points in one pixel the one with the lowest row of `points`.
+
+    Parameters
+    ----------
+    points : array_like
+        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
+        [i, i + 1). A row with a NaN is absent, and so is a row that is masked.
+    shape : (int, int)
+        The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
+    method : str, optional
+        "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa".
+    metric : {"euclidean", "manhattan"}, optional
+    bounds : (float, float, float, float), optional
+        (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
+        floor((x - x0) * W / (x1 - x0)), or in the last one for x1 itself; rows likewise. Where pixels are no squares in
+        these units, the nearest point in pixels need not be the nearest in the plane.
+    periodic : (bool, bool), optional
+        Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
+    outside : {"refuse"}, optional
+        What is done about points outside the grid or the bounds.
+    y_up : bool, optional
+        Whether y of the points goes up: rows of the labels are counted from the bottom then.
+    out : ndarray, optional
+        Where the labels go: uint32, shape (H, W), C-contiguous. Without it, a new array.
+    device : Device, optional
+        Without it, ``Device()``.
+
+    Returns
+    -------
+    ndarray
+        uint32, shape (H, W): rows of `points`, or ``NO_LABEL`` if there are no points.
+
+    Raises
+    ------
+    BadPoint
+        If a point is infinite or outside.
+    BadArgument, DeviceMemoryError, DeviceError
+
+    Notes
+    -----
+    A thread keeps the device memory of its last call, 5.4 bytes per pixel for "exact" and 13 for the others, until it
+    makes a call with another grid. `Diagram` keeps its own.
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.diagram([(0, 0), (7, 3)], (4, 8))
+    array([[0, 0, 0, 0, 0, 1, 1, 1],
+           [0, 0, 0, 0, 1, 1, 1, 1],
+           [0, 0, 0, 0, 1, 1, 1, 1],
+           [0, 0, 0, 1, 1, 1, 1, 1]], dtype=uint32)
+    >>> vorocl.diagram([(-180, 0), (0, 0)], (1, 8), bounds=(-180, -90, 180, 90), periodic=(True, False))
+    array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
+    """
+    labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
+    _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    return made.read(labels)
+
+
+def _of_mask(
+    mask: NDArray[Any], periodic: Periodic, device: Optional[Device], method: str, metric: str
+) -> Tuple[Diagram, _vorocl.Seeds]:
+    grid = to_grid(mask.shape, periodic)
+    made = Diagram(mask.shape, periodic=periodic, device=device)
+    pixels = np.ascontiguousarray(mask != 0).view(np.uint8)
+    seeds = _vorocl.Seeds.from_mask(made.device._device, grid, pixels)
+    made._diagram.fill(seeds, to_text(method, "method"), to_text(metric, "metric"), None)
+    return made, seeds
+
+
+def from_mask(
+    mask: ArrayLike,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    periodic: Periodic = (False, False),
+    out: Optional[NDArray[np.uint32]] = None,
+    device: Optional[Device] = None,
+) -> NDArray[np.uint32]:
+    """Give every pixel its nearest non-zero pixel of an image.
+
+    Parameters
+    ----------
+    mask : array_like
+        Shape (H, W), of numbers or booleans.
+    method, metric, periodic, out, device
+        As those of `diagram`.
+
+    Returns
+    -------
+    ndarray
+        uint32, shape (H, W): the number of the nearest non-zero pixel, counted from 0 row by row, as
+        ``numpy.flatnonzero(mask)`` lists them; ``NO_LABEL`` if there is none.
+
+    Raises
+    ------
+    BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.from_mask([[0, 0, 0, 1], [0, 0, 0, 0], [1, 0, 0, 0]])
+    array([[1, 0, 0, 0],
+           [1, 1, 0, 0],
+           [1, 1, 1, 0]], dtype=uint32)
+    """
+    image = to_image(mask, "mask")
+    if image.dtype.kind not in "biuf":
+        raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
+    labels = output(out, image.shape, np.uint32)
+    return _of_mask(image, periodic, device, method, metric)[0].read(labels)
+
+
+def expand_labels(
+    labels: ArrayLike, distance: Optional[float] = None, *, device: Optional[Device] = None
+) -> NDArray[Any]:
+    """Grow labelled regions into the background, as ``skimage.segmentation.expand_labels`` does, without overlaps.
+
+    Each pixel of the background takes the label of the nearest pixel that has one, by exact Euclidean distance
+    between pixel centres. Of several at the least distance the one that comes first, row by row of the image, wins;
+    scikit-image leaves it open which one does.
+
+    Parameters
+    ----------
+    labels : array_like
+        Shape (H, W), integers; 0 is the background.
+    distance : float, optional
+        How far regions grow, in pixels: as far as this and no farther. Without it, until no background is left.
+    device : Device, optional
+        Without it, ``Device()``.
+
+    Returns
+    -------
+    ndarray
+        The shape and dtype of `labels`. All 0 if there is no label.
+
+    Raises
+    ------
+    BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.expand_labels([[7, 0, 0, 0, 0, 9]], distance=1)
+    array([[7, 7, 0, 0, 9, 9]])
+    >>> vorocl.expand_labels([[7, 0, 0, 0, 0, 9]])
+    array([[7, 7, 7, 9, 9, 9]])
+    """
+    image = to_image(labels, "labels")
+    if image.dtype.kind not in "biu":
+        raise BadArgument(f"labels must be integers; this array has the dtype {image.dtype}")
+    farthest = math.inf if distance is None else to_number(distance, "distance")
+    if not farthest >= 0:
+        raise BadArgument(f"distance must be at least 0; this is {shown(distance)}")
+    made, seeds = _of_mask(image, (False, False), device, "exact", "euclidean")
+    known = image[image != 0]
+    if len(known) == 0:
+        return np.zeros_like(image)
+    expanded: NDArray[Any] = known[made.read()]
+    if farthest < math.hypot(*image.shape):
+        squared = np.empty(image.shape, np.int32)
+        made._diagram.squared_distances(seeds, squared)
+        most = int(farthest**2) + 1
+        while math.sqrt(most) > farthest:  # the greatest square of a distance that is near enough
+            most -= 1
+        expanded[squared > most] = 0
+    return expanded
+
+
+def distances(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    out: Optional[NDArray[np.float32]] = None,
+    device: Optional[Device] = None,
+) -> NDArray[np.float32]:
+    """Give every pixel the distance to its nearest point.
+
+    Parameters
+    ----------
+    points, shape, method, metric, bounds, periodic, outside, y_up, device
+        As those of `diagram`.
+    out : ndarray, optional
+        Where the distances go: float32, shape (H, W), C-contiguous. Without it, a new array.
+
+    Returns
+    -------
+    ndarray
+        float32, shape (H, W): pixels, between pixel centres, within 3 units in the last place; infinite without points.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.distances([(0, 0)], (2, 4), metric="manhattan")
+    array([[0., 1., 2., 3.],
+           [1., 2., 3., 4.]], dtype=float32)
+    """
+    values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
+    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    return made.distances(seeds, metric, values)
+
+
+def cells(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    device: Optional[Device] = None,
+) -> NDArray[Any]:
+    """Measure the cell of every point.
+
+    Parameters
+    ----------
+    points, shape, method, metric, bounds, periodic, outside, y_up, device
+        As those of `diagram`.
+
+    Returns
+    -------
+    ndarray
+        A structured array with one row per point, in pixels of the grid whatever the bounds; ``pandas.DataFrame(...)``
+        makes a table of it. Along a periodic axis, pixels count where they lie the shorter way round from the point,
+        which may be outside the grid. The fields are
+
+        ``x``, ``y``
+            The centre of the point's pixel, y down; NaN if the point is absent.
+        ``area``
+            Pixels; 0 if the point is absent or not the first in its pixel. Areas sum to H * W.
+        ``centroid_x``, ``centroid_y``
+            The mean of the centres of the pixels; NaN of an empty cell.
+        ``left``, ``top``, ``right``, ``bottom``
+            The first and last columns and rows; right < left and bottom < top in an empty cell.
+        ``perimeter``
+            Pixel edges that the cell shares with other cells: the grid's edge is no border.
+        ``neighbours``
+            Cells that it shares an edge with.
+        ``largest_distance``
+            Of its pixels to the point, in `metric`; NaN of an empty cell.
+        ``touches_border``
+            Whether it has a pixel next to a border of the grid; a periodic axis has none.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> cells = vorocl.cells([(0, 0), (7, 3)], (4, 8))
+    >>> cells["area"]
+    array([16, 16], dtype=uint32)
+    >>> cells[["left", "top", "right", "bottom"]][1].tolist()
+    (3, 0, 7, 3)
+    """
+    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    return made.cells(seeds, metric)
+
+
+def adjacency(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    device: Optional[Device] = None,
+) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    """Find the cells that touch, and how long their borders are.
+
+    In an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch along
+    less than a few pixels.
+
+    Parameters
+    ----------
+    points, shape, method, metric, bounds, periodic, outside, y_up, device
+        As those of `diagram`.
+
+    Returns
+    -------
+    pairs : ndarray
+        uint32, shape (M, 2): rows (a, b) with a < b, each pair once, sorted.
+    lengths : ndarray
+        uint32, shape (M,): the pixel edges that the cells share.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> pairs, lengths = vorocl.adjacency([(0, 0), (4, 0), (8, 0)], (2, 9))
+    >>> pairs.tolist(), lengths.tolist()
+    ([[0, 1], [1, 2]], [2, 2])
+    """
+    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    return made.adjacency(seeds)
+
+
+def vertices(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    method: str = "exact",
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    device: Optional[Device] = None,
+) -> NDArray[np.float64]:
+    """Find the vertices: the pixel corners where three or more cells meet.
+
+    Found on the host, from the labels: some 20 ns per pixel. `Diagram.count_vertices` counts them on the device.
+
+    Parameters
+    ----------
+    points, shape, method, metric, bounds, periodic, outside, y_up, device
+        As those of `diagram`.
+
+    Returns
+    -------
+    ndarray
+        float64, shape (M, 2), rows (x, y) in pixels, y down, sorted by y and then x. Corners on the grid's edge do not
+        count; along a periodic axis there is none, and the corners between the last pixels and the first are at W or H.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.vertices([(0, 0), (3, 0), (1, 3)], (4, 4)).tolist()
+    [[2.0, 2.0]]
+    """
+    _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
+    # The next column and row of every corner's pixel: past the last ones there are the first, or no corner.
+    grid = to_grid(shape, periodic)
+    labels = np.pad(made.read(), ((0, int(grid.periodic_y)), (0, int(grid.periodic_x))), mode="wrap")
+    a, b, c, d = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
+    cells_there = (
+        (a != NO_LABEL).astype(np.int8)
+        + ((b != NO_LABEL) & (b != a))
+        + ((c != NO_LABEL) & (c != a) & (c != b))
+        + ((d != NO_LABEL) & (d != a) & (d != b) & (d != c))
+    )
+    rows, columns = np.nonzero(cells_there >= 3)
+    return np.column_stack([columns + 1, rows + 1]).astype(np.float64)
+
+
+class Relaxation(NamedTuple):
+    """What `relax` did."""
+
+    points: NDArray[np.float64]
+    """(N, 2): the points at the end, in the units that they were given in; NaN for absent ones."""
+    energies: NDArray[np.uint64]
+    """At the start and after each round: the sum of the squared distances of all pixels to their points."""
+    moved: NDArray[np.int64]
+    """The points that each round moved: one entry less than the energies."""
+    converged: bool
+    """Whether no point would move any more."""
+
+
+def relax(
+    points: ArrayLike,
+    shape: Shape,
+    *,
+    rounds: int = 100,
+    method: str = "exact",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    device: Optional[Device] = None,
+) -> Relaxation:
+    """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
+
+    A round moves every point to the pixel that is nearest to its cell's centroid. Ctrl-C ends it after a round.
+
+    Parameters
+    ----------
+    points, shape, method, bounds, periodic, outside, y_up, device
+        As those of `diagram`. Distances are Euclidean.
+    rounds : int, optional
+        How many at most. It ends before if no point moves any more.
+
+    Returns
+    -------
+    Relaxation
+        With `points`, the centres of their pixels in the units that they were given in, `energies`, `moved` and
+        `converged`.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> relaxed = vorocl.relax([(0, 0), (1, 0)], (4, 8))
+    >>> relaxed.points.tolist(), relaxed.converged
+    ([[1.5, 1.5], [5.5, 1.5]], True)
+    """
+    check_outside(outside)
+    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, y_up=y_up, device=device)
+    made = Diagram(shape, periodic=periodic, device=device)
+    done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
+    height, width = made.shape
+    places = seeds.read()
+    if y_up:
+        places[:, 1] = height - places[:, 1]
+    if bounds is not None:
+        x0, y0, x1, y1 = (float(corner) for corner in bounds)
+        places = (x0, y0) + places * ((x1 - x0) / width, (y1 - y0) / height)
+    return Relaxation(
+        places, np.array(done.energies, np.uint64), np.array(done.moved, np.int64), done.converged
+    )
+
+
+def similarity(a: ArrayLike, b: ArrayLike) -> float:
+    """Return 100 * pixels with equal labels / all pixels, of two images of labels.
+
+    Parameters
+    ----------
+    a, b : array_like
+        Integers, both of one shape (H, W).
+
+    Returns
+    -------
+    float
+        Percent.
+
+    Raises
+    ------
+    BadArgument
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> vorocl.similarity([[0, 1], [1, 1]], [[0, 0], [1, 1]])
+    75.0
+    """
+    first, second = to_labels(a, "a"), to_labels(b, "b")
+    if first.shape != second.shape:
+        raise BadArgument(f"labels of the shapes {first.shape} and {second.shape} cannot be compared")
+    return 100 * int(np.count_nonzero(first == second)) / first.size
+
+
+def errors(
+    labels: ArrayLike,
+    points: ArrayLike,
+    *,
+    metric: str = "euclidean",
+    bounds: Optional[Bounds] = None,
+    periodic: Periodic = (False, False),
+    outside: str = "refuse",
+    y_up: bool = False,
+    device: Optional[Device] = None,
+) -> _vorocl.DistanceErrors:
+    """Judge labels by the exact diagram of the points: how many are wrong, and by how many pixels.
+
+    A pixel that is as near to the point of its label as to that of the exact one is right: a tie may be given to any
+    point.
+
+    Parameters
+    ----------
+    labels : array_like
+        Integers, shape (H, W): rows of `points`.
+    points, metric, bounds, periodic, outside, y_up, device
+        As those of `diagram`.
+
+    Returns
+    -------
+    DistanceErrors
+        With `pixels`, `wrong_pixels`, `wrong_percent`, `unlabelled_pixels` (those of the wrong ones whose label is no
+        point's), `largest_excess` and `mean_excess`: how much farther the point of a pixel's label is than its nearest
+        point, in pixels, the mean over all pixels.
+
+    Raises
+    ------
+    BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> wrong = vorocl.errors([[0, 0, 0, 1]], [(0, 0), (3, 0)])
+    >>> wrong.wrong_pixels, wrong.largest_excess
+    (1, 1.0)
+    """
+    check_outside(outside)
+    image = to_labels(labels)
+    shape = image.shape
+    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, y_up=y_up, device=device)
+    judged = Diagram(shape, periodic=periodic, device=device)
+    judged.write(image)
+    return judged.errors(seeds, metric)
