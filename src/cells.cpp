@@ -25,7 +25,7 @@ struct CellShapesState : Measured {
   cl::Buffer boxes, distances;
   cl::Buffer upper_words, lower_words;  // of distances that may not fit in 32 bits: see plane_shapes.cl
 
-  bool far() const { return !empty() && frames.seeds->outer && frames.seeds->outer->reach == Reach::far; }
+  bool far() const { return !empty() && frames.seeds->outer && frames.seeds->outer->extent == Extent::far; }
 };
 
 CellSumsResult::CellSumsResult() = default;
@@ -118,8 +118,8 @@ cl::Event add_plane_shapes(const MeasuredFrames& measured, const Diagram& diagra
   const OuterSeeds& outer = *measured.seeds->outer;
   const auto count = static_cast<cl_uint>(measured.seeds->size);
   const Blocks blocks(device, grid);
-  const KernelOptions options = {metric, Neighbourhood::moore, outer.reach};
-  const bool far = outer.reach == Reach::far;
+  const KernelOptions options = {metric, Neighbourhood::moore, outer.extent};
+  const bool far = outer.extent == Extent::far;
   if (far) {
     for (cl::Buffer* const words : {&shapes.upper_words, &shapes.lower_words}) {
       make_room(*words, device, count * sizeof(cl_int));

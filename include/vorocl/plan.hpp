@@ -69,8 +69,8 @@ enum class Reach {
 
 /// What a diagram's labels say of a new frame of seeds.
 struct LabelDistances {
-  /// The greatest distance of a measured pixel from its label's seed, where that is now, in pixels; infinite if
-  /// one has no label whose seed is there. No measured pixel is farther from its nearest seed.
+  /// The greatest distance of a measured pixel from its label's seed, where that is now, in pixels; infinite
+  /// if one has no label whose seed is there. No measured pixel is farther from its nearest seed.
   double greatest = std::numeric_limits<double>::infinity();
 
   /// The share of pixels that were far from their seed when the labels were made: farther than L, or in the
