@@ -87,11 +87,11 @@ LabelDistances Flood::label_distances(int enough) {
   const std::size_t rows = measured_rows(grid);
   LabelDistances distances;
   distances.margin = row_interval;
-  if (previous()->far_counted) {
-    const auto far_pixels = download<std::uint32_t>(diagram_.device, memory_.far_pixels, rows);
-    distances.far = std::accumulate(far_pixels.begin(), far_pixels.end(), 0.0) /
-                    static_cast<double>(rows * static_cast<std::size_t>(grid.width()));
-  }
+  // Of labels that no flood made, those of now have to do.
+  if (!previous()->far_counted) count_far_pixels();
+  const auto far_pixels = download<std::uint32_t>(diagram_.device, memory_.far_pixels, rows);
+  distances.far = std::accumulate(far_pixels.begin(), far_pixels.end(), 0.0) /
+                  static_cast<double>(rows * static_cast<std::size_t>(grid.width()));
   measure_labels(as_distance(enough, metric_));
   const auto greatest = download<std::uint32_t>(diagram_.device, memory_.greatest, rows);
   const std::uint32_t most = *std::max_element(greatest.begin(), greatest.end());

@@ -148,11 +148,12 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
 BOOST_AUTO_TEST_CASE(a_diagram_whose_wait_fails_counts_as_never_filled) {
   const Seeds seeds = Seeds::random(test_device(), grid, 40, 1);
   const auto waves = static_cast<int>(jump_flooding_plan(grid).size());
+  const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper};
   std::optional<Diagram> diagram;
   bool waited = false;
   const auto start = [&] {
     diagram.emplace(test_device(), grid);
-    dynamic_jump_flooding(seeds, *diagram, 0);
+    dynamic_jump_flooding(seeds, *diagram, 0, paper);
     test_device().finish();
     waited = false;
   };
@@ -161,7 +162,7 @@ BOOST_AUTO_TEST_CASE(a_diagram_whose_wait_fails_counts_as_never_filled) {
     waited = true;
   };
   const auto judge = [&] {
-    BOOST_TEST((dynamic_jump_flooding(seeds, *diagram, 0).waves() == waves) == !waited);
+    BOOST_TEST((dynamic_jump_flooding(seeds, *diagram, 0, paper).waves() == waves) == !waited);
   };
   BOOST_TEST(fail_each_call(start, read, judge) >= 3);
 }
