@@ -23,6 +23,9 @@ struct CellSumsState : Measured {
 
 struct CellShapesState : Measured {
   cl::Buffer boxes, distances;
+  cl::Buffer upper_words, lower_words;  // of distances that may not fit in 32 bits: see plane_shapes.cl
+
+  bool far() const { return !empty() && frames.seeds->outer && frames.seeds->outer->reach == Reach::far; }
 };
 
 CellSumsResult::CellSumsResult() = default;
@@ -41,7 +44,8 @@ CellShapesResult& CellShapesResult::operator=(CellShapesResult&& other) noexcept
 std::size_t CellShapesResult::size() const { return state_ ? state_->size() : 0; }
 const cl::Buffer& CellShapesResult::boxes() const { return buffer_of(state_, &CellShapesState::boxes); }
 const cl::Buffer& CellShapesResult::largest_distances() const {
-  return buffer_of(state_, &CellShapesState::distances);
+  static const cl::Buffer none;
+  return state_ && state_->far() ? none : buffer_of(state_, &CellShapesState::distances);
 }
 
 Point CellSums::centroid() const {
@@ -104,34 +108,92 @@ std::vector<CellSums> CellSumsResult::read() const {
   return cells;
 }
 
+namespace {
+
+/// Where there are outer seeds.
+cl::Event add_plane_shapes(const MeasuredFrames& measured, const Diagram& diagram, CellShapesState& shapes,
+                           Metric metric) {
+  const Device& device = diagram.device();
+  const Grid& grid = diagram.grid();
+  const OuterSeeds& outer = *measured.seeds->outer;
+  const auto count = static_cast<cl_uint>(measured.seeds->size);
+  const Blocks blocks(device, grid);
+  const KernelOptions options = {metric, Neighbourhood::moore, outer.reach};
+  const bool far = outer.reach == Reach::far;
+  if (far) {
+    for (cl::Buffer* const words : {&shapes.upper_words, &shapes.lower_words}) {
+      make_room(*words, device, count * sizeof(cl_int));
+    }
+    if (count > 0) {
+      fill(device, shapes.upper_words, cl_int{-1}, count);
+      fill(device, shapes.lower_words, cl_uint{0}, count);
+    }
+  }
+  const cl::Event added =
+      blocks.run(shapes.kernels, "plane_shapes.cl", "add_plane_shapes", options, diagram.labels(),
+                 outer.seeds, count, outer.periods, grid.width(), grid.height(), blocks.wide(), blocks.high(),
+                 shapes.boxes, far ? shapes.upper_words : shapes.distances);
+  if (!far) return added;
+  return blocks.run(shapes.kernels, "plane_shapes.cl", "add_lower_words", options, diagram.labels(),
+                    outer.seeds, count, outer.periods, grid.width(), grid.height(), blocks.wide(),
+                    blocks.high(), shapes.upper_words, shapes.lower_words);
+}
+
+cl::Event add_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesState& shapes, Metric metric) {
+  const Grid& grid = diagram.grid();
+  const Blocks blocks(diagram.device(), grid);
+  return blocks.run(shapes.kernels, "shapes.cl", "add_shapes", {metric}, diagram.labels(), seeds.positions(),
+                    static_cast<cl_uint>(seeds.size()), grid.width(), grid.height(), blocks.wide(),
+                    blocks.high(), shapes.boxes, shapes.distances);
+}
+
+}  // namespace
+
 Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result, Metric metric) {
   const Stopwatch stopwatch;
   CellShapesState& shapes = Internal::result(result);
   shapes.frames = {};
   auto measured = frames_of(seeds, diagram);
   const Device& device = diagram.device();
-  const Grid& grid = diagram.grid();
   const auto count = static_cast<cl_uint>(seeds.size());
   make_room(shapes.boxes, device, count * sizeof(cl_int4));
   make_room(shapes.distances, device, count * sizeof(cl_int));
 
-  const Blocks blocks(device, grid);
-  const cl::Event first = shapes.kernels.get(device, "shapes.cl", "clear_shapes", grid, {metric})
+  const cl::Event first = shapes.kernels.get(device, "shapes.cl", "clear_shapes", diagram.grid(), {metric})
                               .over_items(count, count, shapes.boxes, shapes.distances);
-  const cl::Event last = blocks.run(shapes.kernels, "shapes.cl", "add_shapes", {metric}, diagram.labels(),
-                                    seeds.positions(), count, grid.width(), grid.height(), blocks.wide(),
-                                    blocks.high(), shapes.boxes, shapes.distances);
+  const cl::Event last = measured.seeds->outer ? add_plane_shapes(measured, diagram, shapes, metric)
+                                               : add_shapes(seeds, diagram, shapes, metric);
   Report report = report_of(stopwatch, device, count > 0 ? first : last, last);
   shapes.frames = std::move(measured);
   return report;
 }
+
+namespace {
+
+std::vector<std::int64_t> largest_distances_on_host(const CellShapesState& shapes) {
+  const Device& device = shapes.frames.seeds->device;
+  if (!shapes.far()) {
+    const auto distances = download<cl_int>(device, shapes.distances, shapes.size());
+    return {distances.begin(), distances.end()};
+  }
+  const auto upper = download<cl_int>(device, shapes.upper_words, shapes.size());
+  const auto lower = download<cl_uint>(device, shapes.lower_words, shapes.size());
+  std::vector<std::int64_t> distances;
+  distances.reserve(upper.size());
+  for (std::size_t id = 0; id < upper.size(); ++id) {
+    distances.push_back(upper[id] < 0 ? -1 : std::int64_t{upper[id]} << 32 | lower[id]);
+  }
+  return distances;
+}
+
+}  // namespace
 
 std::vector<CellShape> CellShapesResult::read() const {
   if (size() == 0) return {};
   const SeedsFrame& seeds = *state_->frames.seeds;
   state_->frames.check();
   const auto boxes = download<cl_int4>(seeds.device, state_->boxes, size());
-  const auto distances = download<cl_int>(seeds.device, state_->distances, size());
+  const auto distances = largest_distances_on_host(*state_);
   std::vector<CellShape> cells;
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) {

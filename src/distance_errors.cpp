@@ -20,9 +20,12 @@ DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const
   const std::size_t items = (grid.pixels() + pixels_per_item - 1) / pixels_per_item;
   const cl::Buffer wrong = allocate(device, items * sizeof(cl_uint2), "the errors");
   const cl::Buffer excesses = allocate(device, items * sizeof(cl_float2), "the errors");
-  Kernel(device, "distance_errors.cl", "judge_labels", grid, {metric})
-      .over_items(items, diagram.labels(), exact.labels(), seeds.positions(),
-                  static_cast<cl_uint>(seeds.size()), grid.width(), grid.height(),
+  const OuterSeeds* const outer = measured.seeds->outer.get();
+  Kernel(device, "distance_errors.cl", "judge_labels", grid,
+         {metric, Neighbourhood::moore, outer != nullptr ? outer->reach : Reach::grid})
+      .over_items(items, diagram.labels(), exact.labels(),
+                  outer != nullptr ? outer->seeds : seeds.positions(), static_cast<cl_uint>(seeds.size()),
+                  outer != nullptr ? outer->periods : cl_uint2{}, grid.width(), grid.height(),
                   static_cast<cl_uint>(pixels_per_item), wrong, excesses);
   diagram.wait();
   exact.wait();

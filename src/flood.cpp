@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "buffer.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
@@ -12,6 +13,7 @@ Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric)
       filling_(seeds, diagram),
       metric_(metric),
       memory_(diagram_.workspace<FloodWorkspace>()) {
+  Internal::state(seeds).frame()->refuse_outer_seeds("flooding");
   const std::size_t pixels = diagram_.grid.pixels() + 2 * guard;
   diagram_.reserve(memory_.front, pixels * sizeof(std::uint32_t));
   diagram_.reserve(memory_.back, pixels * sizeof(std::uint32_t));

@@ -19,14 +19,19 @@ namespace vorocl {
 /// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
 constexpr std::size_t guard = 16;
 
+/// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64
+/// (kernels/plane.cl).
+enum class Reach { grid, near, far };
+
 /// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
 /// axes. Kernels that read no distance or no neighbours are the same for all.
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
+  Reach reach = Reach::grid;
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
-    return a.metric == b.metric && a.neighbourhood == b.neighbourhood;
+    return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.reach == b.reach;
   }
 };
 
@@ -38,6 +43,9 @@ class Kernel {
   /// than that. The texts must outlive the kernel.
   Kernel(const Device& device, const char* file, const char* name, const Grid& grid,
          const KernelOptions& options = {});
+
+  /// The pixels of a vector.
+  std::size_t vector_width() const { return static_cast<std::size_t>(vector_width_); }
 
   /// Work-groups of this many items for over_items(), however few the items are. (PoCL
   /// compiles a kernel again for each size.)

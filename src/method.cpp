@@ -65,20 +65,20 @@ Plan plan_dynamic_jump_flooding(const Grid& grid, int, const MethodOptions& opti
 
 template <JumpFloodingVariant variant>
 Method of_jump_flooding(const char* name) {
-  return {name, false, false, run_jump_flooding<variant>, plan_jump_flooding<variant>};
+  return {name, false, false, false, run_jump_flooding<variant>, plan_jump_flooding<variant>};
 }
 
 }  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
-      {"standard-flooding", false, false, run_standard_flooding, plan_standard_flooding},
+      {"standard-flooding", false, false, false, run_standard_flooding, plan_standard_flooding},
       of_jump_flooding<JumpFloodingVariant::jfa>("jfa"),
       of_jump_flooding<JumpFloodingVariant::jfa_plus_1>("jfa+1"),
       of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
       of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
-      {"djfa", false, true, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
-      {"exact", true, false, run_exact, nullptr},
+      {"djfa", false, true, false, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
+      {"exact", true, false, true, run_exact, nullptr},
   };
   return all;
 }

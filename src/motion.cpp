@@ -13,6 +13,7 @@ void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_
                 " pixels is not possible; it must be from 0 to " + std::to_string(Grid::max_side));
   }
   SeedsState& state = Internal::state(seeds);
+  state.frame()->refuse_outer_seeds("random motion");
   const Grid& grid = state.grid;
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
   const bool periodic = border == Border::periodic;

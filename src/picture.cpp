@@ -127,6 +127,15 @@ cv::Mat disk(int diameter) {
   return result;
 }
 
+/// Edges made this wide; along periodic axes they go on at the other side.
+cv::Mat widened(const cv::Mat& edges, int width, Periodic axes) {
+  const int x = has_x(axes) ? width : 0, y = has_y(axes) ? width : 0;
+  cv::Mat padded;
+  cv::copyMakeBorder(edges, padded, y, y, x, x, cv::BORDER_WRAP);
+  cv::dilate(padded, padded, disk(width));
+  return padded(cv::Rect({x, y}, edges.size()));
+}
+
 /// The colour of a thin line on this one.
 cv::Vec3b line_on(const cv::Vec3b& color) {
   const bool is_bright = 0.114 * color[0] + 0.587 * color[1] + 0.299 * color[2] > 110;
@@ -188,9 +197,8 @@ void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int 
     throw Error("edges cannot be " + std::to_string(width) + " pixels wide; they are 1 to " +
                 std::to_string(widest_edge));
   }
-  cv::Mat edges = thin_edges(labels, picture.size(), axes);
-  if (width > 1) cv::dilate(edges, edges, disk(width));
-  picture.setTo(dark, edges);
+  const cv::Mat edges = thin_edges(labels, picture.size(), axes);
+  picture.setTo(dark, width > 1 ? widened(edges, width, axes) : edges);
 }
 
 void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval, Periodic axes) {

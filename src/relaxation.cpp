@@ -43,6 +43,7 @@ Motion move_to_centroids(Seeds& seeds, Rounds& rounds) {
 
 std::uint64_t energy_of(const Seeds& seeds, const Diagram& diagram, Rounds& rounds) {
   const auto measured = frames_of(seeds, diagram);
+  measured.seeds->refuse_outer_seeds("the energy of Lloyd relaxation");
   const Device& device = diagram.device();
   const Grid& grid = diagram.grid();
   const Blocks blocks(device, grid);
@@ -67,6 +68,7 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
                  const RelaxationObserver& observer) {
   if (rounds < 0) throw Error("a relaxation of " + std::to_string(rounds) + " rounds; 0 is the least");
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
+  Internal::state(seeds).frame()->refuse_outer_seeds("Lloyd relaxation");
   Rounds state;
   Relaxation relaxation;
   double max_displacement = diagram.grid().longest_side();  // since whatever the diagram holds

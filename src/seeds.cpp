@@ -1,7 +1,9 @@
 #include "vorocl/seeds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -14,24 +16,69 @@ namespace {
 
 constexpr std::size_t most_seeds = Grid::max_pixels;  // ids are uint32, and work-item ids must not wrap
 
-std::uint32_t snap(const Grid& grid, std::size_t index, const Point& point) {
-  // Written so that a NaN fails.
-  if (!(point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height())) {
-    throw BadPoint(index, point, grid);
-  }
-  return pack(static_cast<int>(point.x), static_cast<int>(point.y));
+/// A coordinate in its period, which begins at `first`; any one if there is no period.
+std::int64_t wrapped(std::int64_t at, std::int64_t first, std::int64_t period) {
+  if (period == 0) return at;
+  const std::int64_t rest = (at - first) % period;
+  return first + (rest < 0 ? rest + period : rest);
 }
 
-std::uint32_t snap(const Grid& grid, std::size_t index, const std::optional<Point>& point) {
-  return point ? snap(grid, index, *point) : absent_position;
-}
+/// Snaps the caller's points to pixels.
+class Snapping {
+ public:
+  /// Throws Error if the domain is not possible.
+  Snapping(const Grid& grid, const std::optional<Domain>& domain) : grid_(grid) {
+    if (!domain) return;
+    check_domain(grid, *domain);
+    first_ = {domain->x, domain->y};
+    if (has_x(domain->periodic)) periods_[0] = domain->width;
+    if (has_y(domain->periodic)) periods_[1] = domain->height;
+  }
+
+  PlanePosition operator()(std::size_t id, const Point& point) const {
+    const PlanePosition at = {
+        {along(id, point, point.x, grid_.width(), 0), along(id, point, point.y, grid_.height(), 1)}};
+    if (grid_.periodic() != Periodic::none && !is_inside(grid_, at)) throw BadPoint(id, point, grid_);
+    return at;
+  }
+
+  PlanePosition operator()(std::size_t id, const std::optional<Point>& point) const {
+    return point ? (*this)(id, *point) : PlanePosition{{absent_coordinate, 0}};
+  }
+
+  bool is_periodic() const { return periods_[0] != 0 || periods_[1] != 0; }
+
+ private:
+  cl_int along(std::size_t id, const Point& point, double coordinate, int pixels, std::size_t axis) const {
+    constexpr double plane_side = 2147483648.0;  // 2^31
+    // Written so that a NaN fails.
+    if (!(coordinate >= pixels - plane_side && coordinate < plane_side)) throw BadPoint(id, point);
+    const auto at = static_cast<std::int64_t>(std::floor(coordinate));
+    return static_cast<cl_int>(wrapped(at, first_[axis], periods_[axis]));
+  }
+
+  Grid grid_;
+  std::array<std::int64_t, 2> first_{}, periods_{};  // of the domain, along x and y
+};
 
 template <typename MaybePoint>
-std::vector<std::uint32_t> snap_all(const Grid& grid, const std::vector<MaybePoint>& points) {
-  std::vector<std::uint32_t> positions;
-  positions.reserve(points.size() + 1);  // one more is added when they are uploaded
-  for (const MaybePoint& point : points) positions.push_back(snap(grid, positions.size(), point));
-  return positions;
+Placement snap_all(const Grid& grid, const std::vector<MaybePoint>& points,
+                   const std::optional<Domain>& domain = std::nullopt) {
+  const Snapping snap(grid, domain);
+  Placement placement;
+  placement.packed.reserve(points.size() + 1);  // one more is added when they are uploaded
+  bool all_inside = true;
+  for (const MaybePoint& point : points) {
+    const PlanePosition at = snap(placement.packed.size(), point);
+    const bool inside = is_inside(grid, at);
+    placement.packed.push_back(inside ? pack(at.s[0], at.s[1]) : absent_position);
+    all_inside = all_inside && (inside || is_absent(at));
+  }
+  if (all_inside && !snap.is_periodic()) return placement;
+  placement.in_the_plane.reserve(points.size() + 1);  // likewise
+  for (const MaybePoint& point : points)
+    placement.in_the_plane.push_back(snap(placement.in_the_plane.size(), point));
+  return placement;
 }
 
 void check_count(std::size_t count) {
@@ -83,18 +130,19 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
   frame_ = std::move(frame);
 }
 
-void SeedsState::place(std::vector<std::uint32_t> packed) {
-  const auto absent = static_cast<std::size_t>(std::count(packed.begin(), packed.end(), absent_position));
+void SeedsState::place(Placement placement, const std::optional<Domain>& domain) {
+  auto& [packed, in_the_plane] = placement;
   std::vector<bool> there(packed.size(), true);
   bool vanished = there.size() < present.size();
-  if (absent > 0) {
+  if (!in_the_plane.empty() || std::find(packed.begin(), packed.end(), absent_position) != packed.end()) {
     for (std::size_t id = 0; id < there.size(); ++id) {
-      there[id] = packed[id] != absent_position;
+      there[id] = in_the_plane.empty() ? packed[id] != absent_position : !is_absent(in_the_plane[id]);
       vanished = vanished || (id < present.size() && present[id] && !there[id]);
     }
   }
   SeedsFrame next = next_frame(there.size(), vanished);
-  next.absent = absent;
+  next.absent = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));
+  next.outer = gather_outer_seeds(device, grid, domain, std::move(in_the_plane));
   auto made = std::make_shared<const SeedsFrame>(next);
   packed.push_back(absent_position);
   upload(device, next_positions(there.size()), packed);
@@ -170,6 +218,17 @@ Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<std::opti
   state_->place(snap_all(grid, points));
 }
 
+Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points, const Domain& domain)
+    : state_(std::make_unique<SeedsState>(device, grid)) {
+  state_->place(snap_all(grid, points, domain), domain);
+}
+
+Seeds::Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points,
+             const Domain& domain)
+    : state_(std::make_unique<SeedsState>(device, grid)) {
+  state_->place(snap_all(grid, points, domain), domain);
+}
+
 Seeds::Seeds(const Device& device, const Grid& grid, const cl::Buffer& points, std::size_t count,
              const cl::Buffer& present)
     : state_(std::make_unique<SeedsState>(device, grid)) {
@@ -189,7 +248,7 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
     }
   }
   auto state = std::make_unique<SeedsState>(device, grid);
-  state->place(std::move(positions));
+  state->place({std::move(positions), {}});
   return Seeds(std::move(state));
 }
 
@@ -216,6 +275,14 @@ void Seeds::move_to(const std::vector<std::optional<Point>>& points) {
   state().place(snap_all(grid(), points));
 }
 
+void Seeds::move_to(const std::vector<Point>& points, const Domain& domain) {
+  state().place(snap_all(grid(), points, domain), domain);
+}
+
+void Seeds::move_to(const std::vector<std::optional<Point>>& points, const Domain& domain) {
+  state().place(snap_all(grid(), points, domain), domain);
+}
+
 void Seeds::move_to(const cl::Buffer& points, std::size_t count, const cl::Buffer& present) {
   state().place(points, count, present);
 }
@@ -224,6 +291,12 @@ const Device& Seeds::device() const { return state().device; }
 const Grid& Seeds::grid() const { return state().grid; }
 std::size_t Seeds::size() const { return state().size(); }
 std::size_t Seeds::alive() const { return state().frame()->alive(); }
+
+std::size_t Seeds::outside() const {
+  const std::shared_ptr<const OuterSeeds>& outer = state().frame()->outer;
+  return outer ? outer->outside : 0;
+}
+
 const cl::Buffer& Seeds::positions() const { return state().positions; }
 void Seeds::check() const { state().frame()->check(); }
 
@@ -231,6 +304,12 @@ std::vector<std::optional<Point>> Seeds::read() const {
   check();
   std::vector<std::optional<Point>> points;
   points.reserve(size());
+  if (const auto& outer = state().frame()->outer) {
+    for (const PlanePosition& at : download<PlanePosition>(device(), outer->seeds, size())) {
+      points.push_back(is_absent(at) ? std::nullopt : std::optional<Point>({at.s[0] + 0.5, at.s[1] + 0.5}));
+    }
+    return points;
+  }
   for (const std::uint32_t position : download<std::uint32_t>(device(), positions(), size())) {
     points.push_back(position == absent_position
                          ? std::nullopt

@@ -1,6 +1,7 @@
 #include "seeds_frame.hpp"
 
 #include <cstring>
+#include <string>
 
 #include "buffer.hpp"
 
@@ -52,6 +53,14 @@ std::size_t SeedsFrame::alive() const { return size - absent - (marked ? points-
 
 void SeedsFrame::check() const {
   if (points && points->bad_point()) throw BadPoint(*points->bad_point());
+}
+
+void SeedsFrame::refuse_outer_seeds(const char* what) const {
+  if (!outer) return;
+  const std::string lie = outer->outside == 0 ? "the seeds have a periodic domain"
+                                              : std::to_string(outer->outside) + " of " +
+                                                    std::to_string(size) + " seeds lie outside the grid";
+  throw Error(lie + ", which " + what + " cannot take; only exact diagrams do");
 }
 
 }  // namespace vorocl

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 
+#include "outer_seeds.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/grid.hpp"
@@ -55,12 +56,16 @@ struct SeedsFrame {
   std::uint64_t vanishings = 0;  // how often, up to this frame, a seed may have gone that was there before
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
   bool marked = false;                                 // a buffer said which seeds are present
+  std::shared_ptr<const OuterSeeds> outer = nullptr;   // none: all seeds lie in the pixels
 
   /// The seeds that are there. Waits for the device if they are marked. A bad point is not absent.
   std::size_t alive() const;
 
   /// Throws BadPoint if there was one. May wait for the device.
   void check() const;
+
+  /// Throws Error if there are outer seeds, for something ("jump flooding") that does not know them.
+  void refuse_outer_seeds(const char* what) const;
 };
 
 }  // namespace vorocl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "internal.hpp"
@@ -10,13 +11,20 @@
 
 namespace vorocl {
 
-/// The position of a seed that is absent: EMPTY of position.cl.
+/// The position of a seed that is absent, or outside the grid: EMPTY of position.cl.
 constexpr std::uint32_t absent_position = 0x80008000u;
 
 /// The position of a seed in a pixel.
 inline std::uint32_t pack(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
 }
+
+/// Where the host has placed seeds.
+struct Placement {
+  std::vector<std::uint32_t> packed;  // by id; absent_position if absent or outside the grid
+  std::vector<PlanePosition>
+      in_the_plane;  // by id; none if all seeds lie in the pixels of a plane that has no period
+};
 
 struct SeedsState {
   SeedsState(const Device& device, const Grid& grid);
@@ -33,7 +41,7 @@ struct SeedsState {
   const std::shared_ptr<const SeedsFrame>& frame() const { return frame_; }
 
   /// Makes the next frame of seeds that the host has placed.
-  void place(std::vector<std::uint32_t> packed);
+  void place(Placement placement, const std::optional<Domain>& domain = std::nullopt);
 
   /// Makes the next frame from the caller's buffers. `marks` may be null.
   void place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks);

@@ -20,18 +20,24 @@ command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit
 kernel_files() {
   grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/*.cl
   echo kernels/exact/group/diagram.cl
+  echo kernels/exact/outer.cl
 }
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 # NVIDIA's compiler inlines every function, as far as is known.
-compile() { # FILE METRIC NEIGHBOURS
+compile() { # FILE METRIC NEIGHBOURS OPTION...
   "$CLANG" -S -x cl -cl-std=CL1.2 -target nvptx64-nvidia-nvcl -Xclang -target-cpu -Xclang sm_80 \
     -Xclang -target-feature -Xclang +ptx74 -Xclang -finclude-default-header -O3 \
     -mllvm -inline-threshold=1000000 -mllvm -inlinehint-threshold=1000000 \
     -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC" -Wno-linker-warnings -Ikernels \
-    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "-DVOROCL_$2" "-DVOROCL_NEIGHBOURS=$3" "$1" -o "$work/kernel.ptx"
+    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "-DVOROCL_$2" "-DVOROCL_NEIGHBOURS=$3" "${@:4}" "$1" -o "$work/kernel.ptx"
+}
+
+# The options of programs that know seeds outside the grid.
+outer_options() { # FILE
+  if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
 }
 
 # ptxas's report as lines of: file, kernel, options, architecture, registers, stack, spilled bytes, local memory.
@@ -53,6 +59,10 @@ for file in $(kernel_files); do
     for neighbours in 9 5; do
       compile "$file" $metric $neighbours
       for architecture in sm_80 sm_90; do assemble "$file" "$metric,$neighbours" $architecture; done
+    done
+    outer_options "$file" | while read -r option; do
+      compile "$file" $metric 9 $option
+      for architecture in sm_80 sm_90; do assemble "$file" "$metric,$option" $architecture; done
     done
   done
 done >"$work/rows"

@@ -24,7 +24,7 @@ compile() { # KERNEL OPTION...
 strict_compile() {
   command -v clang >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
   refuse_plain_inline
-  local kernel width metric neighbours axes
+  local kernel width metric neighbours axes reach
   for kernel in $(kernel_files); do
     for width in 1 2 4 8 16; do
       for metric in EUCLIDEAN MANHATTAN; do
@@ -34,6 +34,11 @@ strict_compile() {
       done
       for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
         compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes
+      done
+      for metric in EUCLIDEAN MANHATTAN; do
+        for reach in '' -DVOROCL_FAR; do
+          compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $reach
+        done
       done
     done
   done

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
-# The groups are build (the libraries and the command), test (their tests) and check (what .ci/run checks with besides).
-# Without any: build and test.
+# The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides) and
+# drivers (what tools/check_drivers.sh runs the tests on). Without any: build and test.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- build test
@@ -33,7 +33,8 @@ for group in "$@"; do
     packages+=(clang "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
       python3-numpy python3-pip)
     ;;
-  *) echo "setup.sh: there is no group \"$group\", but build, test and check" >&2; exit 2 ;;
+  drivers) packages+=(pocl-opencl-icd python3-pip) ;;
+  *) echo "setup.sh: there is no group \"$group\", but build, test, check and drivers" >&2; exit 2 ;;
   esac
 done
 
@@ -55,9 +56,21 @@ if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/
   python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12
 fi
 
+# Intel's runtime for CPUs, in a folder of its own where no other program sees it. Its own libOpenCL.so would take the
+# place of the system's.
+intel=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/intel-opencl
+if [[ " $* " == *" drivers "* ]] && [ ! -e "$intel" ]; then
+  trap 'rm -rf "$intel.part"' EXIT
+  python3 -m pip install --quiet --ignore-installed --prefix "$intel.part" intel-opencl-rt intel-cmplr-lib-rt
+  rm -f "$intel.part"/lib/libOpenCL.so*
+  mv "$intel.part" "$intel"
+fi
+
 # What the tests of the Python package need, as wheels: python/tests/run.sh installs them into a fresh environment.
-wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
-if [[ " $* " == *" check "* ]] && ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
-  python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt
-  cp python/tests/requirements.txt "$wheels"
+if [[ " $* " == *" check "* ]]; then
+  wheels=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/$(python3 -c "import sys; print(sys.implementation.cache_tag)")
+  if ! cmp -s python/tests/requirements.txt "$wheels/requirements.txt"; then
+    python3 -m pip download --quiet --only-binary :all: --dest "$wheels" --requirement python/tests/requirements.txt
+    cp python/tests/requirements.txt "$wheels"
+  fi
 fi

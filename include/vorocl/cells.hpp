@@ -16,9 +16,10 @@ namespace vorocl {
 struct CellSumsState;
 struct CellShapesState;
 
-/// What cell_sums() knows of a cell: exact integers, the same on every device. Along a periodic axis each
-/// pixel counts where it lies the shorter way round from the seed (half a period away: behind it), which may
-/// be outside the grid.
+/// What cell_sums() knows of a cell: exact integers, the same on every device. Along a periodic axis of the
+/// grid each pixel counts where it lies the shorter way round from the seed (half a period away: behind it),
+/// which may be outside the grid. In a window of a plane, which may repeat (Domain), the pixels count where
+/// the grid shows them.
 struct CellSums {
   std::uint32_t area = 0;  ///< pixels
   std::int64_t sum_x = 0;  ///< of the pixels' columns ...
@@ -33,7 +34,7 @@ struct CellSums {
 struct CellShape {
   int left = 0, top = 0, right = 0,
       bottom = 0;                     ///< the bounding box of the pixels, where CellSums counts them
-  std::int32_t largest_distance = 0;  ///< of its pixels to its seed; squared if Euclidean
+  std::int64_t largest_distance = 0;  ///< of its pixels to its seed; squared if Euclidean
   bool touches_border = false;        ///< it has a pixel next to a border; a periodic axis has none
 };
 
@@ -76,8 +77,10 @@ class VOROCL_API CellShapesResult {
   CellShapesResult& operator=(CellShapesResult&& other) noexcept;
 
   std::size_t size() const;
-  const cl::Buffer& boxes() const;              ///< int32 left, top, right, bottom per cell
-  const cl::Buffer& largest_distances() const;  ///< int32 per cell
+  const cl::Buffer& boxes() const;  ///< int32 left, top, right, bottom per cell
+
+  /// int32 per cell. Null where a seed lies so far outside the grid that they may not fit: read() tells them.
+  const cl::Buffer& largest_distances() const;
 
   /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
   std::vector<CellShape> read() const;

@@ -13,7 +13,7 @@ namespace vorocl {
 /// What kind of thing went wrong. The C interface has a status for each.
 enum class ErrorKind {
   bad_argument,   ///< an argument is out of its range, or two do not fit together: nothing was enqueued
-  bad_point,      ///< a seed's point is NaN, infinite or outside the grid (see BadPoint)
+  bad_point,      ///< a seed's point is NaN, infinite or too far away (see BadPoint)
   device_memory,  ///< the device has too little memory
   host_memory,    ///< the host has too little memory (std::bad_alloc says the same)
   device,         ///< there is no such device, or OpenCL or its driver failed
@@ -39,7 +39,10 @@ class VOROCL_API Error : public std::runtime_error {
 /// A point that cannot be a seed's.
 class VOROCL_API BadPoint : public Error {
  public:
-  /// "point 7 (nan, 3) is not finite; ..."
+  /// "point 7 (nan, 3) is not finite; ..." or "... is too far away; ..."
+  BadPoint(std::size_t index, const Point& point);
+
+  /// Of points that must lie in the grid: "... is outside the grid; ..."
   BadPoint(std::size_t index, const Point& point, const Grid& grid);
 
   /// "point 7 (12, 3) " and what is bad about it.

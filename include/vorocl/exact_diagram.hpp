@@ -23,6 +23,9 @@ struct ExactOptions {
 /// pixels, whatever the distribution of the seeds, within a factor of a few (docs/performance.md). 5.4 bytes
 /// of device memory per pixel, the labels included, and 16 per seed besides its position. Throws Error if
 /// seeds and diagram do not fit together or the device has too little memory.
+///
+/// Seeds outside the grid, and a Domain, are taken into account in 64-bit integers where they need be. They
+/// cost 0.5 bytes per pixel and a search near the grid's rim, farther in where seeds are few.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

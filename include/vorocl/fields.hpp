@@ -54,12 +54,14 @@ extern template class Field<float>;
 extern template class Field<std::uint8_t>;
 
 /// Each pixel's distance to the seed of its label, between pixel centres: squared if Euclidean. Exact
-/// integers. Enqueues and returns. Throws Error if seeds and diagram do not fit together or the device has
-/// too little memory.
+/// integers. Enqueues and returns; where seeds lie outside the grid it waits, and throws Error if a distance
+/// takes more than 31 bits. Throws Error if seeds and diagram do not fit together or the device has too
+/// little memory.
 VOROCL_API Report distance_field(const Seeds& seeds, const Diagram& diagram, Field<std::int32_t>& field,
                                  Metric metric = Metric::euclidean);
 
-/// As above, in pixels: the root of the squared Euclidean distance, within 3 units in the last place.
+/// As above, in pixels: the root of the squared Euclidean distance, within 3 units in the last place. Of any
+/// length, and enqueues and returns.
 VOROCL_API Report distance_field(const Seeds& seeds, const Diagram& diagram, Field<float>& field,
                                  Metric metric = Metric::euclidean);
 

@@ -68,4 +68,13 @@ class VOROCL_API Grid {
   Periodic periodic_;
 };
 
+/// The rectangle in which the plane repeats along its periodic axes, where the grid is not one period itself:
+/// the box of a simulation of which the grid is a part, or that lies in a larger grid. In whole pixels from
+/// the grid's first one; x and y may be negative. An axis that is not periodic has no end.
+struct Domain {
+  std::int64_t x = 0, y = 0;           ///< the first pixel
+  std::int64_t width = 1, height = 1;  ///< the periods, 1 to 2^31
+  Periodic periodic = Periodic::none;
+};
+
 }  // namespace vorocl

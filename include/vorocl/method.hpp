@@ -31,6 +31,7 @@ struct Method {
   std::string name;  ///< such as "jfa+1"
   bool exact;        ///< every pixel gets its nearest seed: other methods are judged by it
   bool continues;    ///< it goes on from the labels that the diagram holds, so frames must come in order
+  bool outer_seeds;  ///< it takes seeds that lie outside the grid, and periodic domains: others refuse them
 
   /// Fills the diagram. `max_displacement`: see dynamic_jump_flooding(); only a method that continues looks
   /// at it.

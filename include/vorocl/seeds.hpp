@@ -20,6 +20,12 @@ struct SeedsState;
 /// be absent: it has an id and no cell. Seeds that share a pixel are allowed: the lowest id owns the cell,
 /// the others have empty cells. Needs 4 bytes of device memory per seed, 8 from the first move_to() on.
 ///
+/// The grid is a window of the plane. Points outside it are seeds too, which own those of its pixels that are
+/// nearest to them. With a Domain the plane repeats. Exact diagrams and the measures know such seeds;
+/// flooding methods, random_step(), relax() and energy() refuse them. A frame that has some needs 8 bytes per
+/// seed more, and up to 15 for each outer seed and image that may own a pixel, which the host finds and
+/// sorts.
+///
 /// Threads: one thread at a time.
 ///
 /// Lifetime: diagrams and results remember the frame that they were made from, not the object: it may be
@@ -29,17 +35,26 @@ struct SeedsState;
 /// Ordering: points are read, and seeds moved, in the order of the calls on the device's queue.
 class VOROCL_API Seeds {
  public:
-  /// From points in pixel units. Throws BadPoint naming the first point that is NaN, infinite or outside the
-  /// grid (a point at x = width is outside), before any device work. No points at all are allowed.
+  /// From points in pixel units from the grid's corner. Throws BadPoint naming the first point that is NaN,
+  /// infinite or 2^31 pixels or more away from a pixel of the grid along an axis, before any device work. Of
+  /// a grid that is periodic itself all points must lie in it. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points);
 
   /// As above; a seed without a point is absent.
   Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points);
 
+  /// As above, in a plane that repeats: points are brought into the domain along its periodic axes. Pixels
+  /// outside the domain along such an axis have no label. Throws Error too if the grid is periodic itself, a
+  /// side of the domain is not in [1, 2^31], or the domain reaches 2^31 pixels or more away from a pixel.
+  Seeds(const Device& device, const Grid& grid, const std::vector<Point>& points, const Domain& domain);
+  Seeds(const Device& device, const Grid& grid, const std::vector<std::optional<Point>>& points,
+        const Domain& domain);
+
   /// From `count` pairs (x, y) of float in pixel units in the caller's buffer. `present` says which seeds
   /// there are: one byte per seed, 0 for a seed that is absent, whose point is not looked at; a null buffer
-  /// says that all are there. Both buffers are read when the device comes to it. Throws Error if a buffer is
+  /// says that all are there. The points must lie in the grid. Both buffers are read when the device comes to
+  /// it. Throws Error if a buffer is
   /// too small, of another context or not readable by kernels, or the points' buffer is null. The points are
   /// checked on the device: the BadPoint that names a bad one comes at the wait of every diagram and result
   /// that is made from this frame.
@@ -68,6 +83,10 @@ class VOROCL_API Seeds {
   /// As above; a seed without a point is absent until it gets one again.
   void move_to(const std::vector<std::optional<Point>>& points);
 
+  /// As above, in a plane that repeats. The domain may be another one in each frame, or none.
+  void move_to(const std::vector<Point>& points, const Domain& domain);
+  void move_to(const std::vector<std::optional<Point>>& points, const Domain& domain);
+
   /// As above, from buffers as the constructor takes them.
   void move_to(const cl::Buffer& points, std::size_t count, const cl::Buffer& present = cl::Buffer());
 
@@ -78,9 +97,12 @@ class VOROCL_API Seeds {
   /// The seeds that are not absent. Where a buffer said which are present, this waits for the device.
   std::size_t alive() const;
 
-  /// One uint32 per seed: y << 16 | x of its pixel, or 0x80008000 if it is absent; and one more such value at
-  /// the end. Valid until the seeds are moved: move_to() writes into another buffer, random_step() into this
-  /// one.
+  /// How many seeds lie outside the grid's pixels.
+  std::size_t outside() const;
+
+  /// One uint32 per seed: y << 16 | x of its pixel, or 0x80008000 if it is absent or outside the grid; and
+  /// one more such value at the end. Valid until the seeds are moved: move_to() writes into another buffer,
+  /// random_step() into this one.
   const cl::Buffer& positions() const;
 
   /// The centres of the seeds' pixels; none for a seed that is absent. Waits. Throws BadPoint if a point of

@@ -44,7 +44,7 @@ typedef enum vorocl_status {
   VOROCL_BAD_ARGUMENT = 1,   ///< an argument is out of its range, or two do not fit together
   VOROCL_NULL_ARGUMENT = 2,  ///< a pointer that must not be NULL is
   VOROCL_OUT_OF_HOST_MEMORY = 3,
-  VOROCL_BAD_POINT = 4,  ///< a seed's point is NaN, infinite or outside the grid: see vorocl_bad_point()
+  VOROCL_BAD_POINT = 4,  ///< a seed's point is NaN, infinite or too far away: see vorocl_bad_point()
   VOROCL_OUT_OF_DEVICE_MEMORY = 5,
   VOROCL_DEVICE_ERROR = 6,        ///< there is no such device, or OpenCL, its driver or the system failed
   VOROCL_KERNEL_BUILD_ERROR = 7,  ///< a kernel could not be built; the message holds the compiler's log
@@ -98,6 +98,14 @@ typedef struct vorocl_grid {
   int64_t width, height;  ///< pixels
   vorocl_periodic periodic;
 } vorocl_grid;
+
+/// As vorocl::Domain: the rectangle in which the plane repeats along its periodic axes, in pixels from the
+/// grid's first one.
+typedef struct vorocl_domain {
+  int64_t x, y;           ///< the first pixel, which may be outside the grid
+  int64_t width, height;  ///< the periods, 1 to 2^31
+  vorocl_periodic periodic;
+} vorocl_domain;
 
 /// What happens at the border of an axis that is not periodic: see vorocl::Border. One of VOROCL_REFLECT,
 /// VOROCL_PERIODIC.
@@ -193,12 +201,17 @@ VOROCL_API vorocl_status vorocl_device_list_get(const vorocl_device_list* list, 
 
 typedef struct vorocl_seeds vorocl_seeds;
 
-/// On a grid.
+/// On a grid. Points outside it are seeds too: see vorocl::Seeds.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
                                                   size_t count, vorocl_seeds** seeds);
 
-/// As above, from the caller's buffers.
+/// As above, in a plane that repeats: the grid itself must not be periodic.
+VOROCL_API vorocl_status vorocl_seeds_in_domain(const vorocl_device* device, vorocl_grid grid,
+                                                vorocl_domain domain, const vorocl_point* points,
+                                                const uint8_t* present, size_t count, vorocl_seeds** seeds);
+
+/// From the caller's buffers, whose points must lie in the grid.
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, cl_mem present, size_t count,
                                                   vorocl_seeds** seeds);
@@ -224,11 +237,19 @@ VOROCL_API vorocl_status vorocl_seeds_count(const vorocl_seeds* seeds, size_t* c
 /// The seeds that are not absent. Waits where a buffer said which are present.
 VOROCL_API vorocl_status vorocl_seeds_alive(const vorocl_seeds* seeds, size_t* alive);
 
+/// The seeds that lie outside the grid's pixels.
+VOROCL_API vorocl_status vorocl_seeds_outside(const vorocl_seeds* seeds, size_t* outside);
+
 /// New points for the same ids. Their number may change: ids past the end are absent.
 VOROCL_API vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points,
                                               const uint8_t* present, size_t count);
 
-/// As above, from the caller's buffers.
+/// As above, in a plane that repeats. The domain may be another one in each frame.
+VOROCL_API vorocl_status vorocl_seeds_move_in_domain(vorocl_seeds* seeds, vorocl_domain domain,
+                                                     const vorocl_point* points, const uint8_t* present,
+                                                     size_t count);
+
+/// From the caller's buffers, whose points must lie in the grid.
 VOROCL_API vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, cl_mem present,
                                                      size_t count);
 
@@ -342,6 +363,7 @@ typedef struct vorocl_method_description {
   const char* name;  ///< such as "jfa+1"; it belongs to the library
   int exact;         ///< 1 if every pixel gets its nearest seed, else 0
   int continues;     ///< 1 if it goes on from the labels that the diagram holds, else 0
+  int outer_seeds;   ///< 1 if it takes seeds outside the grid and domains, else 0: then it refuses them
 } vorocl_method_description;
 
 /// How many methods there are.
@@ -421,14 +443,15 @@ VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes, 
 VOROCL_API vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count);
 
 /// Per cell int32_t left, top, right, bottom, and its largest distance (int32_t). Either may be NULL. The
-/// buffers are valid until the next measurement.
+/// buffers are valid until the next measurement. Where a seed lies so far outside the grid that distances may
+/// not fit, the second one is NULL: vorocl_cell_shapes_read() tells them.
 VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* shapes, cl_mem* boxes,
                                                     cl_mem* largest_distances);
 
 /// As vorocl::CellShape. An empty cell has right < left, bottom < top and largest_distance -1.
 typedef struct vorocl_cell_shape {
   int left, top, right, bottom;  ///< the bounding box: first and last columns and rows
-  int32_t largest_distance;      ///< of its pixels to its seed; squared if Euclidean
+  int64_t largest_distance;      ///< of its pixels to its seed; squared if Euclidean
   int touches_border;            ///< 1 if it has a pixel in the first or last row or column, else 0
 } vorocl_cell_shape;
 

@@ -102,6 +102,7 @@ const T& at(const std::vector<T>& list, std::size_t index, const char* what) {
 /// For a choice that is none of its constants.
 [[noreturn]] void refuse(const char* what, int value);
 
+Periodic to_periodic(vorocl_periodic axes);
 Grid to_grid(const vorocl_grid& grid);
 vorocl_grid to_c(const Grid& grid);
 

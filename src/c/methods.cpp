@@ -73,7 +73,8 @@ vorocl_status vorocl_method_count(size_t* count) {
 vorocl_status vorocl_method_get(size_t index, vorocl_method_description* description) {
   return guarded([&] {
     const Method& from = at(methods(), index, "methods");
-    given(description, "description") = {from.name.c_str(), from.exact ? 1 : 0, from.continues ? 1 : 0};
+    given(description, "description") = {from.name.c_str(), from.exact ? 1 : 0, from.continues ? 1 : 0,
+                                         from.outer_seeds ? 1 : 0};
   });
 }
 

@@ -22,6 +22,10 @@ std::vector<std::optional<Point>> to_points(const vorocl_point* points, const ui
   return list;
 }
 
+Domain to_domain(const vorocl_domain& domain) {
+  return {domain.x, domain.y, domain.width, domain.height, to_periodic(domain.periodic)};
+}
+
 Border to_border(vorocl_border border) {
   if (border == VOROCL_REFLECT) return Border::reflect;
   if (border == VOROCL_PERIODIC) return Border::periodic;
@@ -35,6 +39,15 @@ vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid 
                                        vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count))};
+  });
+}
+
+vorocl_status vorocl_seeds_in_domain(const vorocl_device* device, vorocl_grid grid, vorocl_domain domain,
+                                     const vorocl_point* points, const uint8_t* present, size_t count,
+                                     vorocl_seeds** seeds) {
+  return make_object(seeds, "seeds", [&] {
+    return vorocl_seeds{
+        Seeds(of(device), to_grid(grid), to_points(points, present, count), to_domain(domain))};
   });
 }
 
@@ -80,9 +93,18 @@ vorocl_status vorocl_seeds_alive(const vorocl_seeds* seeds, size_t* alive) {
   return answer(alive, "alive", [&] { return of(seeds).alive(); });
 }
 
+vorocl_status vorocl_seeds_outside(const vorocl_seeds* seeds, size_t* outside) {
+  return answer(outside, "outside", [&] { return of(seeds).outside(); });
+}
+
 vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points, const uint8_t* present,
                                    size_t count) {
   return guarded([&] { of(seeds).move_to(to_points(points, present, count)); });
+}
+
+vorocl_status vorocl_seeds_move_in_domain(vorocl_seeds* seeds, vorocl_domain domain,
+                                          const vorocl_point* points, const uint8_t* present, size_t count) {
+  return guarded([&] { of(seeds).move_to(to_points(points, present, count), to_domain(domain)); });
 }
 
 vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, cl_mem present, size_t count) {

@@ -7,6 +7,7 @@
 #include "exact/group_shape.hpp"
 #include "exact/index.hpp"
 #include "exact/lists.hpp"
+#include "exact/outer.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
@@ -70,7 +71,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Event last = heavy("label_far", 64)
                              .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
                                          pyramid, top, lists, counts, state.labels);
-  return filling.commit(0, first, last);
+  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, length, last));
 }
 
 }  // namespace vorocl

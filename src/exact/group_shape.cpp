@@ -1,6 +1,7 @@
 #include "exact/group_shape.hpp"
 
 #include "exact/index.hpp"
+#include "exact/outer.hpp"
 // Last: it defines macros.
 #include "exact/group/sizes.cl"
 
@@ -57,7 +58,7 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   const cl::Event last = kernel("search_patches")
                              .over_items(patches * items, bits, starts, word_starts, list, ids, width, height,
                                          pyramid, top, memory.queue, state.labels);
-  return filling.commit(0, first, last);
+  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, length, last));
 }
 
 }  // namespace vorocl

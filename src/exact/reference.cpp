@@ -1,10 +1,12 @@
 #include "exact/reference.hpp"
 
 #include "diagram_state.hpp"
+#include "seeds_state.hpp"
 
 namespace vorocl {
 
 Report reference_diagram(const Seeds& seeds, Diagram& diagram, Metric metric) {
+  Internal::state(seeds).frame()->refuse_outer_seeds("the reference of exact diagrams");
   Filling filling(seeds, diagram);
   DiagramState& state = Internal::state(diagram);
   const cl::Event event =

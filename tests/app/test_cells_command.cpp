@@ -115,8 +115,8 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
     }
     BOOST_TEST(seeds.begin()->first == 1u);  // not an index
     const json result =
-        checked(folder, fmt::format("cells --trajectory '{}' --width 170 --frame {}", path, number), seeds,
-                Metric::euclidean, Periodic::xy);
+        checked(folder, fmt::format("cells --trajectory '{}' --y-down --width 170 --frame {}", path, number),
+                seeds, Metric::euclidean, Periodic::xy);
     BOOST_TEST(result.at("empty_cells").get<int>() > 0);  // particles that share a pixel
   }
 }

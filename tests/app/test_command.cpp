@@ -100,11 +100,25 @@ BOOST_AUTO_TEST_CASE(render_json_is_one_object) {
   BOOST_TEST(result.at("device") == test_device().name());
   BOOST_TEST(result.at("width") == 64);
   BOOST_TEST(result.at("height") == 32);
+  BOOST_TEST(result.at("periodic") == "none");
   BOOST_TEST(result.at("seeds") == 7);
   BOOST_TEST(result.at("frames") == 1);
   BOOST_TEST(result.at("waves") == 7);
   BOOST_TEST(result.at("milliseconds").get<double>() > 0);
   BOOST_TEST(result.at("host_milliseconds").get<double>() > 0);
+}
+
+BOOST_AUTO_TEST_CASE(diagrams_are_exact_unless_a_method_is_named) {
+  const TemporaryFolder folder;
+  const std::string seeds = " --random 40 --size 70x50 --periodic y --labels ";
+  const json result = json::parse(succeeds(folder, "render" + seeds + "a.npy --json"));
+  BOOST_TEST(result.at("method") == "exact");
+  BOOST_TEST(result.at("periodic") == "y");
+  const Grid grid(70, 50, Periodic::y);
+  const std::vector<Pixel> pixels = pixels_of(Seeds::random(test_device(), grid, 40, 1));
+  BOOST_TEST(labels_of(folder, "a.npy") == brute_force(grid, pixels, Metric::euclidean));
+  succeeds(folder, "simulate --frames 1 --step-length 0" + seeds + "s%d.npy");
+  BOOST_TEST(labels_of(folder, "s1.npy") == labels_of(folder, "a.npy"));
 }
 
 BOOST_AUTO_TEST_CASE(different_scales_of_the_axes_are_warned_of) {

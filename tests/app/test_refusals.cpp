@@ -92,11 +92,24 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--random 5 --size 10x10", usage, {"--random", "--points"});
   refuses(folder, "render --random 5 --size 10x10 --method jfb -o a.png", usage,
           {"jfb", "standard-flooding", "1+jfa"});
-  refuses(folder, "render --random 5 --size 10x10 -o a.png", usage, {"--method"});
   refuses(folder, render + "--size 10x10 --metric chess", usage, {"chess", "manhattan"});
   refuses(folder, render + "--size 10x10 --neighbourhood hex", usage, {"hex", "von-neumann"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa,jfb", usage, {"jfb", "opencv"});
   refuses(folder, "bench --random 5 --size 10x10 --methods jfa --repeat 0", usage, {"--repeat"});
+}
+
+BOOST_AUTO_TEST_CASE(a_file_without_its_option_is_answered_with_it) {
+  const TemporaryFolder folder;
+  for (const std::string subcommand : {"render", "simulate", "cells", "relax --rounds 1", "bench"}) {
+    refuses(folder, subcommand + " cities.csv", usage, {"write --points cities.csv"});
+  }
+  refuses(folder, "render a/b.NPY -o a.png", usage, {"write --points a/b.NPY"});
+  refuses(folder, "render melt.lammpstrj" + square, usage, {"write --trajectory melt.lammpstrj"});
+  refuses(folder, "render coins.png" + square, usage, {"write --mask coins.png"});
+  refuses(folder, "render --random 3 nonsense" + square, usage, {"\"nonsense\"", "neither an option"});
+  refuses(folder, "render --random 3 --y-up" + square, usage, {"--y-up", "--points or --trajectory"});
+  refuses(folder, "render --random 3 --y-down" + square, usage, {"--y-down", "--points or --trajectory"});
+  refuses(folder, "render --points a.csv --y-up --y-down" + square, usage, {"--y-up", "--y-down"});
 }
 
 BOOST_AUTO_TEST_CASE(outputs_are_checked_before_the_work) {

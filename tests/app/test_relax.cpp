@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay_and_particles_keep_their_ids) {
   folder.file("t.lammpstrj", command::dump(command::walled_box, "id x y",
                                            {"70 1.5 1.5", "9 1.5 1.5", "8 8.5 8.5", "7 8.5 1.5"}));
   const std::string relax =
-      "relax --trajectory t.lammpstrj --size 10x10 --relaxed-points p.csv --labels l.npy ";
+      "relax --trajectory t.lammpstrj --y-down --size 10x10 --relaxed-points p.csv --labels l.npy ";
   const auto pixels_of_70 = [&] {
     const auto labels = labels_of(folder, "l.npy").labels;
     for (const std::uint32_t id : {7u, 8u, 9u}) BOOST_TEST(std::count(labels.begin(), labels.end(), id) > 0);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <regex>
+#include <sstream>
 
 #include "formats/label_files.hpp"
 #include "host_measures.hpp"
@@ -89,6 +90,31 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_table_without_a_number_in_its_name_is_one_of_all_frames) {
+  const TemporaryFolder folder;
+  const std::string frames_1_and_3 =
+      "simulate --trajectory '" VOROCL_SAMPLES "/lj-melt.lammpstrj' --width 80 --frames 3 --every 2 ";
+  succeeds(folder, frames_1_and_3 + "--cells c%d.csv --adjacency a%d.csv");
+  succeeds(folder, frames_1_and_3 + "--cells c.csv --adjacency a.csv");
+  std::vector<command::Frame> frames;
+  command::read_frames(VOROCL_SAMPLES "/lj-melt.lammpstrj", frames);
+  for (const std::string name : {"c", "a"}) {
+    std::string expected;
+    for (const std::size_t frame : {std::size_t{0}, std::size_t{2}}) {
+      std::istringstream of_frame(content_of(folder / fmt::format("{}{}.csv", name, frame)));
+      std::string line;
+      std::getline(of_frame, line);
+      if (expected.empty()) expected = "frame,timestep," + line + "\n";
+      while (std::getline(of_frame, line)) {
+        expected += fmt::format("{},{},{}\n", frame, frames[frame].timestep.value(), line);
+      }
+    }
+    BOOST_TEST(content_of(folder / name + ".csv") == expected);
+  }
+  refuses(folder, frames_1_and_3 + "--cells t.csv --adjacency t.csv", usage, {"--cells", "--adjacency"});
+  refuses(folder, frames_1_and_3 + "--labels l.npy", usage, {"l.npy", "%05d.npy"});
+}
+
 BOOST_AUTO_TEST_CASE(collections_have_the_time_steps_of_the_trajectory) {
   const TemporaryFolder folder;
   const std::string trajectory = "simulate --trajectory '" VOROCL_SAMPLES
@@ -144,7 +170,8 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
   }
   folder.file("t.lammpstrj", text);
   succeeds(folder,
-           "simulate --trajectory t.lammpstrj --size 20x20 --method djfa --labels l%d.npy --cells c%d.csv "
+           "simulate --trajectory t.lammpstrj --y-down --size 20x20 --method djfa --labels l%d.npy --cells "
+           "c%d.csv "
            "--adjacency a%d.csv --distance d%d.npy --statistics s.csv");
   const Table table = read_table(folder / "s.csv");
   BOOST_TEST_REQUIRE(table.rows.size() == frames.size());
@@ -165,7 +192,7 @@ BOOST_AUTO_TEST_CASE(bad_outputs_are_refused_before_the_work) {
   const TemporaryFolder folder;
   const std::string simulate =
       "simulate --random 5 --size 10x10 --frames 3 --step-length 1 --method djfa --device none ";
-  refuses(folder, simulate + "--cells c.csv", usage, {"c.csv", "%05d.csv"});
+  refuses(folder, simulate + "--distance d.npy", usage, {"d.npy", "%05d.npy"});
   refuses(folder, simulate + "--cells c%d.txt", usage, {"c%d.txt", ".csv"});
   refuses(folder, simulate + "--adjacency a%d.npy", usage, {"a%d.npy", ".csv"});
   refuses(folder, simulate + "--distance d%d.png", usage, {"d%d.png", ".npy, .tif, .tiff, .vti"});

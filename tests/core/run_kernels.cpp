@@ -81,6 +81,34 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   }
 }
 
+/// A window with seeds in and around it, at a distance, and a zoom into a periodic domain. The right and the
+/// lower part of the grid are outside the domain.
+void make_windows(const Device& device, const Grid& grid, Metric metric) {
+  Diagram diagram(device, grid);
+  for (const int distance : {40, 100000}) {
+    std::vector<Point> points = {{3, 4}, {30, 8}};
+    for (int i = 0; i < 90; ++i)
+      points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
+    Seeds seeds(device, grid, points);
+    const auto measure_labels = [&] {
+      for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
+        exact_diagram_with_lists(seeds, diagram, {metric}, length);
+      }
+      CellShapesResult shapes;
+      cell_shapes(seeds, diagram, shapes, metric);
+      Field<float> floats;
+      distance_field(seeds, diagram, floats, metric);
+      Field<std::int32_t> integers;
+      if (distance < 1000) distance_field(seeds, diagram, integers, metric);
+      distance_errors(seeds, diagram, diagram, metric);
+      device.finish();
+    };
+    measure_labels();
+    seeds.move_to(points, {-20, -20, 50, 38, Periodic::xy});
+    measure_labels();
+  }
+}
+
 void make_seeds(const Device& device, const Grid& grid) {
   Seeds::random(device, grid, 5, 1).read();
   const std::vector<cl_float2> points = {{{1, 2}}, {{2, 400}}};
@@ -133,6 +161,7 @@ int main() {
       }
       make_exact_diagrams(shaped, Grid(176, 90), metric);
       make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
+      make_windows(shaped, Grid(40, 25), metric);
       for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
         measure(shaped, grid, metric);
     }

@@ -4,14 +4,14 @@
 
 static const struct {
   const char* name;
-  int exact, continues, waves;
-} some_methods[] = {{"standard-flooding", 0, 0, -1},
-                    {"jfa", 0, 0, 6},
-                    {"jfa+1", 0, 0, 7},
-                    {"jfa+2", 0, 0, 8},
-                    {"1+jfa", 0, 0, 7},
-                    {"djfa", 0, 1, 6},
-                    {"exact", 1, 0, 0}};
+  int exact, continues, outer_seeds, waves;
+} some_methods[] = {{"standard-flooding", 0, 0, 0, -1},
+                    {"jfa", 0, 0, 0, 6},
+                    {"jfa+1", 0, 0, 0, 7},
+                    {"jfa+2", 0, 0, 0, 8},
+                    {"1+jfa", 0, 0, 0, 7},
+                    {"djfa", 0, 1, 0, 6},
+                    {"exact", 1, 0, 1, 0}};
 
 static void test_devices(const vorocl_device* device) {
   vorocl_device_list* list = NULL;
@@ -99,6 +99,7 @@ static void test_methods(const vorocl_device* device) {
     OK(vorocl_method_get(i, &method));
     CHECK(strcmp(method.name, some_methods[i].name) == 0);
     CHECK(method.exact == some_methods[i].exact && method.continues == some_methods[i].continues);
+    CHECK(method.outer_seeds == some_methods[i].outer_seeds);
     OK(vorocl_prepare(method.name, device, grid, seed_count, NULL));
     OK(vorocl_run(method.name, seeds, diagram, 0, &options));
     OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));

@@ -47,8 +47,7 @@ void check_shapes(const std::string& name, const Seeds& seeds, const std::vector
     cell.top = std::min(cell.top, image.y);
     cell.right = std::max(cell.right, image.x);
     cell.bottom = std::max(cell.bottom, image.y);
-    cell.largest_distance =
-        std::max(cell.largest_distance, static_cast<std::int32_t>(distance(image, pixels[label], metric)));
+    cell.largest_distance = std::max(cell.largest_distance, distance(image, pixels[label], metric));
     cell.touches_border |= (!grid.periodic_x() && (x == 0 || x == grid.width() - 1)) ||
                            (!grid.periodic_y() && (y == 0 || y == grid.height() - 1));
   });

@@ -228,6 +228,27 @@ BOOST_AUTO_TEST_CASE(slanting_edges_are_about_as_wide) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(edges_go_on_across_a_periodic_border) {
+  // The middle one of 3 x 3 copies of a picture side by side.
+  const int width = 30, height = 20;
+  const cv::Rect middle(width, height, width, height);
+  for (const int edge_width : {1, 2, 5, 9}) {
+    std::vector<std::uint32_t> labels, copies;
+    const auto label = [&](int x, int y) { return x % width < 2 || y % height > 15 ? 1u : 0u; };
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) labels.push_back(label(x, y));
+    }
+    for (int y = 0; y < 3 * height; ++y) {
+      for (int x = 0; x < 3 * width; ++x) copies.push_back(label(x, y));
+    }
+    cv::Mat picture(height, width, CV_8UC3, cv::Scalar::all(200));
+    cv::Mat expected(3 * height, 3 * width, CV_8UC3, cv::Scalar::all(200));
+    draw_edges(picture, labels, edge_width, Periodic::xy);
+    draw_edges(expected, copies, edge_width);
+    BOOST_TEST(cv::norm(picture, expected(middle), cv::NORM_INF) == 0, edge_width << " pixels");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(contours_are_at_their_distance) {
   const Grid grid(61, 51);
   std::vector<float> distances;

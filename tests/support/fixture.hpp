@@ -15,10 +15,22 @@ inline std::optional<Device>& device_of_tests() {
   return device;
 }
 
-/// The device of all tests of a program: VOROCL_DEVICE, else the library's choice. One, so that kernels are
-/// built once.
+/// VOROCL_DEVICE, else the library's choice. The program's own argument can say in which shape the exact
+/// engine works: `test_cells -- group`, or vector.
+inline Device select_test_device() {
+  const Device device = Device::select();
+  const auto& program = boost::unit_test::framework::master_test_suite();
+  if (program.argc < 2) return device;
+  const std::string shape = program.argv[1];
+  BOOST_TEST_REQUIRE((shape == "vector" || shape == "group"), "there is no shape \"" << shape << "\"");
+  Tuning tuning = device.tuning();
+  tuning.shape = shape == "group" ? Shape::group : Shape::vector;
+  return device.with_tuning(tuning);
+}
+
+/// The device of all tests of a program. One, so that kernels are built once.
 inline const Device& test_device() {
-  if (!device_of_tests()) device_of_tests() = Device::select();
+  if (!device_of_tests()) device_of_tests() = select_test_device();
   return *device_of_tests();
 }
 

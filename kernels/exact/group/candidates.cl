@@ -31,11 +31,14 @@ static inline uint distance_to_place(Box box, int place, uint seed) {
 
 // Begins with the only seed known.
 static inline void begin_winners(local Winners* winners, Box box, uint seed) {
-  for (int i = (int)get_local_id(0); i < DOMINATORS * CORNERS; i += (int)get_local_size(0)) {
-    winners->distance[i / CORNERS][i % CORNERS] = distance_to_place(box, 1 + i % CORNERS, seed);
-    if (i < DOMINATORS) {
-      winners->seed[i] = seed;
-      winners->least[i] = distance_to_place(box, i, seed);
+  const int place = (int)get_local_id(0);
+  if (place < DOMINATORS) {
+    const uint distance = distance_to_place(box, place, seed);
+    winners->seed[place] = seed;
+    winners->least[place] = distance;
+    if (place > 0) {
+#pragma unroll
+      for (int i = 0; i < DOMINATORS; ++i) winners->distance[i][place - 1] = distance;
     }
   }
   SYNC();

@@ -10,10 +10,9 @@
 #define PATCH_ROWS (PATCH + 2 * REACH)
 
 // A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows
-// at equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which is
-// too far for a label.
+// at equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which
+// is too far for a label.
 #define ROW_BITS 6
-#define TOO_FAR (ALONG(REACH + 1) << ROW_BITS)
 #if (1 << PATCH_BITS) + 2 * REACH > 1 << ROW_BITS
 #error "A row does not fit in the bits of a row key"
 #endif
@@ -24,43 +23,75 @@
 #error "The part of a row key along x does not fit in a ushort"
 #endif
 
-// The seeds of a row of the grid, a bit each, from the bin at the left of a patch to the one at its right.
-static inline ulong mask_of_row(const SeedIndex* index, int bin_x, int y) {
-  if (y < 0 || y >= index->height) return 0;
-  global const uint* const row = index->bits + (y >> BIN_BITS) * index->columns * WORDS + y % BIN / ROWS_OF_WORD;
+// ROWS: the seeds of the rows of pixels in and around a patch, a bit each, from the bin at the left of the patch to the
+// one at its right; and for each bin where its seeds of the row begin in the list of seeds, less the number of seeds in
+// the row before them.
+#define BINS_OF_ROW 4
+typedef struct {
+  ulong mask[PATCH_ROWS];
+  uint start[PATCH_ROWS * BINS_OF_ROW];
+} Rows;
+
+static inline void read_row(local Rows* rows, int row, const SeedIndex* index, int first_bin, int y) {
   ulong mask = 0;
+  if (y >= 0 && y < index->height) {
+    const int of_rows = (y >> BIN_BITS) * index->columns * WORDS + y % BIN / ROWS_OF_WORD;
+    const uint before = (1u << y % ROWS_OF_WORD * BIN) - 1;
 #pragma unroll
-  for (int i = 0; i < 4; ++i) {
-    const int x = bin_x - 1 + i;
-    if (x >= 0 && x < index->columns) mask |= (ulong)row_bits(row[x * WORDS], y) << i * BIN;
+    for (int i = 0; i < BINS_OF_ROW; ++i) {
+      const int bin = first_bin + i;
+      if (bin >= 0 && bin < index->columns) {
+        const uint bits = index->bits[of_rows + bin * WORDS];
+        rows->start[row * BINS_OF_ROW + i] =
+            index->word_starts[of_rows + bin * WORDS] + popcount(bits & before) - (uint)popcount(mask);
+        mask |= (ulong)row_bits(bits, y) << i * BIN;
+      }
+    }
   }
-  return mask;
+  rows->mask[row] = mask;
 }
 
-// How far to the right of a pixel the nearest seed of its row is, of two the left one, which the tie rule says. REACH +
-// 1 or more away stands for none.
-static inline int offset_in_row(ulong mask, int column) {
-  const uint window = (uint)(mask >> (column + BIN - REACH)), behind = window >> (REACH + 1);
-  const int left = (int)clz(window & ALL_BITS) - (31 - REACH);
-  const int right = (int)popcount((behind & -behind) - 1) + 1;
-  return right < left ? right : -left;
+// The part of a row from REACH pixels left of a column to REACH + 1 right of it, and how far the nearest seeds on both
+// sides are in it; REACH + 1 or more stands for none. The macros take numbers and vectors.
+static inline ulong window_of_row(ulong mask, int column) { return mask >> (column + BIN - REACH); }
+#define WAY_TO_LEFT(window) (clz((window) & ALL_BITS) - (31 - REACH))
+#define BEHIND(window) ((window) >> (REACH + 1))
+#define WAY_TO_RIGHT(window) (popcount((BEHIND(window) & -BEHIND(window)) - 1) + 1)
+
+// The row keys' parts along x of a quad, four pixels of a row one beside the other.
+#define QUADS_OF_ROW (PATCH / 4)
+static inline ushort4 keys_along_x(local const Rows* rows, int row, int column) {
+  const ulong first = window_of_row(rows->mask[row], column);
+  const uint4 window = (uint4)((uint)first, (uint)(first >> 1), (uint)(first >> 2), (uint)(first >> 3));
+  const int4 way = as_int4(min(WAY_TO_LEFT(window), WAY_TO_RIGHT(window)));
+  return convert_ushort4((ALONG(way) << ROW_BITS) + row);
+}
+
+// The id of a row's seed that is nearest to a pixel; of two the left one, which the tie rule says.
+static inline uint nearest_in_row(local const Rows* rows, int row, int column, const SeedIndex* index) {
+  const ulong mask = rows->mask[row];
+  const uint window = (uint)window_of_row(mask, column);
+  const int left = (int)WAY_TO_LEFT(window), right = (int)WAY_TO_RIGHT(window);
+  const uint bit = (uint)(BIN + column + (right < left ? right : -left));
+  const uint before = (uint)popcount(mask & ((1ul << bit) - 1));
+  return index->ids[rows->start[(uint)row * BINS_OF_ROW + bit / BIN] + before];
 }
 
 static inline int greatest(int4 values) { return max(max(values.s0, values.s1), max(values.s2, values.s3)); }
 
-// The least row keys of RUN pixels, the first one in `row`: goes up and down from them until no row farther away can
-// have a nearer seed.
-static inline int4 find_least_row_keys_below(local const ushort* along_x, int row, int column) {
+// The least row keys of RUN pixels, the first one in `row`: goes up and down from them, at most `reach` rows, until
+// no row farther away can have a nearer seed.
+static inline int4 find_least_row_keys_below(local const ushort* along_x, int row, int column, int reach) {
   local const ushort* above = along_x + row * PATCH + column;
   local const ushort* below = above + (RUN - 1) * PATCH;
-  int4 least = (int4)INT_MAX;
   int4 along_y = ALONG((int4)(0, 1, 2, 3)) << ROW_BITS;  // from the row above to the pixels
+  int4 least = *above + along_y;
 #pragma unroll
-  for (int i = 0; i < RUN; ++i) {
+  for (int i = 1; i < RUN; ++i) {
     const int4 offset = (int4)(0, 1, 2, 3) - i;
     least = min(least, above[i * PATCH] + (ALONG(offset) << ROW_BITS));
   }
-  for (int away = 1; away <= REACH && greatest(least) >= ALONG(away) << ROW_BITS; ++away) {
+  for (int away = 1; away <= reach && greatest(least) >= along_y.s1; ++away) {
     above -= PATCH;
     below += PATCH;
     along_y = (int4)(along_y.s123, ALONG(away + RUN - 1) << ROW_BITS);
@@ -69,58 +100,67 @@ static inline int4 find_least_row_keys_below(local const ushort* along_x, int ro
   return least;
 }
 
-static inline bool is_dense(const SeedIndex* index, Box box) {
-  uint seeds = 0;
-#pragma unroll
-  for (int i = 0; i < 4; ++i) {
-    const int bin_x = box.left / BIN;
-    seeds += count_seeds(index, bin_x - 1, bin_x + 2, box.top / BIN - 1 + i);
-  }
-  return seeds >= DENSE_AROUND;
+// The seeds in the bins of a patch and in those at its left and right.
+#define PIXELS_AROUND (2 * PATCH * PATCH)
+static inline int count_seeds_around(const SeedIndex* index, Box patch) {
+  const int bin_x = patch.left >> BIN_BITS, bin_y = patch.top >> BIN_BITS;
+  return (int)(count_seeds(index, bin_x - 1, bin_x + 2, bin_y) + count_seeds(index, bin_x - 1, bin_x + 2, bin_y + 1));
+}
+
+// How many rows above and below are looked at first: twice the side of the square that a seed has on average. At
+// random, one patch in 300 has a pixel whose seed is farther away.
+static inline int first_reach(int seeds_around) {
+  return min((int)(2 * sqrt((float)PIXELS_AROUND / (float)seeds_around)) + 1, REACH);
 }
 
 // Labels dense patches, and says of each patch whether it is pending: not dense, or a pixel has no seed within reach.
 kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict labels, global uint* restrict pending,
                                 global uint* restrict queue) {
-  local ulong mask[PATCH_ROWS];
+  local Rows rows;
   local ushort along_x[PATCH_ROWS * PATCH];
   local uint missing;
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
   const int column = item_column();
   const Box box = box_of_patch(patch, width, height);
+  const int seeds_around = count_seeds_around(&index, box);
   if (patch == 0 && item == 0) queue[0] = 0;
-  if (!is_dense(&index, box)) {
+  if (seeds_around < DENSE_AROUND) {
     if (item == 0) pending[patch] = 1;
     return;
   }
-  if (item == 0) missing = 0;
   for (int row = item; row < PATCH_ROWS; row += items) {
-    mask[row] = mask_of_row(&index, box.left / BIN, box.top - REACH + row);
+    read_row(&rows, row, &index, (box.left >> BIN_BITS) - 1, box.top - REACH + row);
   }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  for (int row = item_row(); row < PATCH_ROWS; row += item_rows()) {
-    const int offset = offset_in_row(mask[row], column);
-    along_x[row * PATCH + column] = (ushort)((ALONG(offset) << ROW_BITS) + row);
-  }
-  barrier(CLK_LOCAL_MEM_FENCE);
-  for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
-    int4 least = find_least_row_keys_below(along_x, REACH + first, column);
+  int reach = first_reach(seeds_around);
+  while (reach > 0) {
+    if (item == 0) missing = 0;
+    barrier(CLK_LOCAL_MEM_FENCE);
+    const int quad = item & (QUADS_OF_ROW - 1);
+    for (int row = REACH - reach + item / QUADS_OF_ROW; row < REACH + PATCH + reach; row += items / QUADS_OF_ROW) {
+      vstore4(keys_along_x(&rows, row, 4 * quad), (size_t)(row * QUADS_OF_ROW + quad), along_x);
+    }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
+      int4 least = find_least_row_keys_below(along_x, REACH + first, column, reach);
+      global uint* const label = label_in_patch(labels, box, column, first, width);
+      const int pixels = pixels_in_patch(box, column, first);
 #pragma unroll
-    for (int i = 0; i < RUN; ++i, least = least.s1230) {
-      const int x = box.left + column, y = box.top + first + i;
-      if (x <= box.right && y <= box.bottom) {
-        if (least.s0 < TOO_FAR) {
-          const int row = least.s0 & ((1 << ROW_BITS) - 1);
-          labels[y * width + x] =
-              id_of(&index, pack(x + offset_in_row(mask[row], column), box.top - REACH + row));
-        } else {
-          missing = 1;
+      for (int i = 0; i < RUN; ++i, least = least.s1230) {
+        if (i < pixels) {
+          if (least.s0 < ALONG(reach + 1) << ROW_BITS) {
+            const int row = least.s0 & ((1 << ROW_BITS) - 1);
+            label[i * width] = nearest_in_row(&rows, row, column, &index);
+          } else {
+            missing = 1;
+          }
         }
       }
     }
+    barrier(CLK_LOCAL_MEM_FENCE);
+    reach = missing && reach < REACH ? REACH : 0;
+    barrier(CLK_LOCAL_MEM_FENCE);
   }
-  barrier(CLK_LOCAL_MEM_FENCE);
   if (item == 0) pending[patch] = missing;
 }
 

@@ -62,10 +62,13 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
     if (own_seed != EMPTY) atomic_min(&descent->least, own_least);
     if (more) descent->finer = (uint)level;
     SYNC();
-    --level;
-    bins = bins_around(centre, most_along(descent->least), level, index->width, index->height);
-    const bool few = (bins.right - bins.left + 1) * (bins.bottom - bins.top + 1) <= MOST_LOOKED_AT;
-    if (descent->finer != (uint)level + 1 || !few) level = -1;
+    if (descent->finer != (uint)level) {
+      level = -1;
+    } else {
+      --level;
+      bins = bins_around(centre, most_along(descent->least), level, index->width, index->height);
+      if ((bins.right - bins.left + 1) * (bins.bottom - bins.top + 1) > MOST_LOOKED_AT) level = -1;
+    }
     SYNC();
   }
   if (own_seed != EMPTY && own_least == descent->least) atomic_min(&descent->seed, own_seed);
@@ -113,8 +116,8 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   local uint scanned[1], gathered_count[1], candidate_count[1];
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
-  const Box box = box_of_patch(patch, width, height);
   if (!pending[patch]) return;
+  const Box box = box_of_patch(patch, width, height);
   if (item == 0) *scanned = *gathered_count = *candidate_count = 0;
   const uint near = find_seed_near(&descent, &index, pyramid, top_level, box);
   begin_winners(&winners, box, near);
@@ -129,29 +132,33 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   if (*scanned > MOST_SCANNED) bins.bottom = -1;  // gathers nothing
   gather(gathered, gathered_count, &index, &winners, box, bins);
 
-  // From here on lists that are too long count as empty.
-  const int seeds = *gathered_count <= MOST_GATHERED ? (int)*gathered_count : 0;
-  improve_winners(&winners, box, gathered, seeds);
-  keep_candidates(candidates, candidate_count, MOST_RANKED, &winners, box, gathered, seeds);
-  const int count = *candidate_count <= MOST_RANKED ? (int)*candidate_count : 0;
-  rank_candidates(&ranked, box, winners.seed[0], candidates, count);
-  for (int i = item; i < count; i += items) ranked.value[i] = id_of(&index, ranked.value[i]);
-  if (item == 0 && *scanned == 0) ranked.value[0] = NO_LABEL;
-  SYNC();
-  if (count > 0 || *scanned == 0) {
+  if (near == EMPTY || *gathered_count == 1) {
+    fill_patch(box, near == EMPTY ? NO_LABEL : id_of(&index, near), width, labels);
+  } else {
+    // From here on lists that are too long count as empty.
+    const int seeds = *gathered_count <= MOST_GATHERED ? (int)*gathered_count : 0;
+    improve_winners(&winners, box, gathered, seeds);
+    keep_candidates(candidates, candidate_count, MOST_RANKED, &winners, box, gathered, seeds);
+    const int count = *candidate_count <= MOST_RANKED ? (int)*candidate_count : 0;
+    rank_candidates(&ranked, box, winners.seed[0], candidates, count);
+    for (int i = item; i < count; i += items) ranked.value[i] = id_of(&index, ranked.value[i]);
+    SYNC();
     const uint mask = (1u << bits_of_rank(count)) - 1;
-    for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
-      int8 least = find_least_keys_below(&ranked, count, item_column(), row);
+    const int column = item_column();
+    for (int row = item_row() * PIXELS; row < PATCH && count > 0; row += item_rows() * PIXELS) {
+      int8 least = find_least_keys_below(&ranked, count, column, row);
+      global uint* const label = label_in_patch(labels, box, column, row, width);
+      const int pixels = pixels_in_patch(box, column, row);
 #pragma unroll
       for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {
-        const int x = box.left + item_column(), y = box.top + row + k;
-        if (x <= box.right && y <= box.bottom) labels[y * width + x] = ranked.value[(uint)least.s0 & mask];
+        if (k < pixels) label[k * width] = ranked.value[(uint)least.s0 & mask];
       }
     }
-  } else if (item == 0) {
-    const uint at = atomic_inc(queue);
-    queue[1 + 2 * at] = (uint)patch;
-    queue[2 + 2 * at] = near;
+    if (item == 0 && count == 0) {
+      const uint at = atomic_inc(queue);
+      queue[1 + 2 * at] = (uint)patch;
+      queue[2 + 2 * at] = near;
+    }
   }
 }
 

@@ -118,20 +118,24 @@ static inline void open_entries(local Search* search, local const Winners* winne
 }
 
 // Gives the patch's pixels the best seeds of the list, unless they have better ones. What they have is in `labels`, as
-// positions. An item has the same pixels each time.
+// positions. An item has the same pixels each time, but not those that others fill and name: hence SYNC_LABELS().
+#define SYNC_LABELS() barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
 static inline void take_best(local const uint* seeds, int seed_count, local Ranked* ranked, uint base, Box patch,
                              int width, global uint* labels) {
+  const int column = item_column(), x = patch.left + column;
   for (int begin = 0; begin < seed_count; begin += MOST_RANKED) {
     const int count = min(seed_count - begin, MOST_RANKED);
     rank_candidates(ranked, patch, base, seeds + begin, count);
     const uint mask = (1u << bits_of_rank(count)) - 1;
     for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
-      int8 least = find_least_keys_below(ranked, count, item_column(), row);
+      int8 least = find_least_keys_below(ranked, count, column, row);
+      global uint* const labels_below = label_in_patch(labels, patch, column, row, width);
+      const int pixels = pixels_in_patch(patch, column, row);
 #pragma unroll
       for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {
-        const int x = patch.left + item_column(), y = patch.top + row + k;
-        if (x <= patch.right && y <= patch.bottom) {
-          global uint* const label = labels + y * width + x;
+        if (k < pixels) {
+          global uint* const label = labels_below + k * width;
+          const int y = patch.top + row + k;
           const uint seed = ranked->value[(uint)least.s0 & mask], other = *label;
           const uint distance = distance_of_offset(packed_x(seed) - x, packed_y(seed) - y);
           const uint other_distance = distance_of_offset(packed_x(other) - x, packed_y(other) - y);
@@ -149,18 +153,14 @@ kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict py
   local Search search;
   local Winners winners;
   local Ranked ranked;
-  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
-  const int item = (int)get_local_id(0), items = (int)get_local_size(0);
   if (get_group_id(0) >= queue[0]) return;
+  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
+  const int item = (int)get_local_id(0), items = (int)get_local_size(0), column = item_column();
   const Box patch = box_of_patch((int)queue[1 + 2 * get_group_id(0)], width, height);
   const uint near = queue[2 + 2 * get_group_id(0)];
   begin_winners(&winners, patch, near);
-  for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
-    for (int k = 0; k < PIXELS; ++k) {
-      const int x = patch.left + item_column(), y = patch.top + row + k;
-      if (x <= patch.right && y <= patch.bottom) labels[y * width + x] = near;
-    }
-  }
+  fill_patch(patch, near, width, labels);
+  SYNC_LABELS();
 
   // The top of the pyramid is put on the stack as a whole.
   if (item == 0) search.stack_count = search.count = 0;
@@ -184,11 +184,10 @@ kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict py
     }
     SYNC();
   }
-  for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
-    for (int k = 0; k < PIXELS; ++k) {
-      const int x = patch.left + item_column(), y = patch.top + row + k;
-      if (x <= patch.right && y <= patch.bottom) labels[y * width + x] = id_of(&index, labels[y * width + x]);
-    }
+  SYNC_LABELS();
+  for (int row = item_row(); row < PATCH; row += item_rows()) {
+    global uint* const label = label_in_patch(labels, patch, column, row, width);
+    if (pixels_in_patch(patch, column, row) > 0) *label = id_of(&index, *label);
   }
 }
 

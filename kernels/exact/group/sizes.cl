@@ -12,9 +12,9 @@
 // A work-group has 32, 64, 128 or 256 items: whole rows of a patch.
 #define MOST_ITEMS 256
 
-// A patch with so many seeds in the 4 x 4 bins around its middle is first tried by rows. Measured in simulated warps:
-// at about 100 pixels per seed rows and lists take the same number of instructions.
-#define DENSE_AROUND 40
+// A patch with so many seeds in its bins and those at its left and right is first tried by rows. Measured in simulated
+// warps: at about 100 pixels per seed rows and lists take the same number of instructions.
+#define DENSE_AROUND 20
 
 // Lists of one patch: seeds that the nearest known one does not dominate, and candidates that are ranked at a time.
 #ifndef MOST_GATHERED

@@ -62,6 +62,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
+                {"periodic", to_string(seeds.grid().periodic())},
                 {"cells", statistics.cells},
                 {"empty_cells", statistics.empty_cells},
                 {"mean_area", statistics.mean_area},
@@ -104,8 +105,7 @@ void add_cells(CommandLine& line) {
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
-  command.add_choice("--method", options->method, method_choices(), "How to make the diagram")
-      .default_text(options->method.name);
+  add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
   for (FileRequest& request : options->files) add_file_option(command, request);

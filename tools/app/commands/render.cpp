@@ -25,7 +25,7 @@ namespace {
 
 struct RenderOptions {
   SeedOptions seeds;
-  Method method = {};
+  Method method = vorocl::method("exact");
   MethodOptions method_options;
   std::string device;
   std::string picture_path;
@@ -72,6 +72,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
+                {"periodic", to_string(seeds.grid().periodic())},
                 {"seeds", seeds.alive()},
                 {"frames", 1},
                 {"waves", report.waves()},
@@ -132,7 +133,7 @@ void add_render(CommandLine& line) {
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
-  command.add_choice("--method", options->method, method_choices(), "How to make the diagram").required();
+  add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
   command.add("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")

@@ -32,7 +32,7 @@ constexpr std::size_t main_engine = 0, other_engine = 1;
 struct SimulateOptions {
   SeedOptions seeds;
   MotionOptions motion;
-  Method method = {};
+  Method method = vorocl::method("exact");
   MethodOptions method_options;
   std::optional<Method> compare_with;
   std::optional<Metric> compare_metric;
@@ -139,6 +139,7 @@ Json::Members json_of(const SimulateOptions& options, Simulation& simulation, co
                           {"device", seeds.device().name()},
                           {"width", seeds.grid().width()},
                           {"height", seeds.grid().height()},
+                          {"periodic", to_string(seeds.grid().periodic())},
                           {"seeds", seeds.alive()},
                           {"frames", simulation.frame()},
                           {"waves", simulation.report(main_engine).waves()},
@@ -220,7 +221,7 @@ void add_simulate(CommandLine& line) {
       line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
   add_seed_options(command, options->seeds, 1, true);
   add_motion_options(command, options->motion);
-  command.add_choice("--method", options->method, method_choices(), "How to make the diagrams").required();
+  add_method_option(command, options->method, "How to make the diagrams");
   add_method_options(command, options->method_options);
   const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };
   const Option compare_with =

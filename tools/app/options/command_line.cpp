@@ -108,6 +108,11 @@ Option Command::add_texts(const std::string& name, const ListSetter& set, const 
   return Option(*option->delimiter(','));
 }
 
+void Command::refuse_words(const std::function<std::string(const std::string& word)>& advice) {
+  const auto refuse = [advice](const std::string& word) -> void { throw CLI::ValidationError(advice(word)); };
+  app_->add_option_function<std::string>("word", refuse)->group("");  // which help does not show
+}
+
 Command Command::add_group(const std::string& name, const std::string& about, std::size_t least,
                            std::size_t most) {
   CLI::App* const group = app_->add_option_group(name, about);

@@ -106,6 +106,10 @@ class Command {
     return add_parsed(name, value, parse, about + ": " + names_of(choices)).value_name("NAME");
   }
 
+  /// Refuses a word that no option takes with what `advice` says of it. For commands without positional
+  /// arguments.
+  void refuse_words(const std::function<std::string(const std::string& word)>& advice);
+
   /// A group of options of which at least and at most so many must be given.
   Command add_group(const std::string& name, const std::string& about, std::size_t least, std::size_t most);
 

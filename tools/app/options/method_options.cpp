@@ -13,6 +13,10 @@ Choices<Method> method_choices() {
   return choices;
 }
 
+void add_method_option(Command& command, Method& method, const std::string& about) {
+  command.add_choice("--method", method, method_choices(), about).default_text(method.name);
+}
+
 void add_method_options(Command& command, MethodOptions& options) {
   add_metric_option(command, options.metric);
   const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {

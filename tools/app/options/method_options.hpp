@@ -11,6 +11,9 @@ namespace vorocl::command {
 /// The methods as choices of an option.
 Choices<Method> method_choices();
 
+/// Adds --method: what `method` is, unless it is given.
+void add_method_option(Command& command, Method& method, const std::string& about);
+
 /// Adds --metric, --neighbourhood and the waves of djfa.
 void add_method_options(Command& command, MethodOptions& options);
 

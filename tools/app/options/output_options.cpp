@@ -8,6 +8,11 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
   const FileKind& kind = request.kind;
   std::string example;
   if (numbered) example = "; one file per frame, such as frames/%05d" + kind.extensions.front();
+  if (numbered && kind.table() != nullptr) {
+    example +=
+        ", or one table of all frames, with the columns frame and timestep before the others, such as " +
+        kind.option.substr(2) + kind.extensions.front();
+  }
   if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
   return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
 }

@@ -1,13 +1,35 @@
 #include "app/options/seed_options.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "formats/files.hpp"
 #include "formats/numbers.hpp"
 
 namespace vorocl::command {
 
+namespace {
+
+/// What to write instead of the name of a file alone.
+std::string option_for(const std::string& file) {
+  const std::string extension = extension_of(file);
+  const auto is_one_of = [&extension](const std::vector<std::string>& extensions) {
+    return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  };
+  const char* const option = is_one_of({".csv", ".npy"})                                     ? "--points "
+                             : is_one_of({".xyz", ".extxyz", ".lammpstrj", ".dump"})         ? "--trajectory "
+                             : is_one_of({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}) ? "--mask "
+                                                                                             : nullptr;
+  if (option == nullptr) return "\"" + file + "\" is neither an option nor the value of one";
+  return "\"" + file + "\" is no option; for its seeds write " + option + file;
+}
+
+}  // namespace
+
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move) {
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
+  if (least > 0) command.refuse_words(option_for);
   constexpr std::size_t most_seeds = Grid::max_pixels;
   const Option random = source.add("--random", options.random, "N uniformly random pixels")
                             .value_name("N")
@@ -46,14 +68,26 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "Rectangle in data units that the grid shows; else each frame's own box, or the bounding box "
           "of the points (of the first frame)")
       .value_name("X0,Y0,X1,Y1");
-  const Choices<Periodic> axes = {
-      {"none", Periodic::none}, {"x", Periodic::x}, {"y", Periodic::y}, {"xy", Periodic::xy}};
   command
-      .add_choice("--periodic", options.periodic, axes,
+      .add_choice("--periodic", options.periodic, periodic_choices(),
                   "Axes along which the grid repeats: distances go the shorter way round, cells reach across "
                   "the border, and points outside the bounds wrap")
       .default_text("what a trajectory's file says, else none");
-  command.add("--y-up", options.y_up, "The data's y axis points up");
+  const Option up =
+      command.add("--y-up", options.y_up, "The data's y axis points up, as a trajectory's does anyway");
+  command.add("--y-down", options.y_down, "The data's y axis points down, as that of points does anyway")
+      .excludes(up);
+}
+
+const Choices<Periodic>& periodic_choices() {
+  static const Choices<Periodic> choices = {
+      {"none", Periodic::none}, {"x", Periodic::x}, {"y", Periodic::y}, {"xy", Periodic::xy}};
+  return choices;
+}
+
+std::string to_string(Periodic axes) {
+  const auto has_axes = [axes](const auto& choice) { return choice.second == axes; };
+  return std::find_if(periodic_choices().begin(), periodic_choices().end(), has_axes)->first;
 }
 
 void add_frame_option(Command& command, SeedOptions& options) {

@@ -32,20 +32,14 @@ std::string row_of(const CellMeasures& cell, Metric metric) {
                      extent, cell.perimeter, cell.neighbours, distance, cell.shape.touches_border ? 1 : 0);
 }
 
-void write_cell_file(const OutputFile& file, Measures& measures) {
-  GrowingFile table(file);
-  table << "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
-           "touches_border\n";
-  for (const CellMeasures& cell : measures.cells()) table << row_of(cell, measures.metric());
-  table.finish();
+void add_cells(GrowingFile& table, const std::string& first, Measures& measures) {
+  for (const CellMeasures& cell : measures.cells()) table << first << row_of(cell, measures.metric());
 }
 
-void write_adjacency_file(const OutputFile& file, Measures& measures) {
-  GrowingFile table(file);
-  table << "a,b,length\n";
-  for (const CellPair& pair : measures.pairs())
-    table << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
-  table.finish();
+void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
+  for (const CellPair& pair : measures.pairs()) {
+    table << first << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
+  }
 }
 
 void write_distance_file(const OutputFile& file, Measures& measures) {
@@ -64,6 +58,17 @@ void write_border_file(const OutputFile& file, Measures& measures) {
 
 }  // namespace
 
+void FileKind::write(const OutputFile& file, Measures& measures) const {
+  if (const TableKind* const kind = table()) {
+    GrowingFile rows(file);
+    rows << kind->columns << "\n";
+    kind->add_rows(rows, "", measures);
+    rows.finish();
+  } else {
+    std::get<0>(content)(file, measures);
+  }
+}
+
 const FileKind& labels_kind() {
   static const FileKind kind = {
       "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards from the lower left corner)",
@@ -76,7 +81,9 @@ const FileKind& cells_kind() {
       "--cells",
       "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
       {".csv"},
-      write_cell_file};
+      TableKind{"id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,"
+                "largest_distance,touches_border",
+                add_cells}};
   return kind;
 }
 
@@ -85,7 +92,7 @@ const FileKind& adjacency_kind() {
       "--adjacency",
       "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
-      write_adjacency_file};
+      TableKind{"a,b,length", add_pairs}};
   return kind;
 }
 
@@ -108,8 +115,12 @@ const FileKind& border_kind() {
   return kind;
 }
 
-RequestedFile requested(const FileRequest& request, bool numbered) {
-  return {request.kind.option, request.path, request.kind.extensions, numbered};
+RequestedFile requested(const FileRequest& request) {
+  return {request.kind.option, request.path, request.kind.extensions};
+}
+
+RequestedFile requested_of_frames(const FileRequest& request) {
+  return {request.kind.option, request.path, request.kind.extensions, !request.is_long_table()};
 }
 
 }  // namespace vorocl::command

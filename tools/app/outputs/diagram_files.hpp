@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/outputs/measures.hpp"
@@ -10,12 +11,24 @@
 
 namespace vorocl::command {
 
+/// What a table says of a diagram: the names of its columns, and its rows, each with `first` before it.
+struct TableKind {
+  std::string columns;
+  void (*add_rows)(GrowingFile& table, const std::string& first, Measures& measures);
+};
+
 /// One kind of file, and the option that asks for it.
 struct FileKind {
   std::string option;  // "--labels"
   std::string about;   // what the file holds, for the help
   std::vector<std::string> extensions;
-  void (*write)(const OutputFile& file, Measures& measures);
+  std::variant<void (*)(const OutputFile& file, Measures& measures), TableKind> content;
+
+  /// The kind of table that the file is; null: none.
+  const TableKind* table() const { return std::get_if<TableKind>(&content); }
+
+  /// Writes the file of one diagram. Throws Error if that fails.
+  void write(const OutputFile& file, Measures& measures) const;
 };
 
 /// Labels by id: .npy, .tif or .vti.
@@ -32,9 +45,15 @@ const FileKind& border_kind();
 struct FileRequest {
   FileKind kind;
   std::string path;  // empty: not asked for
+
+  /// Whether the file is one table of all frames: its name has no place for a number.
+  bool is_long_table() const { return kind.table() != nullptr && path.find('%') == std::string::npos; }
 };
 
-/// As check_outputs() takes it. If `numbered`, the path is a pattern for one file per frame.
-RequestedFile requested(const FileRequest& request, bool numbered = false);
+/// As check_outputs() takes it, for one diagram.
+RequestedFile requested(const FileRequest& request);
+
+/// The same for many frames: the path is a pattern for one file per frame, but for that of a long table.
+RequestedFile requested_of_frames(const FileRequest& request);
 
 }  // namespace vorocl::command

@@ -1,5 +1,7 @@
 #include "app/outputs/frame_files.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "formats/files.hpp"
@@ -17,18 +19,29 @@ std::string collection_path(const FileRequest& request) {
   return (pattern.parent_path() / (name + ".pvd")).string();
 }
 
-FrameFiles::FrameFiles(const FileRequest& request) : request_(request), files_(request.path) {
+FrameFiles::FrameFiles(const FileRequest& request) : request_(request) {
+  if (request.is_long_table()) {
+    table_.emplace(request.path);
+    *table_ << "frame,timestep," << request.kind.table()->columns << "\n";
+    return;
+  }
+  files_.emplace(request.path);
   const std::string collection = collection_path(request);
   if (!collection.empty()) collection_.emplace(collection);
 }
 
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
-  const OutputFile file = files_.file(frame);
+  if (table_) {
+    request_.kind.table()->add_rows(*table_, fmt::format("{},{},", frame, time), measures);
+    return;
+  }
+  const OutputFile file = files_->file(frame);
   request_.kind.write(file, measures);
   if (collection_) listed_.push_back({time, fs::path(file.path()).filename().string()});
 }
 
-void FrameFiles::finish() const {
+void FrameFiles::finish() {
+  if (table_) table_->finish();
   if (collection_) write_pvd(*collection_, listed_);
 }
 

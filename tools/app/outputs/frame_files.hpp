@@ -1,4 +1,5 @@
-// Numbered files of one kind, and the collection that lists those that ParaView opens.
+// The files of one kind that a simulation writes: numbered ones, with the collection that lists those that
+// ParaView opens, or one table of all frames.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +17,23 @@ namespace vorocl::command {
 /// option's name where nothing is left. Empty for other files. The path is a NumberedName.
 std::string collection_path(const FileRequest& request);
 
-/// Each numbered file is whole as soon as it is there.
+/// Each numbered file is whole as soon as it is there. A long table has the columns frame and timestep before
+/// its own, and grows under a temporary name until finish().
 class FrameFiles {
  public:
   /// Throws Error if no file can be made there.
   explicit FrameFiles(const FileRequest& request);
 
-  /// Writes the file of a frame, which shows this time.
+  /// Writes the file or the rows of a frame, which shows this time.
   void add(int frame, std::int64_t time, Measures& measures);
 
-  /// Writes the collection.
-  void finish() const;
+  /// Writes the collection, or gives the table its name.
+  void finish();
 
  private:
   FileRequest request_;
-  NumberedFiles files_;
+  std::optional<NumberedFiles> files_;
+  std::optional<GrowingFile> table_;
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
 };

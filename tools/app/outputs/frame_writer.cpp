@@ -30,7 +30,7 @@ void note_of_size(const Film& film, const cv::Size& picture) {
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   std::vector<RequestedFile> files;
   for (const FileRequest& request : options.files) {
-    files.push_back(requested(request, true));
+    files.push_back(requested_of_frames(request));
     files.push_back({request.kind.option, collection_path(request), {".pvd"}});
   }
   files.push_back({"--similarity", options.similarity_path, {".csv"}});

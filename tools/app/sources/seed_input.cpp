@@ -41,7 +41,7 @@ Input input_from_points(const SeedOptions& options) {
     const Bounds bounds = options.bounds ? *options.bounds : bounding_box(points);
     const Grid grid = options.size ? with_axes(*options.size, options)
                                    : grid_of_width(bounds, options.width, axes_of(options));
-    const std::vector<Point> pixels = to_pixels(points, bounds, grid, options.y_up);
+    const std::vector<Point> pixels = to_pixels(points, bounds, grid, points_up(options));
     warn_of_scales(bounds, grid);
     if (grid.periodic() != Periodic::none && !options.bounds) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
@@ -93,12 +93,17 @@ void check_needs(const SeedOptions& options) {
   const char* const given = options.bounds                  ? "--bounds"
                             : options.width != 0            ? "--width"
                             : options.y_up                  ? "--y-up"
+                            : options.y_down                ? "--y-down"
                             : !options.value_column.empty() ? "--color column:NAME"
                                                             : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
 }
 
 }  // namespace
+
+bool points_up(const SeedOptions& options) {
+  return options.y_up || (!options.trajectory.empty() && !options.y_down);
+}
 
 Input read_input(const SeedOptions& options) {
   check_needs(options);

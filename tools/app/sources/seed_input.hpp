@@ -23,11 +23,14 @@ struct SeedOptions {
   std::optional<Grid> size;
   int width = 0;
   std::optional<Bounds> bounds;
-  std::optional<Periodic> periodic;  // else none, or what the trajectory says
-  bool y_up = false;
+  std::optional<Periodic> periodic;   // else none, or what the trajectory says
+  bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
   std::string value_column;  // whose values are read with the points
 };
+
+/// Whether the data's y axis points up: that of a trajectory does unless the options say otherwise.
+bool points_up(const SeedOptions& options);
 
 /// Seeds that were read and checked, and that a device can now be given.
 struct Input {

@@ -52,7 +52,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     : path_(options.trajectory),
       given_bounds_(options.bounds),
       axes_are_told_(options.periodic.has_value()),
-      y_up_(options.y_up) {
+      y_up_(points_up(options)) {
   if (!options.size && options.width == 0) {
     throw UsageError("--size WxH or --width W is required with --trajectory");
   }
