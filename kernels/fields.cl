@@ -13,10 +13,7 @@ typedef JOIN(float, VOROCL_WIDTH) float_v;
 // Each pixel's distance to its label's seed.
 static inline uint_v find_distances(global const uint* labels, global const uint* positions, uint count, int x, int y,
                                     int width, int height) {
-  uint lane[VOROCL_WIDTH];
-  STORE_VECTOR(min(LOAD_VECTOR(labels + y * width + x), (uint_v)count), lane);
-  for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = positions[lane[i]];
-  const uint_v position = LOAD_VECTOR(lane);
+  const uint_v position = look_up_positions(labels + y * width + x, positions, count);
   const uint_v distance = distance_in_grid(position, vector_positions(x, y), periods(width, height));
   return select(distance, (uint_v)NO_DISTANCE, (position & EMPTY_BIT) != 0);
 }

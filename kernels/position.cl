@@ -26,6 +26,13 @@ static inline uint_v pixel_index(uint_v position, int width) {
 // The list of seed positions has one value more than there are seeds: EMPTY. A label that is no seed's id is clamped to
 // it when its position is looked up.
 
+static inline uint_v look_up_positions(global const uint* labels, global const uint* positions, uint count) {
+  uint lane[VOROCL_WIDTH];
+  STORE_VECTOR(min(LOAD_VECTOR(labels), (uint_v)count), lane);
+  for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = positions[lane[i]];
+  return LOAD_VECTOR(lane);
+}
+
 // An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
 #define FIRST_ID 1
 

@@ -22,23 +22,6 @@ bool has_scale(double extent) {
   return extent == 0 || (std::isfinite(extent * Grid::max_side) && std::isfinite(Grid::max_side / extent));
 }
 
-/// Written in the order of operations that is documented, so that rounding is the same everywhere.
-int pixel(double value, double low, double high, int count, bool periodic) {
-  const double extent = high - low;
-  if (extent == 0) return count / 2;
-  double offset = value - low;
-  if (periodic) {
-    offset = std::fmod(offset, extent);
-    if (offset < 0) offset += extent;
-  }
-  const double position = std::floor(offset * count / extent);
-  return static_cast<int>(std::min(std::max(0.0, position), count - 1.0));
-}
-
-bool is_outside(double value, double low, double high, bool periodic) {
-  return !periodic && (value < low || value > high);
-}
-
 }  // namespace
 
 void check_bounds(const Bounds& bounds, const Grid& grid) {
@@ -51,14 +34,51 @@ void check_bounds(const Bounds& bounds, const Grid& grid) {
   if (grid.periodic_y() && height == 0) refuse(bounds, "have no extent in y, which is to be periodic");
 }
 
-std::optional<Point> to_pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up) {
-  if (is_outside(point.x, bounds.x0, bounds.x1, grid.periodic_x()) ||
-      is_outside(point.y, bounds.y0, bounds.y1, grid.periodic_y())) {
-    return std::nullopt;
+AxisMap::AxisMap(double low, double high, int count, bool closed)
+    : low_(low), high_(high), count_(count), closed_(closed) {}
+
+double AxisMap::scale() const { return count_ / (high_ - low_); }
+
+void AxisMap::repeat(double period_low, double period_high, const char* name) {
+  const double period = period_high - period_low;
+  const auto refuse = [&](const char* why) {
+    std::ostringstream text;
+    text << "the period in " << name << " is " << period << ", " << why;
+    throw Error(text.str());
+  };
+  if (period < high_ - low_) refuse("shorter than the bounds");
+  if (!(period * scale() >= 0.5)) refuse("less than a pixel");
+  period_low_ = period_low <= low_ && high_ <= period_high ? period_low : low_;
+  period_ = period;
+}
+
+bool AxisMap::is_outside(double at) const { return !period_ && (at < low_ || at > high_); }
+
+double AxisMap::pixel(double at) const {
+  if (high_ == low_) return at == low_ ? count_ / 2 : at < low_ ? -1 : count_;
+  if (!period_) {
+    const double position = std::floor((at - low_) * count_ / (high_ - low_));
+    return closed_ && at <= high_ ? std::min(position, count_ - 1.0) : position;
   }
-  const int column = pixel(point.x, bounds.x0, bounds.x1, grid.width(), grid.periodic_x());
-  const int row = pixel(point.y, bounds.y0, bounds.y1, grid.height(), grid.periodic_y());
-  return Point{column + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5};
+  double offset = std::fmod(at - period_low_, *period_);
+  if (offset < 0) offset += *period_;
+  const double position = std::floor((offset + (period_low_ - low_)) * count_ / (high_ - low_));
+  return std::min(position, static_cast<double>(period_begin() + period_length() - 1));
+}
+
+std::int64_t AxisMap::period_begin() const {
+  return period_ ? std::llround((period_low_ - low_) * scale()) : 0;
+}
+
+std::int64_t AxisMap::period_length() const { return period_ ? std::llround(*period_ * scale()) : count_; }
+
+std::optional<Point> to_pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up) {
+  AxisMap x(bounds.x0, bounds.x1, grid.width(), true), y(bounds.y0, bounds.y1, grid.height(), true);
+  if (grid.periodic_x()) x.repeat(bounds.x0, bounds.x1, "x");
+  if (grid.periodic_y()) y.repeat(bounds.y0, bounds.y1, "y");
+  if (x.is_outside(point.x) || y.is_outside(point.y)) return std::nullopt;
+  const double row = y.pixel(point.y);
+  return Point{x.pixel(point.x) + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5};
 }
 
 }  // namespace vorocl

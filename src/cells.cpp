@@ -25,7 +25,7 @@ struct CellShapesState : Measured {
   cl::Buffer boxes, distances;
   cl::Buffer upper_words, lower_words;  // of distances that may not fit in 32 bits: see plane_shapes.cl
 
-  bool far() const { return !empty() && frames.seeds->outer && frames.seeds->outer->reach == Reach::far; }
+  bool far() const { return !empty() && frames.seeds->outer && frames.seeds->outer->extent == Extent::far; }
 };
 
 CellSumsResult::CellSumsResult() = default;
@@ -118,8 +118,8 @@ cl::Event add_plane_shapes(const MeasuredFrames& measured, const Diagram& diagra
   const OuterSeeds& outer = *measured.seeds->outer;
   const auto count = static_cast<cl_uint>(measured.seeds->size);
   const Blocks blocks(device, grid);
-  const KernelOptions options = {metric, Neighbourhood::moore, outer.reach};
-  const bool far = outer.reach == Reach::far;
+  const KernelOptions options = {metric, Neighbourhood::moore, outer.extent};
+  const bool far = outer.extent == Extent::far;
   if (far) {
     for (cl::Buffer* const words : {&shapes.upper_words, &shapes.lower_words}) {
       make_room(*words, device, count * sizeof(cl_int));
@@ -206,6 +206,22 @@ std::vector<CellShape> CellShapesResult::read() const {
   return cells;
 }
 
+namespace {
+
+std::size_t outer_seeds_without_pixels(const OuterSeeds& outer, const CellSumsState& sums) {
+  const SeedsFrame& seeds = *sums.frames.seeds;
+  const auto areas = download<cl_uint>(seeds.device, sums.area, seeds.size);
+  const auto positions = download<PlanePosition>(seeds.device, outer.seeds, seeds.size);
+  std::size_t count = 0;
+  for (std::size_t id = 0; id < seeds.size; ++id) {
+    const bool outside = !is_absent(positions[id]) && !is_inside(seeds.grid, positions[id]);
+    count += outside && areas[id] == 0 ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
 CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram) {
   CellSumsResult sums;
   cell_sums(seeds, diagram, sums);
@@ -233,6 +249,7 @@ CellStatistics cell_statistics(CellSumsResult& result) {
     squares += some.s[2];
   }
   statistics.cells = seeds.alive();
+  if (seeds.outer) statistics.cells -= outer_seeds_without_pixels(*seeds.outer, sums);
   statistics.empty_cells = statistics.cells - std::min(statistics.cells, cells_with_pixels);
   if (statistics.cells > 0) {
     const auto cells = static_cast<double>(statistics.cells);

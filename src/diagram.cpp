@@ -80,10 +80,11 @@ Filling::Filling(const Seeds& seeds, Diagram& diagram)
   seeds_ = Internal::state(seeds).frame();
 }
 
-Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age) {
+Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age, bool far_counted,
+                       const FloodStart& start) {
   check(clFlush(diagram_.device.queue()()), "starting the diagram");
-  diagram_.contents = DiagramContents{seeds_, age, last};
-  return {waves, first, last, stopwatch_.milliseconds()};
+  diagram_.contents = DiagramContents{seeds_, age, last, far_counted};
+  return {waves, first, last, stopwatch_.milliseconds(), start};
 }
 
 // --- Diagram ---

@@ -20,6 +20,7 @@ struct DiagramContents {
   std::shared_ptr<const SeedsFrame> seeds;  // that an engine made them from; null: the caller wrote them
   int age = 0;                              // frames since they were last made from nothing
   cl::Event last;                           // the command that finished them
+  bool far_counted = false;                 // the flood that made them counted pixels far from their seeds
 };
 
 struct DiagramState {
@@ -78,7 +79,8 @@ class Filling {
 
   /// Says that the diagram holds the labels of the seeds, `age` frames after they were last made from
   /// nothing. Starts what was enqueued, and reports it.
-  Report commit(int waves, const cl::Event& first, const cl::Event& last, int age = 0);
+  Report commit(int waves, const cl::Event& first, const cl::Event& last, int age = 0,
+                bool far_counted = false, const FloodStart& start = {});
 
  private:
   Stopwatch stopwatch_;

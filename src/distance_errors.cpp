@@ -22,7 +22,7 @@ DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const
   const cl::Buffer excesses = allocate(device, items * sizeof(cl_float2), "the errors");
   const OuterSeeds* const outer = measured.seeds->outer.get();
   Kernel(device, "distance_errors.cl", "judge_labels", grid,
-         {metric, Neighbourhood::moore, outer != nullptr ? outer->reach : Reach::grid})
+         {metric, Neighbourhood::moore, outer != nullptr ? outer->extent : Extent::grid})
       .over_items(items, diagram.labels(), exact.labels(),
                   outer != nullptr ? outer->seeds : seeds.positions(), static_cast<cl_uint>(seeds.size()),
                   outer != nullptr ? outer->periods : cl_uint2{}, grid.width(), grid.height(),

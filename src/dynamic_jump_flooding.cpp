@@ -39,21 +39,34 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_di
   const Plan full = jump_flooding_plan(diagram.grid(), JumpFloodingVariant::jfa,
                                        von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore);
 
-  const auto start_anew = [&](std::size_t waves_before) {
-    flood.run(full);
-    return flood.commit(waves_before + full.size());
-  };
   const std::optional<DiagramContents>& previous = flood.previous();
   const bool refresh =
       options.refresh_interval > 0 && previous && previous->age + 1 >= options.refresh_interval;
-  if (refresh || seeds.alive() == 0 || !is_sound(previous)) return start_anew(0);
-
-  flood.advance_labels();
-  for (std::size_t i = 0; i + 1 < plan.size(); ++i) flood.wave(plan[i]);
-  flood.last_wave(plan.empty() ? Flood::none : plan.back());
+  const bool measured = options.reach == Reach::measured;
+  const auto commit = [&](std::size_t waves, int age) {
+    if (measured && seeds.alive() > 0) flood.count_far_pixels();
+    return flood.commit(waves, age);
+  };
+  if (refresh || seeds.alive() == 0 || !is_sound(previous)) {
+    flood.run(full);
+    return commit(full.size(), 0);
+  }
+  if (measured) {
+    const DynamicPlan reaching =
+        reaching_plan(diagram.grid(), seeds.alive(), max_displacement, flood.label_distances(reach_of(plan)),
+                      options.metric, options.plan);
+    if (reaching.from_seeds) {
+      flood.run(reaching.waves);
+      return commit(reaching.waves.size(), previous->age + 1);
+    }
+  }
+  flood.run_from_labels(plan);
   const bool all_labelled = all_labels_live(*previous, *Internal::state(seeds).frame());
-  if (!all_labelled && flood.some_unlabelled()) return start_anew(plan.size());
-  return flood.commit(plan.size(), previous->age + 1);
+  if (!all_labelled && flood.some_unlabelled()) {
+    flood.run(full);
+    return commit(plan.size() + full.size(), 0);
+  }
+  return commit(plan.size(), previous->age + 1);
 }
 
 }  // namespace vorocl

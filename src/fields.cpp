@@ -66,7 +66,7 @@ Report fill_plane_distances(const Seeds& seeds, const Diagram& diagram, FieldSta
   const MeasuredFrames frames = frames_of(seeds, diagram);
   const OuterSeeds& outer = *frames.seeds->outer;
   return fill_field(
-      state, diagram, frames, "plane_fields.cl", name, {metric, Neighbourhood::moore, outer.reach},
+      state, diagram, frames, "plane_fields.cl", name, {metric, Neighbourhood::moore, outer.extent},
       [&](Kernel& kernel, const cl::Buffer& values) {
         return kernel.over_grid(diagram.labels(), outer.seeds, static_cast<cl_uint>(seeds.size()),
                                 outer.periods, values, grid.width(), grid.height(), more...);

@@ -28,8 +28,8 @@ std::string build_options(int vector_width, const Grid& grid, const KernelOption
          (options.metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
                                                         : " -DVOROCL_NEIGHBOURS=5") +
-         (options.reach != Reach::grid ? " -DVOROCL_OUTER_SEEDS" : "") +
-         (options.reach == Reach::far ? " -DVOROCL_FAR" : "") +
+         (options.extent != Extent::grid ? " -DVOROCL_OUTER_SEEDS" : "") +
+         (options.extent == Extent::far ? " -DVOROCL_FAR" : "") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
          (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "");

@@ -21,17 +21,17 @@ constexpr std::size_t guard = 16;
 
 /// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64
 /// (kernels/plane.cl).
-enum class Reach { grid, near, far };
+enum class Extent { grid, near, far };
 
 /// What kernels are specialised for when they are built, besides the vector width and the grid's periodic
 /// axes. Kernels that read no distance or no neighbours are the same for all.
 struct KernelOptions {
   Metric metric = Metric::euclidean;
   Neighbourhood neighbourhood = Neighbourhood::moore;
-  Reach reach = Reach::grid;
+  Extent extent = Extent::grid;
 
   friend bool operator==(const KernelOptions& a, const KernelOptions& b) {
-    return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.reach == b.reach;
+    return a.metric == b.metric && a.neighbourhood == b.neighbourhood && a.extent == b.extent;
   }
 };
 

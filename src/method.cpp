@@ -38,7 +38,7 @@ Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double ma
   const DynamicPlanOptions plan = {options.neighbourhood.value_or(NeighbourhoodMix::mixed),
                                    options.von_neumann_waves, options.extra_waves};
   return dynamic_jump_flooding(seeds, diagram, max_displacement,
-                               {options.metric, plan, options.refresh_interval});
+                               {options.metric, plan, options.refresh_interval, options.reach});
 }
 
 Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
@@ -106,10 +106,14 @@ void prepare(const Method& method, const Device& device, const Grid& grid, std::
              const MethodOptions& options) {
   Diagram diagram(device, grid);
   method.run(Seeds::random(device, grid, seeds, 1), diagram, 0, options);
-  // The second frame runs the longest plan and, because its seeds are others, the search for pixels without a
-  // label: both need kernels that the first frame does not.
-  const double farthest = grid.longest_side();
-  if (method.continues) method.run(Seeds::random(device, grid, seeds, 2), diagram, farthest, options);
+  if (method.continues) {
+    // The second frame runs the longest plan and, because its seeds are others, the search for pixels without
+    // a label; the third one starts from its labels: all need kernels that the first frame does not.
+    const Seeds others = Seeds::random(device, grid, seeds, 2);
+    const double farthest = grid.longest_side();
+    method.run(others, diagram, farthest, options);
+    method.run(others, diagram, 0, options);
+  }
   diagram.wait();
 }
 

@@ -271,7 +271,7 @@ std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const
   if (domain && has_y(domain->periodic)) outer.periods.s[1] = static_cast<cl_uint>(domain->height);
   const std::vector<Entry> entries = ordered_entries(region, domain, positions);
   for (const Entry& entry : entries) near = near && is_near(grid, entry.place);
-  outer.reach = near ? Reach::near : Reach::far;
+  outer.extent = near ? Extent::near : Extent::far;
   positions.push_back({{absent_coordinate, 0}});
   outer.seeds = uploaded(device, positions);
   if (!entries.empty()) make_tree(outer, device, entries);

@@ -33,7 +33,7 @@ inline bool is_inside(const Grid& grid, const PlanePosition& at) {
 struct OuterSeeds {
   std::size_t outside = 0;        // seeds outside the pixels
   bool periodic = false;          // there are images
-  Reach reach = Reach::near;      // of all seeds and images
+  Extent extent = Extent::near;   // of all seeds and images
   cl_int4 region{};               // the pixels that get labels: left, top, right, bottom
   cl_uint2 periods{};             // 0 along an axis that is not periodic
   cl::Buffer seeds;               // positions by id, and one more that is absent

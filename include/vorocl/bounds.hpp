@@ -1,6 +1,7 @@
 // The map from the data's plane to pixels.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "vorocl/export.h"
@@ -19,6 +20,39 @@ struct Bounds {
 /// Throws Error unless the bounds are finite, with x0 <= x1 and y0 <= y1, have an extent along the grid's
 /// periodic axes, and are neither so far apart nor so near that double has no scale for them.
 VOROCL_API void check_bounds(const Bounds& bounds, const Grid& grid);
+
+/// The map of one axis from data to pixels: the column (or row) of x is floor((x - low) * count / (high -
+/// low)), in this order of operations, so that rounding is the same everywhere. It may lie outside the grid.
+class VOROCL_API AxisMap {
+ public:
+  /// The bounds along the axis, low <= high, and the pixels. If `closed`, a point at `high` falls in the last
+  /// pixel. Without an extent, points at `low` fall in the middle one.
+  AxisMap(double low, double high, int count, bool closed);
+
+  /// Makes the axis periodic: coordinates wrap. The period may begin anywhere; where it does not hold the
+  /// bounds, it begins with them. Throws Error, which names the axis so, if it is shorter than the bounds or
+  /// than half a pixel.
+  void repeat(double period_low, double period_high, const char* name);
+
+  /// Whether a coordinate is outside the bounds; never along a periodic axis.
+  bool is_outside(double at) const;
+
+  /// The pixel of a finite coordinate, a whole number.
+  double pixel(double at) const;
+
+  /// The period's first pixel and how many it has, rounded to whole ones; those of the grid without a period.
+  std::int64_t period_begin() const;
+  std::int64_t period_length() const;
+
+ private:
+  double scale() const;
+
+  double low_, high_;
+  int count_;
+  bool closed_;
+  double period_low_ = 0;
+  std::optional<double> period_;
+};
 
 /// The centre of the pixel that holds a point, which must be finite: column floor((x - x0) * W / (x1 - x0)),
 /// the last one for x1 itself, the middle one where x1 = x0; rows likewise, or counted from the bottom if

@@ -13,6 +13,7 @@ struct DynamicJumpFloodingOptions {
   Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
   DynamicPlanOptions plan = {};       ///< the waves
   int refresh_interval = 0;           ///< every how many frames a full JFA runs instead; 0: only for frame 0
+  Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is the paper's
 };
 
 /// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
@@ -21,18 +22,24 @@ struct DynamicJumpFloodingOptions {
 /// moved farther along an axis since the diagram was last filled, in pixels. A diagram that counts as never
 /// filled gets a JFA.
 ///
-/// Approximate; close to JFA where seeds are spread evenly (the paper's assumption), worse where they are
-/// not. Seeds may appear and vanish: a label of a vanished seed counts as none, and if a pixel is left
-/// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels; 13 bytes of
-/// device memory per pixel. Enqueues and returns, with three exceptions, in which it waits for all that was
-/// enqueued before:
+/// Reach::paper: close to JFA where seeds are spread evenly and move little (the paper's assumption), worse,
+/// without a word, where they are not. A label of a vanished seed counts as none, and if a pixel is left
+/// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels. Enqueues and
+/// returns, with three exceptions, in which it waits for all that was enqueued before:
 /// - After a seed may have vanished, or if the labels are of other seeds or were written by the caller, it
 ///   looks whether pixels are left.
 /// - If the last frame's points came in the caller's buffer, it looks whether one was bad, which would have
 ///   left holes in the labels: then a JFA runs.
 /// - If a buffer said which seeds are present, it asks how many they are, on which the waves depend.
 ///
-/// Throws as jump_flooding(), and if an option is out of its range.
+/// Reach::measured: as close to the exact diagram as JFA for any seeds and any motion. The pass over the
+/// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on, JFA's
+/// waves run from a step that covers that distance (see reaching_plan()). `max_displacement` may be less than
+/// what was: the distance shows it. Evenly spread seeds get the paper's plan, and its labels. Cost: as above,
+/// at most JFA's waves and a pass over the labels. Waits, once the labels are measured: each frame is
+/// enqueued when the device has come to it.
+///
+/// 13 bytes of device memory per pixel. Throws as jump_flooding(), and if an option is out of its range.
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
                                         const DynamicJumpFloodingOptions& options = {});
 

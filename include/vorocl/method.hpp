@@ -24,6 +24,7 @@ struct MethodOptions {
   int von_neumann_waves = 2;                           ///< of djfa: see DynamicPlanOptions
   int extra_waves = 0;                                 ///< of djfa: see DynamicPlanOptions
   int refresh_interval = 0;                            ///< of djfa: see DynamicJumpFloodingOptions
+  Reach reach = Reach::measured;                       ///< of djfa: see dynamic_jump_flooding()
 };
 
 /// A way to make a diagram from seeds.

@@ -6,16 +6,26 @@
 
 namespace vorocl {
 
+/// What the waves of a diagram started with.
+struct FloodStart {
+  int first_step = 0;      ///< of the first wave, in pixels; 0: there was none
+  bool from_seeds = true;  ///< from the seeds alone, as JFA, and not from the last labels
+};
+
 /// Engines enqueue and return; their report can be asked later, from any thread, also when seeds and diagram
 /// are gone.
 class VOROCL_API Report {
  public:
   Report() = default;
-  Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds)
-      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds) {}
+  Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
+         const FloodStart& start = {})
+      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds), start_(start) {}
 
   /// The waves that ran, 0 for an engine without waves.
   int waves() const { return waves_; }
+
+  /// Of the waves that made the labels: those that ran before a new start are not looked at.
+  const FloodStart& start() const { return start_; }
 
   /// Completes with the diagram.
   const cl::Event& event() const { return last_; }
@@ -31,7 +41,7 @@ class VOROCL_API Report {
 
   /// One report of two engines that ran one after the other for one diagram.
   friend Report operator+(const Report& a, const Report& b) {
-    return {a.waves_ + b.waves_, a.first_, b.last_, a.host_milliseconds_ + b.host_milliseconds_};
+    return {a.waves_ + b.waves_, a.first_, b.last_, a.host_milliseconds_ + b.host_milliseconds_, b.start_};
   }
 
  private:
@@ -39,6 +49,7 @@ class VOROCL_API Report {
   cl::Event first_;
   cl::Event last_;
   double host_milliseconds_ = 0;
+  FloodStart start_;
 };
 
 }  // namespace vorocl

@@ -88,6 +88,11 @@ enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAUL
 typedef int vorocl_variant;
 enum { VOROCL_JFA = 0, VOROCL_JFA_PLUS_1 = 1, VOROCL_JFA_PLUS_2 = 2, VOROCL_ONE_PLUS_JFA = 3 };
 
+/// Where the waves of dynamic jump flooding get their reach from: see vorocl::Reach. One of
+/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER.
+typedef int vorocl_reach;
+enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1 };
+
 /// Which axes of a grid are periodic: see vorocl::Periodic. One of VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_X,
 /// VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY.
 typedef int vorocl_periodic;
@@ -346,11 +351,12 @@ typedef struct vorocl_method_options {
   int von_neumann_waves;  ///< of dynamic jump flooding: see vorocl::DynamicPlanOptions
   int extra_waves;        ///< likewise
   int refresh_interval;   ///< likewise: see vorocl::DynamicJumpFloodingOptions
+  vorocl_reach reach;     ///< likewise: see vorocl::dynamic_jump_flooding()
 } vorocl_method_options;
 
 /// Initialises options; to give NULL for them means the same.
 #define VOROCL_METHOD_OPTIONS_DEFAULTS \
-  { VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, 2, 0, 0 }
+  { VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, 2, 0, 0, VOROCL_REACH_MEASURED }
 
 /// See vorocl::dynamic_jump_flooding(). No seed may have moved by more than `max_displacement` pixels along
 /// an axis since the diagram was last filled.

@@ -16,6 +16,12 @@ std::optional<NeighbourhoodMix> to_mix(vorocl_neighbourhood neighbourhood) {
   refuse("neighbourhood", neighbourhood);
 }
 
+Reach to_reach(vorocl_reach reach) {
+  if (reach == VOROCL_REACH_MEASURED) return Reach::measured;
+  if (reach == VOROCL_REACH_PAPER) return Reach::paper;
+  refuse("reach", reach);
+}
+
 /// The name of a variant of jump flooding.
 const char* to_name(vorocl_variant variant) {
   if (variant == VOROCL_JFA) return "jfa";
@@ -28,7 +34,7 @@ const char* to_name(vorocl_variant variant) {
 MethodOptions to_options(const vorocl_method_options* options) {
   if (options == nullptr) return {};
   return {to_metric(options->metric), to_mix(options->neighbourhood), options->von_neumann_waves,
-          options->extra_waves, options->refresh_interval};
+          options->extra_waves,       options->refresh_interval,      to_reach(options->reach)};
 }
 
 /// Runs a method and keeps its report; if it fails, there is none.

@@ -29,7 +29,7 @@ cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric
   const cl_int4& region = outer->region;
   const char* const file = length == ListLength::full ? "exact/outer.cl" : "exact/short_outer.cl";
   const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernel(file, name, {metric, Neighbourhood::moore, outer->reach});
+    return state.kernel(file, name, {metric, Neighbourhood::moore, outer->extent});
   };
   cl::Event event = last;
   if (outer->count > 0) {

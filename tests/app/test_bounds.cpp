@@ -20,9 +20,20 @@ Pairs pairs_of(const std::vector<Point>& points) {
   return pairs;
 }
 
+/// Bounds outside which no point may be.
+Mapping refusing(const Bounds& bounds, bool y_up = false) {
+  Mapping mapping;
+  mapping.bounds = bounds;
+  mapping.y_up = y_up;
+  mapping.outside = Outside::refuse;
+  return mapping;
+}
+
 /// Column and row of one point.
 Pairs pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up = false) {
-  return pairs_of(to_pixels({point}, bounds, grid, y_up));
+  Mapping mapping = refusing(bounds, y_up);
+  mapping.periodic = grid.periodic();
+  return pairs_of(map_points({point}, mapping, grid).pixels);
 }
 
 }  // namespace
@@ -59,7 +70,7 @@ BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
 BOOST_AUTO_TEST_CASE(points_outside_are_named) {
   const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
   const auto map = [](const Point& bad) {
-    to_pixels({{0, 0}, {1, 1}, bad}, {0, 0, 2, 1}, Grid(4, 2), false);
+    map_points({{0, 0}, {1, 1}, bad}, refusing({0, 0, 2, 1}), Grid(4, 2));
   };
   check_error([&] { map({2.5, 1}); }, {"point 2", "(2.5, 1)", "outside the bounds 0,0,2,1"});
   check_error([&] { map({1, -0.001}); }, {"point 2", "(1, -0.001)", "outside"});

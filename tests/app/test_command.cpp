@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <random>
 
 #include "brute_force.hpp"
 #include "formats/label_files.hpp"
+#include "plane_brute_force.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
@@ -70,6 +73,42 @@ BOOST_AUTO_TEST_CASE(render_labels_pixels_by_the_nearest_point_of_the_file) {
       "render --points p.csv --bounds 100,1000,104,1003 --size 40x30 --y-up --method jfa+2 --labels a.tif");
   const std::vector<Pixel> seeds = {{0, 29}, {39, 29}, {20, 0}, {0, 29}};
   BOOST_TEST(labels_of(folder, "a.tif") == brute_force(Grid(40, 30), seeds, Metric::euclidean));
+}
+
+BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
+  const TemporaryFolder folder;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> longitude(-180, 180), latitude(-90, 90);
+  std::vector<Point> points(60);
+  std::string text = "x,y\n";
+  for (Point& point : points) {
+    point = {std::floor(longitude(random)) + 0.5, std::floor(latitude(random)) + 0.5};
+    text += fmt::format("{},{}\n", point.x, point.y);
+  }
+  folder.file("p.csv", text);
+  // Windows of 4 pixels per unit, whose labels are those of the host's brute force.
+  const auto check = [&](int x0, int y0, int x1, int y1, const std::string& options, const Domain& domain) {
+    const Grid grid(4 * (x1 - x0), 4 * (y1 - y0));
+    std::vector<PlanePixel> seeds;
+    for (const Point& point : points) {
+      seeds.push_back({std::llround(4 * (point.x - x0)), std::llround(4 * (point.y - y0))});
+    }
+    const std::string line =
+        fmt::format("render --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}", grid.width(),
+                    grid.height(), x0, y0, x1, y1, options);
+    const Result result = run(folder, line);
+    BOOST_TEST(result.exit_code == 0, result.error);
+    BOOST_TEST(result.error.find("of 60 points lie outside the bounds") != std::string::npos, result.error);
+    BOOST_TEST(labels_of(folder, "l.npy") == brute_force(grid, domain, seeds, Metric::euclidean), line);
+  };
+  const std::string around = " --periodic x --domain -180,-90,180,90";
+  check(20, -30, 60, 10, "", {});
+  check(400, 100, 420, 110, "", {});
+  check(20, -30, 60, 10, around, {-4 * 200, 0, 1440, 1, Periodic::x});
+  check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});   // the period begins with the window
+  check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});  // a whole period, but in y a window
+  // What the grid shows whole is the grid's own period, and flooding takes it.
+  succeeds(folder, "render --points p.csv --size 144x72 --method jfa -o a.png" + around);
 }
 
 BOOST_AUTO_TEST_CASE(render_reads_masks_and_makes_its_own_points) {

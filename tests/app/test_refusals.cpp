@@ -56,8 +56,11 @@ BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
   refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv", "point 1", "nan"});
   refuses(folder, "render --points inf.csv --bounds 0,0,9,9" + square, failure,
           {"inf.csv", "point 2", "-inf"});
-  refuses(folder, "render --points far.csv --bounds 0,0,3,3" + square, failure,
+  refuses(folder, "render --points far.csv --bounds 0,0,3,3 --outside refuse" + square, failure,
           {"far.csv", "point 1", "(3, 4)", "0,0,3,3"});
+  folder.file("farther.csv", "1,2\n1e12,4\n");
+  refuses(folder, "render --points farther.csv --bounds 0,0,3,3" + square, failure,
+          {"farther.csv", "point 1", "2^31 pixels"});
 }
 
 BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
@@ -84,6 +87,12 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--size 10x10 --periodic z", usage, {"--periodic", "xy"});
   refuses(folder, points + "--size 10x10 --periodic x --bounds 1,0,1,9", failure,
           {"p.csv", "no extent in x"});
+  refuses(folder, points + "--size 10x10 --bounds 0,2,4,2", failure, {"p.csv", "no extent in y"});
+  refuses(folder, points + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--periodic"});
+  refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,9 --bounds 0,0,9,10", failure,
+          {"p.csv", "period in y is 9", "bounds"});
+  refuses(folder, render + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--points"});
+  refuses(folder, points + "--size 10x10 --outside ignore", usage, {"--outside", "count, refuse"});
   refuses(folder, render + "--size 32001x10 --periodic x", failure, {"32001", "periodic", "32000"});
   refuses(folder, "bench --random 5 --size 10x10 --periodic x --methods opencv", failure,
           {"opencv", "periodic"});

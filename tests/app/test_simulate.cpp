@@ -198,6 +198,42 @@ BOOST_AUTO_TEST_CASE(bench_starts_djfa_one_step_before) {
   BOOST_TEST(djfa.at("wrong_pixels") == verdict.wrong + verdict.unlabelled);
 }
 
+// 300 seeds on a line, which no motion leaves: the paper's waves do not reach the far sides.
+BOOST_AUTO_TEST_CASE(the_plans_of_a_run_are_told) {
+  const TemporaryFolder folder;
+  std::ofstream points(folder / "line.csv");
+  points << "x,y\n";
+  for (int i = 0; i < 300; ++i) points << i + 0.5 << ",150.5\n";
+  points.close();
+  const std::string run =
+      "simulate --points line.csv --bounds 0,0,300,300 --size 300x300 --frames 4 --step-length 0 --method "
+      "djfa ";
+  const auto plans_of = [&](const std::string& arguments) {
+    return json::parse(succeeds(folder, run + arguments + " --json")).at("plans");
+  };
+  // 300 pixels per seed: the paper's first step is 64. The line is 150 pixels away: steps 128, 64, ..., 1.
+  const json paper = {{"first_step", {{"least", 64.0}, {"greatest", 64.0}}},
+                      {"waves", {{"least", 7.0}, {"greatest", 7.0}}},
+                      {"max_displacement", {{"least", 0.0}, {"greatest", 0.0}}},
+                      {"frames_from_seeds", 0},
+                      {"jfa_frames", 0}};
+  BOOST_TEST(plans_of("--reach paper") == paper);
+  const json measured = {{"first_step", {{"least", 128.0}, {"greatest", 128.0}}},
+                         {"waves", {{"least", 8.0}, {"greatest", 8.0}}},
+                         {"max_displacement", {{"least", 0.0}, {"greatest", 0.0}}},
+                         {"frames_from_seeds", 4},
+                         {"jfa_frames", 0}};
+  BOOST_TEST(plans_of("") == measured);
+  BOOST_TEST(plans_of("--refresh-interval 2").at("jfa_frames") == 2);
+  const std::string text = succeeds(folder, run);
+  BOOST_TEST(text.find("first steps 128 to 128, 8 to 8 waves, d_max 0 to 0 pixels") != std::string::npos);
+  BOOST_TEST(text.find("instead of the last labels: 4, of which 0") != std::string::npos);
+  BOOST_TEST(!json::parse(succeeds(folder,
+                                   "simulate --random 9 --size 20x20 --frames 1 --step-length 1 "
+                                   "--method jfa --json"))
+                  .contains("plans"));
+}
+
 BOOST_AUTO_TEST_CASE(json_is_one_object) {
   const TemporaryFolder folder;
   const json result = json::parse(succeeds(

@@ -152,8 +152,9 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
   BOOST_TEST(labels("none", "") == expected(Periodic::none));
   BOOST_TEST(labels("xy", "--periodic none") == expected(Periodic::none));
   BOOST_TEST(labels("none", "--periodic x") == expected(Periodic::x));
-  BOOST_TEST(labels("xy", "--bounds 0,0,10,10", "--bounds cuts it") == expected(Periodic::none));
-  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic xy") == expected(Periodic::xy));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10") == expected(Periodic::xy));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic x") == expected(Periodic::x));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic none") == expected(Periodic::none));
 
   folder.file("tilted.lammpstrj",
               dump("xy xz yz pp pp pp\n0 12 2\n0 10 0\n-0.5 0.5 0", "id x y", {"1 0.5 5", "2 6 5"}));
@@ -175,14 +176,21 @@ BOOST_AUTO_TEST_CASE(without_a_box_the_first_frame_gives_the_bounds) {
   succeeds(folder, "simulate --trajectory t.xyz --width 8 --method jfa --labels l%d.npy");
   BOOST_TEST(read_labels(folder / "l0.npy").grid.height() == 4);
   folder.file("far.xyz", "2\n\nA 0 0 0\nA 4 2 0\n2\n\nA 1 1 0\nA 5 1 0\n");
-  const Result result =
-      run(folder, "simulate --trajectory far.xyz --width 8 --method jfa --labels far%d.npy");
-  BOOST_TEST(result.exit_code == failure);
-  for (const char* part : {"far.xyz", "particle 1 of frame 1", "(5, 1)", "--bounds"}) {
-    BOOST_TEST(result.error.find(part) != std::string::npos, part);
-  }
-  BOOST_TEST((folder.names().count("far0.npy") == 1 && folder.names().count("far1.npy") == 0));
-  succeeds(folder, "simulate --trajectory far.xyz --width 10 --bounds 0,0,5,2 --method jfa");
+  const auto fails = [&](const std::string& options, std::initializer_list<const char*> parts) {
+    const TemporaryFolder files;
+    files.file("far.xyz", content_of(folder / "far.xyz"));
+    const Result result = run(files, "simulate --trajectory far.xyz --width 8 --labels far%d.npy " + options);
+    BOOST_TEST(result.exit_code == failure);
+    for (const char* part : parts) BOOST_TEST(result.error.find(part) != std::string::npos, part);
+    BOOST_TEST((files.names().count("far0.npy") == 1 && files.names().count("far1.npy") == 0));
+  };
+  fails("--outside refuse", {"far.xyz", "particle 1 of frame 1", "(5, 1)", "--bounds"});
+  fails("--method jfa", {"1 of 2 seeds", "exact"});
+  succeeds(folder, "simulate --trajectory far.xyz --width 8 --labels far%d.npy");
+  // (1, 1) is in column 2, (5, 1) in column 10, and column 6 is as far from both.
+  const std::vector<std::uint32_t> row = {0, 0, 0, 0, 0, 0, 0, 1};
+  BOOST_TEST(std::equal(row.begin(), row.end(), labels_of(folder, "far1.npy").begin()));
+  succeeds(folder, "simulate --trajectory far.xyz --width 10 --bounds 0,0,5,2 --outside refuse --method jfa");
   folder.file("none.xyz", "0\n\n1\n\nA 1 1 0\n");
   succeeds(folder, "simulate --trajectory none.xyz --size 9x9 --method djfa --labels none%d.npy");
   BOOST_TEST(labels_of(folder, "none0.npy") == std::vector<std::uint32_t>(81, no_label));

@@ -170,7 +170,8 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_similarity(diagram, exact, &percent));
   CHECK(percent > 95);
 
-  /* Right labels written into a diagram stay right, and are gone on from. */
+  /* Right labels written into a diagram stay right, and are gone on from with the paper's plan. */
+  options.reach = VOROCL_REACH_PAPER;
   OK(vorocl_seeds_read(seeds, list, 200));
   search_all(list, NULL, 200, VOROCL_EUCLIDEAN, nearest);
   CHECK(has_labels(exact, nearest));
@@ -355,6 +356,52 @@ static void test_own_buffers(const vorocl_device* device) {
 }
 
 /* What was made on a device outlives it, and a diagram the seeds it was made from. */
+/* A domain of the grid's size is a periodic grid, wherever in it the points were. */
+static void test_windows(const vorocl_device* device) {
+  const vorocl_grid periodic = {width, height, VOROCL_PERIODIC_X};
+  const vorocl_domain domain = {0, 0, width, height, VOROCL_PERIODIC_X};
+  vorocl_domain wrong = {0, 0, 0, height, VOROCL_PERIODIC_X};
+  const vorocl_point outside[2] = {{-0.5, 3}, {4, 1000}};
+  vorocl_point moved[seed_count], read[2];
+  vorocl_seeds *seeds = NULL, *of_grid = NULL;
+  vorocl_diagram *diagram = NULL, *of_periodic = NULL;
+  uint32_t labels[pixels];
+  size_t count = 0;
+  memcpy(moved, points, sizeof moved);
+  for (int i = 0; i < seed_count; ++i) moved[i].x += (i % 3 - 1) * width;
+
+  OK(vorocl_seeds_from_points(device, periodic, points, present, seed_count, &of_grid));
+  OK(vorocl_diagram_create(device, periodic, &of_periodic));
+  OK(vorocl_exact_diagram(of_grid, of_periodic, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_read(of_periodic, labels, pixels));
+  OK(vorocl_seeds_in_domain(device, grid, domain, moved, present, seed_count, &seeds));
+  OK(vorocl_diagram_create(device, grid, &diagram));
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, labels));
+  FAILS(vorocl_jump_flooding(seeds, diagram, VOROCL_EUCLIDEAN, VOROCL_MOORE, VOROCL_JFA), VOROCL_BAD_ARGUMENT,
+        "exact");
+
+  OK(vorocl_seeds_move_to(seeds, outside, NULL, 2));
+  OK(vorocl_seeds_outside(seeds, &count));
+  CHECK(count == 2);
+  OK(vorocl_seeds_read(seeds, read, 2));
+  CHECK(read[0].x == -0.5 && read[1].y == 1000.5);
+  OK(vorocl_seeds_move_in_domain(seeds, domain, moved, present, seed_count));
+  OK(vorocl_seeds_outside(seeds, &count));
+  CHECK(count == 0);
+  OK(vorocl_exact_diagram(seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, labels));
+  FAILS(vorocl_seeds_move_in_domain(seeds, wrong, moved, present, seed_count), VOROCL_BAD_ARGUMENT,
+        "the domain's width is 0");
+  wrong.periodic = 4;
+  FAILS(vorocl_seeds_move_in_domain(seeds, wrong, moved, present, seed_count), VOROCL_BAD_ARGUMENT,
+        "choice of periodic axes");
+  vorocl_diagram_free(diagram);
+  vorocl_diagram_free(of_periodic);
+  vorocl_seeds_free(seeds);
+  vorocl_seeds_free(of_grid);
+}
+
 static void test_order_of_freeing(void) {
   vorocl_device* device = NULL;
   vorocl_seeds* seeds = NULL;
@@ -382,6 +429,7 @@ int main(void) {
   test_own_buffers(device);
   test_methods(device);
   test_dynamic_jump_flooding(device);
+  test_windows(device);
   test_order_of_freeing();
   vorocl_device_free(device);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -329,6 +329,9 @@ static void test_bad_methods(const vorocl_device* device) {
   FAILS(vorocl_run("jfa", seeds, diagram, 0, &options), VOROCL_BAD_ARGUMENT, "metric 9");
   FAILS(vorocl_prepare("jfa", device, grid, 9, &options), VOROCL_BAD_ARGUMENT, "metric 9");
   options.metric = VOROCL_EUCLIDEAN;
+  options.reach = 9;
+  FAILS(vorocl_run("djfa", seeds, diagram, 0, &options), VOROCL_BAD_ARGUMENT, "reach 9");
+  options.reach = VOROCL_REACH_MEASURED;
   options.neighbourhood = 9;
   FAILS(vorocl_run("jfa", seeds, diagram, 0, &options), VOROCL_BAD_ARGUMENT, "neighbourhood 9");
   vorocl_diagram_free(diagram);

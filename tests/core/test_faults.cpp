@@ -112,6 +112,38 @@ BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
   BOOST_TEST(calls([&] { seeds->move_to(buffer, 30); }) >= 4);
 }
 
+BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
+  const std::vector<Point> points = {{-9, 3}, {20, 20}, {400, 90000}};
+  const Seeds window(test_device(), grid, points);
+  Diagram fresh(test_device(), grid);
+  exact_diagram(window, fresh);
+  const std::vector<std::uint32_t> expected = fresh.read();
+  CellShapesResult fresh_shapes;
+  cell_shapes(window, fresh, fresh_shapes);
+  const std::int64_t largest_distance = fresh_shapes.read()[0].largest_distance;
+
+  std::optional<Seeds> seeds;
+  std::optional<Diagram> diagram;
+  CellShapesResult shapes;
+  const auto start = [&] {
+    seeds.emplace(test_device(), grid, std::vector<Point>{{1, 1}, {2, 2}});
+    diagram.emplace(test_device(), grid);
+    shapes = CellShapesResult();
+  };
+  const auto run = [&] {
+    seeds->move_to(points);
+    exact_diagram(*seeds, *diagram);
+    cell_shapes(*seeds, *diagram, shapes);
+  };
+  const auto judge = [&] {
+    BOOST_TEST(seeds->outside() == (seeds->size() == 3 ? 2u : 0u));
+    run();
+    BOOST_TEST((diagram->read() == expected));
+    BOOST_TEST(shapes.read()[0].largest_distance == largest_distance);
+  };
+  BOOST_TEST(fail_each_call(start, run, judge) >= 20);
+}
+
 // The labels may be anything then: dJFA does not go on from them.
 BOOST_AUTO_TEST_CASE(a_diagram_whose_wait_fails_counts_as_never_filled) {
   const Seeds seeds = Seeds::random(test_device(), grid, 40, 1);

@@ -120,6 +120,21 @@ BOOST_AUTO_TEST_CASE(rows_within_reach) {
   }
 }
 
+// Of two seeds the one outside the patch wins at a corner alone, by 1,089 to 1,105, and is the first one of
+// its bin.
+BOOST_AUTO_TEST_CASE(farthest_seed_that_can_win) {
+  const Grid grid(160, 160);
+  for (int variant = 0; variant < 8; ++variant) {
+    std::vector<Pixel> seeds = {{71, 72}, {95, 128}};
+    for (Pixel& seed : seeds) {
+      if (variant & 1) seed.x = 159 - seed.x;
+      if (variant & 2) seed.y = 159 - seed.y;
+      if (variant & 4) std::swap(seed.x, seed.y);
+    }
+    check_all({"variant " + std::to_string(variant), grid, seeds});
+  }
+}
+
 BOOST_AUTO_TEST_CASE(rows_of_many_bins) {
   for (const int width : {1040, 4111}) check_all({"wide", {width, 40}, random_pixels({width, 40}, 700, 2)});
 }

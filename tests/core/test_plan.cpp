@@ -49,6 +49,45 @@ BOOST_AUTO_TEST_CASE(dynamic_plans_follow_the_formula_of_the_paper) {
   BOOST_TEST(plan(Grid(1, 1), 1).empty());
 }
 
+// Whether a plan starts from the seeds, and its waves.
+std::string reaching(const Grid& grid, std::size_t seeds, double max_displacement,
+                     const LabelDistances& distances, Metric metric = Metric::euclidean,
+                     const DynamicPlanOptions& options = {}) {
+  const DynamicPlan plan = reaching_plan(grid, seeds, max_displacement, distances, metric, options);
+  return (plan.from_seeds ? "seeds: " : "labels: ") + to_string(plan.waves);
+}
+
+BOOST_AUTO_TEST_CASE(a_plan_that_reaches_is_the_papers_where_that_can_be_relied_on) {
+  const Grid grid(1000, 1000);  // with 10,000 seeds L = 10, and the steps 32 to 1 reach 63
+  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05}) == "labels: 32v 16v 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.1}) == "labels: 32v 16v 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.101}) == "seeds: 16 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {89, 0.05}) == "labels: 32v 16v 8 4 2 1");  // 63 sqrt 2 = 89.1
+  BOOST_TEST(reaching(grid, 10000, 5, {90, 0.05}) == "seeds: 64 32 16 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {126, 0.05}, Metric::manhattan) == "labels: 32v 16v 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {127, 0.05}, Metric::manhattan) == "seeds: 64 32 16 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 19.9, {27, 0.05}) == "labels: 32v 16v 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 20, {27, 0.05}) == "seeds: 16 8 4 2 1");
+  // The paper's plan of 50 seeds has all of JFA's steps: the labels must be nearly right already. L = 141.4.
+  BOOST_TEST(reaching(grid, 50, 70, {300, 0.05}) == "labels: 512v 256v 128 64 32 16 8 4 2 1");
+  BOOST_TEST(reaching(grid, 50, 71, {600, 0.05}) == "seeds: 512 256 128 64 32 16 8 4 2 1");
+}
+
+BOOST_AUTO_TEST_CASE(a_plan_from_the_seeds_covers_the_greatest_distance) {
+  const Grid grid(1000, 700);
+  BOOST_TEST(reaching(grid, 100, 0, {0, 1}) == "seeds: 1");
+  BOOST_TEST(reaching(grid, 100, 0, {1, 1}) == "seeds: 1");
+  BOOST_TEST(reaching(grid, 100, 0, {1.1, 1}) == "seeds: 2 1");
+  BOOST_TEST(reaching(grid, 100, 0, {3, 1}) == "seeds: 2 1");
+  BOOST_TEST(reaching(grid, 100, 0, {511, 1}) == "seeds: 256 128 64 32 16 8 4 2 1");
+  BOOST_TEST(reaching(grid, 100, 0, {511.5, 1}) == "seeds: " + to_string(jump_flooding_plan(grid)));
+  BOOST_TEST(reaching(grid, 100, 0, {3, 1, 12}) == "seeds: 8 4 2 1");
+  BOOST_TEST(reaching(grid, 100, 0, {}) == "seeds: " + to_string(jump_flooding_plan(grid)));
+  const DynamicPlanOptions options = {NeighbourhoodMix::von_neumann, 0, 2};
+  BOOST_TEST(reaching(grid, 100, 0, {6, 1}, Metric::euclidean, options) == "seeds: 4v 2v 1v 2v 1v");
+  BOOST_TEST(reaching(Grid(1, 1), 1, 0, {}) == "seeds: ");
+}
+
 BOOST_AUTO_TEST_CASE(the_neighbourhoods_of_dynamic_plans) {
   const auto plan = [](std::size_t seeds, NeighbourhoodMix mix, int von_neumann_waves, int extra_waves) {
     return to_string(

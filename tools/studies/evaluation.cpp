@@ -18,6 +18,7 @@ namespace {
 Simulation::Engine engine_of(const MethodResult& result) {
   MethodOptions options;
   options.metric = result.metric;
+  options.reach = Reach::paper;
   return engine(method(result.method), options);
 }
 

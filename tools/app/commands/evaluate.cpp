@@ -31,17 +31,18 @@ struct EvaluateOptions {
 /// Up to the paper's largest grid with --full; without it, what two cores do in some minutes.
 std::vector<int> sides_of(const EvaluateOptions& options) {
   if (!options.study.sides.empty()) return options.study.sides;
-  if (options.full) return {1000, 2000, 5000, 10000, 15000, 20000};
+  if (options.full) return {1000, 2000, 4000, 5000, 10000, 20000};
   return {500, 1000, 2000};
 }
 
-/// From 20,000 to 16 pixels per seed.
+/// The paper's range with --full, n^2 / (100 i) for i from 100 to 1: 10,000 to 100 pixels per seed. Without
+/// it, from 20,000 to 16.
 std::vector<SeedCount> seeds_of(const EvaluateOptions& options) {
   if (!options.study.seeds.empty()) return options.study.seeds;
+  const std::vector<const char*> usual = {"0.005%", "0.01%", "0.05%", "0.1%", "0.5%", "1%", "3%", "6.25%"};
+  const std::vector<const char*> full = {"0.01%", "0.0125%", "0.02%", "0.05%", "0.1%", "0.2%", "0.5%", "1%"};
   std::vector<SeedCount> counts;
-  for (const char* text : {"0.005%", "0.01%", "0.05%", "0.1%", "0.5%", "1%", "3%", "6.25%"}) {
-    counts.push_back(parse_seed_count(text));
-  }
+  for (const char* text : options.full ? full : usual) counts.push_back(parse_seed_count(text));
   return counts;
 }
 
@@ -175,7 +176,8 @@ void add_evaluate(CommandLine& line) {
       .required();
   command.add("--resume", options->resume, "Continue the file if it exists");
   command.add("--full", options->full,
-              "The paper's range, for a GPU: grids up to 20000 x 20000 pixels, timed over all frames");
+              "The paper's range, for a GPU: grids of 1000 to 20000 pixels a side, 0.01% to 1% seeds, timed "
+              "over all frames");
   add_study_options(command, options->study, "500,1000,2000", "eight from 0.005% to 6.25%");
   add_device_option(command, options->device);
   add_json_option(command, options->json);

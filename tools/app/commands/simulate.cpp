@@ -46,19 +46,39 @@ struct SimulateOptions {
   }
 };
 
+/// What dJFA's plans were, of the frames after frame 0.
+struct PlanSamples {
+  Samples first_steps, waves, displacements;
+  int from_seeds = 0;  // frames that did not start from the last labels
+  int jfa = 0;         // those of them in which all of JFA's waves ran
+
+  void add(const Report& report, double max_displacement, const Grid& grid) {
+    const FloodStart& start = report.start();
+    first_steps.add(start.first_step);
+    waves.add(report.waves());
+    displacements.add(max_displacement);
+    if (start.from_seeds) ++from_seeds;
+    if (start.from_seeds && start.first_step == first_step(grid)) ++jfa;
+  }
+};
+
 /// How far a run has come.
 struct Course {
   int frames = 0;        // that are complete, with all that is written of them
   Samples similarities;  // of the frames after frame 0, where all methods start from nothing
   ErrorSamples errors;   // the same, where the other method is exact
+  PlanSamples plans;     // where the method is djfa
   std::string trouble;   // what ended it too early; empty: nothing
 };
 
-Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& source, const Device& device) {
+/// `displacement` will hold the last motion's.
+Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& source, const Device& device,
+                           double& displacement) {
   Seeds seeds = source.place(device);
   const Grid grid = seeds.grid();
   const std::size_t count = seeds.size();
-  Simulation simulation(std::move(seeds), [&source](Seeds& moving, int) { return source.move(moving); });
+  Simulation simulation(std::move(seeds),
+                        [&](Seeds& moving, int) { return displacement = source.move(moving); });
   // Kernels are built before: this must not count as time of the first frames.
   const auto add = [&](const Method& method, const MethodOptions& method_options) {
     prepare(method, device, grid, count, method_options);
@@ -100,7 +120,7 @@ void write(const SimulateOptions& options, const MovingSeeds& source, const Simu
 
 /// All frames, or those before a signal or an error.
 Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
-                   const Interruption& interruption, FrameWriter& writer) {
+                   const double& displacement, const Interruption& interruption, FrameWriter& writer) {
   Progress progress;
   MeasureBuffers buffers;
   Course course;
@@ -108,6 +128,9 @@ Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulati
     do {
       simulation.step();
       const int frame = simulation.frame();
+      if (options.method.continues && frame > 0) {
+        course.plans.add(simulation.report(main_engine), displacement, simulation.seeds().grid());
+      }
       if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
       if (writer.wants(frame)) write(options, source, simulation, buffers, writer);
       if (frame % most_frames_ahead == 0) {
@@ -132,6 +155,11 @@ Json value(const Samples& samples, double (Samples::*of)() const) {
   return samples.empty() ? Json() : Json((samples.*of)());
 }
 
+Json range(const Samples& samples) {
+  return Json::Members{{"least", value(samples, &Samples::least)},
+                       {"greatest", value(samples, &Samples::greatest)}};
+}
+
 Json::Members json_of(const SimulateOptions& options, Simulation& simulation, const Course& course) {
   const Seeds& seeds = simulation.seeds();
   Json::Members result = {{"method", options.method.name},
@@ -145,6 +173,14 @@ Json::Members json_of(const SimulateOptions& options, Simulation& simulation, co
                           {"waves", simulation.report(main_engine).waves()},
                           {"milliseconds", simulation.milliseconds(main_engine)},
                           {"host_milliseconds", simulation.host_milliseconds(main_engine)}};
+  if (options.method.continues) {
+    const PlanSamples& plans = course.plans;
+    result.emplace_back("plans", Json::Members{{"first_step", range(plans.first_steps)},
+                                               {"waves", range(plans.waves)},
+                                               {"max_displacement", range(plans.displacements)},
+                                               {"frames_from_seeds", plans.from_seeds},
+                                               {"jfa_frames", plans.jfa}});
+  }
   if (!options.compare_with) return result;
   const Samples& similarities = course.similarities;
   result.emplace_back("similarity", Json::Members{{"mean", value(similarities, &Samples::mean)},
@@ -177,6 +213,13 @@ void print_text(const SimulateOptions& options, Simulation& simulation, const Co
   print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
         seeds.grid().width(), seeds.grid().height(), seeds.device().name());
   print_times(options.method.name, simulation, main_engine);
+  if (const PlanSamples& plans = course.plans; !plans.waves.empty()) {
+    print("plans: first steps {} to {}, {} to {} waves, d_max {:.4g} to {:.4g} pixels\n",
+          plans.first_steps.least(), plans.first_steps.greatest(), plans.waves.least(),
+          plans.waves.greatest(), plans.displacements.least(), plans.displacements.greatest());
+    print("frames from the seeds instead of the last labels: {}, of which {} with all waves of JFA\n",
+          plans.from_seeds, plans.jfa);
+  }
   if (options.compare_with) print_times(options.compare_with->name, simulation, other_engine);
   if (const Samples& similarities = course.similarities; !similarities.empty()) {
     print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
@@ -199,8 +242,9 @@ void run(const SimulateOptions& options) {
   check_picture_size(options.output.picture, source->grid());
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
-  Simulation simulation = make_simulation(options, *source, device);
-  const Course course = make_frames(options, *source, simulation, interruption, writer);
+  double displacement = 0;
+  Simulation simulation = make_simulation(options, *source, device, displacement);
+  const Course course = make_frames(options, *source, simulation, displacement, interruption, writer);
   if (course.frames > 0) writer.finish();
   if (!course.trouble.empty()) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,

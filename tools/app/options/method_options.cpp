@@ -45,6 +45,11 @@ void add_method_options(Command& command, MethodOptions& options) {
       .value_name("R")
       .in_range(0, 1000000000)
       .default_is_value();
+  const Choices<Reach> reaches = {{"measured", Reach::measured}, {"paper", Reach::paper}};
+  command.add_choice(
+      "--reach", options.reach, reaches,
+      "djfa: the waves follow from how far the last labels are from their seeds, or, as in the "
+      "paper, from the mean density and the greatest displacement alone");
 }
 
 void check_method_options(const Command& command, const std::vector<Method>& methods,
@@ -52,7 +57,7 @@ void check_method_options(const Command& command, const std::vector<Method>& met
   const auto is_djfa = [](const Method& method) { return method.continues; };
   if (std::any_of(methods.begin(), methods.end(), is_djfa)) return;
   for (const Method& method : methods) as_usage([&] { check_options(method, options); });
-  for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval"}) {
+  for (const char* name : {"--von-neumann-waves", "--extra-waves", "--refresh-interval", "--reach"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " is for the method djfa");
   }
 }

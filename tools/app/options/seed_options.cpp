@@ -65,13 +65,28 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   command
       .add_parsed(
           "--bounds", options.bounds, parse_bounds,
-          "Rectangle in data units that the grid shows; else each frame's own box, or the bounding box "
-          "of the points (of the first frame)")
+          "Rectangle in data units that the grid shows; else each frame's own box, or the domain or the "
+          "bounding box of the points (of the first frame)")
       .value_name("X0,Y0,X1,Y1");
+  const Choices<Outside> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
   command
-      .add_choice("--periodic", options.periodic, periodic_choices(),
-                  "Axes along which the grid repeats: distances go the shorter way round, cells reach across "
-                  "the border, and points outside the bounds wrap")
+      .add_choice(
+          "--outside", options.outside, outside,
+          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
+      .default_text("count");
+  command
+      .add_parsed(
+          "--domain", options.domain, parse_bounds,
+          "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a "
+          "part of it")
+      .value_name("X0,Y0,X1,Y1")
+      .default_text("the bounds")
+      .needs(points);
+  command
+      .add_choice(
+          "--periodic", options.periodic, periodic_choices(),
+          "Axes along which the plane repeats: distances go the shorter way round, cells reach across "
+          "the border, and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
   const Option up =
       command.add("--y-up", options.y_up, "The data's y axis points up, as a trajectory's does anyway");

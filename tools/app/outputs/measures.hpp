@@ -19,6 +19,9 @@ struct MeasureBuffers {
   Field<std::uint8_t> borders;
 };
 
+/// Whether a point lies in one of the grid's pixels.
+bool holds(const Grid& grid, const Point& point);
+
 /// What is known of a cell.
 struct CellMeasures {
   std::uint32_t id = 0;
@@ -51,7 +54,7 @@ class Measures {
   std::vector<double> areas();
   std::vector<double> neighbours();
 
-  /// Sorted by id; no absent seeds.
+  /// Sorted by id; no absent seeds, and of those outside the grid only those that own pixels.
   std::vector<CellMeasures> cells();
 
   /// Sorted by a and then b, a < b.

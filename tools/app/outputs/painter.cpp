@@ -37,6 +37,14 @@ std::vector<std::optional<Point>> enlarged(std::vector<std::optional<Point>> poi
   return points;
 }
 
+/// Without the seeds outside the grid.
+std::vector<std::optional<Point>> in_grid(std::vector<std::optional<Point>> points, const Grid& grid) {
+  for (std::optional<Point>& point : points) {
+    if (point && !holds(grid, *point)) point.reset();
+  }
+  return points;
+}
+
 std::string title_of(const Coloring& color) {
   switch (color.quantity) {
     case Quantity::distance:
@@ -69,7 +77,7 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values) {
     draw_edges(picture, enlarged(measures.labels().labels, grid, enlargement), options_.edge_width,
                grid.periodic());
   }
-  if (options_.points_overlay) draw_points(picture, enlarged(measures.seeds(), enlargement));
+  if (options_.points_overlay) draw_points(picture, enlarged(in_grid(measures.seeds(), grid), enlargement));
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
   return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),

@@ -37,6 +37,12 @@ std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
 }
 
+void check_extents(const Bounds& bounds) {
+  if (bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1) return;
+  throw Error("the bounds " + to_string(bounds) + " have no extent in " +
+              (bounds.x0 < bounds.x1 ? "y" : "x"));
+}
+
 Bounds bounding_box(const std::vector<Point>& points) {
   Bounds box{points.at(0).x, points[0].y, points[0].x, points[0].y};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -81,20 +87,51 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid) {
                   to_string(bounds), grid.width(), grid.height(), grid.width()));
 }
 
-std::vector<Point> to_pixels(const std::vector<Point>& points, const Bounds& bounds, const Grid& grid,
-                             bool y_up) {
+namespace {
+
+constexpr double plane_side = 2147483648.0;  // 2^31
+
+}  // namespace
+
+bool is_whole_period(const Mapping& mapping) {
+  const Bounds& bounds = mapping.bounds;
+  const Bounds& period = mapping.period.value_or(bounds);
+  return (!has_x(mapping.periodic) || bounds.x1 - bounds.x0 == period.x1 - period.x0) &&
+         (!has_y(mapping.periodic) || bounds.y1 - bounds.y0 == period.y1 - period.y0);
+}
+
+MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Grid& grid) {
+  const Bounds& bounds = mapping.bounds;
   check_bounds(bounds, grid);
-  std::vector<Point> pixels;
-  pixels.reserve(points.size());
+  const Bounds& period = mapping.period.value_or(bounds);
+  AxisMap x(bounds.x0, bounds.x1, grid.width(), mapping.closed);
+  AxisMap y(bounds.y0, bounds.y1, grid.height(), mapping.closed);
+  if (has_x(mapping.periodic)) x.repeat(period.x0, period.x1, "x");
+  if (has_y(mapping.periodic)) y.repeat(period.y0, period.y1, "y");
+  MappedPoints mapped;
+  mapped.pixels.reserve(points.size());
   for (const Point& point : points) {
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      throw Error(describe(pixels.size(), point) + " is not finite");
+    const auto refuse = [&](const std::string& why) {
+      throw Error(describe(mapped.pixels.size(), point) + " is " + why);
+    };
+    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
+    if (mapping.outside == Outside::refuse && (x.is_outside(point.x) || y.is_outside(point.y))) {
+      refuse("outside the bounds " + to_string(bounds));
     }
-    const std::optional<Point> pixel = to_pixel(point, bounds, grid, y_up);
-    if (!pixel) throw Error(describe(pixels.size(), point) + " is outside the bounds " + to_string(bounds));
-    pixels.push_back(*pixel);
+    const double column = x.pixel(point.x), row = y.pixel(point.y);
+    if (std::max(std::abs(column), std::abs(row)) >= plane_side - Grid::max_side) {
+      refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
+    }
+    const bool inside = column >= 0 && column < grid.width() && row >= 0 && row < grid.height();
+    mapped.outside += inside ? 0 : 1;
+    mapped.pixels.push_back({column + 0.5, (mapping.y_up ? grid.height() - 1 - row : row) + 0.5});
   }
-  return pixels;
+  if (mapping.periodic != Periodic::none && grid.periodic() == Periodic::none) {
+    const std::int64_t top =
+        mapping.y_up ? grid.height() - y.period_begin() - y.period_length() : y.period_begin();
+    mapped.domain = Domain{x.period_begin(), top, x.period_length(), y.period_length(), mapping.periodic};
+  }
+  return mapped;
 }
 
 }  // namespace vorocl::command

@@ -44,14 +44,20 @@ class Trajectory : public MovingSeeds {
       : particles_(seeds), frames_(frames), bytes_(particles_.bytes_left()) {}
 
   Grid grid() const override { return particles_.grid(); }
-  Seeds place(const Device& device) const override { return Seeds(device, grid(), particles_.points()); }
+  Seeds place(const Device& device) const override {
+    return command::place(device, grid(), particles_.points(), particles_.domain());
+  }
   bool next() override {
     if (frame_ == frames_ || !particles_.next()) return false;
     ++frame_;
     return true;
   }
   double move(Seeds& seeds) const override {
-    seeds.move_to(particles_.points());
+    if (const auto& domain = particles_.domain()) {
+      seeds.move_to(particles_.points(), *domain);
+    } else {
+      seeds.move_to(particles_.points());
+    }
     return particles_.max_displacement();
   }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }

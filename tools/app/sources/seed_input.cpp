@@ -33,21 +33,51 @@ Grid with_axes(const Grid& size, const SeedOptions& options) {
   return {size.width(), size.height(), axes_of(options)};
 }
 
+/// The bounds, else the domain, else the points' bounding box.
+Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points) {
+  Mapping mapping;
+  if (options.bounds || options.domain) {
+    mapping.bounds = options.bounds ? *options.bounds : *options.domain;
+    mapping.closed = options.outside == Outside::refuse;
+    check_extents(mapping.bounds);
+  } else {
+    mapping.bounds = bounding_box(points);
+  }
+  mapping.y_up = points_up(options);
+  mapping.outside = options.outside;
+  mapping.periodic = axes_of(options);
+  mapping.period = options.domain;
+  return mapping;
+}
+
 Input input_from_points(const SeedOptions& options) {
   if (!options.size && options.width == 0)
     throw UsageError("--size WxH or --width W is required with --points");
   const auto [points, values] = read_points(options);
   try {
-    const Bounds bounds = options.bounds ? *options.bounds : bounding_box(points);
-    const Grid grid = options.size ? with_axes(*options.size, options)
-                                   : grid_of_width(bounds, options.width, axes_of(options));
-    const std::vector<Point> pixels = to_pixels(points, bounds, grid, points_up(options));
-    warn_of_scales(bounds, grid);
-    if (grid.periodic() != Periodic::none && !options.bounds) {
-      print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
-                             to_string(bounds)));
+    const Mapping mapping = mapping_of(options, points);
+    const Grid size = options.size ? *options.size : grid_of_width(mapping.bounds, options.width);
+    Grid grid(size.width(), size.height(), is_whole_period(mapping) ? mapping.periodic : Periodic::none);
+    MappedPoints mapped = map_points(points, mapping, grid);
+    if (mapped.outside > 0 && grid.periodic() != Periodic::none) {  // along the other axis
+      grid = size;
+      mapped = map_points(points, mapping, grid);
     }
-    return {grid, [grid, pixels](const Device& device) { return Seeds(device, grid, pixels); }, {}, values};
+    warn_of_scales(mapping.bounds, grid);
+    if (mapping.periodic != Periodic::none && !options.bounds && !options.domain) {
+      print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
+                             to_string(mapping.bounds)));
+    }
+    if (mapped.outside > 0) {
+      print_note(
+          fmt::format("{} of {} points lie outside the bounds {}; they count (--outside refuse: they do not)",
+                      mapped.outside, points.size(), to_string(mapping.bounds)));
+    }
+    return {
+        grid,
+        [grid, mapped](const Device& device) { return place(device, grid, mapped.pixels, mapped.domain); },
+        {},
+        values};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -83,12 +113,20 @@ Input input_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const Grid grid = particles.grid();
   return {grid,
-          [grid, points = particles.points()](const Device& device) { return Seeds(device, grid, points); },
+          [grid, points = particles.points(), domain = particles.domain()](const Device& device) {
+            return place(device, grid, points, domain);
+          },
           particles.ids(), particles.values()};
 }
 
 /// What no parser can say: an option that goes with either of two others.
 void check_needs(const SeedOptions& options) {
+  if (options.domain && options.points.empty()) {
+    throw UsageError("--domain is for --points; the domain of a trajectory is its box");
+  }
+  if (options.domain && axes_of(options) == Periodic::none) {
+    throw UsageError("--domain needs --periodic x, y or xy");
+  }
   if (!options.points.empty() || !options.trajectory.empty()) return;
   const char* const given = options.bounds                  ? "--bounds"
                             : options.width != 0            ? "--width"

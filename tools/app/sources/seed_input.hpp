@@ -23,6 +23,8 @@ struct SeedOptions {
   std::optional<Grid> size;
   int width = 0;
   std::optional<Bounds> bounds;
+  std::optional<Bounds> domain;  // of points: what repeats along the periodic axes; else the bounds
+  Outside outside = Outside::count;
   std::optional<Periodic> periodic;   // else none, or what the trajectory says
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
@@ -39,6 +41,13 @@ struct Input {
   std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
   std::vector<double> values;      // of the value column, by seed; NaN: absent
 };
+
+/// Seeds at these points, in a plane that repeats if there is a domain.
+template <typename MaybePoint>
+Seeds place(const Device& device, const Grid& grid, const std::vector<MaybePoint>& pixels,
+            const std::optional<Domain>& domain) {
+  return domain ? Seeds(device, grid, pixels, *domain) : Seeds(device, grid, pixels);
+}
 
 /// Reads and checks the files. Throws Error if one is bad, UsageError where no size is given; warns on
 /// standard error where the axes get different scales.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_map>
 #include <utility>
@@ -29,8 +30,9 @@ std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& pixels, const
   std::vector<std::uint32_t> by_cell = slots.of_ids();
   std::unordered_map<std::int64_t, std::size_t> first;  // of the particles on each pixel
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const auto pixel =
-        static_cast<std::int64_t>(pixels[i].y) * Grid::max_side + static_cast<std::int64_t>(pixels[i].x);
+    constexpr std::int64_t columns = std::int64_t{1} << 32;  // of a plane
+    const auto pixel = static_cast<std::int64_t>(std::floor(pixels[i].y)) * columns +
+                       static_cast<std::int64_t>(std::floor(pixels[i].x));
     std::uint32_t& lowest = by_cell[first.emplace(pixel, i).first->second];
     if (by_cell[i] < lowest) std::swap(by_cell[i], lowest);
   }
@@ -51,7 +53,8 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     : path_(options.trajectory),
       given_bounds_(options.bounds),
-      axes_are_told_(options.periodic.has_value()),
+      told_axes_(options.periodic),
+      outside_(options.outside),
       y_up_(points_up(options)) {
   if (!options.size && options.width == 0) {
     throw UsageError("--size WxH or --width W is required with --trajectory");
@@ -65,6 +68,8 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     }
     bounds = bounds_of_frame();
   }
+  if (given_bounds_) check_extents(*given_bounds_);
+  has_domain_ = given_bounds_ && frame_.box;
   grid_ = make_grid(options, bounds);
   take_frame(bounds);
 }
@@ -89,30 +94,25 @@ std::optional<Bounds> TrajectorySeeds::bounds_of_frame() {
 }
 
 Periodic TrajectorySeeds::axes_of_frame() const {
-  if (!frame_.box || given_bounds_) return Periodic::none;  // the bounds need not be the box
+  if (told_axes_ || !frame_.box) return told_axes_.value_or(Periodic::none);
   const bool y = frame_.box->periodic_y && frame_.box->tilt == 0;
   if (frame_.box->periodic_x) return y ? Periodic::xy : Periodic::x;
   return y ? Periodic::y : Periodic::none;
 }
 
-Periodic TrajectorySeeds::choose_axes(std::optional<Periodic> told) const {
-  const bool tilted = frame_.box && frame_.box->tilt != 0;
-  if (told && tilted && !given_bounds_ && (*told == Periodic::y || *told == Periodic::xy)) {
+void TrajectorySeeds::check_tilt() const {
+  if (!frame_.box || frame_.box->tilt == 0) return;
+  if (told_axes_ && has_y(*told_axes_)) {
     throw Error(path_ + ": the box is tilted, so what is drawn of it repeats in x only; give --periodic x");
   }
-  if (told) return *told;
-  if (given_bounds_ && frame_.box && (frame_.box->periodic_x || frame_.box->periodic_y)) {
-    print_note(
-        "the box is periodic and the diagram is not, because --bounds cuts it; --periodic says "
-        "otherwise");
-  } else if (tilted) {
+  if (!told_axes_) {
     print_note("the box is tilted: the diagram is periodic in x only, and cells end at its border in y");
   }
-  return axes_of_frame();
 }
 
 Grid TrajectorySeeds::make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
-  const Periodic axes = choose_axes(options.periodic);
+  check_tilt();
+  const Periodic axes = has_domain_ ? Periodic::none : axes_of_frame();
   if (options.size) return {options.size->width(), options.size->height(), axes};
   if (!bounds) {
     throw Error(path_ +
@@ -126,22 +126,35 @@ Grid TrajectorySeeds::make_grid(const SeedOptions& options, const std::optional<
   }
 }
 
+Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
+  Mapping mapping;
+  mapping.bounds = bounds;
+  mapping.closed = !given_bounds_ || outside_ == Outside::refuse;
+  mapping.y_up = y_up_;
+  mapping.periodic = has_domain_ && !frame_.box ? Periodic::none : axes_of_frame();
+  if (has_domain_ && frame_.box) {
+    mapping.period = Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
+  }
+  return mapping;
+}
+
 void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
-  if (!axes_are_told_ && axes_of_frame() != grid_->periodic()) {
+  if (!has_domain_ && axes_of_frame() != grid_->periodic()) {
     throw Error(
         fmt::format("{}: the box of frame {} is periodic along other axes than that of the first frame; "
                     "give --periodic none, x, y or xy for all frames",
                     path_, number_));
   }
-  std::vector<Point> pixels;
+  MappedPoints mapped;
   Periods periods;
   if (bounds) {
-    check_inside(*bounds);
-    pixels = to_pixels(frame_.positions, *bounds, *grid_, y_up_);
+    if (outside_ == Outside::refuse || grid_->periodic() != Periodic::none) check_inside(*bounds);
+    mapped = map_points(frame_.positions, mapping_of_frame(*bounds), *grid_);
     if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, *grid_, y_up_);
     if (!scales_checked_) warn_of_scales(*bounds, *grid_);
     scales_checked_ = true;
   }
+  const std::vector<Point>& pixels = mapped.pixels;
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
   max_displacement_ = 0;
@@ -154,6 +167,7 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
     }
   }
   points_ = std::move(points);
+  domain_ = mapped.domain;
   const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
   values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());

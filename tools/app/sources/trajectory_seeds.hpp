@@ -33,6 +33,9 @@ class TrajectorySeeds {
   /// The seeds of the frame, by slot, to move_to() from.
   const std::vector<std::optional<Point>>& points() const { return points_; }
 
+  /// Where the frame's box repeats, if the grid does not say it.
+  const std::optional<Domain>& domain() const { return domain_; }
+
   /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
   /// whose label the pixels carry, has the lowest id.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
@@ -54,9 +57,10 @@ class TrajectorySeeds {
   bool read();
   /// None for a frame that has neither a box nor particles.
   std::optional<Bounds> bounds_of_frame();
-  /// Along which axes the frame's box, as it is drawn, repeats.
+  /// Along which axes the frame's box, as it is drawn, repeats, or the bounds where there is no box.
   Periodic axes_of_frame() const;
-  Periodic choose_axes(std::optional<Periodic> told) const;
+  void check_tilt() const;
+  Mapping mapping_of_frame(const Bounds& bounds) const;
   Grid make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void take_frame(const std::optional<Bounds>& bounds);
   void check_inside(const Bounds& bounds) const;
@@ -66,7 +70,9 @@ class TrajectorySeeds {
   std::optional<Bounds> given_bounds_;
   std::optional<Bounds> first_bounds_;  // for frames without a box
   std::optional<Grid> grid_;            // set by the constructor
-  bool axes_are_told_;                  // by the caller, not by the file
+  std::optional<Periodic> told_axes_;   // by the caller, not by the file
+  Outside outside_;
+  bool has_domain_ = false;  // the bounds are given, and the frame's box is what repeats
   bool y_up_;
   bool scales_checked_ = false;
 
@@ -74,6 +80,7 @@ class TrajectorySeeds {
   int number_ = -1;
   ParticleSlots slots_;
   std::vector<std::optional<Point>> points_;
+  std::optional<Domain> domain_;
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
   double max_displacement_ = 0;

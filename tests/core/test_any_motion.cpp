@@ -1,0 +1,280 @@
+// Dynamic jump flooding of seeds that are spread and move in any way, against the exact diagram: no farther
+// from it than jump flooding is.
+#define BOOST_TEST_MODULE any_motion
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "brute_force.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+constexpr int side = 256;
+
+using Points = std::vector<std::optional<Point>>;
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : bits_(seed) {}
+  int below(int most) { return static_cast<int>(bits_() % static_cast<unsigned>(most)); }
+  double uniform() { return static_cast<double>(bits_()) / 4294967296.0; }
+
+  /// Roughly normal: the sum of twelve uniform numbers.
+  double normal() {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += uniform();
+    return sum;
+  }
+
+ private:
+  std::mt19937 bits_;
+};
+
+Point inside(double x, double y) {
+  return {std::clamp(std::floor(x), 0.0, side - 1.0) + 0.5, std::clamp(std::floor(y), 0.0, side - 1.0) + 0.5};
+}
+
+Point anywhere(Random& random) { return inside(side * random.uniform(), side * random.uniform()); }
+
+Point in_box(Random& random, double corner, double width) {
+  return inside(corner + width * random.uniform(), corner + width * random.uniform());
+}
+
+/// So many points, each made by a function of its index.
+Points make(int count, const std::function<Point(int)>& point) {
+  Points points;
+  for (int i = 0; i < count; ++i) points.push_back(point(i));
+  return points;
+}
+
+/// Where seeds start, and where they are a frame later.
+struct Motion {
+  const char* name;
+  std::function<Points(Random&)> start;
+  std::function<void(Points&, int frame, Random&)> move;
+};
+
+/// Each seed moves by up to `step` pixels along each axis, and is stopped by the border.
+std::function<void(Points&, int, Random&)> walk(int step) {
+  return [=](Points& points, int, Random& random) {
+    for (auto& point : points) {
+      const int dx = random.below(2 * step + 1) - step, dy = random.below(2 * step + 1) - step;
+      point = inside(point->x + dx, point->y + dy);
+    }
+  };
+}
+
+/// Clusters of so many seeds in a lattice of 64 x 64 pixels.
+std::function<Points(Random&)> lattice(int seeds_of_a_cluster) {
+  return [=](Random& random) {
+    return make(16 * seeds_of_a_cluster, [&](int i) {
+      return inside(32 + 64 * (i % 4) + 3 * random.normal(), 32 + 64 * (i / 4 % 4) + 3 * random.normal());
+    });
+  };
+}
+
+/// Horizontal lines of seeds, one in every second pixel.
+std::function<Points(Random&)> lines(int apart) {
+  return [=](Random&) {
+    return make(side / 2 * (side / apart),
+                [&](int i) { return inside(2 * (i % (side / 2)), apart * (i / (side / 2)) + apart / 2); });
+  };
+}
+
+Points evenly(int count, Random& random) {
+  return make(count, [&](int) { return anywhere(random); });
+}
+
+const std::vector<Motion>& motions() {
+  static const std::vector<Motion> all = {
+      {"evenly spread, 100 pixels per seed", [](Random& r) { return evenly(655, r); }, walk(5)},
+      {"evenly spread, 16 pixels per seed", [](Random& r) { return evenly(4096, r); }, walk(5)},
+      {"evenly spread, fast", [](Random& r) { return evenly(655, r); }, walk(25)},
+      {"a corner", [](Random& r) { return make(700, [&](int) { return in_box(r, 0, 16); }); }, walk(5)},
+      {"two corners",
+       [](Random& r) { return make(700, [&](int i) { return in_box(r, i % 2 * (side - 16), 16); }); },
+       walk(5)},
+      {"16 clusters",
+       [](Random& r) {
+         const Points centres = evenly(16, r);
+         return make(700, [&](int i) {
+           const Point& centre = *centres[static_cast<std::size_t>(i % 16)];
+           return inside(centre.x + 5 * r.normal(), centre.y + 5 * r.normal());
+         });
+       },
+       walk(5)},
+      {"a line", [](Random&) { return make(side, [](int i) { return inside(i, side / 2); }); }, walk(2)},
+      {"a blob that sweeps",
+       [](Random& r) {
+         return make(400, [&](int) { return inside(64 + 8 * r.normal(), 128 + 8 * r.normal()); });
+       },
+       [](Points& points, int frame, Random&) {
+         const int step = frame / 20 % 2 == 0 ? 6 : -6;
+         for (auto& point : points) point = inside(point->x + step, point->y);
+       }},
+      {"3 seeds that jump anywhere", [](Random& r) { return evenly(3, r); },
+       [](Points& points, int, Random& r) { points = evenly(3, r); }},
+      {"3 seeds of 655 that jump anywhere", [](Random& r) { return evenly(655, r); },
+       [](Points& points, int, Random& r) {
+         for (std::size_t i = 0; i < 3; ++i) points[i] = anywhere(r);
+       }},
+      {"a lattice of clusters of 3", lattice(3), walk(4)},
+      {"a lattice of clusters of 6", lattice(6), walk(4)},
+      {"a lattice of clusters of 40", lattice(40), walk(4)},
+      {"lines 24 apart", lines(24), walk(1)},
+      {"lines 64 apart", lines(64), walk(2)},
+      {"a gradient",
+       [](Random& r) {
+         return make(655, [&](int) { return inside(side * std::sqrt(r.uniform()), side * r.uniform()); });
+       },
+       walk(5)},
+      {"a ring",
+       [](Random& r) {
+         return make(300, [&](int) {
+           const double turn = 6.283185307179586 * r.uniform();
+           return inside(128 + 100 * std::cos(turn), 128 + 100 * std::sin(turn));
+         });
+       },
+       walk(2)},
+      {"seeds that appear in empty space",
+       [](Random& r) {
+         Points points = make(300, [&](int) { return in_box(r, 0, 80); });
+         points.resize(400);
+         return points;
+       },
+       [](Points& points, int frame, Random& r) {
+         points[static_cast<std::size_t>(299 + frame)] = anywhere(r);
+       }},
+      {"discs that are cleared and refilled", [](Random& r) { return evenly(655, r); },
+       [](Points& points, int frame, Random& r) {
+         for (auto& point : points) {
+           const bool in_disc = point && std::hypot(point->x - 128, point->y - 128) < 50;
+           if (frame % 10 == 1 && in_disc) point.reset();
+           if (frame % 10 == 5 && !point) point = in_box(r, 100, 56);
+         }
+       }},
+  };
+  return all;
+}
+
+struct Similarities {
+  double mean = 0, least = 100;
+  void add(double percent, int frames) {
+    mean += percent / frames;
+    least = std::min(least, percent);
+  }
+};
+
+/// The greatest displacement along an axis of a seed that is there in both frames.
+double greatest_displacement(const Points& before, const Points& now) {
+  double most = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (!before[i] || !now[i]) continue;
+    most = std::max({most, std::abs(now[i]->x - before[i]->x), std::abs(now[i]->y - before[i]->y)});
+  }
+  return most;
+}
+
+/// Holds dJFA against JFA over so many frames.
+void check_motion(const Motion& motion, Metric metric, Periodic periodic, int frames) {
+  const Grid grid(side, side, periodic);
+  Random random(7);
+  Points points = motion.start(random);
+  Seeds seeds(test_device(), grid, points);
+  Diagram dynamic(test_device(), grid), jfa(test_device(), grid), exact(test_device(), grid);
+  dynamic_jump_flooding(seeds, dynamic, 0, {metric});
+  Similarities of_dynamic, of_jfa;
+  for (int frame = 1; frame <= frames; ++frame) {
+    const Points before = points;
+    motion.move(points, frame, random);
+    seeds.move_to(points);
+    const Report report =
+        dynamic_jump_flooding(seeds, dynamic, greatest_displacement(before, points), {metric});
+    const Report full = jump_flooding(seeds, jfa, {metric});
+    BOOST_TEST(report.waves() <= full.waves());
+    exact_diagram(seeds, exact, {metric});
+    of_dynamic.add(similarity(dynamic, exact), frames);
+    of_jfa.add(similarity(jfa, exact), frames);
+  }
+  const std::string name = std::string(motion.name) + ", " + name_of(metric);
+  BOOST_TEST(of_dynamic.mean >= of_jfa.mean - 0.01,
+             name << ": dJFA " << of_dynamic.mean << ", JFA " << of_jfa.mean << " in the mean");
+  BOOST_TEST(of_dynamic.least >= of_jfa.least - 0.1,
+             name << ": dJFA " << of_dynamic.least << ", JFA " << of_jfa.least << " at the least");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(djfa_is_as_near_to_the_exact_diagram_as_jfa) {
+  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Periodic::none, 100);
+}
+
+BOOST_AUTO_TEST_CASE(so_it_is_with_the_manhattan_distance) {
+  for (const Motion& motion : motions()) check_motion(motion, Metric::manhattan, Periodic::none, 10);
+}
+
+BOOST_AUTO_TEST_CASE(so_it_is_on_periodic_grids) {
+  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Periodic::xy, 10);
+}
+
+// The paper's plan fails on most of these motions: if it did not, the cases above would show nothing.
+BOOST_AUTO_TEST_CASE(the_paper_s_plan_does_not_reach_seeds_in_a_corner) {
+  const Grid grid(side, side);
+  Random random(7);
+  const Motion& corner = motions()[3];
+  Points points = corner.start(random);
+  Seeds seeds(test_device(), grid, points);
+  Diagram dynamic(test_device(), grid), exact(test_device(), grid);
+  const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper};
+  dynamic_jump_flooding(seeds, dynamic, 0, paper);
+  corner.move(points, 1, random);
+  seeds.move_to(points);
+  dynamic_jump_flooding(seeds, dynamic, 5, paper);
+  exact_diagram(seeds, exact);
+  BOOST_TEST(similarity(dynamic, exact) < 90);
+}
+
+// Evenly spread seeds keep the paper's plan, label for label.
+BOOST_AUTO_TEST_CASE(evenly_spread_seeds_get_the_paper_s_labels) {
+  const Grid grid(400, 300);
+  for (const Metric metric : both_metrics) {
+    for (const std::size_t count : {200u, 1200u, 7500u, 12000u}) {
+      Seeds seeds = Seeds::random(test_device(), grid, count, 3);
+      Diagram measured(test_device(), grid), paper(test_device(), grid);
+      for (std::uint32_t frame = 0; frame < 20; ++frame) {
+        const Report report = dynamic_jump_flooding(seeds, measured, 5, {metric});
+        dynamic_jump_flooding(seeds, paper, 5, {metric, {}, 0, Reach::paper});
+        BOOST_TEST(report.start().from_seeds == (frame == 0));
+        BOOST_TEST(similarity(measured, paper) == 100.0, count << " seeds, frame " << frame);
+        random_step(seeds, 5, Border::reflect, 4, frame);
+      }
+    }
+  }
+}
+
+// What is measured, and so every plan, is the same for all vector widths; the widths of the grid have vectors
+// that overlap.
+BOOST_AUTO_TEST_CASE(the_same_plans_for_every_kernel_shape) {
+  const Grid grid(143, 61, Periodic::x);
+  std::vector<std::string> expected;
+  for (const Tuning& shape : {Tuning{1, 32, 8}, Tuning{2, 64, 1}, Tuning{4, 1, 16}, Tuning{16, 64, 1}}) {
+    const Device device = test_device().with_tuning(shape);
+    Diagram diagram(device, grid);
+    Seeds seeds(device, grid, centres(random_pixels(Grid(110, 61), 150, 8)));
+    for (std::size_t frame = 0; frame < 12; ++frame) {
+      const Report report = dynamic_jump_flooding(seeds, diagram, 6);
+      const std::string plan =
+          (report.start().from_seeds ? "seeds " : "labels ") + std::to_string(report.start().first_step);
+      if (expected.size() <= frame) expected.push_back(plan);
+      BOOST_TEST(plan == expected[frame], "vector width " << shape.vector_width << ", frame " << frame);
+      random_step(seeds, 6, Border::reflect, 5, static_cast<std::uint32_t>(frame));
+    }
+  }
+  const auto from_labels = [](const std::string& plan) { return plan[0] == 'l'; };
+  BOOST_TEST(std::any_of(expected.begin(), expected.end(), from_labels));
+  BOOST_TEST(std::count_if(expected.begin(), expected.end(), from_labels) < 11);
+}
