@@ -132,13 +132,13 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
 
 void SeedsState::place(Placement placement, const std::optional<Domain>& domain) {
   auto& [packed, in_the_plane] = placement;
-  std::vector<bool> there(packed.size());
-  for (std::size_t id = 0; id < packed.size(); ++id) {
-    there[id] = in_the_plane.empty() ? packed[id] != absent_position : !is_absent(in_the_plane[id]);
-  }
+  std::vector<bool> there(packed.size(), true);
   bool vanished = there.size() < present.size();
-  for (std::size_t id = 0; id < std::min(there.size(), present.size()); ++id) {
-    vanished = vanished || (present[id] && !there[id]);
+  if (!in_the_plane.empty() || std::find(packed.begin(), packed.end(), absent_position) != packed.end()) {
+    for (std::size_t id = 0; id < there.size(); ++id) {
+      there[id] = in_the_plane.empty() ? packed[id] != absent_position : !is_absent(in_the_plane[id]);
+      vanished = vanished || (id < present.size() && present[id] && !there[id]);
+    }
   }
   SeedsFrame next = next_frame(there.size(), vanished);
   next.absent = static_cast<std::size_t>(std::count(there.begin(), there.end(), false));

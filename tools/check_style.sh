@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 
 case ${1-} in
 format)
-  find include src tools tests -name '*.[ch]' -o -name '*.[ch]pp' | xargs clang-format --dry-run -Werror
+  find include python src tools tests -name '*.[ch]' -o -name '*.[ch]pp' | xargs clang-format --dry-run -Werror
   if grep -rnE '^.{121,}' kernels; then
     echo "These lines of kernels have more than 120 columns." >&2
     exit 1

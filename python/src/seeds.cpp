@@ -98,7 +98,7 @@ void move_to(SeedsObject& seeds, const Points& points) {
   std::swap(seeds.positions, seeds.last_positions);
   try {
     place(seeds.placement, points, seeds.positions);
-    Internal::state(seeds.seeds).place(seeds.positions);
+    Internal::state(seeds.seeds).place({seeds.positions, {}});
   } catch (...) {
     std::swap(seeds.positions, seeds.last_positions);  // the seeds are where they were
     throw;

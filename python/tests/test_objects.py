@@ -56,13 +56,24 @@ def test_frames_of_a_simulation_are_right():
         assert exact.diagram.cells(exact.seeds)["area"].sum() == 96 * 96
 
 
-def test_a_simulation_adds_up_the_moves_of_frames_that_failed():
-    simulation = vorocl.Simulation((200, 200))
-    simulation.step([(10, 10), (20, 190)])
-    simulation.seeds.move_to([(150, 10), (20, 190)])  # as if the diagram had not been filled
-    simulation._displacement += 140
-    labels = simulation.step([(190, 10), (20, 190)]).read()
-    assert vorocl.similarity(labels, brute_force([(190, 10), (20, 190)], (200, 200))) > 99
+def test_a_simulation_tells_djfa_how_far_seeds_have_moved(monkeypatch):
+    points = np.stack(np.meshgrid(*[np.arange(5, 200, 10)] * 2), -1).reshape(-1, 2)  # 10 pixels apart
+    simulation = vorocl.Simulation((200, 200), periodic=(True, True))
+
+    def waves(shift):
+        simulation.step(points + (shift, 0))
+        return simulation.report.waves
+
+    # The first step is the power of two from twice the distance of seeds, or how far they have moved, on.
+    assert waves(0) == 8 and waves(1) == 6 and waves(101) == 8 and waves(111) == 6
+
+    def fail(*arguments):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(simulation.diagram, "fill", fail)
+        simulation.step(points + (211, 0))
+    assert waves(221) == 8  # both moves count
 
 
 # --- threads ---
