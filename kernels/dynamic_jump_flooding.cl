@@ -11,8 +11,8 @@ VECTOR_KERNEL void advance_labels(global const uint* restrict labels, global con
   store_looked_up(positions, at, out, VOROCL_GUARD + first);
 }
 
-// How far pixels are from their labels' seeds, in every `row_interval`-th row: the greatest distance, and how many pixels
-// are farther than `near`; both are left alone where none is. An empty label is farther than any seed.
+// How far pixels are from their labels' seeds, in every `row_interval`-th row: the greatest distance, and how many are
+// farther than `near`; both are left alone where none is. An empty label is farther than any seed.
 VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
                                   int width, int height, int row_interval, uint near, global uint* restrict greatest,
                                   global uint* restrict far_pixels) {
