@@ -41,14 +41,13 @@ double AxisMap::scale() const { return count_ / (high_ - low_); }
 
 void AxisMap::repeat(double period_low, double period_high, const char* name) {
   const double period = period_high - period_low;
-  const auto refuse = [&](const char* why) {
+  if (!(period * scale() >= 0.5)) {
     std::ostringstream text;
-    text << "the period in " << name << " is " << period << ", " << why;
+    text << "the period in " << name << " is " << period << ", less than a pixel";
     throw Error(text.str());
-  };
-  if (period < high_ - low_) refuse("shorter than the bounds");
-  if (!(period * scale() >= 0.5)) refuse("less than a pixel");
-  period_low_ = period_low <= low_ && high_ <= period_high ? period_low : low_;
+  }
+  const bool begins_with_bounds = period >= high_ - low_ && !(period_low <= low_ && high_ <= period_high);
+  period_low_ = begins_with_bounds ? low_ : period_low;
   period_ = period;
 }
 

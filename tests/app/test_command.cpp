@@ -105,8 +105,9 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
   check(20, -30, 60, 10, "", {});
   check(400, 100, 420, 110, "", {});
   check(20, -30, 60, 10, around, {-4 * 200, 0, 1440, 1, Periodic::x});
-  check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});   // the period begins with the window
-  check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});  // a whole period, but in y a window
+  check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});    // the period begins with the window
+  check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});   // a whole period, but in y a window
+  check(-200, -20, 200, 0, around, {80, 0, 1440, 1, Periodic::x});  // beyond it there are no labels
   // What the grid shows whole is the grid's own period, and flooding takes it.
   succeeds(folder, "render --points p.csv --size 144x72 --method jfa -o a.png" + around);
 }

@@ -89,8 +89,15 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
           {"p.csv", "no extent in x"});
   refuses(folder, points + "--size 10x10 --bounds 0,2,4,2", failure, {"p.csv", "no extent in y"});
   refuses(folder, points + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--periodic"});
-  refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,9 --bounds 0,0,9,10", failure,
-          {"p.csv", "period in y is 9", "bounds"});
+  refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,0.4 --bounds 0,0,9,9", failure,
+          {"p.csv", "period in y is 0.4", "less than a pixel"});
+  for (const char* command : {"bench --methods exact,opencv", "relax --rounds 2 --labels l.npy",
+                              "simulate --frames 1 --step-length 1 --labels l%d.npy"}) {
+    refuses(
+        folder,
+        command + std::string(" --points p.csv --size 5x9 --periodic x --domain 0,0,9,9 --bounds 0,0,5,9"),
+        failure, {"part of a period", "whole period"});
+  }
   refuses(folder, render + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--points"});
   refuses(folder, points + "--size 10x10 --outside ignore", usage, {"--outside", "count, refuse"});
   refuses(folder, render + "--size 32001x10 --periodic x", failure, {"32001", "periodic", "32000"});

@@ -61,6 +61,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
 
 void run(const BenchOptions& options) {
   const Input input = read_input(options.seeds);
+  refuse_window(input, "bench");
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);

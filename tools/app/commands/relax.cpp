@@ -149,6 +149,7 @@ void run(const RelaxOptions& options) {
   const Interruption interruption;  // before there are files
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
+  refuse_window(input, "relax");
   check_picture_size(options.pictures.picture, input.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);

@@ -16,7 +16,9 @@ class RandomWalk : public MovingSeeds {
   RandomWalk(const SeedOptions& seeds, const MotionOptions& motion)
       : input_(read_input(seeds)),
         motion_{*motion.step_length, seeds.rng_seed, motion.border},
-        frames_(*motion.frames) {}
+        frames_(*motion.frames) {
+    refuse_window(input_, "random motion");
+  }
 
   Grid grid() const override { return input_.grid; }
   Seeds place(const Device& device) const override { return input_.place(device); }

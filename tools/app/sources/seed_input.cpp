@@ -77,7 +77,8 @@ Input input_from_points(const SeedOptions& options) {
         grid,
         [grid, mapped](const Device& device) { return place(device, grid, mapped.pixels, mapped.domain); },
         {},
-        values};
+        values,
+        mapped.outside > 0 || mapped.domain};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -116,7 +117,7 @@ Input input_from_trajectory(const SeedOptions& options) {
           [grid, points = particles.points(), domain = particles.domain()](const Device& device) {
             return place(device, grid, points, domain);
           },
-          particles.ids(), particles.values()};
+          particles.ids(), particles.values(), particles.is_window()};
 }
 
 /// What no parser can say: an option that goes with either of two others.
@@ -138,6 +139,12 @@ void check_needs(const SeedOptions& options) {
 }
 
 }  // namespace
+
+void refuse_window(const Input& input, const std::string& what) {
+  if (!input.is_window) return;
+  throw Error("seeds lie outside the bounds, or these are a part of a period, which " + what +
+              " cannot take; give bounds that hold the seeds, or the whole period");
+}
 
 bool points_up(const SeedOptions& options) {
   return options.y_up || (!options.trajectory.empty() && !options.y_down);

@@ -40,7 +40,11 @@ struct Input {
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
   std::vector<double> values;      // of the value column, by seed; NaN: absent
+  bool is_window = false;          // seeds lie outside the grid, or it is a part of a period
 };
+
+/// Throws Error for a window; `what` ("bench") takes none.
+void refuse_window(const Input& input, const std::string& what);
 
 /// Seeds at these points, in a plane that repeats if there is a domain.
 template <typename MaybePoint>

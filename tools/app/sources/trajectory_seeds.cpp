@@ -168,6 +168,7 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
   }
   points_ = std::move(points);
   domain_ = mapped.domain;
+  outside_grid_ = mapped.outside;
   const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
   values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());

@@ -36,6 +36,9 @@ class TrajectorySeeds {
   /// Where the frame's box repeats, if the grid does not say it.
   const std::optional<Domain>& domain() const { return domain_; }
 
+  /// Whether particles lie outside the grid, or there is a domain.
+  bool is_window() const { return outside_grid_ > 0 || domain_; }
+
   /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
   /// whose label the pixels carry, has the lowest id.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
@@ -81,6 +84,7 @@ class TrajectorySeeds {
   ParticleSlots slots_;
   std::vector<std::optional<Point>> points_;
   std::optional<Domain> domain_;
+  std::size_t outside_grid_ = 0;  // particles of the frame
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
   double max_displacement_ = 0;
