@@ -43,11 +43,14 @@ void AxisMap::repeat(double period_low, double period_high, const char* name) {
   const double period = period_high - period_low;
   if (!(period * scale() >= 0.5)) {
     std::ostringstream text;
-    text << "the period in " << name << " is " << period << ", less than a pixel";
+    text << "the period in " << name << " is " << period << ", less than half a pixel";
     throw Error(text.str());
   }
-  const bool begins_with_bounds = period >= high_ - low_ && !(period_low <= low_ && high_ <= period_high);
-  period_low_ = begins_with_bounds ? low_ : period_low;
+  // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
+  const bool covers = std::llround(period * scale()) >= count_,
+             apart = period_high <= low_ || high_ <= period_low;
+  const bool holds = period_low <= low_ && high_ <= period_high;
+  period_low_ = (covers && !holds) || apart ? low_ : period_low;
   period_ = period;
 }
 
@@ -62,7 +65,8 @@ double AxisMap::pixel(double at) const {
   double offset = std::fmod(at - period_low_, *period_);
   if (offset < 0) offset += *period_;
   const double position = std::floor((offset + (period_low_ - low_)) * count_ / (high_ - low_));
-  return std::min(position, static_cast<double>(period_begin() + period_length() - 1));
+  const auto begin = static_cast<double>(period_begin()), length = static_cast<double>(period_length());
+  return position < begin ? position + length : std::min(position, begin + length - 1);
 }
 
 std::int64_t AxisMap::period_begin() const {

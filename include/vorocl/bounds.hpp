@@ -29,9 +29,9 @@ class VOROCL_API AxisMap {
   /// pixel. Without an extent, points at `low` fall in the middle one.
   AxisMap(double low, double high, int count, bool closed);
 
-  /// Makes the axis periodic: coordinates wrap. A period that is no shorter than the bounds may begin
-  /// anywhere: where it does not hold them, it begins with them. Throws Error, which names the axis so, if it
-  /// is shorter than half a pixel.
+  /// Makes the axis periodic: coordinates wrap. A period may begin anywhere: where it covers as many pixels
+  /// as the bounds and does not hold them, or holds nothing of them, it begins with them. Throws Error, which
+  /// names the axis so, if it is shorter than half a pixel.
   void repeat(double period_low, double period_high, const char* name);
 
   /// Whether a coordinate is outside the bounds; never along a periodic axis.

@@ -103,7 +103,7 @@ VOROCL_API Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellSh
 
 /// The cells of a diagram as a whole. Absent seeds do not count.
 struct CellStatistics {
-  std::size_t cells = 0;        ///< seeds
+  std::size_t cells = 0;        ///< seeds that are there; of those outside the grid the ones that own pixels
   std::size_t empty_cells = 0;  ///< seeds without a pixel: another seed is on theirs
   std::uint64_t pixels = 0;     ///< with a label
   double mean_area = 0;         ///< 0 if there are no cells

@@ -421,7 +421,7 @@ VOROCL_API vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums
 
 /// As vorocl::CellStatistics. Absent seeds do not count.
 typedef struct vorocl_cell_statistics {
-  size_t cells;           ///< seeds
+  size_t cells;           ///< seeds; of those outside the grid the ones that own pixels
   size_t empty_cells;     ///< seeds without a pixel: another seed is on theirs
   uint64_t pixels;        ///< with a label
   double mean_area;       ///< 0 if there are no cells

@@ -108,6 +108,11 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
   check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});    // the period begins with the window
   check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});   // a whole period, but in y a window
   check(-200, -20, 200, 0, around, {80, 0, 1440, 1, Periodic::x});  // beyond it there are no labels
+  // Bounds that are a period but for a rounding error, and the period that begins with them.
+  succeeds(folder,
+           "render --points p.csv --size 300x150 --labels r.npy --bounds -27.8,-90,332.2,90" + around);
+  const auto rounded = labels_of(folder, "r.npy");
+  BOOST_TEST(std::count(rounded.begin(), rounded.end(), no_label) == 0);
   // What the grid shows whole is the grid's own period, and flooding takes it.
   succeeds(folder, "render --points p.csv --size 144x72 --method jfa -o a.png" + around);
 }

@@ -85,12 +85,10 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--size 10x10 --bounds 0,0,1", usage, {"--bounds", "X0,Y0,X1,Y1"});
   refuses(folder, points + "--size 10x10 --columns x", usage, {"--columns"});
   refuses(folder, points + "--size 10x10 --periodic z", usage, {"--periodic", "xy"});
-  refuses(folder, points + "--size 10x10 --periodic x --bounds 1,0,1,9", failure,
-          {"p.csv", "no extent in x"});
-  refuses(folder, points + "--size 10x10 --bounds 0,2,4,2", failure, {"p.csv", "no extent in y"});
+  refuses(folder, points + "--size 10x10 --bounds 1,0,1,9", usage, {"--bounds", "X0 < X1"});
   refuses(folder, points + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--periodic"});
   refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,0.4 --bounds 0,0,9,9", failure,
-          {"p.csv", "period in y is 0.4", "less than a pixel"});
+          {"p.csv", "period in y is 0.4", "less than half a pixel"});
   for (const char* command : {"bench --methods exact,opencv", "relax --rounds 2 --labels l.npy",
                               "simulate --frames 1 --step-length 1 --labels l%d.npy"}) {
     refuses(
@@ -99,6 +97,9 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
         failure, {"part of a period", "whole period"});
   }
   refuses(folder, render + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--points"});
+  refuses(folder, render + "--size 10x10 --outside refuse", usage, {"--outside", "--points"});
+  refuses(folder, points + "--size 8x8 --periodic xy --domain 0,0,8,8 --bounds 4,4,6,6 --outside refuse",
+          failure, {"p.csv", "point 0", "outside the bounds 4,4,6,6"});
   refuses(folder, points + "--size 10x10 --outside ignore", usage, {"--outside", "count, refuse"});
   refuses(folder, render + "--size 32001x10 --periodic x", failure, {"32001", "periodic", "32000"});
   refuses(folder, "bench --random 5 --size 10x10 --periodic x --methods opencv", failure,

@@ -64,6 +64,9 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
   dynamic_jump_flooding(seeds, diagram, 2, options);
   seeds.move_to({Point{1, 1}, std::nullopt, Point{2, 2}});
   dynamic_jump_flooding(seeds, diagram, 40, options);
+  options.reach = Reach::paper;  // which looks for pixels that seeds which vanish leave without a label
+  seeds.move_to({Point{1, 1}});
+  dynamic_jump_flooding(seeds, diagram, 2, options);
   diagram.wait();
 }
 

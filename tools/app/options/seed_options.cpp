@@ -68,7 +68,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "Rectangle in data units that the grid shows; else each frame's own box, or the domain or the "
           "bounding box of the points (of the first frame)")
       .value_name("X0,Y0,X1,Y1");
-  const Choices<Outside> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
+  const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
   command
       .add_choice(
           "--outside", options.outside, outside,
@@ -80,8 +80,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a "
           "part of it")
       .value_name("X0,Y0,X1,Y1")
-      .default_text("the bounds")
-      .needs(points);
+      .default_text("the bounds");
   command
       .add_choice(
           "--periodic", options.periodic, periodic_choices(),

@@ -20,7 +20,7 @@ std::string describe(std::size_t index, const Point& point) {
 }  // namespace
 
 Bounds parse_bounds(const std::string& text) {
-  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 <= X1 and Y0 <= Y1");
+  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1");
   std::vector<double> values;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
@@ -29,18 +29,12 @@ Bounds parse_bounds(const std::string& text) {
     values.push_back(*value);
     begin = comma + 1;
   }
-  if (values.size() != 4 || values[0] > values[2] || values[1] > values[3]) throw error;
+  if (values.size() != 4 || values[0] >= values[2] || values[1] >= values[3]) throw error;
   return {values[0], values[1], values[2], values[3]};
 }
 
 std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
-}
-
-void check_extents(const Bounds& bounds) {
-  if (bounds.x0 < bounds.x1 && bounds.y0 < bounds.y1) return;
-  throw Error("the bounds " + to_string(bounds) + " have no extent in " +
-              (bounds.x0 < bounds.x1 ? "y" : "x"));
 }
 
 Bounds bounding_box(const std::vector<Point>& points) {
@@ -87,17 +81,27 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid) {
                   to_string(bounds), grid.width(), grid.height(), grid.width()));
 }
 
+void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds) {
+  if (outside == 0) return;
+  print_note(
+      fmt::format("{} of {} points lie outside the bounds {}; they count, and --outside refuse makes them "
+                  "an error",
+                  outside, points, to_string(bounds)));
+}
+
 namespace {
 
 constexpr double plane_side = 2147483648.0;  // 2^31
 
 }  // namespace
 
-bool is_whole_period(const Mapping& mapping) {
-  const Bounds& bounds = mapping.bounds;
-  const Bounds& period = mapping.period.value_or(bounds);
-  return (!has_x(mapping.periodic) || bounds.x1 - bounds.x0 == period.x1 - period.x0) &&
-         (!has_y(mapping.periodic) || bounds.y1 - bounds.y0 == period.y1 - period.y0);
+bool is_whole_period(const Mapping& mapping, const Grid& grid) {
+  if (!mapping.period) return true;
+  const Bounds &bounds = mapping.bounds, &period = *mapping.period;
+  const double columns = (period.x1 - period.x0) * (grid.width() / (bounds.x1 - bounds.x0));
+  const double rows = (period.y1 - period.y0) * (grid.height() / (bounds.y1 - bounds.y0));
+  return (!has_x(mapping.periodic) || std::round(columns) == grid.width()) &&
+         (!has_y(mapping.periodic) || std::round(rows) == grid.height());
 }
 
 MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Grid& grid) {
@@ -115,14 +119,13 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
       throw Error(describe(mapped.pixels.size(), point) + " is " + why);
     };
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    if (mapping.outside == Outside::refuse && (x.is_outside(point.x) || y.is_outside(point.y))) {
-      refuse("outside the bounds " + to_string(bounds));
-    }
     const double column = x.pixel(point.x), row = y.pixel(point.y);
     if (std::max(std::abs(column), std::abs(row)) >= plane_side - Grid::max_side) {
       refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
     }
     const bool inside = column >= 0 && column < grid.width() && row >= 0 && row < grid.height();
+    const bool outside = !inside || x.is_outside(point.x) || y.is_outside(point.y);
+    if (outside && mapping.outside == Outside::refuse) refuse("outside the bounds " + to_string(bounds));
     mapped.outside += inside ? 0 : 1;
     mapped.pixels.push_back({column + 0.5, (mapping.y_up ? grid.height() - 1 - row : row) + 0.5});
   }

@@ -8,13 +8,10 @@
 
 namespace vorocl::command {
 
-/// "X0,Y0,X1,Y1" to bounds. Throws Error unless these are four finite numbers with X0 <= X1 and Y0 <= Y1.
+/// "X0,Y0,X1,Y1" to bounds. Throws Error unless these are four finite numbers with X0 < X1 and Y0 < Y1.
 Bounds parse_bounds(const std::string& text);
 
 std::string to_string(const Bounds& bounds);
-
-/// Throws Error unless the bounds have an extent along both axes: those that the caller gives.
-void check_extents(const Bounds& bounds);
 
 /// The least bounds that hold all points (at least one). Throws Error if one is not finite.
 Bounds bounding_box(const std::vector<Point>& points);
@@ -29,6 +26,9 @@ bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 
 /// Warns on standard error unless pixels are square.
 void warn_of_scales(const Bounds& bounds, const Grid& grid);
+
+/// Says on standard error how many points lie outside the bounds, if some do.
+void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds);
 
 /// What becomes of points outside the bounds.
 enum class Outside {
@@ -53,8 +53,9 @@ struct MappedPoints {
   std::size_t outside = 0;  ///< points in no pixel of the grid
 };
 
-/// Whether the bounds are a whole period: then a grid may have the periodic axes itself.
-bool is_whole_period(const Mapping& mapping);
+/// Whether the bounds are a whole period, to whole pixels: then a grid of this size may have the periodic
+/// axes itself.
+bool is_whole_period(const Mapping& mapping, const Grid& grid);
 
 /// The centres of the pixels that hold the points: column floor((x - x0) * W / (x1 - x0)); rows likewise, or
 /// counted from the bottom if `y_up`. Along a periodic axis points wrap, and a period is a whole number of

@@ -38,13 +38,12 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   Mapping mapping;
   if (options.bounds || options.domain) {
     mapping.bounds = options.bounds ? *options.bounds : *options.domain;
-    mapping.closed = options.outside == Outside::refuse;
-    check_extents(mapping.bounds);
+    mapping.closed = options.outside.value_or(Outside::count) == Outside::refuse;
   } else {
     mapping.bounds = bounding_box(points);
   }
   mapping.y_up = points_up(options);
-  mapping.outside = options.outside;
+  mapping.outside = options.outside.value_or(Outside::count);
   mapping.periodic = axes_of(options);
   mapping.period = options.domain;
   return mapping;
@@ -57,7 +56,8 @@ Input input_from_points(const SeedOptions& options) {
   try {
     const Mapping mapping = mapping_of(options, points);
     const Grid size = options.size ? *options.size : grid_of_width(mapping.bounds, options.width);
-    Grid grid(size.width(), size.height(), is_whole_period(mapping) ? mapping.periodic : Periodic::none);
+    Grid grid(size.width(), size.height(),
+              is_whole_period(mapping, size) ? mapping.periodic : Periodic::none);
     MappedPoints mapped = map_points(points, mapping, grid);
     if (mapped.outside > 0 && grid.periodic() != Periodic::none) {  // along the other axis
       grid = size;
@@ -68,11 +68,7 @@ Input input_from_points(const SeedOptions& options) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
                              to_string(mapping.bounds)));
     }
-    if (mapped.outside > 0) {
-      print_note(
-          fmt::format("{} of {} points lie outside the bounds {}; they count (--outside refuse: they do not)",
-                      mapped.outside, points.size(), to_string(mapping.bounds)));
-    }
+    note_outside(mapped.outside, points.size(), mapping.bounds);
     return {
         grid,
         [grid, mapped](const Device& device) { return place(device, grid, mapped.pixels, mapped.domain); },
@@ -130,6 +126,7 @@ void check_needs(const SeedOptions& options) {
   }
   if (!options.points.empty() || !options.trajectory.empty()) return;
   const char* const given = options.bounds                  ? "--bounds"
+                            : options.outside               ? "--outside"
                             : options.width != 0            ? "--width"
                             : options.y_up                  ? "--y-up"
                             : options.y_down                ? "--y-down"

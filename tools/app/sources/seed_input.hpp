@@ -23,8 +23,8 @@ struct SeedOptions {
   std::optional<Grid> size;
   int width = 0;
   std::optional<Bounds> bounds;
-  std::optional<Bounds> domain;  // of points: what repeats along the periodic axes; else the bounds
-  Outside outside = Outside::count;
+  std::optional<Bounds> domain;       // of points: what repeats along the periodic axes; else the bounds
+  std::optional<Outside> outside;     // else they count
   std::optional<Periodic> periodic;   // else none, or what the trajectory says
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;

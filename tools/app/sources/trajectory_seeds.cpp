@@ -54,7 +54,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     : path_(options.trajectory),
       given_bounds_(options.bounds),
       told_axes_(options.periodic),
-      outside_(options.outside),
+      outside_(options.outside.value_or(Outside::count)),
       y_up_(points_up(options)) {
   if (!options.size && options.width == 0) {
     throw UsageError("--size WxH or --width W is required with --trajectory");
@@ -68,7 +68,6 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
     }
     bounds = bounds_of_frame();
   }
-  if (given_bounds_) check_extents(*given_bounds_);
   has_domain_ = given_bounds_ && frame_.box;
   grid_ = make_grid(options, bounds);
   take_frame(bounds);
@@ -131,6 +130,7 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   mapping.bounds = bounds;
   mapping.closed = !given_bounds_ || outside_ == Outside::refuse;
   mapping.y_up = y_up_;
+  mapping.outside = outside_;
   mapping.periodic = has_domain_ && !frame_.box ? Periodic::none : axes_of_frame();
   if (has_domain_ && frame_.box) {
     mapping.period = Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
@@ -148,10 +148,16 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
   MappedPoints mapped;
   Periods periods;
   if (bounds) {
-    if (outside_ == Outside::refuse || grid_->periodic() != Periodic::none) check_inside(*bounds);
-    mapped = map_points(frame_.positions, mapping_of_frame(*bounds), *grid_);
+    const bool must_be_inside = outside_ == Outside::refuse || grid_->periodic() != Periodic::none;
+    if (must_be_inside && !has_domain_) check_inside(*bounds);
+    try {
+      mapped = map_points(frame_.positions, mapping_of_frame(*bounds), *grid_);
+    } catch (const Error& error) {
+      throw Error(fmt::format("{}: frame {}: {}", path_, number_, error.what()));
+    }
     if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, *grid_, y_up_);
     if (!scales_checked_) warn_of_scales(*bounds, *grid_);
+    if (!scales_checked_ && given_bounds_) note_outside(mapped.outside, frame_.ids.size(), *bounds);
     scales_checked_ = true;
   }
   const std::vector<Point>& pixels = mapped.pixels;
