@@ -129,7 +129,7 @@ cl::Event add_plane_shapes(const MeasuredFrames& measured, const Diagram& diagra
       fill(device, shapes.lower_words, cl_uint{0}, count);
     }
   }
-  const cl::Event added =
+  cl::Event added =
       blocks.run(shapes.kernels, "plane_shapes.cl", "add_plane_shapes", options, diagram.labels(),
                  outer.seeds, count, outer.periods, grid.width(), grid.height(), blocks.wide(), blocks.high(),
                  shapes.boxes, far ? shapes.upper_words : shapes.distances);
