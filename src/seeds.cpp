@@ -130,7 +130,7 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
   frame_ = std::move(frame);
 }
 
-void SeedsState::place(Placement placement, const std::optional<Domain>& domain) {
+void SeedsState::place(Placement&& placement, const std::optional<Domain>& domain) {
   auto& [packed, in_the_plane] = placement;
   std::vector<bool> there(packed.size(), true);
   bool vanished = there.size() < present.size();

@@ -41,7 +41,7 @@ struct SeedsState {
   const std::shared_ptr<const SeedsFrame>& frame() const { return frame_; }
 
   /// Makes the next frame of seeds that the host has placed.
-  void place(Placement placement, const std::optional<Domain>& domain = std::nullopt);
+  void place(Placement&& placement, const std::optional<Domain>& domain = std::nullopt);
 
   /// Makes the next frame from the caller's buffers. `marks` may be null.
   void place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks);
