@@ -1,5 +1,6 @@
 #include "app/terminal/interruption.hpp"
 
+#include <atomic>
 #include <csignal>
 
 #include "formats/temporary_names.hpp"
@@ -8,13 +9,12 @@ namespace vorocl::command {
 
 namespace {
 
-volatile std::sig_atomic_t is_deferred = 0, signal_came = 0;
+// Two threads may handle one signal each at the same time.
+std::atomic<bool> is_deferred = false, signal_came = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not lock");
 
 void end(int signal) {
-  if (is_deferred != 0 && signal_came == 0) {
-    signal_came = 1;
-    return;
-  }
+  if (is_deferred && !signal_came.exchange(true)) return;
   remove_temporary_files();
   std::signal(signal, SIG_DFL);
   raise(signal);  // comes when the handler returns
@@ -36,12 +36,12 @@ void remove_temporary_files_on_signals() {
 }
 
 Interruption::Interruption() {
-  signal_came = 0;
-  is_deferred = 1;
+  signal_came = false;
+  is_deferred = true;
 }
 
-Interruption::~Interruption() { is_deferred = 0; }
+Interruption::~Interruption() { is_deferred = false; }
 
-bool Interruption::came() const { return signal_came != 0; }
+bool Interruption::came() const { return signal_came; }
 
 }  // namespace vorocl::command
