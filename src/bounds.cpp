@@ -34,54 +34,58 @@ void check_bounds(const Bounds& bounds, const Grid& grid) {
   if (grid.periodic_y() && height == 0) refuse(bounds, "have no extent in y, which is to be periodic");
 }
 
-AxisMap::AxisMap(double low, double high, int count, bool closed)
-    : low_(low), high_(high), count_(count), closed_(closed) {}
-
-double AxisMap::scale() const { return count_ / (high_ - low_); }
-
-void AxisMap::repeat(double period_low, double period_high, const char* name) {
-  const double period = period_high - period_low;
-  if (!(period * scale() >= 0.5)) {
-    std::ostringstream text;
-    text << "the period in " << name << " is " << period << ", less than half a pixel";
-    throw Error(text.str());
-  }
-  // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
-  const bool covers = std::llround(period * scale()) >= count_,
-             apart = period_high <= low_ || high_ <= period_low;
-  const bool holds = period_low <= low_ && high_ <= period_high;
-  period_low_ = (covers && !holds) || apart ? low_ : period_low;
-  period_ = period;
+PixelMap::PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed)
+    : x_(bounds.x0, bounds.x1, grid.width(), closed),
+      y_(bounds.y0, bounds.y1, grid.height(), closed),
+      height_(grid.height()),
+      y_up_(y_up) {
+  check_bounds(bounds, grid);
 }
 
-bool AxisMap::is_outside(double at) const { return !period_ && (at < low_ || at > high_); }
+void PixelMap::repeat(Periodic axes, const Bounds& period) {
+  if (has_x(axes)) x_.repeat(period.x0, period.x1, "x");
+  if (has_y(axes)) y_.repeat(period.y0, period.y1, "y");
+  periodic_ = axes;
+}
 
-double AxisMap::pixel(double at) const {
+Point PixelMap::pixel(const Point& point) const {
+  const double row = y_.pixel(point.y);
+  return {x_.pixel(point.x) + 0.5, (y_up_ ? height_ - 1 - row : row) + 0.5};
+}
+
+std::optional<Domain> PixelMap::domain() const {
+  if (periodic_ == Periodic::none) return std::nullopt;
+  const std::int64_t top = y_up_ ? height_ - y_.begin() - y_.length() : y_.begin();
+  return Domain{x_.begin(), top, x_.length(), y_.length(), periodic_};
+}
+
+void PixelMap::Axis::repeat(double period_low, double period_high, const char* name) {
+  period_ = period_high - period_low;
+  const double scale = count_ / (high_ - low_);
+  if (!(period_ * scale >= 0.5)) {
+    std::ostringstream text;
+    text << "the period in " << name << " is " << period_ << ", less than half a pixel";
+    throw Error(text.str());
+  }
+  length_ = std::llround(period_ * scale);
+  // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
+  const bool covers = length_ >= count_, holds = period_low <= low_ && high_ <= period_high;
+  const bool apart = period_high <= low_ || high_ <= period_low;
+  period_low_ = (covers && !holds) || apart ? low_ : period_low;
+  begin_ = std::llround((period_low_ - low_) * scale);
+}
+
+double PixelMap::Axis::pixel(double at) const {
   if (high_ == low_) return at == low_ ? count_ / 2 : at < low_ ? -1 : count_;
-  if (!period_) {
+  if (period_ == 0) {
     const double position = std::floor((at - low_) * count_ / (high_ - low_));
     return closed_ && at <= high_ ? std::min(position, count_ - 1.0) : position;
   }
-  double offset = std::fmod(at - period_low_, *period_);
-  if (offset < 0) offset += *period_;
+  double offset = std::fmod(at - period_low_, period_);
+  if (offset < 0) offset += period_;
   const double position = std::floor((offset + (period_low_ - low_)) * count_ / (high_ - low_));
-  const auto begin = static_cast<double>(period_begin()), length = static_cast<double>(period_length());
+  const auto begin = static_cast<double>(begin_), length = static_cast<double>(length_);
   return position < begin ? position + length : std::min(position, begin + length - 1);
-}
-
-std::int64_t AxisMap::period_begin() const {
-  return period_ ? std::llround((period_low_ - low_) * scale()) : 0;
-}
-
-std::int64_t AxisMap::period_length() const { return period_ ? std::llround(*period_ * scale()) : count_; }
-
-std::optional<Point> to_pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up) {
-  AxisMap x(bounds.x0, bounds.x1, grid.width(), true), y(bounds.y0, bounds.y1, grid.height(), true);
-  if (grid.periodic_x()) x.repeat(bounds.x0, bounds.x1, "x");
-  if (grid.periodic_y()) y.repeat(bounds.y0, bounds.y1, "y");
-  if (x.is_outside(point.x) || y.is_outside(point.y)) return std::nullopt;
-  const double row = y.pixel(point.y);
-  return Point{x.pixel(point.x) + 0.5, (y_up ? grid.height() - 1 - row : row) + 0.5};
 }
 
 }  // namespace vorocl

@@ -255,14 +255,14 @@ std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const
                                                      const std::optional<Domain>& domain,
                                                      std::vector<PlanePosition> positions) {
   OuterSeeds outer;
-  outer.periodic = domain && domain->periodic != Periodic::none;
+  if (domain) outer.periodic = domain->periodic;
   bool near = true;
   for (const PlanePosition& position : positions) {
     if (is_absent(position)) continue;
     outer.outside += is_inside(grid, position) ? 0 : 1;
     near = near && is_near(grid, position);
   }
-  if (outer.outside == 0 && !outer.periodic) return nullptr;
+  if (outer.outside == 0 && outer.periodic == Periodic::none) return nullptr;
 
   const Region region = labelled_region(grid, domain);
   const auto as_int = [](std::int64_t at) { return static_cast<cl_int>(at); };

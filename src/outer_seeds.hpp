@@ -31,16 +31,16 @@ inline bool is_inside(const Grid& grid, const PlanePosition& at) {
 /// What a frame knows of them, on the device. Nothing of it changes. kernels/exact/outer.cl says what the
 /// buffers hold.
 struct OuterSeeds {
-  std::size_t outside = 0;        // seeds outside the pixels
-  bool periodic = false;          // there are images
-  Extent extent = Extent::near;   // of all seeds and images
-  cl_int4 region{};               // the pixels that get labels: left, top, right, bottom
-  cl_uint2 periods{};             // 0 along an axis that is not periodic
-  cl::Buffer seeds;               // positions by id, and one more that is absent
-  cl::Buffer places, ids, nodes;  // the tree: of seeds outside and images that may own a pixel
-  cl_uint count = 0;              // of these
-  cl_int top = 0;                 // the tree's highest level ...
-  cl_uint top_start = 0;          // ... and where it begins in the list of nodes
+  std::size_t outside = 0;             // seeds outside the pixels
+  Periodic periodic = Periodic::none;  // the domain's axes
+  Extent extent = Extent::near;        // of all seeds and images
+  cl_int4 region{};                    // the pixels that get labels: left, top, right, bottom
+  cl_uint2 periods{};                  // 0 along an axis that is not periodic
+  cl::Buffer seeds;                    // positions by id, and one more that is absent
+  cl::Buffer places, ids, nodes;       // the tree: of seeds outside and images that may own a pixel
+  cl_uint count = 0;                   // of these
+  cl_int top = 0;                      // the tree's highest level ...
+  cl_uint top_start = 0;               // ... and where it begins in the list of nodes
 
   /// Whether the region is the whole grid.
   bool labels_all(const Grid& grid) const {

@@ -292,6 +292,11 @@ const Grid& Seeds::grid() const { return state().grid; }
 std::size_t Seeds::size() const { return state().size(); }
 std::size_t Seeds::alive() const { return state().frame()->alive(); }
 
+Periodic Seeds::periodic() const {
+  const std::shared_ptr<const OuterSeeds>& outer = state().frame()->outer;
+  return outer ? outer->periodic : grid().periodic();
+}
+
 std::size_t Seeds::outside() const {
   const std::shared_ptr<const OuterSeeds>& outer = state().frame()->outer;
   return outer ? outer->outside : 0;

@@ -9,7 +9,7 @@
 
 namespace vorocl {
 
-/// The rectangle of the data's plane that the grid shows; x1 and y1 belong to it.
+/// The rectangle of the data's plane that the grid shows.
 struct Bounds {
   double x0 = 0;
   double y0 = 0;
@@ -21,44 +21,53 @@ struct Bounds {
 /// periodic axes, and are neither so far apart nor so near that double has no scale for them.
 VOROCL_API void check_bounds(const Bounds& bounds, const Grid& grid);
 
-/// The map of one axis from data to pixels: the column (or row) of x is floor((x - low) * count / (high -
-/// low)), in this order of operations, so that rounding is the same everywhere. It may lie outside the grid.
-class VOROCL_API AxisMap {
+/// The map from data to pixels: the column of a point is floor((x - x0) * W / (x1 - x0)), in this order of
+/// operations, so that rounding is the same everywhere; rows likewise, or counted from the bottom if `y_up`.
+/// Along an axis without an extent a point of the bounds falls in the middle pixel. Pixels may lie outside
+/// the grid.
+class VOROCL_API PixelMap {
  public:
-  /// The bounds along the axis, low <= high, and the pixels. If `closed`, a point at `high` falls in the last
-  /// pixel. Without an extent, points at `low` fall in the middle one.
-  AxisMap(double low, double high, int count, bool closed);
+  /// If `closed`, a point at x1 or y1 falls in the last pixel. Throws as check_bounds().
+  PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed);
 
-  /// Makes the axis periodic: coordinates wrap. A period may begin anywhere: where it covers as many pixels
-  /// as the bounds and does not hold them, or holds nothing of them, it begins with them. Throws Error, which
-  /// names the axis so, if it is shorter than half a pixel.
-  void repeat(double period_low, double period_high, const char* name);
+  /// Makes axes periodic: points wrap. A period may begin anywhere: where it covers as many pixels as the
+  /// bounds and does not hold them, or holds nothing of them, it begins with them. Throws Error if it is
+  /// shorter than half a pixel.
+  void repeat(Periodic axes, const Bounds& period);
 
-  /// Whether a coordinate is outside the bounds; never along a periodic axis.
-  bool is_outside(double at) const;
+  /// Whether a point is outside the bounds; along a periodic axis none is.
+  bool is_outside(const Point& point) const { return x_.is_outside(point.x) || y_.is_outside(point.y); }
 
-  /// The pixel of a finite coordinate, a whole number.
-  double pixel(double at) const;
+  /// The centre of a finite point's pixel.
+  Point pixel(const Point& point) const;
 
-  /// The period's first pixel and how many it has, rounded to whole ones; those of the grid without a period.
-  std::int64_t period_begin() const;
-  std::int64_t period_length() const;
+  /// What repeats, in whole pixels; none without a periodic axis.
+  std::optional<Domain> domain() const;
 
  private:
-  double scale() const;
+  class Axis {
+   public:
+    Axis(double low, double high, int count, bool closed)
+        : low_(low), high_(high), count_(count), closed_(closed) {}
+    void repeat(double period_low, double period_high, const char* name);
+    bool is_outside(double at) const { return period_ == 0 && (at < low_ || at > high_); }
+    double pixel(double at) const;
+    std::int64_t begin() const { return begin_; }
+    std::int64_t length() const { return period_ == 0 ? count_ : length_; }
 
-  double low_, high_;
-  int count_;
-  bool closed_;
-  double period_low_ = 0;
-  std::optional<double> period_;
+   private:
+    double low_, high_;
+    int count_;
+    bool closed_;
+    double period_ = 0;                    // 0: none
+    double period_low_ = 0;                // where it begins ...
+    std::int64_t begin_ = 0, length_ = 0;  // ... and these in whole pixels
+  };
+
+  Axis x_, y_;
+  int height_;
+  bool y_up_;
+  Periodic periodic_ = Periodic::none;
 };
-
-/// The centre of the pixel that holds a point, which must be finite: column floor((x - x0) * W / (x1 - x0)),
-/// the last one for x1 itself, the middle one where x1 = x0; rows likewise, or counted from the bottom if
-/// `y_up`. Along an axis of the grid that is periodic the bounds are the period, and points wrap: x1 is x0
-/// again. None for a point outside the bounds. The bounds must have passed check_bounds().
-VOROCL_API std::optional<Point> to_pixel(const Point& point, const Bounds& bounds, const Grid& grid,
-                                         bool y_up);
 
 }  // namespace vorocl

@@ -55,6 +55,9 @@ class VOROCL_API Grid {
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
   int longest_side() const { return width_ > height_ ? width_ : height_; }
+  bool holds(const Point& point) const {
+    return point.x >= 0 && point.x < width_ && point.y >= 0 && point.y < height_;
+  }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
   friend bool operator==(const Grid& a, const Grid& b) {

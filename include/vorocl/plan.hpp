@@ -91,9 +91,9 @@ struct DynamicPlan {
 /// The waves of dynamic jump flooding whose reach follows from the last labels. The paper's plan, where it
 /// can be relied on: the square that it reaches holds the greatest distance, at most a tenth of the pixels
 /// were far from their seeds, and seeds moved by less than 2 L, or by less than L / 2 if it begins with JFA's
-/// first step. Else JFA's waves from the least step whose plan covers that
-/// distance, and the extra waves: as good as JFA, and never longer. docs/moving_seeds.md says why old labels
-/// are no start there. Throws as dynamic_jump_flooding_plan().
+/// first step. Else JFA's waves from the least step whose plan covers that distance, and the extra waves: as
+/// good as JFA, and never longer. docs/moving_seeds.md says why old labels are no start there. Throws as
+/// dynamic_jump_flooding_plan().
 VOROCL_API DynamicPlan reaching_plan(const Grid& grid, std::size_t seeds, double max_displacement,
                                      const LabelDistances& distances, Metric metric,
                                      const DynamicPlanOptions& options = {});

@@ -94,6 +94,9 @@ class VOROCL_API Seeds {
   const Grid& grid() const;
   std::size_t size() const;
 
+  /// The axes along which the plane repeats: the grid's, or the domain's.
+  Periodic periodic() const;
+
   /// The seeds that are not absent. Where a buffer said which are present, this waits for the device.
   std::size_t alive() const;
 

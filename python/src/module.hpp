@@ -36,21 +36,22 @@ nb::ndarray<nb::numpy, T, nb::ndim<2>> to_numpy(std::vector<Row>&& rows) {
 }
 
 /// How points become pixels.
-struct Placement {
+struct Placing {
   Grid grid;
-  std::optional<Bounds> bounds;  // none: points are in pixels
-  bool y_up;                     // rows are counted from the bottom
+  std::optional<PixelMap> map;  // none: points are in pixels
+  bool y_up;                    // rows are counted from the bottom
+  bool outside_counts;          // points outside are seeds too; false for a periodic grid
 };
 
 /// Seeds, and the points of their present and last frame, so that a move allocates nothing. The library wants
 /// one thread at a time; threads of Python take turns.
 struct SeedsObject {
-  SeedsObject(const Device& device, const Placement& of_points)
-      : placement(of_points), seeds(device, of_points.grid, std::vector<Point>()) {}
-  SeedsObject(Seeds made, const Placement& of_points) : placement(of_points), seeds(std::move(made)) {}
+  SeedsObject(const Device& device, const Placing& of_points)
+      : placing(of_points), seeds(device, of_points.grid, std::vector<Point>()) {}
+  SeedsObject(Seeds made, const Placing& of_points) : placing(of_points), seeds(std::move(made)) {}
 
   std::mutex mutex;
-  Placement placement;
+  Placing placing;
   Seeds seeds;
   std::vector<std::uint32_t> positions, last_positions;
 };

@@ -18,12 +18,15 @@ namespace {
 
 using Corners = std::tuple<double, double, double, double>;
 
-Placement placement(const Grid& grid, const std::optional<Corners>& corners, bool y_up) {
-  if (!corners) return {grid, std::nullopt, y_up};
-  const auto [x0, y0, x1, y1] = *corners;
-  const Bounds bounds = {x0, y0, x1, y1};
-  check_bounds(bounds, grid);
-  return {grid, bounds, y_up};
+Placing placing(const Grid& grid, const std::optional<Corners>& corners, bool y_up, bool outside_counts) {
+  Placing result = {grid, std::nullopt, y_up, outside_counts && grid.periodic() == Periodic::none};
+  if (corners) {
+    const auto [x0, y0, x1, y1] = *corners;
+    const Bounds bounds = {x0, y0, x1, y1};
+    result.map.emplace(bounds, grid, y_up, !result.outside_counts);
+    result.map->repeat(grid.periodic(), bounds);
+  }
+  return result;
 }
 
 /// A position along an axis in pixels, wrapped if that is periodic.
@@ -34,42 +37,67 @@ double wrapped(double position, int count, bool periodic) {
   return position < count ? position : 0;  // the sum may be rounded up to the period
 }
 
-/// Where a point in pixels is; none outside the grid.
-std::optional<Point> to_pixel(const Point& point, const Grid& grid, bool y_up) {
-  const double x = wrapped(point.x, grid.width(), grid.periodic_x());
-  const double y = wrapped(point.y, grid.height(), grid.periodic_y());
-  if (!(x >= 0 && x < grid.width() && y >= 0 && y < grid.height())) return std::nullopt;
-  return Point{x, y_up ? grid.height() - 1 - static_cast<int>(y) : y};
+/// The centre of a point's pixel, which may lie outside the grid.
+Point pixel_of(const Placing& placing, const Point& point) {
+  if (placing.map) return placing.map->pixel(point);
+  const Grid& grid = placing.grid;
+  const double x = std::floor(wrapped(point.x, grid.width(), grid.periodic_x()));
+  const double y = std::floor(wrapped(point.y, grid.height(), grid.periodic_y()));
+  return {x + 0.5, (placing.y_up ? grid.height() - 1 - y : y) + 0.5};
 }
 
-[[noreturn]] void refuse(std::size_t row, const Point& point, const Placement& placement) {
+[[noreturn]] void refuse(std::size_t row, const Point& point, const Placing& placing) {
   if (std::isinf(point.x) || std::isinf(point.y)) {
     throw BadPoint(row, point, "is infinite; a seed that is absent is NaN");
   }
-  const Grid& grid = placement.grid;
+  const Grid& grid = placing.grid;
   const std::string pixels = std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " pixels";
-  throw BadPoint(row, point, placement.bounds ? "is outside the bounds" : "is outside the grid of " + pixels);
+  const std::string outside = placing.map ? "is outside the bounds" : "is outside the grid of " + pixels;
+  const bool is_periodic = grid.periodic() != Periodic::none;
+  throw BadPoint(row, point, outside + (is_periodic ? ", along the axis that is not periodic" : ""));
 }
 
-/// Writes the positions, with room for the one more that the library adds.
-void place(const Placement& placement, const Points& points, std::vector<std::uint32_t>& positions) {
-  const Grid& grid = placement.grid;
-  positions.clear();
-  positions.reserve(points.shape(0) + 1);
-  for (const double* xy = points.data(); positions.size() < points.shape(0); xy += 2) {
+/// Calls `use` with each point's pixel, none for an absent seed.
+template <typename Use>
+void each_pixel(const Placing& placing, const Points& points, Use use) {
+  constexpr double far = 2147483648.0 - Grid::max_side;
+  const double* xy = points.data();
+  for (std::size_t row = 0; row < points.shape(0); ++row, xy += 2) {
     const Point point = {xy[0], xy[1]};
     if (std::isnan(point.x) || std::isnan(point.y)) {
-      positions.push_back(absent_position);
+      use(std::nullopt);
       continue;
     }
-    std::optional<Point> pixel;
-    if (std::isfinite(point.x) && std::isfinite(point.y)) {
-      pixel = placement.bounds ? to_pixel(point, *placement.bounds, grid, placement.y_up)
-                               : to_pixel(point, grid, placement.y_up);
-    }
-    if (!pixel) refuse(positions.size(), point, placement);
-    positions.push_back(pack(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
+    if (std::isinf(point.x) || std::isinf(point.y)) refuse(row, point, placing);
+    const Point pixel = pixel_of(placing, point);
+    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= far) throw BadPoint(row, point);
+    if (!placing.grid.holds(pixel) && !placing.outside_counts) refuse(row, point, placing);
+    use(std::optional<Point>(pixel));
   }
+}
+
+/// Writes the positions, with room for the one more that the library adds, of seeds outside as of absent
+/// ones. Returns where seeds are in the plane, if some lie outside.
+std::vector<PlanePosition> place(const Placing& placing, const Points& points,
+                                 std::vector<std::uint32_t>& positions) {
+  positions.clear();
+  positions.reserve(points.shape(0) + 1);
+  bool all_inside = true;
+  each_pixel(placing, points, [&](const std::optional<Point>& pixel) {
+    const bool inside = pixel && placing.grid.holds(*pixel);
+    positions.push_back(inside ? pack(static_cast<int>(pixel->x), static_cast<int>(pixel->y))
+                               : absent_position);
+    all_inside = all_inside && (inside || !pixel);
+  });
+  std::vector<PlanePosition> in_the_plane;
+  if (all_inside) return in_the_plane;
+  in_the_plane.reserve(points.shape(0) + 1);
+  each_pixel(placing, points, [&](const std::optional<Point>& pixel) {
+    in_the_plane.push_back(pixel ? PlanePosition{{static_cast<cl_int>(std::floor(pixel->x)),
+                                                  static_cast<cl_int>(std::floor(pixel->y))}}
+                                 : PlanePosition{{absent_coordinate, 0}});
+  });
+  return in_the_plane;
 }
 
 /// How far apart two positions are along an axis, the shorter way round if that is periodic.
@@ -81,7 +109,7 @@ int along(std::uint32_t a, std::uint32_t b, int count, bool periodic) {
 /// Of the seeds that are in the last two frames, along an axis.
 int displacement(SeedsObject& seeds) {
   const std::lock_guard<std::mutex> lock(seeds.mutex);
-  const Grid& grid = seeds.placement.grid;
+  const Grid& grid = seeds.placing.grid;
   const std::size_t count = std::min(seeds.positions.size(), seeds.last_positions.size());
   int greatest = 0;
   for (std::size_t id = 0; id < count; ++id) {
@@ -97,8 +125,8 @@ void move_to(SeedsObject& seeds, const Points& points) {
   const std::lock_guard<std::mutex> lock(seeds.mutex);
   std::swap(seeds.positions, seeds.last_positions);
   try {
-    place(seeds.placement, points, seeds.positions);
-    Internal::state(seeds.seeds).place({seeds.positions, {}});
+    std::vector<PlanePosition> in_the_plane = place(seeds.placing, points, seeds.positions);
+    Internal::state(seeds.seeds).place({seeds.positions, std::move(in_the_plane)});
   } catch (...) {
     std::swap(seeds.positions, seeds.last_positions);  // the seeds are where they were
     throw;
@@ -106,14 +134,15 @@ void move_to(SeedsObject& seeds, const Points& points) {
 }
 
 void make(SeedsObject* memory, const Device& device, const Grid& grid, const std::optional<Corners>& bounds,
-          bool y_up) {
-  new (memory) SeedsObject(device, placement(grid, bounds, y_up));
+          bool y_up, bool outside_counts) {
+  new (memory) SeedsObject(device, placing(grid, bounds, y_up, outside_counts));
 }
 
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
                                        const Array<const std::uint8_t, nb::ndim<2>>& mask) {
   const std::vector<std::uint8_t> pixels(mask.data(), mask.data() + mask.size());
-  return std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels), Placement{grid, {}, false});
+  return std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels),
+                                       Placing{grid, {}, false, false});
 }
 
 std::size_t size(SeedsObject& seeds) {
@@ -143,7 +172,7 @@ void read(SeedsObject& seeds, const Array<double, nb::shape<-1, 2>>& points) {
 void bind_seeds(nb::module_& module) {
   nb::class_<SeedsObject>(module, "Seeds")
       .def("__init__", make, nb::arg("device"), nb::arg("grid"), nb::arg("bounds").none(), nb::arg("y_up"),
-           without_gil())
+           nb::arg("outside_counts"), without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
       .def("move_to", move_to, nb::arg("points"), without_gil())
       .def_prop_ro("displacement", displacement, without_gil())

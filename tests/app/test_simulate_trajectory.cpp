@@ -161,6 +161,9 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
   labels("tilted", "", "periodic in x only");
   refuses(folder, "render --trajectory tilted.lammpstrj --size 9x9 --method exact --periodic xy -o t.png",
           failure, {"tilted", "--periodic x"});
+  // What repeats is told of bounds that are a window of the box, too.
+  const std::string zoom = "render --trajectory x.lammpstrj --size 9x9 --bounds 2,2,4,4 --json -o zoom.png";
+  BOOST_TEST(run(folder, zoom).out.find("\"periodic\":\"x\"") != std::string::npos);
   folder.file("both.lammpstrj", frame_text(particles) + frame_text(particles, x_alone));
   const Result result =
       run(folder, "simulate --trajectory both.lammpstrj --size 9x9 --method exact --labels both%d.npy");
@@ -168,6 +171,19 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
   for (const char* part : {"both.lammpstrj", "frame 1", "--periodic"}) {
     BOOST_TEST(result.error.find(part) != std::string::npos, result.error);
   }
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_without_a_box_repeats_only_where_no_axes_are_told) {
+  const TemporaryFolder folder;
+  const std::string box = "Lattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"T T F\" Properties=species:S:1:pos:R:3";
+  folder.file("t.xyz", "1\n" + box + "\nA 9 9 0\n1\n\nA 1 1 0\n");
+  const std::string zoom = "simulate --trajectory t.xyz --size 6x6 --bounds 0,0,2,2 --labels l%d.npy ";
+  const Result result = run(folder, zoom + "--periodic xy");
+  BOOST_TEST(result.exit_code == failure);
+  for (const char* part : {"t.xyz", "frame 1", "box", "--periodic none"}) {
+    BOOST_TEST(result.error.find(part) != std::string::npos, result.error);
+  }
+  BOOST_TEST(run(folder, zoom + "--periodic none").exit_code == 0);
 }
 
 BOOST_AUTO_TEST_CASE(without_a_box_the_first_frame_gives_the_bounds) {

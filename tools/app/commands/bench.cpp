@@ -41,7 +41,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.grid().periodic())},
+                {"periodic", to_string(seeds.periodic())},
                 {"seeds", seeds.alive()},
                 {"repeat", options.repeat},
                 {"results", list}});

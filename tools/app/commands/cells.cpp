@@ -62,7 +62,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.grid().periodic())},
+                {"periodic", to_string(seeds.periodic())},
                 {"cells", statistics.cells},
                 {"empty_cells", statistics.empty_cells},
                 {"mean_area", statistics.mean_area},

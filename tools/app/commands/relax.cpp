@@ -130,7 +130,7 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
     print_json({{"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.grid().periodic())},
+                {"periodic", to_string(seeds.periodic())},
                 {"seeds", seeds.alive()},
                 {"rounds", relaxation.rounds()},
                 {"settled", relaxation.converged},

@@ -72,7 +72,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.grid().periodic())},
+                {"periodic", to_string(seeds.periodic())},
                 {"seeds", seeds.alive()},
                 {"frames", 1},
                 {"waves", report.waves()},

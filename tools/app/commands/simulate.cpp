@@ -167,7 +167,7 @@ Json::Members json_of(const SimulateOptions& options, Simulation& simulation, co
                           {"device", seeds.device().name()},
                           {"width", seeds.grid().width()},
                           {"height", seeds.grid().height()},
-                          {"periodic", to_string(seeds.grid().periodic())},
+                          {"periodic", to_string(seeds.periodic())},
                           {"seeds", seeds.alive()},
                           {"frames", simulation.frame()},
                           {"waves", simulation.report(main_engine).waves()},

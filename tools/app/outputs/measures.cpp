@@ -6,10 +6,6 @@
 
 namespace vorocl::command {
 
-bool holds(const Grid& grid, const Point& point) {
-  return point.x >= 0 && point.x < grid.width() && point.y >= 0 && point.y < grid.height();
-}
-
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
                    Metric metric, MeasureBuffers& buffers)
     : seeds_(seeds), diagram_(diagram), ids_(ids), metric_(metric), buffers_(buffers) {}
@@ -51,7 +47,7 @@ std::vector<CellMeasures> Measures::cells() {
   cells.reserve(seeds_.alive());
   for (std::size_t label = 0; label < seeds_.size(); ++label) {
     const std::optional<Point>& seed = seeds()[label];
-    if (!seed || (sums[label].area == 0 && !holds(seeds_.grid(), *seed))) continue;
+    if (!seed || (sums[label].area == 0 && !seeds_.grid().holds(*seed))) continue;
     cells.push_back({id_of(label), *seed, sums[label], shapes[label], neighbours[label], perimeters[label]});
   }
   std::sort(cells.begin(), cells.end(),

@@ -19,9 +19,6 @@ struct MeasureBuffers {
   Field<std::uint8_t> borders;
 };
 
-/// Whether a point lies in one of the grid's pixels.
-bool holds(const Grid& grid, const Point& point);
-
 /// What is known of a cell.
 struct CellMeasures {
   std::uint32_t id = 0;

@@ -40,7 +40,7 @@ std::vector<std::optional<Point>> enlarged(std::vector<std::optional<Point>> poi
 /// Without the seeds outside the grid.
 std::vector<std::optional<Point>> in_grid(std::vector<std::optional<Point>> points, const Grid& grid) {
   for (std::optional<Point>& point : points) {
-    if (point && !holds(grid, *point)) point.reset();
+    if (point && !grid.holds(*point)) point.reset();
   }
   return points;
 }

@@ -106,12 +106,8 @@ bool is_whole_period(const Mapping& mapping, const Grid& grid) {
 
 MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Grid& grid) {
   const Bounds& bounds = mapping.bounds;
-  check_bounds(bounds, grid);
-  const Bounds& period = mapping.period.value_or(bounds);
-  AxisMap x(bounds.x0, bounds.x1, grid.width(), mapping.closed);
-  AxisMap y(bounds.y0, bounds.y1, grid.height(), mapping.closed);
-  if (has_x(mapping.periodic)) x.repeat(period.x0, period.x1, "x");
-  if (has_y(mapping.periodic)) y.repeat(period.y0, period.y1, "y");
+  PixelMap map(bounds, grid, mapping.y_up, mapping.closed);
+  map.repeat(mapping.periodic, mapping.period.value_or(bounds));
   MappedPoints mapped;
   mapped.pixels.reserve(points.size());
   for (const Point& point : points) {
@@ -119,21 +115,18 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
       throw Error(describe(mapped.pixels.size(), point) + " is " + why);
     };
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    const double column = x.pixel(point.x), row = y.pixel(point.y);
-    if (std::max(std::abs(column), std::abs(row)) >= plane_side - Grid::max_side) {
+    const Point pixel = map.pixel(point);
+    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= plane_side - Grid::max_side) {
       refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
     }
-    const bool inside = column >= 0 && column < grid.width() && row >= 0 && row < grid.height();
-    const bool outside = !inside || x.is_outside(point.x) || y.is_outside(point.y);
-    if (outside && mapping.outside == Outside::refuse) refuse("outside the bounds " + to_string(bounds));
+    const bool inside = grid.holds(pixel);
+    if (mapping.outside == Outside::refuse && (!inside || map.is_outside(point))) {
+      refuse("outside the bounds " + to_string(bounds));
+    }
     mapped.outside += inside ? 0 : 1;
-    mapped.pixels.push_back({column + 0.5, (mapping.y_up ? grid.height() - 1 - row : row) + 0.5});
+    mapped.pixels.push_back(pixel);
   }
-  if (mapping.periodic != Periodic::none && grid.periodic() == Periodic::none) {
-    const std::int64_t top =
-        mapping.y_up ? grid.height() - y.period_begin() - y.period_length() : y.period_begin();
-    mapped.domain = Domain{x.period_begin(), top, x.period_length(), y.period_length(), mapping.periodic};
-  }
+  if (grid.periodic() == Periodic::none) mapped.domain = map.domain();
   return mapped;
 }
 

@@ -131,9 +131,11 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   mapping.closed = !given_bounds_ || outside_ == Outside::refuse;
   mapping.y_up = y_up_;
   mapping.outside = outside_;
-  mapping.periodic = has_domain_ && !frame_.box ? Periodic::none : axes_of_frame();
+  mapping.periodic = axes_of_frame();
   if (has_domain_ && frame_.box) {
     mapping.period = Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
+  } else if (has_domain_ && mapping.periodic != Periodic::none) {
+    throw Error("there is no box to say what repeats along the axes of --periodic; give --periodic none");
   }
   return mapping;
 }
