@@ -53,11 +53,11 @@ def test_no_points_leave_no_label():
 
 def test_bounds_map_to_pixels():
     points = rng.uniform((-180, -90), (180, 90), (50, 2))
-    points[0] = 180, 90  # falls in the last pixel
+    points[0] = 180, 90  # falls in the last pixel where points outside are refused
     pixels = np.minimum(np.floor((points + (180, 90)) * (144, 72) / (360, 180)), (143, 71))
-    bounds = (-180, -90, 180, 90)
-    np.testing.assert_array_equal(vorocl.diagram(points, (72, 144), bounds=bounds), brute_force(pixels, (72, 144)))
-    upside_down = vorocl.diagram(points, (72, 144), bounds=bounds, y_up=True)
+    plane = {"shape": (72, 144), "bounds": (-180, -90, 180, 90), "outside": "refuse"}
+    np.testing.assert_array_equal(vorocl.diagram(points, **plane), brute_force(pixels, (72, 144)))
+    upside_down = vorocl.diagram(points, **plane, y_up=True)
     pixels[:, 1] = 71 - pixels[:, 1]
     np.testing.assert_array_equal(upside_down, brute_force(pixels, (72, 144)))
 
@@ -84,8 +84,46 @@ def test_points_outside_are_named():
     for bad, bounds in [((10, 3), None), ((3, -0.001), None), ((np.inf, 1), None), ((5.001, 2), (0, 0, 5, 5))]:
         points[7] = bad
         with pytest.raises(vorocl.BadPoint, match="point 7") as caught:
-            vorocl.diagram(points, (6, 10), bounds=bounds)
+            vorocl.diagram(points, (6, 10), bounds=bounds, outside="refuse")
         assert caught.value.row == 7 and caught.value.value == bad
+
+
+@pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
+@pytest.mark.parametrize("bounds", [None, (0, 0, 40, 30), (-20.0, 5.0, 60.0, 65.0)])
+def test_points_outside_count(bounds, metric):
+    shape = (30, 40)
+    x0, y0, x1, y1 = bounds or (0, 0, 40, 30)
+    extent = np.array([x1 - x0, y1 - y0])
+    points = rng.uniform((x0, y0) - extent, (x1, y1) + extent, (60, 2))
+    points[0] = x1, y1  # the corner of the first pixel that is outside
+    pixels = (points - (x0, y0)) * (40, 30) / extent
+    labels = vorocl.diagram(points, shape, bounds=bounds, metric=metric)
+    np.testing.assert_array_equal(labels, brute_force(pixels, shape, metric=metric))
+    assert_nearest(labels, pixels, metric=metric)
+    pixels[:, 1] = 29 - np.floor(pixels[:, 1])
+    upside_down = vorocl.diagram(points, shape, bounds=bounds, metric=metric, y_up=True)
+    np.testing.assert_array_equal(upside_down, brute_force(pixels, shape, metric=metric))
+
+
+def test_one_far_point_owns_the_window():
+    assert (vorocl.diagram([(2e9, -2e9)], (3, 5)) == 0).all()
+    assert (vorocl.diagram([(2e9, -2e9), (-1, 1)], (3, 5)) == 1).all()
+    with pytest.raises(vorocl.BadPoint, match="point 1"):
+        vorocl.diagram([(0, 0), (2.0**31, 0)], (3, 5))
+    assert (vorocl.diagram([(2, 2)], (3, 5)) == 0).all()  # the window before is forgotten
+
+
+@pytest.mark.parametrize("method", ["jfa", "djfa", "standard-flooding"])
+def test_methods_that_flood_refuse_points_outside(method):
+    with pytest.raises(vorocl.BadArgument, match="outside"):
+        vorocl.diagram([(0, 0), (-1, 2)], (4, 8), method=method)
+
+
+def test_a_periodic_grid_refuses_points_outside_along_its_other_axis():
+    with pytest.raises(vorocl.BadPoint, match="point 1 .*axis that is not periodic"):
+        vorocl.diagram([(0, 0), (3, 4)], (4, 8), periodic=(True, False))
+    bounded = vorocl.diagram([(0, 0), (20, 4)], (4, 8), bounds=(0, 0, 8, 4), periodic=(True, False))
+    np.testing.assert_array_equal(bounded, brute_force([(0, 0), (4, 3)], (4, 8), (True, False)))
 
 
 def test_labels_go_where_they_are_wanted():

@@ -125,3 +125,18 @@ def test_errors_are_those_of_brute_force():
     np.testing.assert_allclose((found.largest_excess, found.mean_excess), (excess.max(), excess.mean()), rtol=2e-4)
     assert found.wrong_percent == 100 * found.wrong_pixels / 3000
     assert vorocl.similarity(labels, right) == 100 * (labels == right).mean()
+
+
+def test_measures_know_the_points_outside():
+    points = rng.uniform(-50, 150, (90, 2))
+    labels = brute_force(points, SHAPE)
+    cells = vorocl.cells(points, SHAPE)
+    np.testing.assert_array_equal(cells["area"], np.bincount(labels.ravel(), minlength=90))
+    np.testing.assert_array_equal(cells["x"], np.floor(points[:, 0]) + 0.5)
+    apart = offsets(pixel_centres(SHAPE), np.floor(points)[labels.ravel()] + 0.5, SHAPE, (False, False))
+    np.testing.assert_allclose(vorocl.distances(points, SHAPE).ravel(), np.hypot(*apart.T), rtol=1e-6)
+    assert vorocl.errors(labels, points).wrong_pixels == 0
+    pairs, lengths = vorocl.adjacency(points, SHAPE)
+    assert lengths.sum() == (labels[1:] != labels[:-1]).sum() + (labels[:, 1:] != labels[:, :-1]).sum()
+    with pytest.raises(vorocl.BadArgument, match="outside"):
+        vorocl.relax(points, SHAPE)

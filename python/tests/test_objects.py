@@ -56,6 +56,18 @@ def test_frames_of_a_simulation_are_right():
         assert exact.diagram.cells(exact.seeds)["area"].sum() == 96 * 96
 
 
+def test_seeds_leave_the_window_and_come_back():
+    points = rng.uniform(-40, 90, (50, 2))
+    simulation = vorocl.Simulation((50, 60), method="exact")
+    for frame in range(5):
+        points += rng.normal(0, 8, points.shape)
+        labels = simulation.step(points).read()
+        np.testing.assert_array_equal(labels, brute_force(points, (50, 60)))
+        np.testing.assert_array_equal(simulation.seeds.read(), np.floor(points) + 0.5)
+    inside = rng.uniform(0, 50, (50, 2))
+    np.testing.assert_array_equal(simulation.step(inside).read(), brute_force(inside, (50, 60)))
+
+
 def test_a_simulation_tells_djfa_how_far_seeds_have_moved(monkeypatch):
     points = np.stack(np.meshgrid(*[np.arange(5, 200, 10)] * 2), -1).reshape(-1, 2)  # 10 pixels apart
     simulation = vorocl.Simulation((200, 200), periodic=(True, True))
@@ -221,7 +233,7 @@ def test_devices_are_listed_and_chosen_by_name():
 
 def test_errors_can_be_pickled():
     with pytest.raises(vorocl.BadPoint) as caught:
-        vorocl.diagram([(1, 1), (5, 1)], (4, 4))
+        vorocl.diagram([(1, 1), (5, 1)], (4, 4), outside="refuse")
     copy = pickle.loads(pickle.dumps(caught.value))
     assert (copy.row, copy.value, str(copy)) == (1, (5, 1), str(caught.value))
 
@@ -240,8 +252,9 @@ def test_ten_thousand_calls_keep_no_memory():
             if index % 10 == 0:
                 vorocl.cells(points, (30, 40))
                 vorocl.adjacency(points, (30, 40))
+                vorocl.diagram(points - 5, (30, 40))
                 with pytest.raises(vorocl.BadPoint):
-                    vorocl.diagram(points + 30, (30, 40))
+                    vorocl.diagram(points + 30, (30, 40), outside="refuse")
         gc.collect()
 
     calls(2000)

@@ -47,7 +47,7 @@ WRONG = {
     + [1, (1, 2), (0, 0, 1, 1, 1), (5, 0, 0, 10), (0, 5, 10, 0), (0, 0, np.nan, 1), (0, 0, np.inf, 1), "0,0,1,1"]
     + [(0, 0, 1e-320, 1), (0, 0, 1e308, 1), (None,) * 4, ("a", "b", "c", "d"), (10**400, 0, 0, 0), FAR_BOUNDS],
     "periodic": NO_NUMBERS + [True, 1, (True,), (True, False, True), (1, 0), ("x", "y"), (None, None), "xy", np.nan],
-    "outside": [None, "count", "drop", 1, True, [], Hostile()],
+    "outside": [None, "Count", "drop", 1, True, [], Hostile()],
     "y_up": [None, 1, 0, "yes", [], np.zeros(2), Hostile()],
     "device": [1, "cpu", object(), vorocl.Device, vorocl.devices()[0], [], Hostile()],
     "out": NO_NUMBERS[1:]
@@ -81,6 +81,7 @@ CALLS = {
     vorocl.Simulation: ("shape", "bounds", "periodic", "outside", "y_up", "device"),
 }
 RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), "mask": LABELS, "labels": LABELS, "a": LABELS, "b": LABELS}
+RIGHT_VALUES["outside"] = "refuse"
 # What is right for one call alone.
 ALLOWED = {(vorocl.Diagram, "labels"): [None], (vorocl.Simulation, "bounds"): [FAR_BOUNDS]}
 
@@ -108,8 +109,8 @@ def wrong_calls():
 
 def test_a_thousand_wrong_calls():
     calls = list(wrong_calls())
-    seeds, diagram = vorocl.Seeds(RIGHT, (8, 10)), vorocl.Diagram((8, 10))
-    simulation = vorocl.Simulation((8, 10))
+    seeds, diagram = vorocl.Seeds(RIGHT, (8, 10), outside="refuse"), vorocl.Diagram((8, 10))
+    simulation = vorocl.Simulation((8, 10), outside="refuse")
     for points in WRONG["points"]:
         calls += [(seeds.move_to, {"points": points}), (simulation.step, {"points": points})]
     for value in NO_NUMBERS + [1, RIGHT, diagram, vorocl.Seeds]:

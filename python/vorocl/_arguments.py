@@ -90,10 +90,11 @@ def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
     return x0, y0, x1, y1
 
 
-def check_outside(outside: str) -> None:
-    """Points outside are refused: the library has no windows of a larger plane yet."""
-    if outside != "refuse":
-        raise BadArgument(f'outside must be "refuse"; this is {shown(outside)}')
+def to_outside(outside: str) -> str:
+    """What is done about points outside."""
+    if not isinstance(outside, str) or outside not in ("count", "refuse"):
+        raise BadArgument(f'outside must be "count" or "refuse"; this is {shown(outside)}')
+    return outside
 
 
 def to_number(value: float, name: str) -> float:

@@ -14,7 +14,7 @@ class BadArgument(Error, ValueError):
 
 
 class BadPoint(BadArgument):
-    """A point cannot be a seed's: it is infinite, or outside.
+    """A point cannot be a seed's: it is infinite, too far away, or outside where such points are refused.
 
     Attributes
     ----------

@@ -13,7 +13,6 @@ from ._arguments import (
     Bounds,
     Periodic,
     Shape,
-    check_outside,
     output,
     shape_of,
     shown,
@@ -24,6 +23,7 @@ from ._arguments import (
     to_image,
     to_labels,
     to_number,
+    to_outside,
     to_points,
     to_text,
 )
@@ -63,14 +63,15 @@ def _filled(
     device: Optional[Device],
 ) -> Tuple[Seeds, Diagram]:
     """The seeds and their diagram, which are the thread's until its next call."""
-    check_outside(outside)
     grid = to_grid(shape, periodic)
     shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
     corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
-    wanted = (shape, periodic, corners, upwards, to_device(device))
+    wanted = (shape, periodic, corners, to_outside(outside), upwards, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
-        seeds = Seeds(array, shape, bounds=corners, periodic=periodic, y_up=upwards, device=device)
+        seeds = Seeds(
+            array, shape, bounds=corners, periodic=periodic, outside=outside, y_up=upwards, device=device
+        )
         _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
         _workspace.made_for = wanted
     else:
@@ -90,7 +91,7 @@ def diagram(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     out: Optional[NDArray[np.uint32]] = None,
     device: Optional[Device] = None,
@@ -113,12 +114,15 @@ def diagram(
     metric : {"euclidean", "manhattan"}, optional
     bounds : (float, float, float, float), optional
         (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-        floor((x - x0) * W / (x1 - x0)), or in the last one for x1 itself; rows likewise. Where pixels are no squares in
+        floor((x - x0) * W / (x1 - x0)); rows likewise. Where pixels are no squares in
         these units, the nearest point in pixels need not be the nearest in the plane.
     periodic : (bool, bool), optional
         Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
-    outside : {"refuse"}, optional
-        What is done about points outside the grid or the bounds.
+    outside : {"count", "refuse"}, optional
+        What is done about points outside the grid or the bounds. "count": the grid is a window of a larger plane, and
+        they are seeds too, up to 2**31 pixels away; a method that floods refuses them, and so does a periodic grid, of
+        points that are outside along its other axis. "refuse": they are an error; a point at x1 or y1 is in the last
+        pixel then, as along the other axis of a periodic grid.
     y_up : bool, optional
         Whether y of the points goes up: rows of the labels are counted from the bottom then.
     out : ndarray, optional
@@ -134,7 +138,7 @@ def diagram(
     Raises
     ------
     BadPoint
-        If a point is infinite or outside.
+        If a point is infinite, 2**31 pixels away, or outside where such points are refused.
     BadArgument, DeviceMemoryError, DeviceError
 
     Notes
@@ -276,7 +280,7 @@ def distances(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     out: Optional[NDArray[np.float32]] = None,
     device: Optional[Device] = None,
@@ -319,7 +323,7 @@ def cells(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     device: Optional[Device] = None,
 ) -> NDArray[Any]:
@@ -379,7 +383,7 @@ def adjacency(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     device: Optional[Device] = None,
 ) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
@@ -423,7 +427,7 @@ def vertices(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     device: Optional[Device] = None,
 ) -> NDArray[np.float64]:
@@ -488,7 +492,7 @@ def relax(
     method: str = "exact",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     device: Optional[Device] = None,
 ) -> Relaxation:
@@ -520,8 +524,7 @@ def relax(
     >>> relaxed.points.tolist(), relaxed.converged
     ([[1.5, 1.5], [5.5, 1.5]], True)
     """
-    check_outside(outside)
-    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, y_up=y_up, device=device)
+    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
     made = Diagram(shape, periodic=periodic, device=device)
     done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
     height, width = made.shape
@@ -572,7 +575,7 @@ def errors(
     metric: str = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
-    outside: str = "refuse",
+    outside: str = "count",
     y_up: bool = False,
     device: Optional[Device] = None,
 ) -> _vorocl.DistanceErrors:
@@ -606,10 +609,9 @@ def errors(
     >>> wrong.wrong_pixels, wrong.largest_excess
     (1, 1.0)
     """
-    check_outside(outside)
     image = to_labels(labels)
     shape = image.shape
-    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, y_up=y_up, device=device)
+    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
     judged = Diagram(shape, periodic=periodic, device=device)
     judged.write(image)
     return judged.errors(seeds, metric)

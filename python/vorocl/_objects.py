@@ -11,7 +11,6 @@ from ._arguments import (
     Bounds,
     Periodic,
     Shape,
-    check_outside,
     output,
     shape_of,
     to_bounds,
@@ -19,6 +18,7 @@ from ._arguments import (
     to_grid,
     to_labels,
     to_number,
+    to_outside,
     to_points,
     to_text,
 )
@@ -70,12 +70,15 @@ class Seeds:
         The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
     bounds : (float, float, float, float), optional
         (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-        floor((x - x0) * W / (x1 - x0)), or in the last one for x1 itself; rows likewise.
+        floor((x - x0) * W / (x1 - x0)); rows likewise.
         Without it, points are in pixels.
     periodic : (bool, bool), optional
         Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
-    outside : {"refuse"}, optional
-        What is done about points outside the grid or the bounds.
+    outside : {"count", "refuse"}, optional
+        What is done about points outside the grid or the bounds. "count": the grid is a window of a larger plane, and
+        they are seeds too, up to 2**31 pixels away; a method that floods refuses them, and so does a periodic grid, of
+        points that are outside along its other axis. "refuse": they are an error; a point at x1 or y1 is in the last
+        pixel then, as along the other axis of a periodic grid.
     y_up : bool, optional
         Whether y of the points goes up: rows are counted from the bottom then.
     device : Device, optional
@@ -84,7 +87,7 @@ class Seeds:
     Raises
     ------
     BadPoint
-        If a point is infinite or outside.
+        If a point is infinite, 2**31 pixels away, or outside where such points are refused.
     BadArgument, DeviceError
 
     Examples
@@ -106,15 +109,15 @@ class Seeds:
         *,
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
-        outside: str = "refuse",
+        outside: str = "count",
         y_up: bool = False,
         device: Optional[Device] = None,
     ) -> None:
-        check_outside(outside)
         grid = to_grid(shape, periodic)
+        counts = to_outside(outside) == "count"
         corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, corners, upwards)
+        self._seeds = _vorocl.Seeds(self._device._device, grid, corners, upwards, counts)
         self._seeds.move_to(array)
 
     @property
@@ -142,7 +145,7 @@ class Seeds:
         -------
         int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
-            shorter way round. Seeds that appear or vanish do not count.
+            shorter way round. Seeds that appear or vanish, or are outside, do not count.
 
         Raises
         ------
@@ -381,7 +384,7 @@ class Simulation:
         metric: str = "euclidean",
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
-        outside: str = "refuse",
+        outside: str = "count",
         y_up: bool = False,
         device: Optional[Device] = None,
     ) -> None:
