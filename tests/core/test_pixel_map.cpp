@@ -106,6 +106,30 @@ BOOST_AUTO_TEST_CASE(a_window_knows_where_its_period_lies) {
   }
 }
 
+// Ten pixels for a period of 10.3: the last one is wider.
+BOOST_AUTO_TEST_CASE(a_period_is_rounded_to_whole_pixels) {
+  PixelMap map({0, 0, 20, 20}, Grid(20, 20), false, false);
+  map.repeat(Periodic::x, {0, 0, 10.3, 20});
+  BOOST_TEST(map.domain()->width == 10);
+  BOOST_TEST((pixel(map, 10.2, 0) == std::pair(9.5, 0.5)));
+  BOOST_TEST((pixel(map, 10.4, 0) == std::pair(0.5, 0.5)));
+  BOOST_TEST((pixel(map, -1.2, 0) == std::pair(9.5, 0.5)));
+}
+
+BOOST_AUTO_TEST_CASE(a_period_begins_where_the_bounds_can_use_it) {
+  const auto begin = [](double low, double high) {
+    PixelMap map({0.1, 0, 0.4, 1}, Grid(3, 10), false, false);
+    map.repeat(Periodic::x, {low, 0, high, 1});
+    return std::pair(map.domain()->x, map.domain()->width);
+  };
+  BOOST_TEST((begin(0.1, 0.1 + 0.1 + 0.2) == std::pair<std::int64_t, std::int64_t>(0, 3)));
+  BOOST_TEST((begin(0.2, 0.5) == std::pair<std::int64_t, std::int64_t>(0, 3)));   // as long as the bounds
+  BOOST_TEST((begin(0.0, 0.5) == std::pair<std::int64_t, std::int64_t>(-1, 5)));  // holds them
+  BOOST_TEST((begin(-0.3, 0.3) == std::pair<std::int64_t, std::int64_t>(0, 6)));  // longer, and crosses them
+  BOOST_TEST((begin(0.2, 0.3) == std::pair<std::int64_t, std::int64_t>(1, 1)));   // within them
+  BOOST_TEST((begin(7.0, 7.2) == std::pair<std::int64_t, std::int64_t>(0, 2)));   // somewhere else
+}
+
 BOOST_AUTO_TEST_CASE(rounding_at_the_borders) {
   const Bounds world = {0, 0, 360, 180};
   const PixelMap map(world, Grid(1440, 720), false, true);
