@@ -8,12 +8,6 @@ namespace vorocl::python {
 
 namespace {
 
-/// A handle of OpenCL as pyopencl passes it, retained.
-template <typename Handle>
-Handle retained(std::uintptr_t handle) {
-  return Handle(reinterpret_cast<typename Handle::cl_type>(handle), true);
-}
-
 Device adopt(std::uintptr_t context, std::uintptr_t queue) {
   return {retained<cl::Context>(context), retained<cl::CommandQueue>(queue)};
 }

@@ -37,8 +37,7 @@ std::unique_ptr<DiagramObject> make(const Device& device, const Grid& grid) {
 
 /// Over the buffer of a caller who uses OpenCL too.
 std::unique_ptr<DiagramObject> over_buffer(const Device& device, const Grid& grid, std::uintptr_t labels) {
-  return std::make_unique<DiagramObject>(
-      Diagram(device, grid, cl::Buffer(reinterpret_cast<cl_mem>(labels), true)));
+  return std::make_unique<DiagramObject>(Diagram(device, grid, retained<cl::Buffer>(labels)));
 }
 
 std::uintptr_t buffer(DiagramObject& diagram) {

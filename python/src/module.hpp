@@ -35,6 +35,13 @@ nb::ndarray<nb::numpy, T, nb::ndim<2>> to_numpy(std::vector<Row>&& rows) {
   return {owned->data(), {owned->size(), sizeof(Row) / sizeof(T)}, owner};
 }
 
+/// A handle of OpenCL as pyopencl passes it, retained.
+template <typename Handle>
+Handle retained(std::uintptr_t handle) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr)
+  return Handle(reinterpret_cast<typename Handle::cl_type>(handle), true);
+}
+
 /// How points become pixels.
 struct Placing {
   Grid grid;
