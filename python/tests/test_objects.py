@@ -227,6 +227,7 @@ def test_devices_are_listed_and_chosen_by_name():
     assert len(chosen) == 1 and chosen[0].compute_units > 0
     device = vorocl.Device(f"{chosen[0].platform_index}:{chosen[0].device_index}")
     assert (device.name, device.platform) == (chosen[0].name, chosen[0].platform)
+    assert f"name={device.name!r}" in repr(chosen[0]) and device.name in repr(device)
     with pytest.raises(vorocl.DeviceError, match="no such thing.*there is"):
         vorocl.Device("no such thing")
 

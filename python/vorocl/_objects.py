@@ -128,6 +128,9 @@ class Seeds:
     def __len__(self) -> int:
         return self._seeds.size
 
+    def __repr__(self) -> str:
+        return f"<vorocl.Seeds of {len(self)} points>"
+
     @property
     def alive(self) -> int:
         """How many seeds are not absent."""
@@ -236,6 +239,9 @@ class Diagram:
     def shape(self) -> Tuple[int, int]:
         """(H, W) in pixels."""
         return self._shape
+
+    def __repr__(self) -> str:
+        return f"<vorocl.Diagram of the shape {self.shape}>"
 
     def fill(
         self,
