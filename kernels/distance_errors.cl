@@ -1,5 +1,5 @@
-// What labels say by the distances of their seeds: how much farther a pixel's seed is than the nearest one, and where two
-// diagrams are equal within a tolerance.
+// What labels say by the distances of their seeds: how much farther a pixel's seed is than the nearest one, and where
+// two diagrams are equal within a tolerance.
 
 #include "plane.cl"
 
