@@ -218,6 +218,14 @@ def test_foreign_objects_that_do_not_fit_are_refused(opencl):
         vorocl.Diagram((4, 4), device=device).fill(vorocl.Seeds([(1, 1)], (4, 4)))
 
 
+def test_nothing_is_of_pyopencl_where_it_is_missing(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyopencl", None)  # imports fail
+    with pytest.raises(vorocl.BadArgument, match="pyopencl.Buffer.*ndarray"):
+        vorocl.Diagram((4, 4), labels=np.empty(16, np.uint32))
+    with pytest.raises(vorocl.BadArgument, match="pyopencl.Context"):
+        vorocl.Device.from_pyopencl(1, 2)
+
+
 # --- devices, errors, memory ---
 
 
