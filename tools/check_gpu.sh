@@ -35,9 +35,10 @@ compile() { # FILE METRIC NEIGHBOURS OPTION...
     -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "-DVOROCL_$2" "-DVOROCL_NEIGHBOURS=$3" "${@:4}" "$1" -o "$work/kernel.ptx"
 }
 
-# The options of programs that know seeds outside the grid.
-outer_options() { # FILE
+# What programs are built for besides a plain grid: seeds outside it, and periodic axes.
+more_options() { # FILE
   if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
+  if [ "$1" = kernels/exact/group/diagram.cl ]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
 }
 
 # ptxas's report as lines of: file, kernel, options, architecture, registers, stack, spilled bytes, local memory.
@@ -60,7 +61,7 @@ for file in $(kernel_files); do
       compile "$file" $metric $neighbours
       for architecture in sm_80 sm_90; do assemble "$file" "$metric,$neighbours" $architecture; done
     done
-    outer_options "$file" | while read -r option; do
+    more_options "$file" | while read -r option; do
       compile "$file" $metric 9 $option
       for architecture in sm_80 sm_90; do assemble "$file" "$metric,$option" $architecture; done
     done

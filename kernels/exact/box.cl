@@ -12,7 +12,7 @@ typedef struct {
 
 // Pixels of the frame, as far as they are in the grid, in the coordinates of the index.
 static inline Box box_of(const SeedIndex* index, int x, int y, int columns, int rows) {
-  const int left = x + index->x0 - MARGIN_X, top = y + index->y0 - MARGIN_Y;
+  const int left = x + index->x0 - margin_x(index->width), top = y + index->y0 - margin_y(index->height);
   const Box box = {max(left, index->x0), max(top, index->y0), min(left + columns, index->x0 + index->width) - 1,
                    min(top + rows, index->y0 + index->height) - 1};
   return box;

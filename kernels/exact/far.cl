@@ -12,8 +12,8 @@
 #define MIDDLE ((LAST_COORDINATE + 1) / 2)
 static inline void centre_on_region(SeedIndex* index, int region_x, int region_y) {
   const int size = 1 << bin_bits(REGION);
-  if (PERIODIC_X) index->x0 = MARGIN_X + MIDDLE - (region_x * size + size / 2);
-  if (PERIODIC_Y) index->y0 = MARGIN_Y + MIDDLE - (region_y * size + size / 2);
+  if (PERIODIC_X) index->x0 = margin_x(index->width) + MIDDLE - (region_x * size + size / 2);
+  if (PERIODIC_Y) index->y0 = margin_y(index->height) + MIDDLE - (region_y * size + size / 2);
 }
 
 static inline uint id_of_image(const SeedIndex* index, uint image) {

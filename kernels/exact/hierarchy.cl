@@ -23,8 +23,8 @@
 #define MOST_IMAGES 9
 #define PERIODS_X(bin) (((bin) >> IMAGE_X_BIT & 3u) - 1u)
 #define PERIODS_Y(bin) (((bin) >> IMAGE_Y_BIT & 3u) - 1u)
-#define SHIFT_X(index, bin) (PERIODS_X(bin) * (uint)(index)->width + (uint)((index)->x0 - MARGIN_X))
-#define SHIFT_Y(index, bin) (PERIODS_Y(bin) * (uint)(index)->height + (uint)((index)->y0 - MARGIN_Y))
+#define SHIFT_X(index, bin) (PERIODS_X(bin) * (uint)(index)->width + (uint)((index)->x0 - margin_x((index)->width)))
+#define SHIFT_Y(index, bin) (PERIODS_Y(bin) * (uint)(index)->height + (uint)((index)->y0 - margin_y((index)->height)))
 #else
 #define MOST_IMAGES 1
 #define SHIFT_X(index, bin) ((void)(index), (void)(bin), 0u)
@@ -119,9 +119,10 @@ static inline void add_bins(Search* search, const SeedIndex* index, global const
                             int y, int size) {
   const Box box = search->box;
   const int bits = bin_bits(search->level), columns = columns_of(index->width, search->level);
-  const Bins across = bins_that_matter(box.left, box.right, (int)SHIFT_X(index, image), index->width, MARGIN_X,
+  const int width = index->width, height = index->height;
+  const Bins across = bins_that_matter(box.left, box.right, (int)SHIFT_X(index, image), width, margin_x(width),
                                        PERIODIC_X, bits);
-  const Bins down = bins_that_matter(box.top, box.bottom, (int)SHIFT_Y(index, image), index->height, MARGIN_Y,
+  const Bins down = bins_that_matter(box.top, box.bottom, (int)SHIFT_Y(index, image), height, margin_y(height),
                                      PERIODIC_Y, bits);
   global const uint* const level = pyramid + level_start(index->width, index->height, search->level);
   for (int bin_y = max(y, down.first); bin_y <= min(y + size - 1, down.last); ++bin_y) {
@@ -203,7 +204,8 @@ static inline void collect_bin(Search* search, const SeedIndex* index, int x, in
   const Box box = search->box;
   int kept = first;
   for (int i = first; i < search->count; ++i) {
-    const int grid_x = packed_x(search->seeds[i]) - MARGIN_X, grid_y = packed_y(search->seeds[i]) - MARGIN_Y;
+    const int grid_x = packed_x(search->seeds[i]) - margin_x(index->width);
+    const int grid_y = packed_y(search->seeds[i]) - margin_y(index->height);
     const int at_x = packed_x(search->seeds[i]) + (int)SHIFT_X(index, image);
     const int at_y = packed_y(search->seeds[i]) + (int)SHIFT_Y(index, image);
     const bool in_grid = grid_x >= 0 && grid_x < index->width && grid_y >= 0 && grid_y < index->height;

@@ -13,7 +13,8 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
   bit_of_seed[id] = NO_BIT;
   if (positions[id] & EMPTY_BIT) return;
   const int columns = columns_of(width, 0);
-  const uint index = BIT_INDEX(positions[id] + pack(MARGIN_X, MARGIN_Y), columns), bit = 1u << index % 32;
+  const uint in_frame = positions[id] + pack(margin_x(width), margin_y(height));
+  const uint index = BIT_INDEX(in_frame, columns), bit = 1u << index % 32;
   if (atomic_or(bits + index / 32, bit) & bit) {
     duplicates[atomic_inc(duplicate_count)] = id;
     return;

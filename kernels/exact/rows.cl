@@ -45,22 +45,16 @@ typedef struct {
   uint ids[ROWS_IN_REACH * IDS_OF_ROW];
 } NearestInRows;
 
-// Where the first pixel of a period is among `count` pixels from `first` on; `none` if it is not.
-static inline int first_of_period(int first, int count, int start, int period, int none) {
-  const int near_start = start - first, near_end = start + period - first;
-  if (near_start >= 0 && near_start < count) return near_start;
-  return near_end >= 0 && near_end < count ? near_end : none;
-}
-
 static inline void begin_rows(NearestInRows* rows, const SeedIndex* index, int bin_x, int bin_y) {
   rows->index = index;
   rows->bin_x = bin_x;
   rows->top = bin_y * BIN - REACH;
   rows->begin = rows->end = 0;
 #ifdef VOROCL_PERIODIC
-  rows->first_row = PERIODIC_Y ? first_of_period(rows->top, ROWS_IN_REACH, MARGIN_Y, index->height, 0) : 0;
+  rows->first_row =
+      PERIODIC_Y ? first_of_period(rows->top, ROWS_IN_REACH, margin_y(index->height), index->height, 0) : 0;
   rows->first_column =
-      PERIODIC_X ? first_of_period((bin_x - 1) * BIN, 3 * BIN, MARGIN_X, index->width, 0) - BIN : -BIN;
+      PERIODIC_X ? first_of_period((bin_x - 1) * BIN, 3 * BIN, margin_x(index->width), index->width, 0) - BIN : -BIN;
 #endif
 }
 

@@ -7,21 +7,26 @@
 #include "exact/sizes.cl"
 #include "position.cl"
 
-// THE FRAME. Along a periodic axis the index covers MARGIN pixels more at both ends, where the seeds of the other end
-// stand once more: their images. (In a period shorter than that there are more of a seed.) So what looks no farther
-// than MARGIN need not know of periods. Positions and bins count from the frame's corner.
-#define MARGIN_X (PERIODIC_X * MARGIN)
-#define MARGIN_Y (PERIODIC_Y * MARGIN)
-static inline int frame_width(int width) { return width + 2 * MARGIN_X; }
-static inline int frame_height(int height) { return height + 2 * MARGIN_Y; }
+// THE FRAME. Along a periodic axis the index covers a margin more at both ends, where the seeds of the other end stand
+// once more: their images. (In a period shorter than the margin there are more of a seed.) So what looks no farther
+// than the margin need not know of periods. Positions and bins count from the frame's corner.
+#ifdef INDEX_OF_GROUPS
+#define MARGIN(period) MARGIN_OF_GROUPS(period)
+#else
+#define MARGIN(period) MARGIN_OF_VECTORS
+#endif
+static inline int margin_x(int width) { return PERIODIC_X * MARGIN(width); }
+static inline int margin_y(int height) { return PERIODIC_Y * MARGIN(height); }
+static inline int frame_width(int width) { return width + 2 * margin_x(width); }
+static inline int frame_height(int height) { return height + 2 * margin_y(height); }
 
 // All images of a position in the frame, and the seed itself.
 static inline int first_image(int at, int size, int margin) {
   return at + margin < size ? at + margin : (at + margin) % size;  // a division takes long, and few seeds need it
 }
 #define FOR_EACH_IMAGE(x, y, position, width, height)                                                               \
-  for (int y = first_image(packed_y(position), height, MARGIN_Y); y < frame_height(height); y += height)            \
-    for (int x = first_image(packed_x(position), width, MARGIN_X); x < frame_width(width); x += width)
+  for (int y = first_image(packed_y(position), height, margin_y(height)); y < frame_height(height); y += height)    \
+    for (int x = first_image(packed_x(position), width, margin_x(width)); x < frame_width(width); x += width)
 
 // THE BINS. Level 0 is the index itself; each bin of a higher level holds FAN x FAN bins of the level below.
 #define BIN (1 << BIN_BITS)
@@ -73,10 +78,20 @@ typedef struct {
   global const uint *restrict bits, global const uint *restrict starts, global const uint *restrict word_starts, \
       global const uint *restrict list, global const uint *restrict ids, int width, int height
 #define SEED_INDEX_OF_PARAMETERS \
-  {width, height, columns_of(width, 0), rows_of(height, 0), MARGIN_X, MARGIN_Y, bits, starts, word_starts, list, ids}
+  {width,       height, columns_of(width, 0), rows_of(height, 0), margin_x(width), margin_y(height), bits, starts, \
+   word_starts, list,   ids}
 
 // The rows of bins of the frame that end where the grid does.
-static inline int rows_of_grid(const SeedIndex* index) { return ((MARGIN_Y + index->height - 1) >> BIN_BITS) + 1; }
+static inline int rows_of_grid(const SeedIndex* index) {
+  return ((margin_y(index->height) + index->height - 1) >> BIN_BITS) + 1;
+}
+
+// Where the first pixel of a period is among `count` pixels of the frame from `first` on; `none` if it is not.
+static inline int first_of_period(int first, int count, int start, int period, int none) {
+  const int near_start = start - first, near_end = start + period - first;
+  if (near_start >= 0 && near_start < count) return near_start;
+  return near_end >= 0 && near_end < count ? near_end : none;
+}
 
 // The remainder of a division that rounds down. Half a unit more keeps the quotient away from whole numbers, where a
 // rounding error would count.
@@ -88,9 +103,14 @@ static inline int_v in_period(int_v at, int period) {
 static inline uint_v seed_of_image(const SeedIndex* index, uint_v image) {
 #ifdef VOROCL_PERIODIC
   int_v x = AS_INT_V(image & 0xffffu) - index->x0, y = AS_INT_V(image >> 16) - index->y0;
+#if defined(INDEX_OF_GROUPS) && !defined(VOROCL_SHORT_PERIOD)
+  x = wrapped_x(x, index->width);  // the margin is shorter than a period
+  y = wrapped_y(y, index->height);
+#else
   if (PERIODIC_X) x = in_period(x, index->width);
   if (PERIODIC_Y) y = in_period(y, index->height);
-  return AS_UINT_V(y + MARGIN_Y) << 16 | AS_UINT_V(x + MARGIN_X);
+#endif
+  return AS_UINT_V(y + margin_y(index->height)) << 16 | AS_UINT_V(x + margin_x(index->width));
 #else
   (void)index;
   return image;

@@ -1,5 +1,8 @@
 // Sizes and limits of the exact engine, for its kernels and for the host that makes their buffers.
 
+#ifndef VOROCL_EXACT_SIZES
+#define VOROCL_EXACT_SIZES
+
 // A bin is a square of pixels in the index of the seeds. The sides of a bin of level 0 in pixels, and of a bin of a
 // higher level in bins of the level below, as powers of two.
 #define BIN_BITS 4
@@ -18,10 +21,14 @@
 // The top of the pyramid has at most so many bins.
 #define TOP_BINS 64
 
-// Bins are labelled by seeds in bins up to so many away. Along a periodic axis the index has so many bins more, at
-// both ends.
+// Bins are labelled by seeds in bins up to so many away.
 #define MOST_AWAY 2
-#define MARGIN (MOST_AWAY << BIN_BITS)
+
+// Along a periodic axis the index has so many pixels more, at both ends: all that is looked at without a thought of
+// periods. The vector shape searches images of bins for what is farther away; the group shape has no other images than
+// those of the index, and so a margin of more than half a period.
+#define MARGIN_OF_VECTORS (MOST_AWAY << BIN_BITS)
+#define MARGIN_OF_GROUPS(period) ((((period) / 2 >> BIN_BITS) + 1) << BIN_BITS)
 
 // How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
 #ifndef MOST_PARENTS
@@ -75,4 +82,6 @@
 #endif
 #if OUTER_LIST < OUTER_FAN
 #error "A list has no room for one leaf, from which a walk could go on"
+#endif
+
 #endif

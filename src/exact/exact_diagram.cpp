@@ -33,19 +33,19 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
 
 Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
                                 ListLength length) {
-  const bool periodic = diagram.grid().periodic() != Periodic::none;  // which the group shape does not know
-  if (diagram.device().tuning().shape == Shape::group && !periodic) {
+  if (diagram.device().tuning().shape == Shape::group && fits_in_groups(diagram.grid())) {
     return exact_diagram_in_groups(seeds, diagram, options, length);
   }
   Filling filling(seeds, diagram);
   DiagramState& state = Internal::state(diagram);
   const Device& device = state.device;
   const Grid& grid = state.grid;
+  const IndexFrame frame(grid, Shape::vector);
   const int width = grid.width(), height = grid.height();
-  const std::size_t pairs = bins_across(grid, 0) * ((bins_down(grid, 0) - 1) / PAIR + 1);
+  const std::size_t pairs = bins_across(frame, 0) * ((bins_down(frame, 0) - 1) / PAIR + 1);
 
   ExactWorkspace& memory = state.workspace<ExactWorkspace>();
-  const std::size_t list_count = bins(grid, TILE) + bins(grid, REGION);
+  const std::size_t list_count = bins(frame, TILE) + bins(frame, REGION);
   state.reserve(memory.labelled, pairs * word);
   state.reserve(memory.lists, list_count * MOST_CANDIDATES * word);
   state.reserve(memory.counts, list_count * word);
@@ -60,12 +60,12 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
                pyramid] = memory.index;
   const auto& [index, labelled, lists, counts] = memory;
-  const int top = top_level(grid);
+  const int top = top_level(frame);
   heavy("label_near", 64)
       .over_items(pairs, bits, starts, word_starts, list, ids, width, height, state.labels, labelled);
   for (const int level : {REGION, TILE}) {
     heavy("list_candidates", 8)
-        .over_items(bins(grid, level), bits, starts, word_starts, list, ids, width, height, level, labelled,
+        .over_items(bins(frame, level), bits, starts, word_starts, list, ids, width, height, level, labelled,
                     pyramid, top, lists, counts, state.labels);
   }
   const cl::Event last = heavy("label_far", 64)

@@ -28,6 +28,11 @@ Device without_vectors(const Device& device) {
 
 }  // namespace
 
+bool fits_in_groups(const Grid& grid) {
+  return (!grid.periodic_x() || grid.width() <= MOST_PERIOD_OF_GROUPS) &&
+         (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
+}
+
 Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
                                ListLength length) {
   Filling filling(seeds, diagram);
@@ -48,7 +53,7 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   const cl::Event first = make_index(state, device, seeds, memory.index, Shape::group, file, options.metric);
   const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
                pyramid] = memory.index;
-  const int top = top_level(state.grid);
+  const int top = top_level(IndexFrame(state.grid, Shape::group));
   kernel("label_dense_patches")
       .over_items(patches * items, bits, starts, word_starts, list, ids, width, height, state.labels,
                   memory.pending, memory.queue);

@@ -19,38 +19,43 @@ std::size_t bins_along(int pixels, int level) {
   return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
 }
 
-/// The index has a margin along periodic axes: see exact/seed_index.cl.
-int frame_width(const Grid& grid) { return grid.width() + (grid.periodic_x() ? 2 * MARGIN : 0); }
-int frame_height(const Grid& grid) { return grid.height() + (grid.periodic_y() ? 2 * MARGIN : 0); }
+int frame_side(int side, bool periodic, Shape shape) {
+  if (!periodic) return side;
+  return side + 2 * (shape == Shape::group ? MARGIN_OF_GROUPS(side) : MARGIN_OF_VECTORS);
+}
 
 /// The most seeds that the index lists: each with all its images, of which a pixel has one.
-std::size_t most_listed(const Grid& grid, std::size_t seeds) {
-  const auto frame =
-      static_cast<std::size_t>(frame_width(grid)) * static_cast<std::size_t>(frame_height(grid));
-  const auto images = [](int frame_side, int side) {
-    return static_cast<std::size_t>((frame_side - 1) / side) + 1;
+std::size_t most_listed(const Grid& grid, const IndexFrame& frame, std::size_t seeds) {
+  const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
+  const auto images = [](int of_frame, int side) {
+    return static_cast<std::size_t>((of_frame - 1) / side) + 1;
   };
-  const std::size_t of_a_seed =
-      images(frame_width(grid), grid.width()) * images(frame_height(grid), grid.height());
-  return std::min(seeds * of_a_seed, seeds + frame - grid.pixels());
+  const std::size_t of_a_seed = images(frame.width, grid.width()) * images(frame.height, grid.height());
+  return std::min(seeds * of_a_seed, seeds + pixels - grid.pixels());
 }
 
 }  // namespace
 
-std::size_t bins_across(const Grid& grid, int level) { return bins_along(frame_width(grid), level); }
-std::size_t bins_down(const Grid& grid, int level) { return bins_along(frame_height(grid), level); }
-std::size_t bins(const Grid& grid, int level) { return bins_across(grid, level) * bins_down(grid, level); }
+IndexFrame::IndexFrame(const Grid& grid, Shape shape)
+    : width(frame_side(grid.width(), grid.periodic_x(), shape)),
+      height(frame_side(grid.height(), grid.periodic_y(), shape)) {}
 
-int top_level(const Grid& grid) {
+std::size_t bins_across(const IndexFrame& frame, int level) { return bins_along(frame.width, level); }
+std::size_t bins_down(const IndexFrame& frame, int level) { return bins_along(frame.height, level); }
+std::size_t bins(const IndexFrame& frame, int level) {
+  return bins_across(frame, level) * bins_down(frame, level);
+}
+
+int top_level(const IndexFrame& frame) {
   int level = 0;
-  while (bins(grid, level) > TOP_BINS) ++level;
+  while (bins(frame, level) > TOP_BINS) ++level;
   return level;
 }
 
 namespace {
-std::size_t bins_of_all_levels(const Grid& grid) {
+std::size_t bins_of_all_levels(const IndexFrame& frame) {
   std::size_t all = 0;
-  for (int level = 0; level <= top_level(grid); ++level) all += bins(grid, level);
+  for (int level = 0; level <= top_level(frame); ++level) all += bins(frame, level);
   return all;
 }
 }  // namespace
@@ -58,20 +63,21 @@ std::size_t bins_of_all_levels(const Grid& grid) {
 cl::Event make_index(DiagramState& state, const Device& device, const Seeds& seeds, IndexMemory& memory,
                      Shape shape, const char* file, Metric metric) {
   const Grid& grid = state.grid;
+  const IndexFrame frame(grid, shape);
   const int width = grid.width(), height = grid.height();
   const auto count = static_cast<cl_uint>(seeds.size());
-  const std::size_t down = bins_down(grid, 0), bit_words = bins(grid, 0) * pixels_of_bin / 32;
+  const std::size_t down = bins_down(frame, 0), bit_words = bins(frame, 0) * pixels_of_bin / 32;
   state.reserve(memory.bits, bit_words * word);
   state.reserve(memory.word_starts, bit_words * word);
-  state.reserve(memory.starts, (bins(grid, 0) + down) * word);
-  const std::size_t list_room = most_listed(grid, seeds.size()) + behind_list;
+  state.reserve(memory.starts, (bins(frame, 0) + down) * word);
+  const std::size_t list_room = most_listed(grid, frame, seeds.size()) + behind_list;
   state.reserve(memory.list, list_room * word);
   state.reserve(memory.ids, list_room * word);
   state.reserve(memory.list_end, word);
   state.reserve(memory.bit_of_seed, seeds.size() * word);
   state.reserve(memory.duplicates, seeds.size() * word);
   state.reserve(memory.duplicate_count, word);
-  state.reserve(memory.pyramid, bins_of_all_levels(grid) * word);
+  state.reserve(memory.pyramid, bins_of_all_levels(frame) * word);
 
   const Tuning& tuning = device.tuning();
   const auto kernel = [&](const char* name) -> Kernel& {
@@ -86,9 +92,9 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   kernel("set_bits")
       .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, duplicate_count, width,
                   height);
-  kernel("find_representatives").over_items(bins(grid, 0), bits, pyramid, starts, width, height);
-  for (int level = 1; level <= top_level(grid); ++level) {
-    kernel("find_representatives_above").over_items(bins(grid, level), pyramid, width, height, level);
+  kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
+  for (int level = 1; level <= top_level(frame); ++level) {
+    kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
   }
   if (shape == Shape::group) {
     kernel("share_out_list_in_groups")
@@ -97,7 +103,7 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   } else {
     kernel("share_out_list").over_items(down, starts, list_end, width, height);
   }
-  kernel("start_words").over_items(bins(grid, 0), bits, starts, word_starts, width, height);
+  kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
   kernel("list_seeds")
       .over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")

@@ -13,13 +13,21 @@ struct IndexMemory {
   cl::Buffer pyramid;
 };
 
-/// The bins of a level, along the axes of the frame (kernels/exact/seed_index.cl) and in all.
-std::size_t bins_across(const Grid& grid, int level);
-std::size_t bins_down(const Grid& grid, int level);
-std::size_t bins(const Grid& grid, int level);
+/// What the index covers, in pixels: the grid, and margins along periodic axes that are a shape's
+/// (kernels/exact/seed_index.cl).
+struct IndexFrame {
+  IndexFrame(const Grid& grid, Shape shape);
+
+  int width, height;
+};
+
+/// The bins of a level, along the axes and in all.
+std::size_t bins_across(const IndexFrame& frame, int level);
+std::size_t bins_down(const IndexFrame& frame, int level);
+std::size_t bins(const IndexFrame& frame, int level);
 
 /// The level of the top of the pyramid.
-int top_level(const Grid& grid);
+int top_level(const IndexFrame& frame);
 
 /// Makes the index by the kernels of a file, of this shape and built for a device, and returns the first
 /// command.

@@ -38,8 +38,8 @@ const std::vector<Engine>& engines() {
   return all;
 }
 
-/// Those that a grid has. The group shape knows no periodic axes; and kernels are built anew for narrow
-/// grids.
+/// Those for a grid: kernels are built anew for each kind of axes, and for narrow grids. test_group_shape.cpp
+/// has the group shape's periodic axes.
 std::vector<Engine> engines(const Grid& grid) {
   std::vector<Engine> some;
   const bool periodic = grid.periodic() != Periodic::none;

@@ -30,16 +30,26 @@ Labels true_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric met
   return few ? brute_force(grid, seeds, metric) : tree_labels(grid, seeds, metric);
 }
 
+void check(const Case& c, Metric metric, const Engine& engine, const Labels& expected) {
+  const std::size_t wrong =
+      count_differences(exact_labels(engine.device, c.grid, c.seeds, metric, engine.lists), expected);
+  BOOST_TEST(wrong == 0, c.name << ", " << c.grid.width() << " x " << c.grid.height() << ", "
+                                << vorocl::name_of(metric) << ", " << engine.name << ": " << wrong
+                                << " wrong pixels");
+}
+
 void check_all(const Case& c) {
   for (const Metric metric : both_metrics) {
     const Labels expected = true_labels(c.grid, c.seeds, metric);
-    for (const Engine& engine : engines()) {
-      const Labels labels = exact_labels(engine.device, c.grid, c.seeds, metric, engine.lists);
-      const std::size_t wrong = count_differences(labels, expected);
-      BOOST_TEST(wrong == 0, c.name << ", " << c.grid.width() << " x " << c.grid.height() << ", "
-                                    << vorocl::name_of(metric) << ", " << engine.name << ": " << wrong
-                                    << " wrong pixels");
-    }
+    for (const Engine& engine : engines()) check(c, metric, engine, expected);
+  }
+}
+
+/// With one metric and group: kernels are built anew for each kind of axes.
+void check_lists(const Case& c) {
+  const Labels expected = true_labels(c.grid, c.seeds, Metric::euclidean);
+  for (const ListLength lists : both_lengths) {
+    check(c, Metric::euclidean, {name_of(lists), shaped(Shape::group), lists}, expected);
   }
 }
 
@@ -135,6 +145,40 @@ BOOST_AUTO_TEST_CASE(farthest_seed_that_can_win) {
   }
 }
 
+// Seeds near the borders of periods and far, ties across them, and periods shorter than the surroundings of a
+// patch.
+BOOST_AUTO_TEST_CASE(periodic_axes) {
+  const auto cases = [](const Grid& grid) {
+    std::vector<Case> all = {{"every pixel", grid, every_pixel(grid)}, {"no seeds", grid, {}}};
+    for (const std::size_t pixels_per_seed : {100000u, 1000u, 60u, 5u}) {
+      const std::size_t seeds = grid.pixels() / pixels_per_seed + 1;
+      all.push_back({std::to_string(seeds) + " seeds", grid, random_pixels(grid, seeds, 4)});
+    }
+    std::vector<Pixel> lattice, border;
+    for (int y = 0; y < grid.height(); y += 4) {
+      for (int x = 0; x < grid.width(); x += 4) lattice.push_back({x, y});
+    }
+    for (int x = 0; x < grid.width(); x += 7) border.push_back({x, x % 2 == 0 ? 0 : grid.height() - 1});
+    all.push_back({"lattice", grid, lattice});
+    all.push_back({"border", grid, border});
+    return all;
+  };
+  for (const auto& [width, height] : {std::pair{64, 97}, {161, 95}, {128, 64}}) {
+    for (const Case& c : cases({width, height, Periodic::xy})) check_all(c);
+    for (const Case& c : cases({width, height, Periodic::x})) check_lists(c);
+    for (const Case& c : cases({width, height, Periodic::y})) check_lists(c);
+  }
+  for (const auto& [width, height] : {std::pair{33, 70}, {1, 40}, {90, 7}}) {
+    for (const Case& c : cases({width, height, Periodic::xy})) check_lists(c);
+  }
+  check_all({"circle", {300, 290, Periodic::xy}, circle({300, 290}, 300, 140)});
+  check_all({"torus", {1001, 700, Periodic::xy}, random_pixels({1001, 700}, 3000, 5)});
+  // The longest period, and one that is left to the vector shape.
+  for (const int width : {16000, 16001}) {
+    check_lists({"long", {width, 90, Periodic::x}, random_pixels({width, 90}, 40, 6)});
+  }
+}
+
 BOOST_AUTO_TEST_CASE(rows_of_many_bins) {
   for (const int width : {1040, 4111}) check_all({"wide", {width, 40}, random_pixels({width, 40}, 700, 2)});
 }
@@ -149,7 +193,9 @@ BOOST_AUTO_TEST_CASE(random_cases) {
   const std::vector<Engine> all = engines();
   for (int i = 0; i < (long_tests ? 100000 : 2000) / sets_of_a_grid; ++i) {
     const auto side = [&] { return std::max(32 * below(rng, 5) + below(rng, 5) - 2, 1 + below(rng, 32)); };
-    const Grid grid(side(), side());
+    const Grid plain(side(), side());
+    const bool is_long = std::min(plain.width(), plain.height()) >= 64;
+    const Grid grid(plain.width(), plain.height(), is_long ? Periodic::xy : Periodic::none);
     std::vector<Diagram> diagrams;
     for (const Engine& engine : all) diagrams.emplace_back(engine.device, grid);
     for (int set = 0; set < sets_of_a_grid; ++set) {

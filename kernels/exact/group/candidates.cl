@@ -78,21 +78,27 @@ static inline void improve_winners(local Winners* winners, Box box, local const 
 static inline int along_to(int from, int first, int last) { return ALONG(max(max(first - from, from - last), 0)); }
 
 // Whether one of the first `count` winners dominates all seeds in a box, of which the first pixel stands for them in
-// the tie rule: a bin, a row of it or a single seed. A distance of seeds is at most 0x7fffffff, so differences fit in
-// an int.
+// the tie rule: a bin, a row of it or a single seed. Where there are images, whose seeds' order is another one, it is
+// left open who wins a tie. A distance of seeds is at most 0x7fffffff, so differences fit in an int.
 static inline bool is_dominated(local const Winners* winners, int count, Box patch, Box seeds) {
   const int to_left = along_to(patch.left, seeds.left, seeds.right);
   const int to_right = along_to(patch.right, seeds.left, seeds.right);
   const int to_top = along_to(patch.top, seeds.top, seeds.bottom);
   const int to_bottom = along_to(patch.bottom, seeds.top, seeds.bottom);
+#ifndef VOROCL_PERIODIC
   const uint first_pixel = pack(seeds.left, seeds.top);
+#endif
   bool dominated = false;
 #pragma unroll 1  // unrolled, it takes too many registers
   for (int i = 0; i < count; ++i) {
     local const uint* const distance = winners->distance[i];
     const int lag = min(min(to_left + to_top - (int)distance[0], to_right + to_top - (int)distance[1]),
                         min(to_left + to_bottom - (int)distance[2], to_right + to_bottom - (int)distance[3]));
+#ifdef VOROCL_PERIODIC
+    dominated |= lag >= 1;
+#else
     dominated |= lag >= (COMES_FIRST(winners->seed[i], first_pixel) ? 0 : 1);
+#endif
   }
   return dominated;
 }
@@ -118,6 +124,9 @@ static inline void keep_candidates(local uint* kept, local uint* kept_count, int
 typedef struct {
   int4 term[MOST_RANKED];
   uint value[MOST_RANKED];
+#ifdef VOROCL_PERIODIC
+  uint seed[MOST_RANKED];  // of which a candidate is an image, in the list's order
+#endif
 } Ranked;
 
 #if 2 * LAST_COORDINATE * (2 * ((1 << PATCH_BITS) - 1)) >= 1 << DIFFERENCE_BITS
@@ -156,14 +165,40 @@ static inline int8 keys_of(int4 term, int column, int row, uint rank_bits) {
 }
 #endif
 
+// The order of the candidates of a list by the tie rule; images of one seed are ordered by where they are.
+#ifdef VOROCL_PERIODIC
+static inline void find_seeds_of_images(local Ranked* ranked, const SeedIndex* index, local const uint* images,
+                                        int count) {
+  for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
+    ranked->seed[i] = seed_of_image(index, images[i]);
+  }
+  SYNC();
+}
+static inline bool is_ranked_first(local const Ranked* ranked, local const uint* seeds, int a, int b) {
+  const uint seed = ranked->seed[a], other = ranked->seed[b];
+  return COMES_FIRST(seed, other) || (seed == other && seeds[a] < seeds[b]);
+}
+#else
+static inline void find_seeds_of_images(local Ranked* ranked, const SeedIndex* index, local const uint* images,
+                                        int count) {
+  (void)ranked, (void)index, (void)images, (void)count;
+}
+static inline bool is_ranked_first(local const Ranked* ranked, local const uint* seeds, int a, int b) {
+  (void)ranked;
+  return COMES_FIRST(seeds[a], seeds[b]);
+}
+#endif
+
 // Ranks the candidates of a list. The base is the winner at the centre.
-static inline void rank_candidates(local Ranked* ranked, Box patch, uint base, local const uint* seeds, int count) {
+static inline void rank_candidates(local Ranked* ranked, const SeedIndex* index, Box patch, uint base,
+                                   local const uint* seeds, int count) {
+  find_seeds_of_images(ranked, index, seeds, count);
   const uint rank_bits = bits_of_rank(count);
   for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
     const uint seed = seeds[i];
     uint rank = 0;
 #pragma unroll 4
-    for (int other = 0; other < count; ++other) rank += COMES_FIRST(seeds[other], seed) ? 1 : 0;
+    for (int other = 0; other < count; ++other) rank += is_ranked_first(ranked, seeds, other, i) ? 1 : 0;
     ranked->term[rank] = term_of(packed_x(seed) - patch.left, packed_y(seed) - patch.top, packed_x(base) - patch.left,
                                  packed_y(base) - patch.top, rank, rank_bits);
     ranked->value[rank] = seed;

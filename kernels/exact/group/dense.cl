@@ -9,9 +9,9 @@
 // The rows of a patch and those up to REACH above and below it.
 #define PATCH_ROWS (PATCH + 2 * REACH)
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row, so that of rows
-// at equal distances the upper one has the least key. A row without a seed near counts as one REACH + 1 away, which
-// is too far for a label.
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that
+// of rows at equal distances the one with the least number has the least key. A row without a seed near counts as one
+// REACH + 1 away, which is too far for a label.
 #define ROW_BITS 6
 #if (1 << PATCH_BITS) + 2 * REACH > 1 << ROW_BITS
 #error "A row does not fit in the bits of a row key"
@@ -32,9 +32,30 @@ typedef struct {
   uint start[PATCH_ROWS * BINS_OF_ROW];
 } Rows;
 
+// Where a period begins again among the rows and among their bits; 0 if it does not.
+typedef struct {
+  int row, bit;
+} Border;
+
+static inline Border border_around(const SeedIndex* index, Box patch) {
+  const Border border = {
+      PERIODIC_Y ? first_of_period(patch.top - REACH, PATCH_ROWS, index->y0, index->height, 0) : 0,
+      PERIODIC_X ? first_of_period(patch.left - BIN, BINS_OF_ROW * BIN, index->x0, index->width, 0) : 0};
+  return border;
+}
+
+// The rows are numbered in the order of the tie rule: from above to below, but those behind a border come first.
+static inline int number_of_row(Border border, int row) {
+  return row - border.row + (row < border.row ? PATCH_ROWS : 0);
+}
+static inline int row_of_number(Border border, int number) {
+  const int row = number + border.row;
+  return row - (row < PATCH_ROWS ? 0 : PATCH_ROWS);
+}
+
 static inline void read_row(local Rows* rows, int row, const SeedIndex* index, int first_bin, int y) {
   ulong mask = 0;
-  if (y >= 0 && y < index->height) {
+  if (y >= 0 && y < frame_height(index->height)) {
     const int of_rows = (y >> BIN_BITS) * index->columns * WORDS + y % BIN / ROWS_OF_WORD;
     const uint before = (1u << y % ROWS_OF_WORD * BIN) - 1;
 #pragma unroll
@@ -60,19 +81,23 @@ static inline ulong window_of_row(ulong mask, int column) { return mask >> (colu
 
 // The row keys' parts along x of a quad, four pixels of a row one beside the other.
 #define QUADS_OF_ROW (PATCH / 4)
-static inline ushort4 keys_along_x(local const Rows* rows, int row, int column) {
+static inline ushort4 keys_along_x(local const Rows* rows, Border border, int row, int column) {
   const ulong first = window_of_row(rows->mask[row], column);
   const uint4 window = (uint4)((uint)first, (uint)(first >> 1), (uint)(first >> 2), (uint)(first >> 3));
   const int4 way = as_int4(min(WAY_TO_LEFT(window), WAY_TO_RIGHT(window)));
-  return convert_ushort4((ALONG(way) << ROW_BITS) + row);
+  return convert_ushort4((ALONG(way) << ROW_BITS) + number_of_row(border, row));
 }
 
-// The id of a row's seed that is nearest to a pixel; of two the left one, which the tie rule says.
-static inline uint nearest_in_row(local const Rows* rows, int row, int column, const SeedIndex* index) {
+// The id of a row's seed that is nearest to a pixel; of two the left one, unless a border lies in between: so says the
+// tie rule.
+static inline uint nearest_in_row(local const Rows* rows, Border border, int row, int column,
+                                  const SeedIndex* index) {
   const ulong mask = rows->mask[row];
   const uint window = (uint)window_of_row(mask, column);
   const int left = (int)WAY_TO_LEFT(window), right = (int)WAY_TO_RIGHT(window);
-  const uint bit = (uint)(BIN + column + (right < left ? right : -left));
+  const int pixel = BIN + column;
+  const bool right_first = pixel - left < border.bit && border.bit <= pixel + right;
+  const uint bit = (uint)(pixel + (right < left + (right_first ? 1 : 0) ? right : -left));
   const uint before = (uint)popcount(mask & ((1ul << bit) - 1));
   return index->ids[rows->start[(uint)row * BINS_OF_ROW + bit / BIN] + before];
 }
@@ -122,7 +147,8 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
   const int column = item_column();
-  const Box box = box_of_patch(patch, width, height);
+  const Box box = box_of_patch(&index, patch);
+  const Border border = border_around(&index, box);
   const int seeds_around = count_seeds_around(&index, box);
   if (patch == 0 && item == 0) queue[0] = 0;
   if (seeds_around < DENSE_AROUND) {
@@ -138,19 +164,19 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
     barrier(CLK_LOCAL_MEM_FENCE);
     const int quad = item & (QUADS_OF_ROW - 1);
     for (int row = REACH - reach + item / QUADS_OF_ROW; row < REACH + PATCH + reach; row += items / QUADS_OF_ROW) {
-      vstore4(keys_along_x(&rows, row, 4 * quad), (size_t)(row * QUADS_OF_ROW + quad), along_x);
+      vstore4(keys_along_x(&rows, border, row, 4 * quad), (size_t)(row * QUADS_OF_ROW + quad), along_x);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
       int4 least = find_least_row_keys_below(along_x, REACH + first, column, reach);
-      global uint* const label = label_in_patch(labels, box, column, first, width);
+      global uint* const label = label_in_patch(&index, labels, box, column, first);
       const int pixels = pixels_in_patch(box, column, first);
 #pragma unroll
       for (int i = 0; i < RUN; ++i, least = least.s1230) {
         if (i < pixels) {
           if (least.s0 < ALONG(reach + 1) << ROW_BITS) {
-            const int row = least.s0 & ((1 << ROW_BITS) - 1);
-            label[i * width] = nearest_in_row(&rows, row, column, &index);
+            const int row = row_of_number(border, least.s0 & ((1 << ROW_BITS) - 1));
+            label[i * width] = nearest_in_row(&rows, border, row, column, &index);
           } else {
             missing = 1;
           }

@@ -1,6 +1,7 @@
 // The exact diagram in the group shape: all kernels, in the order of their launches. docs/exact.md says how they work
 // together.
 
+#define INDEX_OF_GROUPS
 #include "exact/make_index.cl"
 #include "exact/group/share_out.cl"
 #include "exact/group/dense.cl"

@@ -15,11 +15,11 @@ static inline int most_along(uint distance) {
 }
 
 // Bins of a level, both ends included.
-static inline Box bins_around(Box pixels, int reach, int level, int width, int height) {
+static inline Box bins_around(const SeedIndex* index, Box pixels, int reach, int level) {
   const int bits = bin_bits(level);
   const Box bins = {max((pixels.left - reach) >> bits, 0), max((pixels.top - reach) >> bits, 0),
-                    min((pixels.right + reach) >> bits, bins_along(width, level) - 1),
-                    min((pixels.bottom + reach) >> bits, bins_along(height, level) - 1)};
+                    min((pixels.right + reach) >> bits, columns_of(index->width, level) - 1),
+                    min((pixels.bottom + reach) >> bits, rows_of(index->height, level) - 1)};
   return bins;
 }
 
@@ -42,11 +42,11 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
     descent->finer = 0;
   }
   SYNC();
-  Box bins = bins_around(centre, LAST_COORDINATE, top, index->width, index->height);
+  Box bins = bins_around(index, centre, LAST_COORDINATE, top);
   int level = top;
   while (level >= 0) {
     const int columns = bins.right - bins.left + 1, count = columns * (bins.bottom - bins.top + 1);
-    const int across = bins_along(index->width, level);
+    const int across = columns_of(index->width, level);
     global const uint* const representatives =
         pyramid + level_start(index->width, index->height, level) + bins.top * across + bins.left;
     bool more = false;
@@ -66,7 +66,7 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
       level = -1;
     } else {
       --level;
-      bins = bins_around(centre, most_along(descent->least), level, index->width, index->height);
+      bins = bins_around(index, centre, most_along(descent->least), level);
       if ((bins.right - bins.left + 1) * (bins.bottom - bins.top + 1) > MOST_LOOKED_AT) level = -1;
     }
     SYNC();
@@ -117,7 +117,7 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
   if (!pending[patch]) return;
-  const Box box = box_of_patch(patch, width, height);
+  const Box box = box_of_patch(&index, patch);
   if (item == 0) *scanned = *gathered_count = *candidate_count = 0;
   const uint near = find_seed_near(&descent, &index, pyramid, top_level, box);
   begin_winners(&winners, box, near);
@@ -125,7 +125,7 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   // No pixel's nearest seed is farther than this one is from the farthest corner.
   const uint reach = max(max(winners.distance[0][0], winners.distance[0][1]),
                          max(winners.distance[0][2], winners.distance[0][3]));
-  Box bins = bins_around(box, most_along(reach), 0, width, height);
+  Box bins = bins_around(&index, box, most_along(reach), 0);
   const uint own = seeds_in(&index, bins);
   if (own != 0) atomic_add(scanned, own);
   SYNC();
@@ -133,21 +133,21 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   gather(gathered, gathered_count, &index, &winners, box, bins);
 
   if (near == EMPTY || *gathered_count == 1) {
-    fill_patch(box, near == EMPTY ? NO_LABEL : id_of(&index, near), width, labels);
+    fill_patch(&index, box, near == EMPTY ? NO_LABEL : id_of(&index, near), labels);
   } else {
     // From here on lists that are too long count as empty.
     const int seeds = *gathered_count <= MOST_GATHERED ? (int)*gathered_count : 0;
     improve_winners(&winners, box, gathered, seeds);
     keep_candidates(candidates, candidate_count, MOST_RANKED, &winners, box, gathered, seeds);
     const int count = *candidate_count <= MOST_RANKED ? (int)*candidate_count : 0;
-    rank_candidates(&ranked, box, winners.seed[0], candidates, count);
+    rank_candidates(&ranked, &index, box, winners.seed[0], candidates, count);
     for (int i = item; i < count; i += items) ranked.value[i] = id_of(&index, ranked.value[i]);
     SYNC();
     const uint mask = (1u << bits_of_rank(count)) - 1;
     const int column = item_column();
     for (int row = item_row() * PIXELS; row < PATCH && count > 0; row += item_rows() * PIXELS) {
       int8 least = find_least_keys_below(&ranked, count, column, row);
-      global uint* const label = label_in_patch(labels, box, column, row, width);
+      global uint* const label = label_in_patch(&index, labels, box, column, row);
       const int pixels = pixels_in_patch(box, column, row);
 #pragma unroll
       for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {

@@ -53,8 +53,8 @@ typedef struct {
 
 static inline void part_of_bin(Part* part, const SeedIndex* index, global const uint* pyramid, int x, int y,
                                int level) {
-  const bool inside = x < bins_along(index->width, level) && y < bins_along(index->height, level);
-  const int bin = level_start(index->width, index->height, level) + y * bins_along(index->width, level) + x;
+  const bool inside = x < columns_of(index->width, level) && y < rows_of(index->height, level);
+  const int bin = level_start(index->width, index->height, level) + y * columns_of(index->width, level) + x;
   const uint representative = inside ? pyramid[bin] : EMPTY;
   const bool only = (representative & MORE) == 0;
   const int bits = bin_bits(level);
@@ -70,7 +70,7 @@ static inline void part_of_bin(Part* part, const SeedIndex* index, global const 
 // Of a row: all of it, or one pixel.
 static inline void part_of_row(Part* part, const SeedIndex* index, int bin_x, int y, int first, int last) {
   const int word = ((y >> BIN_BITS) * index->columns + bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
-  const uint seeds = y < index->height ? row_bits(index->bits[word], y) : 0;
+  const uint seeds = y < frame_height(index->height) ? row_bits(index->bits[word], y) : 0;
   part->empty = (seeds >> first & ALL_BITS >> (BIN - 1 - last + first)) == 0;
   part->entry = entry_of(bin_x, y, -1);
   part->seed = first == last ? pack(bin_x * BIN + first, y) : EMPTY;
@@ -120,26 +120,29 @@ static inline void open_entries(local Search* search, local const Winners* winne
 // Gives the patch's pixels the best seeds of the list, unless they have better ones. What they have is in `labels`, as
 // positions. An item has the same pixels each time, but not those that others fill and name: hence SYNC_LABELS().
 #define SYNC_LABELS() barrier(CLK_LOCAL_MEM_FENCE | CLK_GLOBAL_MEM_FENCE)
-static inline void take_best(local const uint* seeds, int seed_count, local Ranked* ranked, uint base, Box patch,
-                             int width, global uint* labels) {
+static inline void take_best(local const uint* seeds, int seed_count, local Ranked* ranked, const SeedIndex* index,
+                             uint base, Box patch, global uint* labels) {
   const int column = item_column(), x = patch.left + column;
   for (int begin = 0; begin < seed_count; begin += MOST_RANKED) {
     const int count = min(seed_count - begin, MOST_RANKED);
-    rank_candidates(ranked, patch, base, seeds + begin, count);
+    rank_candidates(ranked, index, patch, base, seeds + begin, count);
     const uint mask = (1u << bits_of_rank(count)) - 1;
     for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
       int8 least = find_least_keys_below(ranked, count, column, row);
-      global uint* const labels_below = label_in_patch(labels, patch, column, row, width);
+      global uint* const labels_below = label_in_patch(index, labels, patch, column, row);
       const int pixels = pixels_in_patch(patch, column, row);
 #pragma unroll
       for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {
         if (k < pixels) {
-          global uint* const label = labels_below + k * width;
+          global uint* const label = labels_below + k * index->width;
           const int y = patch.top + row + k;
           const uint seed = ranked->value[(uint)least.s0 & mask], other = *label;
           const uint distance = distance_of_offset(packed_x(seed) - x, packed_y(seed) - y);
           const uint other_distance = distance_of_offset(packed_x(other) - x, packed_y(other) - y);
-          if (WINS(seed, distance, other, other_distance)) *label = seed;
+          if (distance < other_distance ||
+              (distance == other_distance && COMES_FIRST(seed_of_image(index, seed), seed_of_image(index, other)))) {
+            *label = seed;
+          }
         }
       }
     }
@@ -156,16 +159,16 @@ kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict py
   if (get_group_id(0) >= queue[0]) return;
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), column = item_column();
-  const Box patch = box_of_patch((int)queue[1 + 2 * get_group_id(0)], width, height);
+  const Box patch = box_of_patch(&index, (int)queue[1 + 2 * get_group_id(0)]);
   const uint near = queue[2 + 2 * get_group_id(0)];
   begin_winners(&winners, patch, near);
-  fill_patch(patch, near, width, labels);
+  fill_patch(&index, patch, near, labels);
   SYNC_LABELS();
 
   // The top of the pyramid is put on the stack as a whole.
   if (item == 0) search.stack_count = search.count = 0;
   SYNC();
-  const int top_across = bins_along(width, top_level), top_bins = top_across * bins_along(height, top_level);
+  const int top_across = columns_of(width, top_level), top_bins = top_across * rows_of(height, top_level);
   for (int bin = item; bin < top_bins; bin += items) {
     search.stack[atomic_inc(&search.stack_count)] = entry_of(bin % top_across, bin / top_across, top_level);
   }
@@ -180,13 +183,13 @@ kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict py
       if (item == 0) search.count = search.kept_count = 0;
       SYNC();
       keep_candidates(search.kept, &search.kept_count, MOST_LISTED, &winners, patch, search.seeds, count);
-      take_best(search.kept, (int)search.kept_count, &ranked, winners.seed[0], patch, width, labels);
+      take_best(search.kept, (int)search.kept_count, &ranked, &index, winners.seed[0], patch, labels);
     }
     SYNC();
   }
   SYNC_LABELS();
   for (int row = item_row(); row < PATCH; row += item_rows()) {
-    global uint* const label = label_in_patch(labels, patch, column, row, width);
+    global uint* const label = label_in_patch(&index, labels, patch, column, row);
     if (pixels_in_patch(patch, column, row) > 0) *label = id_of(&index, *label);
   }
 }

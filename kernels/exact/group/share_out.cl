@@ -8,7 +8,7 @@
 kernel void share_out_list_in_groups(global uint* restrict starts, global uint* restrict end, int width) {
   local uint sums[MOST_ITEMS];
   local uint start_of_row[1];
-  const int item = (int)get_local_id(0), items = (int)get_local_size(0), columns = bins_along(width, 0);
+  const int item = (int)get_local_id(0), items = (int)get_local_size(0), columns = columns_of(width, 0);
   global uint* const row = starts + start_of(0, (int)get_group_id(0), columns);
   const int bins = (columns - 1) / items + 1;
   const int first = min(item * bins, columns), last = min(first + bins, columns);

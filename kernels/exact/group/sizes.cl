@@ -1,7 +1,13 @@
 // Sizes of the exact engine's group shape, for its kernels and for the host that launches them. Only speed and memory
 // depend on them.
 
+#ifndef VOROCL_EXACT_GROUP_SIZES
+#define VOROCL_EXACT_GROUP_SIZES
+
 #include "exact/sizes.cl"
+
+// The longest period: the index has all of it twice, and its coordinates have 15 bits.
+#define MOST_PERIOD_OF_GROUPS 16000
 
 // A patch is a square of pixels that a work-group labels, 2 x 2 bins. Its side in pixels, as a power of two.
 #define PATCH_BITS 5
@@ -15,6 +21,12 @@
 // A patch with so many seeds in its bins and those at its left and right is first tried by rows. Measured in simulated
 // warps: at about 100 pixels per seed rows and lists take the same number of instructions.
 #define DENSE_AROUND 20
+
+// In a period that is shorter than a patch's surroundings nothing is tried by rows: see DENSE.
+#ifdef VOROCL_SHORT_PERIOD
+#undef DENSE_AROUND
+#define DENSE_AROUND 0x7fffffff
+#endif
 
 // Lists of one patch: seeds that the nearest known one does not dominate, and candidates that are ranked at a time.
 #ifndef MOST_GATHERED
@@ -30,3 +42,5 @@
 
 // Bins and rows of bins that the search has yet to open.
 #define STACK 512
+
+#endif
