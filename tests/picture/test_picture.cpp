@@ -171,18 +171,42 @@ BOOST_AUTO_TEST_CASE(round_steps_are_1_2_and_5_times_powers_of_ten) {
 }
 
 BOOST_AUTO_TEST_CASE(edges_are_the_pixels_before_another_label) {
-  const std::vector<std::uint32_t> labels = {1, 1, 2,  //
-                                             1, 3, 2,  //
-                                             1, 3, 3};
-  cv::Mat picture(3, 3, CV_8UC3, cv::Scalar(200, 200, 200));
+  constexpr int side = 10;  // of squares with one label
+  const std::uint32_t squares[3][3] = {{1, 1, 2}, {1, 3, 2}, {1, 3, 3}};
+  const bool right_edges[3][3] = {{false, true, false}, {true, true, false}, {true, false, false}};
+  const bool lower_edges[3][3] = {{false, true, false}, {false, false, true}, {false, false, false}};
+  std::vector<std::uint32_t> labels;
+  for (int i = 0; i < 9 * side * side; ++i)
+    labels.push_back(squares[i / (3 * side) / side][i % (3 * side) / side]);
+  cv::Mat picture(3 * side, 3 * side, CV_8UC3, cv::Scalar(200, 200, 200));
   draw_edges(picture, labels);
-  const bool expected[3][3] = {{false, true, false}, {true, true, true}, {true, false, false}};
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 3; ++x) {
-      BOOST_TEST((brightness(picture.at<cv::Vec3b>(y, x)) < 150) == expected[y][x],
-                 "(" << x << ", " << y << ")");
+  for (int y = 0; y < 3 * side; ++y) {
+    for (int x = 0; x < 3 * side; ++x) {
+      const bool expected = (x % side == side - 1 && right_edges[y / side][x / side]) ||
+                            (y % side == side - 1 && lower_edges[y / side][x / side]);
+      BOOST_TEST((brightness(picture.at<cv::Vec3b>(y, x)) < 150) == expected, "(" << x << ", " << y << ")");
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(edges_fade_where_cells_are_small) {
+  // A checkerboard of squares, whose edges are along the sides.
+  const auto darkest = [](int side) {
+    const int cells = 6;
+    std::vector<std::uint32_t> labels;
+    for (int y = 0; y < cells * side; ++y) {
+      for (int x = 0; x < cells * side; ++x)
+        labels.push_back(static_cast<std::uint32_t>(y / side * cells + x / side));
+    }
+    cv::Mat picture(cells * side, cells * side, CV_8UC3, cv::Scalar::all(200));
+    draw_edges(picture, labels);
+    return brightness(picture.at<cv::Vec3b>(0, side - 1));
+  };
+  BOOST_TEST(darkest(1) == 600);
+  BOOST_TEST(darkest(2) == 600);
+  BOOST_TEST(darkest(3) < 600);
+  for (int side = 3; side < 8; ++side) BOOST_TEST(darkest(side + 1) < darkest(side));
+  BOOST_TEST(darkest(8) == darkest(20));
 }
 
 BOOST_AUTO_TEST_CASE(edges_lie_around_the_border) {
