@@ -62,9 +62,10 @@ std::optional<Domain> PixelMap::domain() const {
 void PixelMap::Axis::repeat(double period_low, double period_high, const char* name) {
   period_ = period_high - period_low;
   const double scale = count_ / (high_ - low_);
-  if (!(period_ * scale >= 0.5)) {
+  constexpr double rounding = 1e-9;
+  if (!(period_ * scale >= 1 - rounding)) {
     std::ostringstream text;
-    text << "the period in " << name << " is " << period_ << ", less than half a pixel";
+    text << "the period in " << name << " is " << period_ << ", less than a pixel";
     throw Error(text.str());
   }
   length_ = std::llround(period_ * scale);
@@ -83,9 +84,8 @@ double PixelMap::Axis::pixel(double at) const {
   }
   double offset = std::fmod(at - period_low_, period_);
   if (offset < 0) offset += period_;
-  const double position = std::floor((offset + (period_low_ - low_)) * count_ / (high_ - low_));
   const auto begin = static_cast<double>(begin_), length = static_cast<double>(length_);
-  return position < begin ? position + length : std::min(position, begin + length - 1);
+  return begin + std::min(std::floor(offset * length / period_), length - 1);
 }
 
 }  // namespace vorocl

@@ -30,9 +30,9 @@ class VOROCL_API PixelMap {
   /// If `closed`, a point at x1 or y1 falls in the last pixel. Throws as check_bounds().
   PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed);
 
-  /// Makes axes periodic: points wrap. A period may begin anywhere: where it covers as many pixels as the
-  /// bounds and does not hold them, or holds nothing of them, it begins with them. Throws Error if it is
-  /// shorter than half a pixel.
+  /// Makes axes periodic: points wrap. A period is rounded to whole pixels, and positions along it are scaled
+  /// to them. It may begin anywhere: where it covers as many pixels as the bounds and does not hold them, or
+  /// holds nothing of them, it begins with them. Throws Error if it is shorter than a pixel.
   void repeat(Periodic axes, const Bounds& period);
 
   /// Whether a point is outside the bounds; along a periodic axis none is.

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_are_usage_errors) {
   };
   refuse("--color red", {"red", "id, distance, area, neighbours, column:NAME"});
   refuse("--color column:", {"column:NAME"});
-  refuse("--palette jet", {"jet", "viridis, turbo, greys, okabe-ito"});
+  refuse("--palette jet", {"jet", "viridis, turbo, greys, viridis_r, turbo_r, greys_r, okabe-ito"});
   refuse("--palette turbo", {"--palette", "ids", "okabe-ito"});
   refuse("--color distance --palette okabe-ito", {"okabe-ito", "distances", "continuous", "viridis"});
   refuse("--color area --palette okabe-ito", {"okabe-ito", "areas", "continuous", "viridis"});
