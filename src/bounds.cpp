@@ -73,7 +73,10 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
   const bool covers = length_ >= count_, holds = period_low <= low_ && high_ <= period_high;
   const bool apart = period_high <= low_ || high_ <= period_low;
   period_low_ = (covers && !holds) || apart ? low_ : period_low;
-  begin_ = std::llround((period_low_ - low_) * scale);
+  const double first = (period_low_ - low_) * scale;
+  begin_ = std::llround(first);
+  shift_ = first - static_cast<double>(begin_) + (period_ * scale - static_cast<double>(length_)) / 2;
+  if (std::abs(shift_) < rounding) shift_ = 0;
 }
 
 double PixelMap::Axis::pixel(double at) const {
@@ -85,7 +88,10 @@ double PixelMap::Axis::pixel(double at) const {
   double offset = std::fmod(at - period_low_, period_);
   if (offset < 0) offset += period_;
   const auto begin = static_cast<double>(begin_), length = static_cast<double>(length_);
-  return begin + std::min(std::floor(offset * length / period_), length - 1);
+  double position = std::floor(offset * length / period_ + shift_);
+  if (position < 0) position += length;
+  if (position >= length) position -= length;
+  return begin + position;
 }
 
 }  // namespace vorocl

@@ -67,6 +67,49 @@ BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
   check_error([] { pixel({1, 1}, {1, 0, 1, 2}, Grid(10, 5, Periodic::xy)); }, {"no extent in x", "periodic"});
 }
 
+BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
+  // 7.4 pixels, from 3.3 to 10.7, become the 7 from 3 on: a position is where it was, but for 0.2 at the
+  // ends.
+  Mapping mapping;
+  mapping.bounds = {0, 0, 20, 1};
+  mapping.periodic = Periodic::x;
+  mapping.domain = Bounds{3.3, 0, 10.7, 1};
+  for (double x = 3.3; x < 10.7; x += 0.01) {
+    const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Grid(20, 1));
+    BOOST_TEST((mapped.view.grid == Grid(7, 1, Periodic::x)));
+    BOOST_TEST(mapped.view.x == 3);
+    const double scaled = 7 + (x - 7) * 7 / 7.4;
+    const double column = std::floor(scaled) < 3 ? 9 : std::floor(scaled) > 9 ? 3 : std::floor(scaled);
+    if (std::abs(scaled - std::round(scaled)) < 1e-6) continue;  // on the border of a pixel
+    for (const Point& pixel : mapped.pixels) BOOST_TEST(pixel.x + 3 == column + 0.5, x);
+  }
+  BOOST_TEST(map_points({{5, 0.5}}, mapping, Grid(20, 1)).view.units.of_length() == std::string("data"));
+}
+
+BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
+  Mapping mapping;
+  mapping.bounds = {0, 0, 4, 2};
+  const auto units = [&](const Grid& picture) { return map_points({}, mapping, picture).view.units; };
+  BOOST_TEST(units(Grid(8, 4)).area(12) == 3);
+  BOOST_TEST(units(Grid(8, 4)).length(3) == 1.5);
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("data"));
+  // Pixels of 1 by 1/2: a length has no single scale.
+  BOOST_TEST(units(Grid(4, 4)).area(12) == 6);
+  BOOST_TEST(units(Grid(4, 4)).length(3) == 3);
+  BOOST_TEST(units(Grid(4, 4)).of_length() == std::string("px"));
+  mapping.in_pixels = true;
+  BOOST_TEST(units(Grid(8, 4)).area(12) == 12);
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  mapping.in_pixels = false;
+  mapping.bounds = {0, 0, 4, 0};  // an axis without an extent
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  // A period of 7.4 pixels has 7, which are longer.
+  mapping.bounds = {0, 0, 20, 1};
+  mapping.periodic = Periodic::x;
+  mapping.domain = Bounds{3.3, 0, 10.7, 1};
+  BOOST_TEST(units(Grid(20, 1)).area(7) == 7.4, boost::test_tools::tolerance(1e-12));
+}
+
 BOOST_AUTO_TEST_CASE(points_outside_are_named) {
   const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
   const auto map = [](const Point& bad) {

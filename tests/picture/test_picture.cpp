@@ -130,6 +130,46 @@ BOOST_AUTO_TEST_CASE(values_and_distances_run_through_the_palette) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_logarithmic_scale_goes_by_the_logarithms) {
+  const std::vector<std::uint32_t> labels = {0, 1, 2, 3, 4, no_label};
+  const Grid grid(6, 1);
+  const cv::Mat logarithmic =
+      color_by_value(labels, grid, {0.01, 1, 100, 0, -3}, {0.01, 100, true}, Palette::turbo);
+  const cv::Mat linear =
+      color_by_value(labels, grid, {0, 1, 2, not_a_number, not_a_number}, {0, 2}, Palette::turbo);
+  BOOST_TEST(cv::norm(logarithmic, linear, cv::NORM_INF) == 0);
+  check_error(
+      [&] {
+        color_by_value({0}, Grid(1, 1), {1}, {0, 1, true}, Palette::turbo);
+      },
+      {"logarithmic", "above 0"});
+}
+
+BOOST_AUTO_TEST_CASE(reversed_palettes_run_the_other_way) {
+  using Pair = std::pair<Palette, Palette>;
+  for (const auto& [palette, reversed] :
+       {Pair(Palette::viridis, Palette::viridis_r), Pair(Palette::turbo, Palette::turbo_r),
+        Pair(Palette::greys, Palette::greys_r)}) {
+    for (int level = 0; level < 256; ++level) {
+      const cv::Mat a = color_by_value({0}, Grid(1, 1), {level / 255.0}, {0, 1}, palette);
+      const cv::Mat b = color_by_value({0}, Grid(1, 1), {1 - level / 255.0}, {0, 1}, reversed);
+      BOOST_TEST((a.at<cv::Vec3b>(0, 0) == b.at<cv::Vec3b>(0, 0)), level);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_line_of_text_is_in_the_lower_left_corner) {
+  const cv::Mat before(100, 300, CV_8UC3, cv::Scalar::all(128));
+  cv::Mat picture = before.clone();
+  draw_text(picture, "frame 12");
+  const cv::Rect corner(0, 80, 150, 20);
+  BOOST_TEST(cv::norm(picture(corner), before(corner), cv::NORM_INF) > 90);
+  before(corner).copyTo(picture(corner));
+  BOOST_TEST(cv::norm(picture, before, cv::NORM_INF) == 0);
+  cv::Mat small(5, 7, CV_8UC3, cv::Scalar::all(128));
+  draw_text(small, "frame 12");  // what does not fit is cut off
+}
+
 BOOST_AUTO_TEST_CASE(a_value_s_colour_is_that_of_the_scale_alone) {
   const Scale scale = {10, 20};
   const auto color = [&](double value, Palette palette) {

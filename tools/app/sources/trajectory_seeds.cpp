@@ -71,9 +71,9 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
     }
   }
   has_boxes_ = frame_.box.has_value();
-  note_of_file();
   const std::optional<Bounds> bounds = shown_bounds();
   take_frame(bounds, make_picture(options, bounds));
+  note_of_file();
 }
 
 bool TrajectorySeeds::next() {
