@@ -305,3 +305,17 @@ BOOST_AUTO_TEST_CASE(seeds_that_share_a_pixel_are_counted) {
     BOOST_TEST(json::parse(succeeds(folder, line + " --json")).at("empty_cells") == 2, command);
   }
 }
+
+BOOST_AUTO_TEST_CASE(a_box_is_compared_with_where_it_is) {
+  const TemporaryFolder folder;
+  const Scene part = {2, 0, 7, 6, {{3, 1}, {6, 5}, {4, 4}}};
+  folder.file("t.lammpstrj", text_of({part}, "pp ff pp"));
+  const std::string window = "--trajectory t.lammpstrj --bounds 0,0,10,7.5 ";
+  succeeds(folder, "render --width 40 --method jfa --labels l.npy " + window);
+  const json result = json::parse(succeeds(folder, "compare l.npy --json " + window));
+  BOOST_TEST(result.at("similarity").get<double>() > 99);
+  BOOST_TEST(result.at("pixels") == 40 * 30);
+  refuses(folder, "relax --width 40 --rounds 2 --labels x.npy " + window, failure, {"relax", "box"});
+  refuses(folder, "render --width 40 --labels x.npy --trajectory t.lammpstrj --bounds 0,0,1000,1000", failure,
+          {"t.lammpstrj", "frame 0", "period in x is 5, less than a pixel"});
+}
