@@ -61,6 +61,7 @@ std::vector<Tick> logarithmic_ticks(const Scale& scale, int most) {
     for (int every = 1; !collect({1}, every);) ++every;
   }
   std::vector<Tick> ticks;
+  ticks.reserve(numbers.size());
   for (const double number : numbers) ticks.push_back({number, number_text(number, 0)});
   return ticks;
 }

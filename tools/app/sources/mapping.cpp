@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "app/sources/bounds.hpp"
@@ -17,7 +18,7 @@ constexpr double plane_side = 2147483648.0;  // 2^31
 
 /// Where a domain ends along an axis, in pixels of the picture: beyond [begin, end) there is nothing.
 struct Walls {
-  double begin = -INFINITY, end = INFINITY;
+  double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
 };
 
 /// In the direction of the data. There is at least a pixel between them.
