@@ -62,9 +62,10 @@ std::optional<Domain> PixelMap::domain() const {
 void PixelMap::Axis::repeat(double period_low, double period_high, const char* name) {
   period_ = period_high - period_low;
   const double scale = count_ / (high_ - low_);
-  if (!(period_ * scale >= 0.5)) {
+  constexpr double rounding = 1e-9;
+  if (!(period_ * scale >= 1 - rounding)) {
     std::ostringstream text;
-    text << "the period in " << name << " is " << period_ << ", less than half a pixel";
+    text << "the period in " << name << " is " << period_ << ", less than a pixel";
     throw Error(text.str());
   }
   length_ = std::llround(period_ * scale);
@@ -72,7 +73,10 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
   const bool covers = length_ >= count_, holds = period_low <= low_ && high_ <= period_high;
   const bool apart = period_high <= low_ || high_ <= period_low;
   period_low_ = (covers && !holds) || apart ? low_ : period_low;
-  begin_ = std::llround((period_low_ - low_) * scale);
+  const double first = (period_low_ - low_) * scale;
+  begin_ = std::llround(first);
+  shift_ = first - static_cast<double>(begin_) + (period_ * scale - static_cast<double>(length_)) / 2;
+  if (std::abs(shift_) < rounding) shift_ = 0;
 }
 
 double PixelMap::Axis::pixel(double at) const {
@@ -83,9 +87,11 @@ double PixelMap::Axis::pixel(double at) const {
   }
   double offset = std::fmod(at - period_low_, period_);
   if (offset < 0) offset += period_;
-  const double position = std::floor((offset + (period_low_ - low_)) * count_ / (high_ - low_));
   const auto begin = static_cast<double>(begin_), length = static_cast<double>(length_);
-  return position < begin ? position + length : std::min(position, begin + length - 1);
+  double position = std::floor(offset * length / period_ + shift_);
+  if (position < 0) position += length;
+  if (position >= length) position -= length;
+  return begin + position;
 }
 
 }  // namespace vorocl

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "lettering.hpp"
 #include "palette.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/picture.hpp"
@@ -15,33 +16,8 @@ namespace vorocl {
 namespace {
 
 constexpr int least_height = 96;
-constexpr int least_text_height = 8;
 constexpr int most_steps = 8;
 constexpr std::size_t longest_title = 30;
-
-/// Letters of one size.
-class Text {
- public:
-  explicit Text(int height)
-      : height_(height),
-        thickness_(std::max(1, height / 10)),
-        scale_(cv::getFontScaleFromHeight(font, height, thickness_)) {}
-
-  int height() const { return height_; }
-  int thickness() const { return thickness_; }
-  int width(const std::string& text) const {
-    return cv::getTextSize(text, font, scale_, thickness_, nullptr).width;
-  }
-  void draw(cv::Mat& picture, const std::string& text, const cv::Point& bottom_left) const {
-    cv::putText(picture, text, bottom_left, font, scale_, dark, thickness_, cv::LINE_AA);
-  }
-
- private:
-  static constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
-  int height_;
-  int thickness_;
-  double scale_;
-};
 
 struct Tick {
   double value;
@@ -65,7 +41,36 @@ std::string number_text(double value, double step) {
   return {text.data(), end};
 }
 
+/// 1, 2 and 5 times powers of ten, or these powers, or every second or so, as many as there is room for. None
+/// if there is no such number on the scale.
+std::vector<Tick> logarithmic_ticks(const Scale& scale, int most) {
+  const int first = magnitude(scale.low), last = magnitude(scale.high);
+  std::vector<double> numbers;
+  const auto collect = [&](const std::vector<double>& factors, int every) {
+    numbers.clear();
+    for (int power = first; power <= last; ++power) {
+      for (const double factor : factors) {
+        const double number = factor * std::pow(10, power);
+        const bool is_on_scale = number >= scale.low * (1 - 1e-9) && number <= scale.high * (1 + 1e-9);
+        if (is_on_scale && power % every == 0) numbers.push_back(number);
+      }
+    }
+    return numbers.size() <= static_cast<std::size_t>(most);
+  };
+  if (!collect({1, 2, 5}, 1)) {
+    for (int every = 1; !collect({1}, every);) ++every;
+  }
+  std::vector<Tick> ticks;
+  ticks.reserve(numbers.size());
+  for (const double number : numbers) ticks.push_back({number, number_text(number, 0)});
+  return ticks;
+}
+
 std::vector<Tick> ticks_of(const ColorBar& bar, int most) {
+  if (bar.scale.logarithmic) {
+    std::vector<Tick> ticks = logarithmic_ticks(bar.scale, most);
+    if (!ticks.empty()) return ticks;
+  }
   double step = round_step(bar.scale, most);
   if (step == 0) return {{bar.scale.low, number_text(bar.scale.low, 0)}};
   if (bar.whole_values) step = std::max(step, 1.0);
@@ -85,31 +90,27 @@ class Bar {
  public:
   Bar(const ColorBar& bar, const cv::Rect& place)
       : colors_(bar.scale, bar.palette),
-        // A class is a block around its number.
-        margin_(is_categorical(bar.palette) ? 0.5 : 0),
-        low_(bar.scale.low - margin_),
-        extent_(bar.scale.high + margin_ - low_),
+        ends_(with_blocks(bar)),
         place_(place),
         point_(bar.open_ended ? place.width / 2 : 0) {}
 
   /// The row of a value.
   int row(double value) const {
     const double height = place_.height - 2 * point_;
-    const double part = extent_ > 0 ? (value - low_) / extent_ : 0.5;
-    return place_.br().y - 1 - point_ - static_cast<int>(std::lround(part * (height - 1)));
+    return place_.br().y - 1 - point_ - static_cast<int>(std::lround(part_of(value, ends_) * (height - 1)));
   }
 
   void draw(cv::Mat& picture) const {
     const int top = place_.y + point_, bottom = place_.br().y - point_;
     for (int y = top; y < bottom; ++y) {
       const double part = (bottom - y - 0.5) / (bottom - top);
-      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(low_ + part * extent_));
+      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(value_at(part)));
     }
     const int left = place_.x, right = place_.br().x - 1, middle = place_.x + place_.width / 2;
     const cv::Point upper_tip(middle, place_.y), lower_tip(middle, place_.br().y - 1);
     if (point_ > 0) {
-      fill(picture, {{left, top}, {right, top}, upper_tip}, colors_(low_ + extent_));
-      fill(picture, {{left, bottom - 1}, {right, bottom - 1}, lower_tip}, colors_(low_));
+      fill(picture, {{left, top}, {right, top}, upper_tip}, colors_(ends_.high));
+      fill(picture, {{left, bottom - 1}, {right, bottom - 1}, lower_tip}, colors_(ends_.low));
     }
     // Around it, so that the ends of all palettes stand out from the white.
     std::vector<cv::Point> outline = {
@@ -122,14 +123,21 @@ class Bar {
   }
 
  private:
+  /// A class is a block around its number.
+  static Scale with_blocks(const ColorBar& bar) {
+    const double margin = is_categorical(bar.palette) ? 0.5 : 0;
+    return {bar.scale.low - margin, bar.scale.high + margin, bar.scale.logarithmic};
+  }
+  double value_at(double part) const {
+    return ends_.logarithmic ? ends_.low * std::pow(ends_.high / ends_.low, part)
+                             : ends_.low + part * (ends_.high - ends_.low);
+  }
   static void fill(cv::Mat& picture, const std::vector<cv::Point>& corners, const cv::Vec3b& color) {
     cv::fillConvexPoly(picture, corners, color);
   }
 
   Colors colors_;
-  double margin_;
-  double low_;
-  double extent_;
+  Scale ends_;
   cv::Rect place_;
   int point_;  // the height of a pointed end
 };
@@ -144,7 +152,7 @@ cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar) {
   check_picture(picture);
   check_scale(bar.scale);
   const int height = std::max(picture.rows, least_height);
-  const Text text(std::max(least_text_height, height / 50));
+  const Lettering text(text_height(height));
   const int unit = text.height();
   const std::string title = shortened(bar.title);
   const cv::Rect place(picture.cols + unit, 7 * unit / 2, std::max(10, 2 * unit), height - 5 * unit);

@@ -28,10 +28,15 @@ cv::Mat_<cv::Vec3b> table_of(Palette palette) {
   }
   cv::Mat_<std::uint8_t> ramp(1, levels);
   for (int level = 0; level < levels; ++level) ramp(0, level) = static_cast<std::uint8_t>(level);
-  if (palette == Palette::greys) {
+  const auto is_one_of = [palette](Palette a, Palette b) { return palette == a || palette == b; };
+  if (is_one_of(Palette::viridis_r, Palette::turbo_r) || palette == Palette::greys_r) {
+    cv::flip(ramp, ramp, 1);
+  }
+  if (is_one_of(Palette::greys, Palette::greys_r)) {
     cv::cvtColor(ramp, table, cv::COLOR_GRAY2BGR);
   } else {
-    cv::applyColorMap(ramp, table, palette == Palette::viridis ? cv::COLORMAP_VIRIDIS : cv::COLORMAP_TURBO);
+    const bool is_viridis = is_one_of(Palette::viridis, Palette::viridis_r);
+    cv::applyColorMap(ramp, table, is_viridis ? cv::COLORMAP_VIRIDIS : cv::COLORMAP_TURBO);
   }
   return table;
 }
@@ -41,6 +46,9 @@ cv::Mat_<cv::Vec3b> table_of(Palette palette) {
 bool is_categorical(Palette palette) { return palette == Palette::okabe_ito; }
 
 void check_scale(const Scale& scale) {
+  if (scale.logarithmic && scale.low <= 0) {
+    throw Error("a logarithmic scale cannot begin at " + std::to_string(scale.low) + "; it begins above 0");
+  }
   if (std::isfinite(scale.high - scale.low) && scale.low <= scale.high) return;
   throw Error(
       "a scale cannot go from " + std::to_string(scale.low) + " to " + std::to_string(scale.high) +
@@ -64,21 +72,26 @@ double round_step(const Scale& scale, int most) {
   return 10 * power;
 }
 
+double part_of(double value, const Scale& scale) {
+  if (scale.high <= scale.low) return 0.5;
+  if (scale.logarithmic) return std::log(value / scale.low) / std::log(scale.high / scale.low);
+  return (value - scale.low) / (scale.high - scale.low);
+}
+
 Colors::Colors(const Scale& scale, Palette palette)
     : scale_(scale), categorical_(is_categorical(palette)), table_(table_of(palette)) {
   check_scale(scale);
 }
 
 cv::Vec3b Colors::operator()(double value) const {
-  if (std::isnan(value)) return absent_grey;
+  if (std::isnan(value) || (scale_.logarithmic && value <= 0)) return absent_grey;
   const double clamped = std::clamp(value, scale_.low, scale_.high);
   if (categorical_) {
     const double remainder = std::fmod(std::round(clamped), table_.cols);
     return table_(0, static_cast<int>(remainder < 0 ? remainder + table_.cols : remainder));
   }
-  const double extent = scale_.high - scale_.low;
-  return table_(
-      0, extent > 0 ? static_cast<int>(std::lround((levels - 1) * ((clamped - scale_.low) / extent))) : 0);
+  const double part = scale_.high > scale_.low ? part_of(clamped, scale_) : 0;
+  return table_(0, static_cast<int>(std::lround((levels - 1) * part)));
 }
 
 cv::Vec3b categorical_color(std::uint32_t number) { return okabe_ito[number % okabe_ito.size()]; }

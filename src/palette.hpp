@@ -12,11 +12,15 @@ const cv::Vec3b dark(32, 28, 26);
 const cv::Vec3b light(250, 250, 250);
 const cv::Vec3b absent_grey(214, 214, 214);
 
-/// Throws Error unless low <= high, and these and their difference are finite.
+/// Throws Error unless low <= high, these and their difference are finite, and the low end of a logarithmic
+/// scale is above 0.
 void check_scale(const Scale& scale);
 
 /// Throws Error unless the picture is CV_8UC3.
 void check_picture(const cv::Mat& picture);
+
+/// Where a value lies on a scale: 0 at its low end, 1 at its high one, and 0.5 on a scale without extent.
+double part_of(double value, const Scale& scale);
 
 /// A palette laid over a scale.
 class Colors {
@@ -24,7 +28,8 @@ class Colors {
   /// Throws Error for a bad scale.
   Colors(const Scale& scale, Palette palette);
 
-  /// Values beyond the scale have the colours of its ends, NaN is light grey.
+  /// Values beyond the scale have the colours of its ends; NaN, and what has no logarithm on a logarithmic
+  /// scale, is light grey.
   cv::Vec3b operator()(double value) const;
 
  private:

@@ -136,6 +136,35 @@ cv::Mat widened(const cv::Mat& edges, int width, Periodic axes) {
   return padded(cv::Rect({x, y}, edges.size()));
 }
 
+/// How dark borders are in each cell: so much of their colour.
+std::unordered_map<std::uint32_t, double> darkness_of_edges(const std::vector<std::uint32_t>& labels) {
+  constexpr double faintest = 2, fullest = 8;       // sides of squares
+  std::unordered_map<std::uint32_t, double> cells;  // first their areas
+  for_each_run(labels, [&](std::size_t begin, std::size_t end) {
+    cells[labels[begin]] += static_cast<double>(end - begin);
+  });
+  for (auto& [label, value] : cells) {
+    const double faded = (std::sqrt(value) - faintest) / (fullest - faintest);
+    value = label == no_label ? 1 : std::clamp(faded, 0.0, 1.0);
+  }
+  return cells;
+}
+
+/// Draws the edges of a mask into the cells that they are in.
+void draw_mask(cv::Mat& picture, const cv::Mat& edges, const std::vector<std::uint32_t>& labels) {
+  const std::unordered_map<std::uint32_t, double> darkness = darkness_of_edges(labels);
+  for_each_run(labels, [&](std::size_t begin, std::size_t end) {
+    const double part = darkness.at(labels[begin]);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto at = static_cast<int>(i);
+      const int y = at / picture.cols, x = at % picture.cols;
+      if (edges.at<std::uint8_t>(y, x) == 0) continue;
+      auto& pixel = picture.at<cv::Vec3b>(y, x);
+      pixel = cv::Vec3b(cv::Vec3d(pixel) + part * (cv::Vec3d(dark) - cv::Vec3d(pixel)));
+    }
+  });
+}
+
 /// The colour of a thin line on this one.
 cv::Vec3b line_on(const cv::Vec3b& color) {
   const bool is_bright = 0.114 * color[0] + 0.587 * color[1] + 0.299 * color[2] > 110;
@@ -198,7 +227,7 @@ void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int 
                 std::to_string(widest_edge));
   }
   const cv::Mat edges = thin_edges(labels, picture.size(), axes);
-  picture.setTo(dark, width > 1 ? widened(edges, width, axes) : edges);
+  draw_mask(picture, width > 1 ? widened(edges, width, axes) : edges, labels);
 }
 
 void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval, Periodic axes) {

@@ -21,7 +21,10 @@ std::size_t Simulation::add_engine(Engine engine) {
 void Simulation::step() {
   const double max_displacement = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
   ++frame_;
-  for (Track& track : tracks_) track.max_displacement += max_displacement;
+  for (Track& track : tracks_) {
+    track.max_displacement += max_displacement;
+    if (track.diagram.grid() != seeds_.grid()) track.diagram = Diagram(seeds_.device(), seeds_.grid());
+  }
   for (Track& track : tracks_) {
     track.report = track.engine(seeds_, track.diagram, track.max_displacement);
     track.max_displacement = 0;

@@ -30,9 +30,10 @@ class VOROCL_API PixelMap {
   /// If `closed`, a point at x1 or y1 falls in the last pixel. Throws as check_bounds().
   PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed);
 
-  /// Makes axes periodic: points wrap. A period may begin anywhere: where it covers as many pixels as the
-  /// bounds and does not hold them, or holds nothing of them, it begins with them. Throws Error if it is
-  /// shorter than half a pixel.
+  /// Makes axes periodic: points wrap. A period is rounded to whole pixels, and positions along it are scaled
+  /// to them about its middle. It may begin anywhere: where it covers as many pixels as the bounds and does
+  /// not hold them, or holds nothing of them, it begins with them. Throws Error if it is shorter than a
+  /// pixel.
   void repeat(Periodic axes, const Bounds& period);
 
   /// Whether a point is outside the bounds; along a periodic axis none is.
@@ -62,6 +63,7 @@ class VOROCL_API PixelMap {
     double period_ = 0;                    // 0: none
     double period_low_ = 0;                // where it begins ...
     std::int64_t begin_ = 0, length_ = 0;  // ... and these in whole pixels
+    double shift_ = 0;                     // the middle of the period, less that of these pixels
   };
 
   Axis x_, y_;

@@ -17,18 +17,21 @@ namespace vorocl {
 
 /// Colour maps. For quantities, from the least to the greatest: viridis (dark blue to yellow, perceptually
 /// uniform, also for the colour-blind), turbo (dark blue by green to dark red, more contrast) and greys
-/// (black to white). For classes: okabe_ito, eight colours that the colour-blind can tell apart too (Okabe
-/// and Ito 2008, with grey in the place of black, which means no_label here); a whole number gets the colour
-/// of its remainder by 8.
-enum class Palette { viridis, turbo, greys, okabe_ito };
+/// (black to white), and the same reversed. For classes: okabe_ito, eight colours that the colour-blind can
+/// tell apart too (Okabe and Ito 2008, with grey in the place of black, which means no_label here); a whole
+/// number gets the colour of its remainder by 8.
+enum class Palette { viridis, turbo, greys, viridis_r, turbo_r, greys_r, okabe_ito };
 
 /// Whether a palette is one of classes, such as ids, and not one of quantities.
 VOROCL_API bool is_categorical(Palette palette);
 
 /// The values that the ends of a palette stand for, low <= high; values beyond get the colours of the ends.
+/// Colours go by the values or, where the scale is logarithmic and low > 0, by their logarithms: values of 0
+/// or less are absent then.
 struct Scale {
   double low = 0;
   double high = 1;
+  bool logarithmic = false;
 };
 
 /// The range of the values that a picture shows: of the cells that have a pixel, infinite and absent (NaN)
@@ -64,9 +67,10 @@ VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const 
 constexpr int widest_edge = 100;
 
 /// Draws the borders of the cells into a picture, in dark, `width` pixels wide. An even width has as many
-/// pixels on both sides of a border, an odd one one more on the left of it or above. Throws Error unless the
-/// picture has the labels' size and the width is 1 to 100. Along the grid's periodic `axes` a border may lie
-/// between its last pixel and its first.
+/// pixels on both sides of a border, an odd one one more on the left of it or above. Borders fade where they
+/// would hide the cells: in a cell whose area is a square of less than 8 pixels a side, to nothing at 2
+/// pixels. Throws Error unless the picture has the labels' size and the width is 1 to 100. Along the grid's
+/// periodic `axes` a border may lie between its last pixel and its first.
 VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width = 1,
                            Periodic axes = Periodic::none);
 
@@ -81,6 +85,10 @@ VOROCL_API void draw_contours(cv::Mat& picture, const std::vector<float>& distan
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<Point>& seeds);
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<std::optional<Point>>& seeds);
 
+/// Writes a line of text (ASCII) into the lower left corner of a picture, dark on a light ground. The text
+/// grows with the picture's height; what is too long for its width is cut off.
+VOROCL_API void draw_text(cv::Mat& picture, const std::string& text);
+
 /// What a colour bar says.
 struct ColorBar {
   Scale scale;
@@ -91,7 +99,8 @@ struct ColorBar {
 };
 
 /// The picture with a colour bar at its right: a white strip with the title, the bar with its least value at
-/// the bottom, and ticks with numbers at round values. The text grows with the picture's height; a picture of
+/// the bottom, and ticks with numbers at round values; of a logarithmic scale, at 1, 2 and 5 times powers of
+/// ten, or powers alone. The text grows with the picture's height; a picture of
 /// less than 96 rows gets white ones below. The result's width is even, for films, and bars that are alike
 /// make results of one size. Throws Error for a bad scale.
 VOROCL_API cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar);

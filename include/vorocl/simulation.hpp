@@ -13,8 +13,8 @@
 namespace vorocl {
 
 /// Owns the frame counter, the seeds and a diagram for each engine, so that engines can be compared on one
-/// motion. Nothing is allocated on the device after frame 1 (while the number of seeds stays). Nothing waits
-/// unless an engine, the motion or the caller reads, or the queue is full (see Device).
+/// motion. Nothing is allocated on the device after frame 1 (while the seeds' number and grid stay). Nothing
+/// waits unless an engine, the motion or the caller reads, or the queue is full (see Device).
 ///
 /// After step() has thrown, the next one goes on: with the same frame if the motion threw, with the next
 /// frame if an engine did; engines that had not run by then are told the displacement of both frames.
@@ -28,7 +28,8 @@ namespace vorocl {
 class VOROCL_API Simulation {
  public:
   /// Moves the seeds on to a frame (from 1 on) and returns the greatest displacement of a seed along an axis,
-  /// in pixels (the paper's d_max).
+  /// in pixels (the paper's d_max). It may replace the seeds by others on another grid, of the same device:
+  /// then the diagrams have that grid too, and engines start from nothing.
   using Motion = std::function<double(Seeds& seeds, int frame)>;
 
   /// Fills the diagram of a frame. max_displacement is what the motion returned, 0 for frame 0.

@@ -19,7 +19,7 @@ may_include formats
 may_include studies formats
 may_include app/terminal formats studies
 may_include app/sources formats studies app/terminal
-may_include app/outputs formats studies app/terminal
+may_include app/outputs formats studies app/terminal app/sources
 may_include app/options formats studies app/terminal app/sources app/outputs
 may_include app/commands formats studies app/terminal app/sources app/outputs app/options
 

@@ -5,6 +5,7 @@
 
 #include "app/options/seed_options.hpp"
 #include "app/sources/bounds.hpp"
+#include "app/sources/mapping.hpp"
 #include "fixture.hpp"
 
 using namespace vorocl;
@@ -53,7 +54,49 @@ BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
   BOOST_TEST((pixel({180, 0}, world, grid) == Pairs{{0.5, 90.5}}));  // the period begins again
   BOOST_TEST((pixel({-180, 90}, world, grid, true) == Pairs{{0.5, 0.5}}));
   check_error([&] { pixel({0, 91}, world, grid); }, {"(0, 91)", "outside the bounds"});
-  BOOST_TEST((grid_of_width(world, 720, Periodic::xy) == Grid(720, 360, Periodic::xy)));
+}
+
+BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
+  // 7.4 pixels, from 3.3 to 10.7, become the 7 from 3 on: a position is where it was, but for 0.2 at the
+  // ends.
+  Mapping mapping;
+  mapping.bounds = {0, 0, 20, 1};
+  mapping.periodic = Periodic::x;
+  mapping.domain = Bounds{3.3, 0, 10.7, 1};
+  for (double x = 3.3; x < 10.7; x += 0.01) {
+    const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Grid(20, 1));
+    BOOST_TEST((mapped.view.grid == Grid(7, 1, Periodic::x)));
+    BOOST_TEST(mapped.view.x == 3);
+    const double scaled = 7 + (x - 7) * 7 / 7.4;
+    const double column = std::floor(scaled) < 3 ? 9 : std::floor(scaled) > 9 ? 3 : std::floor(scaled);
+    if (std::abs(scaled - std::round(scaled)) < 1e-6) continue;  // on the border of a pixel
+    for (const Point& pixel : mapped.pixels) BOOST_TEST(pixel.x + 3 == column + 0.5, x);
+  }
+  BOOST_TEST(map_points({{5, 0.5}}, mapping, Grid(20, 1)).view.units.of_length() == std::string("data"));
+}
+
+BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
+  Mapping mapping;
+  mapping.bounds = {0, 0, 4, 2};
+  const auto units = [&](const Grid& picture) { return map_points({}, mapping, picture).view.units; };
+  BOOST_TEST(units(Grid(8, 4)).area(12) == 3);
+  BOOST_TEST(units(Grid(8, 4)).length(3) == 1.5);
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("data"));
+  // Pixels of 1 by 1/2: a length has no single scale.
+  BOOST_TEST(units(Grid(4, 4)).area(12) == 6);
+  BOOST_TEST(units(Grid(4, 4)).length(3) == 3);
+  BOOST_TEST(units(Grid(4, 4)).of_length() == std::string("px"));
+  mapping.in_pixels = true;
+  BOOST_TEST(units(Grid(8, 4)).area(12) == 12);
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  mapping.in_pixels = false;
+  mapping.bounds = {0, 0, 4, 0};  // an axis without an extent
+  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  // A period of 7.4 pixels has 7, which are longer.
+  mapping.bounds = {0, 0, 20, 1};
+  mapping.periodic = Periodic::x;
+  mapping.domain = Bounds{3.3, 0, 10.7, 1};
+  BOOST_TEST(units(Grid(20, 1)).area(7) == 7.4, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(points_outside_are_named) {

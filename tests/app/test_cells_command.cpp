@@ -25,7 +25,7 @@ json checked(const TemporaryFolder& folder, const std::string& arguments, const 
              Metric metric = Metric::euclidean, Periodic axes = Periodic::none) {
   json result;
   BOOST_TEST_CONTEXT(arguments) {
-    result = json::parse(succeeds(folder, arguments + all_files + " --json"));
+    result = json::parse(succeeds(folder, arguments + all_files + " --units px --json"));
     LabelImage image = command::read_labels(folder / "l.npy");
     image.grid = Grid(image.grid.width(), image.grid.height(), axes);  // which the file does not know
     check_cells_table(folder / "c.csv", image, seeds, metric);
@@ -173,8 +173,8 @@ BOOST_AUTO_TEST_CASE(without_seeds_there_are_no_cells) {
 BOOST_AUTO_TEST_CASE(the_statistics_are_printed) {
   const TemporaryFolder folder;
   const std::string out = succeeds(folder, "cells --random 20 --size 40x30 --cells c.csv --border b.png");
-  for (const char* part : {"exact: 20 cells", "40 x 30", "mean area is 60.00", "deviation", "vertices",
-                           "pairs", "wrote c.csv\n"}) {
+  for (const char* part : {"exact: 20 cells", "40 x 30", "mean area is 60, with a deviation of", "(px)",
+                           "vertices", "pairs", "wrote c.csv\n"}) {
     BOOST_TEST(out.find(part) != std::string::npos, part);
   }
   BOOST_TEST((folder.names() == std::set<std::string>{"c.csv", "b.png"}));

@@ -178,9 +178,9 @@ BOOST_AUTO_TEST_CASE(different_scales_of_the_axes_are_warned_of) {
 
 BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
   const TemporaryFolder folder;
-  command::write_labels(folder / "a.npy", {Grid(4, 2), {1, 2, 3, 4, 5, 6, 7, 8}});
-  command::write_labels(folder / "b.tif", {Grid(4, 2), {1, 2, 3, 4, 5, 6, 9, 16777216}});
-  command::write_labels(folder / "c.npy", {Grid(2, 4), {1, 2, 3, 4, 5, 6, 7, 8}});
+  command::write_labels(folder / "a.npy", Grid(4, 2), {1, 2, 3, 4, 5, 6, 7, 8});
+  command::write_labels(folder / "b.tif", Grid(4, 2), {1, 2, 3, 4, 5, 6, 9, 16777216});
+  command::write_labels(folder / "c.npy", Grid(2, 4), {1, 2, 3, 4, 5, 6, 7, 8});
   const json result = json::parse(succeeds(folder, "compare a.npy b.tif --json"));
   BOOST_TEST(result.at("similarity") == 75);
   BOOST_TEST(result.at("different_pixels") == 2);

@@ -24,10 +24,10 @@ expect "evaluate" ev
 expect "--seeds" evaluate --se
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
-expect "viridis" render --metric manhattan --palette v
+expect "viridis viridis_r" render --metric manhattan --palette v
 expect "distance" render --color d
 expect "column:" render --color c
-expect "viridis turbo greys okabe-ito" simulate --palette ""
+expect "viridis turbo greys viridis_r turbo_r greys_r okabe-ito" simulate --palette ""
 expect "--color --color-bar" simulate --scale 0,1 --color
 expect "--method --metric" render --me
 expect "--labels" cells --lab

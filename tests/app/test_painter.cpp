@@ -36,7 +36,8 @@ struct Drawn {
   cv::Mat by(Painter& painter) const {
     MeasureBuffers buffers;
     const std::vector<std::uint32_t> no_ids;
-    Measures measures(seeds, diagram, no_ids, metric, buffers);
+    const View view = {grid, grid};
+    Measures measures(seeds, diagram, no_ids, view, metric, buffers);
     return painter.draw(measures, values);
   }
   cv::Mat with(const PictureOptions& options) const {

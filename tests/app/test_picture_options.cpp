@@ -26,6 +26,51 @@ bool same(const cv::Mat& a, const cv::Mat& b) {
 
 }  // namespace
 
+BOOST_AUTO_TEST_CASE(a_scale_may_be_of_percentiles) {
+  const ScaleEnds ends = parse_scale("2%, 98.5 %");
+  BOOST_TEST(ends.percent);
+  BOOST_TEST(ends.low == 2);
+  BOOST_TEST(ends.high == 98.5);
+  for (const char* bad : {"2%,98", "2,98%", "-1%,50%", "0%,101%", "5%,5%", "%,5%"}) {
+    check_error([&] { parse_scale(bad); }, {bad, "2%,98%"});
+  }
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,v\n5,5,0\n15,5,10\n25,5,20\n35,5,30\n45,5,1000\n");
+  const std::string points = "--points p.csv --size 50x10 --bounds 0,0,50,10 --color column:v --color-bar ";
+  // Linear between the values in order, as NumPy's percentile.
+  BOOST_TEST(same(render(folder, points + "--scale 10%,75%"), render(folder, points + "--scale 4,30")));
+  BOOST_TEST(same(render(folder, points + "--scale 0%,100%"), render(folder, points + "--scale 0,1000")));
+}
+
+BOOST_AUTO_TEST_CASE(a_logarithmic_scale_leaves_out_what_has_no_logarithm) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,v\n5,5,1\n15,5,10\n25,5,100\n35,5,0\n45,5,-7\n");
+  const std::string points =
+      "render --points p.csv --size 50x10 --bounds 0,0,50,10 --color column:v --log -o a.png ";
+  const Result result = run(folder, points);
+  BOOST_TEST(result.exit_code == 0);
+  BOOST_TEST(result.error.find("2 of 5 values are 0 or less") != std::string::npos, result.error);
+  const auto labels =
+      brute_force(Grid(50, 10), {{5, 5}, {15, 5}, {25, 5}, {35, 5}, {45, 5}}, Metric::euclidean);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  BOOST_TEST(same(cv::imread(folder / "a.png"),
+                  color_by_value(labels, Grid(50, 10), {0, 1, 2, none, none}, {0, 2}, Palette::viridis)));
+  refuses(folder, points + "--scale 0,10", usage, {"--log", "above 0"});
+  refuses(folder, points + "--palette okabe-ito", usage, {"--log", "okabe-ito"});
+  refuses(folder, random_render + "--log", usage, {"--log", "--color", "area"});
+}
+
+BOOST_AUTO_TEST_CASE(frames_are_stamped) {
+  const TemporaryFolder folder;
+  folder.file("t.lammpstrj", dump(walled_box, "id x y", {"1 2.5 5", "2 7.5 5"}, "ITEM: TIMESTEP\n4500\n"));
+  cv::Mat stamped = render(folder, "--trajectory t.lammpstrj --size 160x160");
+  draw_text(stamped, "frame 0, step 4500");
+  BOOST_TEST(same(render(folder, "--trajectory t.lammpstrj --size 160x160 --stamp"), stamped));
+  succeeds(folder, "simulate --trajectory t.lammpstrj --size 160x160 --stamp -o s%d.png");
+  BOOST_TEST(same(cv::imread(folder / "s0.png"), stamped));
+  refuses(folder, random_render + "--stamp", usage, {"--stamp", "--trajectory"});
+}
+
 BOOST_AUTO_TEST_CASE(a_scale_is_two_rising_numbers) {
   BOOST_TEST(parse_scale(" -1.5 , 2e3").low == -1.5);
   BOOST_TEST(parse_scale("-1.5,2e3").high == 2000);
@@ -118,7 +163,7 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_are_usage_errors) {
   };
   refuse("--color red", {"red", "id, distance, area, neighbours, column:NAME"});
   refuse("--color column:", {"column:NAME"});
-  refuse("--palette jet", {"jet", "viridis, turbo, greys, okabe-ito"});
+  refuse("--palette jet", {"jet", "viridis, turbo, greys, viridis_r, turbo_r, greys_r, okabe-ito"});
   refuse("--palette turbo", {"--palette", "ids", "okabe-ito"});
   refuse("--color distance --palette okabe-ito", {"okabe-ito", "distances", "continuous", "viridis"});
   refuse("--color area --palette okabe-ito", {"okabe-ito", "areas", "continuous", "viridis"});

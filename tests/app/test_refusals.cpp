@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--size 10x10 --bounds 1,0,1,9", usage, {"--bounds", "X0 < X1"});
   refuses(folder, points + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--periodic"});
   refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,0.4 --bounds 0,0,9,9", failure,
-          {"p.csv", "period in y is 0.4", "less than half a pixel"});
+          {"p.csv", "period in y is 0.4", "less than a pixel"});
   for (const char* command : {"bench --methods exact,opencv", "relax --rounds 2 --labels l.npy",
                               "simulate --frames 1 --step-length 1 --labels l%d.npy"}) {
     refuses(

@@ -42,7 +42,7 @@ TableRow statistics_on_host(int frame, const LabelImage& image, const std::optio
 }
 
 void check_statistics(const TableRow& row, const TableRow& expected) {
-  BOOST_TEST_REQUIRE(row.size() == 7u);
+  BOOST_TEST_REQUIRE(row.size() == 11u);
   for (const std::size_t exact : {0, 1, 2, 5})
     BOOST_TEST((row[exact] == expected[exact]), "column " << exact);
   for (const std::size_t near : {3, 4}) {
@@ -66,7 +66,9 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
   const Grid grid(90, 70);
   Seeds moving = Seeds::random(test_device(), grid, 120, 1);
   const Table table = read_table(folder / "s.csv");
-  BOOST_TEST(table.header == "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds");
+  BOOST_TEST(table.header ==
+             "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
+             "box_x0,box_y0,box_x1,box_y1");
   BOOST_TEST_REQUIRE(table.rows.size() == 7u);
   std::optional<LabelImage> before;
   for (int frame = 0; frame <= 6; ++frame) {
@@ -117,8 +119,9 @@ BOOST_AUTO_TEST_CASE(a_table_without_a_number_in_its_name_is_one_of_all_frames) 
 
 BOOST_AUTO_TEST_CASE(collections_have_the_time_steps_of_the_trajectory) {
   const TemporaryFolder folder;
-  const std::string trajectory = "simulate --trajectory '" VOROCL_SAMPLES
-                                 "/lj-melt.lammpstrj' --width 80 --method jfa --frames 5 --every 2 ";
+  const std::string trajectory =
+      "simulate --trajectory '" VOROCL_SAMPLES
+      "/lj-melt.lammpstrj' --units px --width 80 --method jfa --frames 5 --every 2 ";
   succeeds(folder, trajectory + "--labels f/%03d.vti --distance f/d_%d.vti --statistics s.csv");
   succeeds(folder, trajectory + "--labels l%d.npy --distance d%d.npy");
   BOOST_TEST((folder.names() == std::set<std::string>{"f", "s.csv", "l0.npy", "l2.npy", "l4.npy", "d0.npy",
@@ -170,7 +173,8 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
   }
   folder.file("t.lammpstrj", text);
   succeeds(folder,
-           "simulate --trajectory t.lammpstrj --y-down --size 20x20 --method djfa --labels l%d.npy --cells "
+           "simulate --trajectory t.lammpstrj --y-down --units px --size 20x20 --method djfa --labels "
+           "l%d.npy --cells "
            "c%d.csv "
            "--adjacency a%d.csv --distance d%d.npy --statistics s.csv");
   const Table table = read_table(folder / "s.csv");

@@ -337,3 +337,23 @@ BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
   BOOST_TEST(simulation.frame() == 4);
   BOOST_TEST(displacements == (std::vector<double>{0, 3, 6, 3}), boost::test_tools::per_element());
 }
+
+// A box that changes: the motion brings other seeds, on another grid.
+BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
+  const Grid before(40, 30), after(50, 20, Periodic::x);
+  const std::vector<Pixel> pixels = random_pixels(after, 12, 8);
+  Simulation simulation(Seeds::random(test_device(), before, 5, 1), [&](Seeds& seeds, int frame) {
+    if (frame == 1) seeds = Seeds(test_device(), after, centres(pixels));
+    return 0.0;
+  });
+  simulation.add_engine([](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    return dynamic_jump_flooding(seeds, diagram, max_displacement);
+  });
+  simulation.add_engine(
+      [](const Seeds& seeds, Diagram& diagram, double) { return exact_diagram(seeds, diagram); });
+  for (int frame = 0; frame < 3; ++frame) simulation.step();
+  BOOST_TEST(simulation.frame() == 2);
+  BOOST_TEST((simulation.diagram(0).grid() == after));
+  BOOST_TEST(simulation.diagram(1).read() == brute_force(after, pixels, Metric::euclidean));
+  BOOST_TEST(similarity(simulation.diagram(0), simulation.diagram(1)) > 99);
+}

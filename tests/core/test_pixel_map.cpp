@@ -106,14 +106,15 @@ BOOST_AUTO_TEST_CASE(a_window_knows_where_its_period_lies) {
   }
 }
 
-// Ten pixels for a period of 10.3: the last one is wider.
+// Ten pixels for a period of 10.3: positions are scaled to them about the middle, which stays where it is.
 BOOST_AUTO_TEST_CASE(a_period_is_rounded_to_whole_pixels) {
   PixelMap map({0, 0, 20, 20}, Grid(20, 20), false, false);
   map.repeat(Periodic::x, {0, 0, 10.3, 20});
   BOOST_TEST(map.domain()->width == 10);
-  BOOST_TEST((pixel(map, 10.2, 0) == std::pair(9.5, 0.5)));
-  BOOST_TEST((pixel(map, 10.4, 0) == std::pair(0.5, 0.5)));
-  BOOST_TEST((pixel(map, -1.2, 0) == std::pair(9.5, 0.5)));
+  BOOST_TEST((pixel(map, 5.14, 0) == std::pair(5.5, 0.5)));
+  BOOST_TEST((pixel(map, 9.1, 0) == std::pair(8.5, 0.5)));   // at 8.985
+  BOOST_TEST((pixel(map, 10.2, 0) == std::pair(0.5, 0.5)));  // at 10.053
+  BOOST_TEST((pixel(map, -1.2, 0) == std::pair(8.5, 0.5)));
 }
 
 BOOST_AUTO_TEST_CASE(a_period_begins_where_the_bounds_can_use_it) {
@@ -154,5 +155,9 @@ BOOST_AUTO_TEST_CASE(bounds_without_a_scale_are_refused) {
   check_error([&] { map({1, 0, 1, 2}, Grid(9, 9, Periodic::xy)); }, {"no extent in x", "periodic"});
   check_error([&] { map({1, 0, 2, 0}, Grid(9, 9, Periodic::y)); }, {"no extent in y", "periodic"});
   PixelMap zoom({0, 0, 1000, 1000}, Grid(9, 9), false, false);
-  check_error([&] { zoom.repeat(Periodic::y, {0, 0, 1000, 55}); }, {"period in y is 55", "half a pixel"});
+  check_error(
+      [&] {
+        zoom.repeat(Periodic::y, {0, 0, 1000, 55});
+      },
+      {"period in y is 55", "less than a pixel"});
 }

@@ -24,7 +24,7 @@ const LabelImage example = {Grid(5, 3),
 BOOST_AUTO_TEST_CASE(files_keep_every_label) {
   const TemporaryFolder folder;
   for (const char* name : {"a.npy", "a.tif", "a.TIFF"}) {
-    write_labels(folder / name, example);
+    write_labels(folder / name, example.grid, example.labels);
     const LabelImage read = read_labels(folder / name);
     BOOST_TEST((read.grid == example.grid), name);
     BOOST_TEST(read.labels == example.labels, name);
@@ -33,7 +33,7 @@ BOOST_AUTO_TEST_CASE(files_keep_every_label) {
 
 BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.npy", example);
+  write_labels(folder / "a.npy", example.grid, example.labels);
   const std::string content = content_of(folder / "a.npy");
   // As numpy.save() of version 1.24 makes it, to the byte.
   std::string expected("\x93NUMPY\x01\x00v\x00", 10);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
 
 BOOST_AUTO_TEST_CASE(opencv_reads_the_tiff_files) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.tif", example);
+  write_labels(folder / "a.tif", example.grid, example.labels);
   const cv::Mat image = cv::imread(folder / "a.tif", cv::IMREAD_UNCHANGED);
   BOOST_REQUIRE(image.type() == CV_32S);  // it has no unsigned type: the bits are the same
   BOOST_REQUIRE(image.size() == cv::Size(5, 3));
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(tiff_files_of_others_are_read) {
 
   // Unsigned samples: of our own file, with another value of the tag 339 (little-endian: tag, type, count,
   // value).
-  write_labels(folder / "a.tif", example);
+  write_labels(folder / "a.tif", example.grid, example.labels);
   std::string content = content_of(folder / "a.tif");
   const auto tag = content.find(std::string("\x53\x01\x03\x00\x01\x00\x00\x00\x02\x00", 10));
   BOOST_REQUIRE(tag != std::string::npos);
@@ -73,8 +73,8 @@ BOOST_AUTO_TEST_CASE(tiff_files_of_others_are_read) {
 
 BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.npy", example);
-  write_labels(folder / "a.tif", example);
+  write_labels(folder / "a.npy", example.grid, example.labels);
+  write_labels(folder / "a.tif", example.grid, example.labels);
   const std::string npy = content_of(folder / "a.npy"), tiff = content_of(folder / "a.tif");
   const auto refuses = [&](const std::string& name, const std::string& content,
                            std::initializer_list<std::string> parts) {
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   check_error([&] { read_labels(folder / "grey.tif"); }, {"grey.tif", "32-bit"});
   check_error([&] { read_labels(folder / "missing.npy"); }, {"missing.npy", "No such file"});
   check_error([&] { read_labels(folder / "missing.tif"); }, {"missing.tif", "No such file"});
-  check_error([&] { write_labels(folder / "labels.png", {Grid(1, 1), {0}}); }, {"labels.png", ".npy, .tif"});
+  check_error([&] { write_labels(folder / "labels.png", Grid(1, 1), {0}); }, {"labels.png", ".npy, .tif"});
 }
 
 BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {

@@ -111,6 +111,25 @@ BOOST_AUTO_TEST_CASE(ticks_are_at_round_values) {
       {"scale", "difference"});
 }
 
+BOOST_AUTO_TEST_CASE(a_logarithmic_bar_is_divided_by_powers_of_ten) {
+  const cv::Mat picture = grey_picture(10, 300);
+  const auto bar = [&](const Scale& scale) {
+    return with_color_bar(picture, {scale, Palette::greys, "", false, false});
+  };
+  const Found found = find(bar({1, 10000, true}), 10), linear = find(bar({0, 4}), 10);
+  BOOST_TEST_REQUIRE(found.ticks.size() == 5u);  // 1, 10, ... 10000; the other bar has them at 0, 0.5, ... 4
+  for (std::size_t i = 0; i < 5; ++i) BOOST_TEST(found.ticks[i] == linear.ticks.at(2 * i));
+  const cv::Mat strip = bar({1, 10000, true}), of_exponents = bar({0, 4});
+  for (int y = found.top; y <= found.bottom; ++y) {
+    BOOST_TEST(
+        std::abs(strip.at<cv::Vec3b>(y, found.left)[0] - of_exponents.at<cv::Vec3b>(y, found.left)[0]) <= 1);
+  }
+  BOOST_TEST(find(bar({1, 100, true}), 10).ticks.size() == 7u);  // 1, 2, 5, 10, 20, 50, 100
+  for (const Scale& scale : {Scale{3, 4, true}, {1e-9, 1e9, true}, {5, 5, true}, {0.5, 70, true}}) {
+    BOOST_TEST(bar(scale).cols > 10);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(classes_are_blocks_with_a_tick_each) {
   const ColorBar bar = {{2, 5}, Palette::okabe_ito, "type", true, false};
   const cv::Mat result = with_color_bar(grey_picture(50, 480), bar);

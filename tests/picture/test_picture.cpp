@@ -130,6 +130,46 @@ BOOST_AUTO_TEST_CASE(values_and_distances_run_through_the_palette) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_logarithmic_scale_goes_by_the_logarithms) {
+  const std::vector<std::uint32_t> labels = {0, 1, 2, 3, 4, no_label};
+  const Grid grid(6, 1);
+  const cv::Mat logarithmic =
+      color_by_value(labels, grid, {0.01, 1, 100, 0, -3}, {0.01, 100, true}, Palette::turbo);
+  const cv::Mat linear =
+      color_by_value(labels, grid, {0, 1, 2, not_a_number, not_a_number}, {0, 2}, Palette::turbo);
+  BOOST_TEST(cv::norm(logarithmic, linear, cv::NORM_INF) == 0);
+  check_error(
+      [&] {
+        color_by_value({0}, Grid(1, 1), {1}, {0, 1, true}, Palette::turbo);
+      },
+      {"logarithmic", "above 0"});
+}
+
+BOOST_AUTO_TEST_CASE(reversed_palettes_run_the_other_way) {
+  using Pair = std::pair<Palette, Palette>;
+  for (const auto& [palette, reversed] :
+       {Pair(Palette::viridis, Palette::viridis_r), Pair(Palette::turbo, Palette::turbo_r),
+        Pair(Palette::greys, Palette::greys_r)}) {
+    for (int level = 0; level < 256; ++level) {
+      const cv::Mat a = color_by_value({0}, Grid(1, 1), {level / 255.0}, {0, 1}, palette);
+      const cv::Mat b = color_by_value({0}, Grid(1, 1), {1 - level / 255.0}, {0, 1}, reversed);
+      BOOST_TEST((a.at<cv::Vec3b>(0, 0) == b.at<cv::Vec3b>(0, 0)), level);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_line_of_text_is_in_the_lower_left_corner) {
+  const cv::Mat before(100, 300, CV_8UC3, cv::Scalar::all(128));
+  cv::Mat picture = before.clone();
+  draw_text(picture, "frame 12");
+  const cv::Rect corner(0, 80, 150, 20);
+  BOOST_TEST(cv::norm(picture(corner), before(corner), cv::NORM_INF) > 90);
+  before(corner).copyTo(picture(corner));
+  BOOST_TEST(cv::norm(picture, before, cv::NORM_INF) == 0);
+  cv::Mat small(5, 7, CV_8UC3, cv::Scalar::all(128));
+  draw_text(small, "frame 12");  // what does not fit is cut off
+}
+
 BOOST_AUTO_TEST_CASE(a_value_s_colour_is_that_of_the_scale_alone) {
   const Scale scale = {10, 20};
   const auto color = [&](double value, Palette palette) {
@@ -171,18 +211,42 @@ BOOST_AUTO_TEST_CASE(round_steps_are_1_2_and_5_times_powers_of_ten) {
 }
 
 BOOST_AUTO_TEST_CASE(edges_are_the_pixels_before_another_label) {
-  const std::vector<std::uint32_t> labels = {1, 1, 2,  //
-                                             1, 3, 2,  //
-                                             1, 3, 3};
-  cv::Mat picture(3, 3, CV_8UC3, cv::Scalar(200, 200, 200));
+  constexpr int side = 10;  // of squares with one label
+  const std::uint32_t squares[3][3] = {{1, 1, 2}, {1, 3, 2}, {1, 3, 3}};
+  const bool right_edges[3][3] = {{false, true, false}, {true, true, false}, {true, false, false}};
+  const bool lower_edges[3][3] = {{false, true, false}, {false, false, true}, {false, false, false}};
+  std::vector<std::uint32_t> labels;
+  for (int i = 0; i < 9 * side * side; ++i)
+    labels.push_back(squares[i / (3 * side) / side][i % (3 * side) / side]);
+  cv::Mat picture(3 * side, 3 * side, CV_8UC3, cv::Scalar(200, 200, 200));
   draw_edges(picture, labels);
-  const bool expected[3][3] = {{false, true, false}, {true, true, true}, {true, false, false}};
-  for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 3; ++x) {
-      BOOST_TEST((brightness(picture.at<cv::Vec3b>(y, x)) < 150) == expected[y][x],
-                 "(" << x << ", " << y << ")");
+  for (int y = 0; y < 3 * side; ++y) {
+    for (int x = 0; x < 3 * side; ++x) {
+      const bool expected = (x % side == side - 1 && right_edges[y / side][x / side]) ||
+                            (y % side == side - 1 && lower_edges[y / side][x / side]);
+      BOOST_TEST((brightness(picture.at<cv::Vec3b>(y, x)) < 150) == expected, "(" << x << ", " << y << ")");
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(edges_fade_where_cells_are_small) {
+  // A checkerboard of squares, whose edges are along the sides.
+  const auto darkest = [](int side) {
+    const int cells = 6;
+    std::vector<std::uint32_t> labels;
+    for (int y = 0; y < cells * side; ++y) {
+      for (int x = 0; x < cells * side; ++x)
+        labels.push_back(static_cast<std::uint32_t>(y / side * cells + x / side));
+    }
+    cv::Mat picture(cells * side, cells * side, CV_8UC3, cv::Scalar::all(200));
+    draw_edges(picture, labels);
+    return brightness(picture.at<cv::Vec3b>(0, side - 1));
+  };
+  BOOST_TEST(darkest(1) == 600);
+  BOOST_TEST(darkest(2) == 600);
+  BOOST_TEST(darkest(3) < 600);
+  for (int side = 3; side < 8; ++side) BOOST_TEST(darkest(side + 1) < darkest(side));
+  BOOST_TEST(darkest(8) == darkest(20));
 }
 
 BOOST_AUTO_TEST_CASE(edges_lie_around_the_border) {

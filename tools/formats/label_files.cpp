@@ -22,8 +22,8 @@ LabelImage read_labels(const std::string& path) {
   return extension_of(path) == ".npy" ? read_npy_labels(path) : read_tiff_labels(path);
 }
 
-void write_labels(const OutputFile& file, const LabelImage& image) {
-  write_pixels(file, "label", image.grid, image.labels);
+void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels) {
+  write_pixels(file, "label", raster, labels);
 }
 
 }  // namespace vorocl::command

@@ -6,6 +6,7 @@
 
 #include "formats/label_image.hpp"
 #include "formats/output_file.hpp"
+#include "formats/raster.hpp"
 
 namespace vorocl::command {
 
@@ -17,6 +18,6 @@ const std::vector<std::string>& label_extensions();
 LabelImage read_labels(const std::string& path);
 
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
-void write_labels(const OutputFile& file, const LabelImage& image);
+void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
 
 }  // namespace vorocl::command

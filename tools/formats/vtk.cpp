@@ -45,13 +45,14 @@ std::string escaped(const std::string& text) {
 }  // namespace
 
 template <typename T>
-void write_vti(const OutputFile& file, const std::string& name, const Grid& grid,
+void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values) {
+  const Grid& grid = raster.grid;
   const std::string extent = fmt::format("0 {} 0 {} 0 0", grid.width(), grid.height());
   const std::string start = fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
-  <ImageData WholeExtent="{1}" Origin="0 0 0" Spacing="1 1 1">
+  <ImageData WholeExtent="{1}" Origin="{4} {5} 0" Spacing="{6} {7} 1">
     <Piece Extent="{1}">
       <CellData Scalars="{2}">
         <DataArray type="{3}" Name="{2}" format="appended" offset="0"/>
@@ -60,7 +61,8 @@ void write_vti(const OutputFile& file, const std::string& name, const Grid& grid
   </ImageData>
   <AppendedData encoding="raw">
     _)",
-      byte_order(), extent, name, type_name<T>);
+      byte_order(), extent, name, type_name<T>, raster.corner.x, raster.corner.y, raster.pixel.x,
+      raster.pixel.y);
   const std::uint64_t bytes = values.size() * sizeof(T);
   const std::size_t row_bytes = static_cast<std::size_t>(grid.width()) * sizeof(T);
   GrowingFile image(file);
@@ -74,10 +76,11 @@ void write_vti(const OutputFile& file, const std::string& name, const Grid& grid
   image.finish();
 }
 
-template void write_vti(const OutputFile&, const std::string&, const Grid&, const std::vector<std::uint8_t>&);
-template void write_vti(const OutputFile&, const std::string&, const Grid&,
+template void write_vti(const OutputFile&, const std::string&, const Raster&,
+                        const std::vector<std::uint8_t>&);
+template void write_vti(const OutputFile&, const std::string&, const Raster&,
                         const std::vector<std::uint32_t>&);
-template void write_vti(const OutputFile&, const std::string&, const Grid&, const std::vector<float>&);
+template void write_vti(const OutputFile&, const std::string&, const Raster&, const std::vector<float>&);
 
 void write_pvd(const OutputFile& file, const std::vector<TimedFile>& files) {
   GrowingFile collection(file);

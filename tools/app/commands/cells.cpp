@@ -56,13 +56,16 @@ std::vector<Output> open_outputs(const CellsOptions& options) {
 
 void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report, Measures& measures) {
   const CellStatistics statistics = measures.statistics();
+  const View& view = measures.view();
   if (options.json) {
     print_json({{"method", options.method.name},
                 {"metric", to_string(options.method_options.metric)},
                 {"device", seeds.device().name()},
-                {"width", seeds.grid().width()},
-                {"height", seeds.grid().height()},
+                {"width", view.picture.grid.width()},
+                {"height", view.picture.grid.height()},
                 {"periodic", to_string(seeds.periodic())},
+                {"area_unit", view.units.of_area()},
+                {"length_unit", view.units.of_length()},
                 {"cells", statistics.cells},
                 {"empty_cells", statistics.empty_cells},
                 {"mean_area", statistics.mean_area},
@@ -75,10 +78,11 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
     return;
   }
   print("{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, statistics.cells, seeds.grid().width(), seeds.grid().height(),
+        options.method.name, statistics.cells, view.picture.grid.width(), view.picture.grid.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
-  print("{} cells are empty; the mean area is {:.2f} pixels, with a deviation of {:.2f}\n",
-        statistics.empty_cells, statistics.mean_area, statistics.area_deviation);
+  print_empty_cells(statistics.empty_cells, statistics.cells);
+  print("the mean area is {:.6g}, with a deviation of {:.6g} ({})\n", statistics.mean_area,
+        statistics.area_deviation, view.units.area_title());
   print("{} vertices, {} pairs of cells that touch\n", measures.vertices(), measures.pair_count());
   print_written(requested_files(options));
 }
@@ -89,10 +93,10 @@ void run(const CellsOptions& options) {
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.grid);
+  Diagram diagram(device, input.view.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, options.method_options.metric, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, options.method_options.metric, buffers);
   for (const Output& output : outputs) output.kind.write(output.file, measures);
   print_result(options, seeds, report, measures);
 }
@@ -105,6 +109,7 @@ void add_cells(CommandLine& line) {
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);

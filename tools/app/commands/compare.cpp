@@ -85,17 +85,19 @@ Comparison compare_with_exact(const CompareOptions& options) {
   SeedOptions seed_options = options.seeds;
   if (!seed_options.size && seed_options.width == 0) seed_options.size = image.grid;
   const Input input = read_input(seed_options);
-  check_grids(options.a, image.grid, "the diagram of the seeds", {input.grid.width(), input.grid.height()});
+  const View& view = input.view;
+  const Grid size(view.picture.grid.width(), view.picture.grid.height());
+  check_grids(options.a, image.grid, "the diagram of the seeds", size);
 
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram exact(device, input.grid);
-  Diagram diagram(device, input.grid);
+  Diagram exact(device, input.view.grid);
+  Diagram diagram(device, input.view.grid);
   exact_diagram(seeds, exact, {options.metric});
   const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids, seeds.read());
-  diagram.write(labels);
-  Comparison comparison = compare({input.grid, labels}, {input.grid, exact.read()});
+  diagram.write(view.in_diagram(labels));
+  Comparison comparison = compare({size, labels}, {size, view.in_picture(exact.read(), no_label)});
   comparison.errors = distance_errors(seeds, diagram, exact, options.metric);
   return comparison;
 }

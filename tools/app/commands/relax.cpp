@@ -84,6 +84,8 @@ std::vector<Point> points_of(const Seeds& seeds) {
   return points;
 }
 
+std::string stamp_of_round(int round) { return fmt::format("round {}", round); }
+
 void write_energies(const OutputFile& file, const Relaxation& relaxation) {
   GrowingFile table(file);
   table << "round,energy,moved\n";
@@ -102,8 +104,8 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
     const int round = so_far.rounds();
     if (writer != nullptr) {
-      Measures measures(at, filled, input.ids, Metric::euclidean, buffers);
-      writer->add({round, round, 0}, measures, input.values);
+      Measures measures(at, filled, input.ids, input.view, Metric::euclidean, buffers);
+      writer->add({round, round, stamp_of_round(round)}, measures, input.values);
     }
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
     return !interruption.came();
@@ -114,12 +116,13 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
 void write_end(const Outputs& outputs, const RelaxOptions& options, const Input& input, const Seeds& seeds,
                const Diagram& diagram, const Relaxation& relaxation) {
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, Metric::euclidean, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, Metric::euclidean, buffers);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
   if (outputs.points) write_points(*outputs.points, points_of(seeds), input.ids);
   if (outputs.energy) write_energies(*outputs.energy, relaxation);
   if (outputs.picture) {
-    const cv::Mat picture = Painter(options.pictures.picture).draw(measures, input.values);
+    const cv::Mat picture =
+        Painter(options.pictures.picture).draw(measures, input.values, stamp_of_round(relaxation.rounds()));
     write_picture(*outputs.picture, picture);
   }
   if (outputs.rounds) outputs.rounds->finish();
@@ -150,11 +153,11 @@ void run(const RelaxOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
   refuse_window(input, "relax");
-  check_picture_size(options.pictures.picture, input.grid);
+  check_picture_size(options.pictures.picture, input.view.picture.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
-  Diagram diagram(device, input.grid);
+  Diagram diagram(device, input.view.grid);
   const Relaxation relaxation =
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
   write_end(outputs, options, input, seeds, diagram, relaxation);
@@ -172,6 +175,7 @@ void add_relax(CommandLine& line) {
   Command command = line.add("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_units_option(command, options->seeds);
   command
       .add("--rounds", options->rounds,
            "Greatest number of rounds; the relaxation ends sooner when no seed moves")

@@ -65,15 +65,21 @@ Outputs open_outputs(const RenderOptions& options) {
   return outputs;
 }
 
-void print_result(const RenderOptions& options, const Seeds& seeds, const Report& report) {
+void print_result(const RenderOptions& options, const Seeds& seeds, const Report& report,
+                  Measures& measures) {
+  const View& view = measures.view();
+  const std::size_t empty_cells = measures.statistics().empty_cells;
   if (options.json) {
     print_json({{"method", options.method.name},
                 {"metric", to_string(options.method_options.metric)},
                 {"device", seeds.device().name()},
-                {"width", seeds.grid().width()},
-                {"height", seeds.grid().height()},
+                {"width", view.picture.grid.width()},
+                {"height", view.picture.grid.height()},
                 {"periodic", to_string(seeds.periodic())},
+                {"area_unit", view.units.of_area()},
+                {"length_unit", view.units.of_length()},
                 {"seeds", seeds.alive()},
+                {"empty_cells", empty_cells},
                 {"frames", 1},
                 {"waves", report.waves()},
                 {"milliseconds", report.milliseconds()},
@@ -81,8 +87,9 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     return;
   }
   print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, seeds.alive(), seeds.grid().width(), seeds.grid().height(),
+        options.method.name, seeds.alive(), view.picture.grid.width(), view.picture.grid.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
+  print_empty_cells(empty_cells, seeds.alive());
   print_written(requested_files(options));
 }
 
@@ -90,13 +97,14 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
 /// wave. Each picture is flooded anew, by the waves so far.
 void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input, const Seeds& seeds,
                 Metric metric, Painter& painter) {
-  Diagram diagram(seeds.device(), input.grid);
+  Diagram diagram(seeds.device(), input.view.grid);
   MeasureBuffers buffers;
   Plan waves;
   for (std::size_t i = 0; i <= plan.size(); ++i) {
     flood(seeds, diagram, waves, metric);
-    Measures measures(seeds, diagram, input.ids, metric, buffers);
-    const cv::Mat picture = painter.draw(measures, input.values);
+    Measures measures(seeds, diagram, input.ids, input.view, metric, buffers);
+    const cv::Mat picture =
+        painter.draw(measures, input.values, fmt::format("{} waves of {}", i, plan.size()));
     write_picture(files.file(static_cast<int>(i)), picture);
     if (i < plan.size()) waves.push_back(plan[i]);
   }
@@ -105,25 +113,27 @@ void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input
 void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
-  check_picture_size(options.picture, input.grid);
+  check_picture_size(options.picture, input.view.picture.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.grid);
+  Diagram diagram(device, input.view.grid);
   const Report report = options.method.run(seeds, diagram, 0, options.method_options);
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, options.method_options.metric, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, options.method_options.metric, buffers);
   if (outputs.labels) labels_kind().write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
-    const cv::Mat picture = painter.draw(measures, input.values);  // first, so that the waves have its scale
+    // First, so that the waves have its scale.
+    const cv::Mat picture =
+        painter.draw(measures, input.values, stamp_of(options.seeds.frame, input.timestep));
     if (outputs.picture) write_picture(*outputs.picture, picture);
     if (outputs.waves) {
-      const Plan plan = options.method.plan(input.grid, report.waves(), options.method_options);
+      const Plan plan = options.method.plan(input.view.grid, report.waves(), options.method_options);
       draw_waves(*outputs.waves, plan, input, seeds, options.method_options.metric, painter);
     }
   }
-  print_result(options, seeds, report);
+  print_result(options, seeds, report, measures);
 }
 
 }  // namespace
@@ -133,6 +143,7 @@ void add_render(CommandLine& line) {
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
@@ -149,6 +160,9 @@ void add_render(CommandLine& line) {
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
+    if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
+      throw UsageError("--stamp needs frames: give --trajectory, or --waves");
+    }
     options->seeds.value_column = options->picture.color.column;
     run(*options);
   });

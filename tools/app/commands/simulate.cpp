@@ -124,10 +124,10 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
 void write(const SimulateOptions& options, const MovingSeeds& source, const Simulation& simulation,
            MeasureBuffers& buffers, FrameWriter& writer) {
   const int frame = simulation.frame();
-  Measures measures(simulation.seeds(), simulation.diagram(main_engine), source.ids(),
+  Measures measures(simulation.seeds(), simulation.diagram(main_engine), source.ids(), source.view(),
                     options.method_options.metric, buffers);
-  const FrameFacts facts = {frame, source.timestep().value_or(frame),
-                            simulation.report(main_engine).milliseconds()};
+  const FrameFacts facts = {frame, source.timestep().value_or(frame), stamp_of(frame, source.timestep()),
+                            simulation.report(main_engine).milliseconds(), source.box()};
   writer.add(facts, measures, source.values());
 }
 
@@ -173,15 +173,25 @@ Json range(const Samples& samples) {
                        {"greatest", value(samples, &Samples::greatest)}};
 }
 
-Json::Members json_of(const SimulateOptions& options, Simulation& simulation, const Course& course) {
+/// Of the last frame.
+std::size_t empty_cells(const Simulation& simulation) {
+  return cell_statistics(simulation.seeds(), simulation.diagram(main_engine)).empty_cells;
+}
+
+Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                      const Course& course) {
   const Seeds& seeds = simulation.seeds();
+  const View& view = source.view();
   Json::Members result = {{"method", options.method.name},
                           {"metric", to_string(options.method_options.metric)},
                           {"device", seeds.device().name()},
-                          {"width", seeds.grid().width()},
-                          {"height", seeds.grid().height()},
+                          {"width", view.picture.grid.width()},
+                          {"height", view.picture.grid.height()},
                           {"periodic", to_string(seeds.periodic())},
+                          {"area_unit", view.units.of_area()},
+                          {"length_unit", view.units.of_length()},
                           {"seeds", seeds.alive()},
+                          {"empty_cells", empty_cells(simulation)},
                           {"frames", simulation.frame()},
                           {"waves", simulation.report(main_engine).waves()},
                           {"milliseconds", simulation.milliseconds(main_engine)},
@@ -222,10 +232,13 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
         frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
 }
 
-void print_text(const SimulateOptions& options, Simulation& simulation, const Course& course) {
+void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                const Course& course) {
   const Seeds& seeds = simulation.seeds();
+  const Grid& picture = source.view().picture.grid;
   print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
-        seeds.grid().width(), seeds.grid().height(), seeds.device().name());
+        picture.width(), picture.height(), seeds.device().name());
+  print_empty_cells(empty_cells(simulation), seeds.alive());
   print_times(options.method.name, simulation, main_engine);
   if (const PlanSamples& plans = course.plans; !plans.waves.empty()) {
     print("plans: first steps {} to {}, {} to {} waves, d_max {:.4g} to {:.4g} pixels\n",
@@ -252,8 +265,8 @@ void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
   check_picture_options(options.output.picture);
   FrameWriter writer(options.output, options.other_is_exact());
-  const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion);
-  check_picture_size(options.output.picture, source->grid());
+  const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
+  check_picture_size(options.output.picture, source->view().picture.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   double displacement = 0;
@@ -265,9 +278,9 @@ void run(const SimulateOptions& options) {
                             course.frames, writer.frames()));
   }
   if (options.json) {
-    print_json(json_of(options, simulation, course));
+    print_json(json_of(options, *source, simulation, course));
   } else {
-    print_text(options, simulation, course);
+    print_text(options, *source, simulation, course);
   }
 }
 
@@ -279,6 +292,7 @@ void add_simulate(CommandLine& line) {
       line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
   add_seed_options(command, options->seeds, 1, true);
   add_motion_options(command, options->motion);
+  add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagrams");
   add_method_options(command, options->method_options);
   const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };

@@ -44,7 +44,7 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
       .add("--statistics", options.statistics_path,
            "Statistics to write, one row per frame: a .csv file with the numbers of cells and of empty "
            "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
-           "before, and the diagram's milliseconds")
+           "before, the diagram's milliseconds, and the box of a trajectory")
       .value_name("FILE");
   command.add("--every", options.every, "Write pictures and numbered files only of frames 0, K, 2 K, ...")
       .value_name("K")

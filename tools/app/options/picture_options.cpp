@@ -39,10 +39,10 @@ std::optional<double> parse_interval(const std::string& text) {
 }  // namespace
 
 void add_picture_options(Command& command, PictureOptions& options) {
-  const Choices<std::optional<Palette>> palettes = {{"viridis", Palette::viridis},
-                                                    {"turbo", Palette::turbo},
-                                                    {"greys", Palette::greys},
-                                                    {"okabe-ito", Palette::okabe_ito}};
+  const Choices<std::optional<Palette>> palettes = {
+      {"viridis", Palette::viridis},     {"turbo", Palette::turbo},     {"greys", Palette::greys},
+      {"viridis_r", Palette::viridis_r}, {"turbo_r", Palette::turbo_r}, {"greys_r", Palette::greys_r},
+      {"okabe-ito", Palette::okabe_ito}};
   command
       .add_parsed(
           "--color", options.color, parse_coloring,
@@ -54,15 +54,19 @@ void add_picture_options(Command& command, PictureOptions& options) {
       .default_text("id");
   command.add_choice(
       "--palette", options.palette, palettes,
-      "Colours of quantities (else viridis), or okabe-ito: 8 colours for whole numbers and ids, for the "
+      "Colours of quantities (else viridis), with _r reversed, or okabe-ito: 8 colours for whole numbers and "
+      "ids, for the "
       "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
       "have a colour each)");
   command
-      .add_parsed(
-          "--scale", options.scale, parse_scale,
-          "Values at the ends of the palette; those beyond get the colours of the ends. Else the range "
-          "of the picture, in a film or series of the first one drawn")
+      .add_parsed("--scale", options.scale, parse_scale,
+                  "Values at the ends of the palette, or percentiles of the picture's, such as 2%,98%; those "
+                  "beyond get "
+                  "the colours of the ends. Else the range of the picture, in a film or series of the first "
+                  "one drawn")
       .value_name("LOW,HIGH");
+  command.add("--log", options.logarithmic,
+              "Colours go by the logarithm of the quantity; values of 0 or less are left out and counted");
   command.add("--color-bar", options.color_bar, "Draw the scale at the right, with numbers");
   command.add("--edges", options.edge_width, "Draw the borders of the cells, N pixels wide")
       .value_name("[N]")
@@ -80,6 +84,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
       .value_name("[D]")
       .value_optional();
   command.add("--points-overlay", options.points_overlay, "Draw the seeds");
+  command.add("--stamp", options.stamp,
+              "Write the frame, and the time step of a trajectory, into the lower left corner");
   command.add("--enlarge", options.enlargement, "Draw each pixel as a square of K x K")
       .value_name("K")
       .in_range(1, most_enlarged)
@@ -87,8 +93,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
 }
 
 void refuse_picture_options(const Command& command, const std::string& files) {
-  for (const char* name : {"--color", "--palette", "--scale", "--color-bar", "--edges", "--contours",
-                           "--points-overlay", "--enlarge"}) {
+  for (const char* name : {"--color", "--palette", "--scale", "--log", "--color-bar", "--edges", "--contours",
+                           "--points-overlay", "--stamp", "--enlarge"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " requires " + files);
   }
 }
@@ -107,7 +113,18 @@ void check_picture_options(const PictureOptions& options) {
         "quantities; "
         "take viridis, turbo or greys");
   }
-  const char* const of_quantities = options.color_bar ? "--color-bar" : options.scale ? "--scale" : nullptr;
+  const char* const of_quantities = options.color_bar     ? "--color-bar"
+                                    : options.scale       ? "--scale"
+                                    : options.logarithmic ? "--log"
+                                                          : nullptr;
+  if (options.logarithmic && options.palette && is_categorical(*options.palette)) {
+    throw UsageError(
+        "--log is for quantities, and --palette okabe-ito for whole numbers; take viridis, turbo or greys");
+  }
+  if (options.logarithmic && options.scale && !options.scale->percent && options.scale->low <= 0) {
+    throw UsageError(
+        fmt::format("--log needs a --scale that begins above 0, and not at {}", options.scale->low));
+  }
   if (by_id && of_quantities != nullptr) {
     throw UsageError(of_quantities + std::string(" needs a --color that is a quantity: distance, area, "
                                                  "neighbours or column:NAME"));
@@ -123,15 +140,27 @@ void check_picture_size(const PictureOptions& options, const Grid& grid) {
   }
 }
 
-Scale parse_scale(const std::string& text) {
+ScaleEnds parse_scale(const std::string& text) {
+  const Error error("\"" + text +
+                    "\" must be LOW,HIGH, two numbers of which the second is greater, such as 0,100, or "
+                    "percentiles, such as 2%,98%");
   const auto comma = text.find(',');
-  const auto low = parse_number<double>(text.substr(0, comma));
-  const auto high = comma == std::string::npos ? std::nullopt : parse_number<double>(text.substr(comma + 1));
-  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high) || *low >= *high) {
-    throw Error("\"" + text +
-                "\" must be LOW,HIGH, two numbers of which the second is greater, such as 0,100");
-  }
-  return {*low, *high};
+  if (comma == std::string::npos) throw error;
+  int percents = 0;
+  const auto end = [&](std::string_view number) {
+    number = trimmed(number);
+    if (!number.empty() && number.back() == '%') {
+      ++percents;
+      number.remove_suffix(1);
+    }
+    const auto value = parse_number<double>(number);
+    if (!value || !std::isfinite(*value)) throw error;
+    return *value;
+  };
+  const std::string_view whole = text;
+  const double low = end(whole.substr(0, comma)), high = end(whole.substr(comma + 1));
+  if (low >= high || percents == 1 || (percents == 2 && (low < 0 || high > 100))) throw error;
+  return {low, high, percents == 2};
 }
 
 }  // namespace vorocl::command

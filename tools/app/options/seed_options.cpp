@@ -63,10 +63,10 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .in_range(1, Grid::max_side)
       .excludes(size);
   command
-      .add_parsed(
-          "--bounds", options.bounds, parse_bounds,
-          "Rectangle in data units that the grid shows; else each frame's own box, or the domain or the "
-          "bounding box of the points (of the first frame)")
+      .add_parsed("--bounds", options.bounds, parse_bounds,
+                  "Rectangle in data units that the grid shows; else what the boxes of all frames fill, or "
+                  "the domain or "
+                  "the bounding box of the points")
       .value_name("X0,Y0,X1,Y1");
   const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
   command
@@ -81,9 +81,13 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "part of it")
       .value_name("X0,Y0,X1,Y1")
       .default_text("the bounds");
+  Choices<std::optional<Periodic>> axes;
+  for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
+    axes.emplace_back(to_string(some), some);
+  }
   command
       .add_choice(
-          "--periodic", options.periodic, periodic_choices(),
+          "--periodic", options.periodic, axes,
           "Axes along which the plane repeats: distances go the shorter way round, cells reach across "
           "the border, and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
@@ -93,23 +97,21 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .excludes(up);
 }
 
-const Choices<Periodic>& periodic_choices() {
-  static const Choices<Periodic> choices = {
-      {"none", Periodic::none}, {"x", Periodic::x}, {"y", Periodic::y}, {"xy", Periodic::xy}};
-  return choices;
-}
-
-std::string to_string(Periodic axes) {
-  const auto has_axes = [axes](const auto& choice) { return choice.second == axes; };
-  return std::find_if(periodic_choices().begin(), periodic_choices().end(), has_axes)->first;
-}
-
 void add_frame_option(Command& command, SeedOptions& options) {
   command.add("--frame", options.frame, "Frame of the trajectory, from 0")
       .value_name("K")
       .in_range(0, std::numeric_limits<int>::max() - 1)
       .default_is_value()
       .needs("--trajectory");
+}
+
+void add_units_option(Command& command, SeedOptions& options) {
+  const Choices<std::optional<MeasureUnits>> units = {{"data", MeasureUnits::data},
+                                                      {"px", MeasureUnits::pixels}};
+  command
+      .add_choice("--units", options.units, units,
+                  "Units of areas, lengths and distances: those of the data, or pixels")
+      .default_text("data for points and trajectories, else px");
 }
 
 void add_motion_options(Command& command, MotionOptions& options) {
@@ -124,6 +126,15 @@ void add_motion_options(Command& command, MotionOptions& options) {
       .value_name("D")
       .in_range(0, Grid::max_side)
       .excludes(trajectory);
+  const Choices<Fit> fits = {{"all", Fit::all}, {"frame", Fit::frame}};
+  command
+      .add_choice(
+          "--fit", options.fit, fits,
+          "What the picture shows of a trajectory without --bounds: what the boxes of all frames fill, "
+          "with one scale, or each frame's own box, stretched onto the grid")
+      .default_text("all")
+      .needs(trajectory)
+      .excludes(command.option("--bounds"));
   const Choices<Border> borders = {{"reflect", Border::reflect}, {"periodic", Border::periodic}};
   command
       .add_choice("--border", options.border, borders,

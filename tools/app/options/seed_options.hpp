@@ -11,14 +11,13 @@ namespace vorocl::command {
 /// and what goes with them. Where seeds `move` at random, all of them have a use for the rng seed.
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least = 1, bool move = false);
 
-/// The axes of a grid by the names that --periodic and JSON give them.
-const Choices<Periodic>& periodic_choices();
-std::string to_string(Periodic axes);
-
 /// Adds --frame, for the subcommands that show one frame.
 void add_frame_option(Command& command, SeedOptions& options);
 
-/// Adds --frames, --step-length and --border.
+/// Adds --units, for the subcommands that measure.
+void add_units_option(Command& command, SeedOptions& options);
+
+/// Adds --frames, --step-length, --fit and --border.
 void add_motion_options(Command& command, MotionOptions& options);
 
 /// "WxH" to a grid. Throws Error if it is not that, or not possible.

@@ -15,44 +15,52 @@ namespace vorocl::command {
 namespace {
 
 void write_label_file(const OutputFile& file, Measures& measures) {
-  write_labels(file, measures.labels_by_id());
+  const View& view = measures.view();
+  write_labels(file, view.picture, view.in_picture(measures.labels_by_id().labels, no_label));
 }
 
-std::string row_of(const CellMeasures& cell, Metric metric) {
+std::string row_of(const CellMeasures& cell, const View& view, Metric metric) {
+  const Units& units = view.units;
   std::string extent = ",,,,,", distance;
   if (cell.sums.area > 0) {
     const Point centroid = cell.sums.centroid();
     const CellShape& shape = cell.shape;
-    extent = fmt::format("{},{},{},{},{},{}", centroid.x, centroid.y, shape.left, shape.top, shape.right,
-                         shape.bottom);
-    distance = metric == Metric::euclidean ? fmt::format("{}", std::sqrt(shape.largest_distance))
-                                           : fmt::format("{}", shape.largest_distance);
+    extent = fmt::format("{},{},{},{},{},{}", centroid.x + view.x, centroid.y + view.y, shape.left + view.x,
+                         shape.top + view.y, shape.right + view.x, shape.bottom + view.y);
+    const auto largest = static_cast<double>(shape.largest_distance);
+    distance = fmt::format("{}", units.length(metric == Metric::euclidean ? std::sqrt(largest) : largest));
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{}\n", cell.id, cell.seed.x, cell.seed.y, cell.sums.area,
-                     extent, cell.perimeter, cell.neighbours, distance, cell.shape.touches_border ? 1 : 0);
+  return fmt::format("{},{},{},{},{},{},{},{},{}\n", cell.id, cell.seed.x + view.x, cell.seed.y + view.y,
+                     units.area(cell.sums.area), extent, units.length(cell.perimeter), cell.neighbours,
+                     distance, cell.shape.touches_border ? 1 : 0);
 }
 
 void add_cells(GrowingFile& table, const std::string& first, Measures& measures) {
-  for (const CellMeasures& cell : measures.cells()) table << first << row_of(cell, measures.metric());
+  for (const CellMeasures& cell : measures.cells()) {
+    table << first << row_of(cell, measures.view(), measures.metric());
+  }
 }
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   for (const CellPair& pair : measures.pairs()) {
-    table << first << fmt::format("{},{},{}\n", pair.a, pair.b, pair.length);
+    table << first << fmt::format("{},{},{}\n", pair.a, pair.b, measures.view().units.length(pair.length));
   }
 }
 
 void write_distance_file(const OutputFile& file, Measures& measures) {
-  write_pixels(file, "distance", measures.grid(), measures.distances());
+  const View& view = measures.view();
+  const std::vector<float> distances = view.units.lengths(measures.distances());
+  write_pixels(file, "distance", view.picture, view.in_picture(distances, INFINITY));
 }
 
 void write_border_file(const OutputFile& file, Measures& measures) {
-  std::vector<std::uint8_t> borders = measures.borders();
+  const View& view = measures.view();
+  std::vector<std::uint8_t> borders = view.in_picture(measures.borders(), std::uint8_t{0});
   if (extension_of(file.path()) == ".png") {
-    const cv::Mat mask(measures.grid().height(), measures.grid().width(), CV_8U, borders.data());
+    const cv::Mat mask(view.picture.grid.height(), view.picture.grid.width(), CV_8U, borders.data());
     write_picture(file, 255 * mask);
   } else {
-    write_pixels(file, "border", measures.grid(), borders);
+    write_pixels(file, "border", view.picture, borders);
   }
 }
 
@@ -99,7 +107,7 @@ const FileKind& adjacency_kind() {
 const FileKind& distance_kind() {
   static const FileKind kind = {
       "--distance",
-      "Distances to the nearest seed, in pixels: .npy (float32), .tif (32-bit float) or .vti (y upwards "
+      "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti (y upwards "
       "from the lower left corner)",
       {".npy", ".tif", ".tiff", ".vti"},
       write_distance_file};

@@ -7,6 +7,7 @@
 
 #include "app/outputs/measures.hpp"
 #include "formats/output_file.hpp"
+#include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
 
@@ -15,14 +16,14 @@ class FrameStatistics {
   /// Throws Error if the file cannot be made there.
   explicit FrameStatistics(const std::string& path);
 
-  /// Every frame, in order; `milliseconds` is the device's time for its diagram.
-  void add(int frame, double milliseconds, Measures& measures);
+  /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
+  void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);
 
   void finish() { file_.finish(); }
 
  private:
   GrowingFile file_;
-  std::vector<std::uint32_t> last_labels_;  // by id, of the frame before; empty: there is none
+  std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 
 }  // namespace vorocl::command

@@ -67,14 +67,14 @@ bool FrameWriter::wants_images(int frame) const {
 
 void FrameWriter::add(const FrameFacts& facts, Measures& measures, const std::vector<double>& values) {
   if (wants_images(facts.frame)) write_images(facts, measures, values);
-  if (statistics_) statistics_->add(facts.frame, facts.milliseconds, measures);
+  if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, measures);
 }
 
 void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
                                const std::vector<double>& values) {
   for (const auto& files : files_) files->add(facts.frame, facts.time, measures);
   if (film_ || pictures_) {
-    const cv::Mat picture = painter_.draw(measures, values);
+    const cv::Mat picture = painter_.draw(measures, values, facts.stamp);
     if (film_) {
       film_->add(picture);
       if (film_->pictures() == 1) note_of_size(*film_, picture.size());

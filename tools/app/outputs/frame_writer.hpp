@@ -35,7 +35,9 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options);
 struct FrameFacts {
   int frame = 0;
   std::int64_t time = 0;    ///< what collections say: the time step of the trajectory, else the frame
+  std::string stamp;        ///< what is written into pictures where the options ask for it
   double milliseconds = 0;  ///< of the device, for the diagram
+  std::optional<Box> box = std::nullopt;  ///< of the trajectory
 };
 
 /// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names

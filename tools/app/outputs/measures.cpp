@@ -7,11 +7,11 @@
 namespace vorocl::command {
 
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
-                   Metric metric, MeasureBuffers& buffers)
-    : seeds_(seeds), diagram_(diagram), ids_(ids), metric_(metric), buffers_(buffers) {}
+                   const View& view, Metric metric, MeasureBuffers& buffers)
+    : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), metric_(metric), buffers_(buffers) {}
 
 const LabelImage& Measures::labels() {
-  if (!labels_) labels_ = {diagram_.grid(), diagram_.read()};
+  if (!labels_) labels_ = {view_.grid, diagram_.read()};
   return *labels_;
 }
 
@@ -28,7 +28,7 @@ const std::vector<std::optional<Point>>& Measures::seeds() {
 
 std::vector<double> Measures::areas() {
   std::vector<double> areas;
-  for (const CellSums& sums : sums_result().read()) areas.push_back(sums.area);
+  for (const CellSums& sums : sums_result().read()) areas.push_back(view_.units.area(sums.area));
   return areas;
 }
 
@@ -68,7 +68,12 @@ std::vector<CellPair> Measures::pairs() {
 
 std::size_t Measures::pair_count() { return adjacency_result().pairs(); }
 
-CellStatistics Measures::statistics() { return cell_statistics(sums_result()); }
+CellStatistics Measures::statistics() {
+  CellStatistics statistics = cell_statistics(sums_result());
+  statistics.mean_area = view_.units.area(statistics.mean_area);
+  statistics.area_deviation = view_.units.area(statistics.area_deviation);
+  return statistics;
+}
 
 const std::vector<float>& Measures::distances() {
   if (!distances_) {

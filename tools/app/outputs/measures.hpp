@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/sources/view.hpp"
 #include "formats/label_image.hpp"
 #include "vorocl/analysis.hpp"
 
@@ -33,34 +34,38 @@ struct CellMeasures {
 /// functions of the same names.
 class Measures {
  public:
-  /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. Keeps
-  /// references to all but the metric.
-  Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids, Metric metric,
-           MeasureBuffers& buffers);
+  /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. `view` says
+  /// how the diagram stands in the picture. Keeps references to all but the metric.
+  Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
+           const View& view, Metric metric, MeasureBuffers& buffers);
 
-  const Grid& grid() const { return diagram_.grid(); }
+  const View& view() const { return view_; }
   Metric metric() const { return metric_; }
+
+  // Positions and images are in pixels of the diagram, and the view brings them into the picture.
 
   /// The labels as the diagram has them, and as files have them.
   const LabelImage& labels();
   const LabelImage& labels_by_id();
 
-  /// By label, absent seeds included: where it is, as Seeds::read() gives it; the pixels of its cell; the
-  /// cells that share a pixel edge with that.
+  /// By label, absent seeds included: where it is, as Seeds::read() gives it; the area of its cell, in the
+  /// view's units; the cells that share a pixel edge with that.
   const std::vector<std::optional<Point>>& seeds();
   std::vector<double> areas();
   std::vector<double> neighbours();
 
-  /// Sorted by id; no absent seeds, and of those outside the grid only those that own pixels.
+  /// In pixels, sorted by id; no absent seeds, and of those outside the grid only those that own pixels.
   std::vector<CellMeasures> cells();
 
-  /// Sorted by a and then b, a < b.
+  /// In pixels, sorted by a and then b, a < b.
   std::vector<CellPair> pairs();
   std::size_t pair_count();
   std::size_t vertices() const { return count_vertices(diagram_); }
+
+  /// Areas in the view's units.
   CellStatistics statistics();
 
-  /// Row-major.
+  /// In pixels, row-major.
   const std::vector<float>& distances();
   std::vector<std::uint8_t> borders();
 
@@ -72,6 +77,7 @@ class Measures {
   const Seeds& seeds_;
   const Diagram& diagram_;
   const std::vector<std::uint32_t>& ids_;
+  const View& view_;
   Metric metric_;
   MeasureBuffers& buffers_;
   bool has_sums_ = false;

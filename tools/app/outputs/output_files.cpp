@@ -32,6 +32,10 @@ std::optional<OutputFile> open_output(const std::string& path) {
   return path.empty() ? std::nullopt : std::optional<OutputFile>(path);
 }
 
+void print_empty_cells(std::size_t empty, std::size_t seeds) {
+  if (empty > 0) print("{} of {} seeds share their pixel with another and have no cell\n", empty, seeds);
+}
+
 void print_written(const std::vector<RequestedFile>& files) {
   for (const RequestedFile& file : files) {
     if (!file.path.empty()) print("wrote {}\n", file.path);

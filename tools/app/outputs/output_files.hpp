@@ -24,6 +24,9 @@ void check_outputs(const std::vector<RequestedFile>& files);
 /// The file, to be written later, if it is asked for. Throws Error if it cannot be made there.
 std::optional<OutputFile> open_output(const std::string& path);
 
+/// Says on standard output how many seeds have no cell, if some do.
+void print_empty_cells(std::size_t empty, std::size_t seeds);
+
 /// Says on standard output which files were written.
 void print_written(const std::vector<RequestedFile>& files);
 

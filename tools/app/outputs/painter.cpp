@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "app/terminal/console.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -45,12 +46,33 @@ std::vector<std::optional<Point>> in_grid(std::vector<std::optional<Point>> poin
   return points;
 }
 
-std::string title_of(const Coloring& color) {
+/// Of sorted values, with linear interpolation between them.
+double percentile(const std::vector<double>& sorted, double percent) {
+  const double place = percent / 100 * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, sorted.size() - 1);
+  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
+}
+
+/// The values of the labels that an image has, each once.
+std::vector<double> shown(const std::vector<std::uint32_t>& labels, const std::vector<double>& values) {
+  std::vector<bool> is_there(values.size());
+  for (const std::uint32_t label : labels) {
+    if (label != no_label) is_there.at(label) = true;
+  }
+  std::vector<double> result;
+  for (std::size_t label = 0; label < values.size(); ++label) {
+    if (is_there[label]) result.push_back(values[label]);
+  }
+  return result;
+}
+
+std::string title_of(const Coloring& color, const Units& units) {
   switch (color.quantity) {
     case Quantity::distance:
-      return "distance (px)";
+      return fmt::format("distance ({})", units.length_title());
     case Quantity::area:
-      return "area (px)";
+      return fmt::format("area ({})", units.area_title());
     case Quantity::neighbours:
       return "neighbours";
     default:
@@ -58,17 +80,30 @@ std::string title_of(const Coloring& color) {
   }
 }
 
+/// Around the picture of a diagram it is as where there is no label.
+cv::Mat in_picture(const cv::Mat& of_diagram, const View& view, int factor) {
+  if (view.fills_picture()) return of_diagram;
+  const Grid& grid = view.picture.grid;
+  cv::Mat result(grid.height() * factor, grid.width() * factor, of_diagram.type(), cv::Scalar::all(0));
+  of_diagram.copyTo(result(cv::Rect({view.x * factor, view.y * factor}, of_diagram.size())));
+  return result;
+}
+
 }  // namespace
+
+std::string stamp_of(int frame, const std::optional<std::int64_t>& timestep) {
+  return fmt::format("frame {}", frame) + (timestep ? fmt::format(", step {}", *timestep) : "");
+}
 
 Painter::Painter(const PictureOptions& options, bool many)
     : options_(options),
       many_(many),
       palette_(options.palette.value_or(Palette::viridis)),
-      scale_(options.scale),
       contour_interval_(options.contour_interval) {}
 
-cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values) {
-  const Grid& grid = measures.grid();
+cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
+  const View& view = measures.view();
+  const Grid& grid = view.grid;
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
   if (options_.contours)
@@ -78,17 +113,20 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values) {
                grid.periodic());
   }
   if (options_.points_overlay) draw_points(picture, enlarged(in_grid(measures.seeds(), grid), enlargement));
+  picture = in_picture(picture, view, enlargement);
+  if (options_.stamp) draw_text(picture, stamp);
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
-  return with_color_bar(picture, {*scale_, palette_, title_of(options_.color), whole_values_.value_or(false),
-                                  many_ || options_.scale.has_value()});
+  return with_color_bar(picture, {*scale_, palette_, title_of(options_.color, view.units),
+                                  whole_values_.value_or(false), many_ || options_.scale.has_value()});
 }
 
 cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
-      const std::vector<float>& distances = measures.distances();
-      return color_by_distance(distances, measures.grid(), scale(range_of(distances)), palette_);
+      const std::vector<float> distances = measures.view().units.lengths(measures.distances());
+      return color_by_distance(distances, measures.view().grid, scale({distances.begin(), distances.end()}),
+                               palette_);
     }
     case Quantity::area:
       return color_by_values(measures.labels(), measures.areas());
@@ -98,8 +136,8 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
       return color_by_values(measures.labels(), values);
     default:
       const std::vector<std::uint32_t>& ids = measures.labels_by_id().labels;
-      return options_.palette ? color_by_id(ids, measures.grid(), palette_)
-                              : color_by_id(ids, measures.grid());
+      return options_.palette ? color_by_id(ids, measures.view().grid, palette_)
+                              : color_by_id(ids, measures.view().grid);
   }
 }
 
@@ -112,12 +150,32 @@ cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<doub
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(image.labels, image.grid, values, scale(range_of(image.labels, values)), palette_);
+  return color_by_value(image.labels, image.grid, values, scale(shown(image.labels, values)), palette_);
 }
 
-Scale Painter::scale(const std::optional<Scale>& range) {
-  if (!scale_) scale_ = range;
-  return scale_.value_or(Scale{});
+Scale Painter::scale(std::vector<double> shown) {
+  if (scale_) return *scale_;
+  const auto is_absent = [](double value) { return !std::isfinite(value); };
+  shown.erase(std::remove_if(shown.begin(), shown.end(), is_absent), shown.end());
+  if (options_.logarithmic) {
+    const std::size_t all = shown.size();
+    shown.erase(std::remove_if(shown.begin(), shown.end(), [](double value) { return value <= 0; }),
+                shown.end());
+    if (shown.size() < all) {
+      print_note(
+          fmt::format("{} of {} values are 0 or less; a logarithmic scale leaves them out, and they are grey",
+                      all - shown.size(), all));
+    }
+  }
+  if (options_.scale && !options_.scale->percent) {
+    scale_ = {options_.scale->low, options_.scale->high};
+  } else if (!shown.empty()) {
+    std::sort(shown.begin(), shown.end());
+    const ScaleEnds ends = options_.scale.value_or(ScaleEnds{0, 100, true});
+    scale_ = {percentile(shown, ends.low), percentile(shown, ends.high)};
+  }
+  if (scale_) scale_->logarithmic = options_.logarithmic;
+  return scale_.value_or(Scale{1, 1, options_.logarithmic});  // there is no value, or none that is shown
 }
 
 void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes) {

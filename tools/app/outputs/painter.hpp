@@ -1,6 +1,7 @@
 // Draws diagrams.
 #pragma once
 
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -19,17 +20,29 @@ struct Coloring {
   std::string column;  // its name; empty for the other quantities
 };
 
+/// The ends of a scale: values, or percentiles of those that the picture shows.
+struct ScaleEnds {
+  double low = 0;
+  double high = 1;
+  bool percent = false;
+};
+
 struct PictureOptions {
   Coloring color;
   std::optional<Palette> palette;
-  std::optional<Scale> scale;
+  std::optional<ScaleEnds> scale;
+  bool logarithmic = false;
   bool color_bar = false;
   int edge_width = 0;  // 0: no edges
   bool contours = false;
   std::optional<double> contour_interval;  // none: a round one
   bool points_overlay = false;
+  bool stamp = false;
   int enlargement = 1;  // the sides of a pixel's square in the picture
 };
+
+/// "frame 3, step 7500", or without the time step.
+std::string stamp_of(int frame, const std::optional<std::int64_t>& timestep);
 
 /// Makes one picture, or those of a film: then they share scale and contours, and have one size.
 class Painter {
@@ -37,15 +50,17 @@ class Painter {
   /// Of many, later ones may have values beyond the scale of the first: the colour bar says so.
   explicit Painter(const PictureOptions& options, bool many = false);
 
-  /// `values` are those of the value column, by label; NaN: absent. Throws Error if the options ask for
-  /// a scale or colours that the values do not allow.
-  cv::Mat draw(Measures& measures, const std::vector<double>& values);
+  /// `values` are those of the value column, by label; NaN: absent. `stamp` is written where the options ask
+  /// for it. Throws Error if they ask for a scale or colours that the values do not allow. Notes on standard
+  /// error what a logarithmic scale leaves out of the first picture.
+  cv::Mat draw(Measures& measures, const std::vector<double>& values, const std::string& stamp = "");
 
  private:
   cv::Mat color(Measures& measures, const std::vector<double>& values);
   cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);
-  /// The scale of all pictures: the option's, or else the range of the first that has one.
-  Scale scale(const std::optional<Scale>& range);
+  /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
+  /// values there.
+  Scale scale(std::vector<double> shown);
   void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes);
 
   PictureOptions options_;

@@ -11,14 +11,6 @@
 
 namespace vorocl::command {
 
-namespace {
-
-std::string describe(std::size_t index, const Point& point) {
-  return fmt::format("point {} at ({}, {})", index, point.x, point.y);
-}
-
-}  // namespace
-
 Bounds parse_bounds(const std::string& text) {
   const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1");
   std::vector<double> values;
@@ -37,20 +29,28 @@ std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
 }
 
+std::string to_string(Periodic axes) {
+  static const char* const names[] = {"none", "x", "y", "xy"};
+  return names[static_cast<std::size_t>(axes)];
+}
+
 Bounds bounding_box(const std::vector<Point>& points) {
   Bounds box{points.at(0).x, points[0].y, points[0].x, points[0].y};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point& point = points[i];
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) {
-      throw Error(describe(i, point) + " is not finite");
+      throw Error(fmt::format("point {} at ({}, {}) is not finite", i, point.x, point.y));
     }
-    box = {std::min(box.x0, point.x), std::min(box.y0, point.y), std::max(box.x1, point.x),
-           std::max(box.y1, point.y)};
+    box = joined(box, {point.x, point.y, point.x, point.y});
   }
   return box;
 }
 
-Grid grid_of_width(const Bounds& bounds, int width, Periodic periodic) {
+Bounds joined(const Bounds& a, const Bounds& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
+}
+
+Grid grid_of_width(const Bounds& bounds, int width) {
   check_bounds(bounds, Grid(1, 1));
   if (bounds.x0 == bounds.x1) {
     throw Error("the bounds " + to_string(bounds) +
@@ -62,7 +62,7 @@ Grid grid_of_width(const Bounds& bounds, int width, Periodic periodic) {
         "a width of {} makes a height of {:.0f} pixels with the bounds {}; at most {} are possible", width,
         height, to_string(bounds), Grid::max_side));
   }
-  return Grid(width, std::max(1, static_cast<int>(height)), periodic);
+  return Grid(width, std::max(1, static_cast<int>(height)));
 }
 
 bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
@@ -87,47 +87,6 @@ void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds)
       fmt::format("{} of {} points lie outside the bounds {}; they count, and --outside refuse makes them "
                   "an error",
                   outside, points, to_string(bounds)));
-}
-
-namespace {
-
-constexpr double plane_side = 2147483648.0;  // 2^31
-
-}  // namespace
-
-bool is_whole_period(const Mapping& mapping, const Grid& grid) {
-  if (!mapping.period) return true;
-  const Bounds &bounds = mapping.bounds, &period = *mapping.period;
-  const double columns = (period.x1 - period.x0) * (grid.width() / (bounds.x1 - bounds.x0));
-  const double rows = (period.y1 - period.y0) * (grid.height() / (bounds.y1 - bounds.y0));
-  return (!has_x(mapping.periodic) || std::round(columns) == grid.width()) &&
-         (!has_y(mapping.periodic) || std::round(rows) == grid.height());
-}
-
-MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Grid& grid) {
-  const Bounds& bounds = mapping.bounds;
-  PixelMap map(bounds, grid, mapping.y_up, mapping.closed);
-  map.repeat(mapping.periodic, mapping.period.value_or(bounds));
-  MappedPoints mapped;
-  mapped.pixels.reserve(points.size());
-  for (const Point& point : points) {
-    const auto refuse = [&](const std::string& why) {
-      throw Error(describe(mapped.pixels.size(), point) + " is " + why);
-    };
-    if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    const Point pixel = map.pixel(point);
-    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= plane_side - Grid::max_side) {
-      refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
-    }
-    const bool inside = grid.holds(pixel);
-    if (mapping.outside == Outside::refuse && (!inside || map.is_outside(point))) {
-      refuse("outside the bounds " + to_string(bounds));
-    }
-    mapped.outside += inside ? 0 : 1;
-    mapped.pixels.push_back(pixel);
-  }
-  if (grid.periodic() == Periodic::none) mapped.domain = map.domain();
-  return mapped;
 }
 
 }  // namespace vorocl::command

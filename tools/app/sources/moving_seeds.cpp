@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/sources/trajectory_seeds.hpp"
+#include "app/sources/trajectory_bounds.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "studies/random_motion.hpp"
 
@@ -20,7 +20,7 @@ class RandomWalk : public MovingSeeds {
     refuse_window(input_, "random motion");
   }
 
-  Grid grid() const override { return input_.grid; }
+  const View& view() const override { return input_.view; }
   Seeds place(const Device& device) const override { return input_.place(device); }
   bool next() override {
     if (frame_ == frames_) return false;
@@ -30,6 +30,7 @@ class RandomWalk : public MovingSeeds {
   double move(Seeds& seeds) const override { return motion_(seeds, frame_); }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
   const std::vector<double>& values() const override { return input_.values; }
+  std::optional<Box> box() const override { return std::nullopt; }
   std::optional<std::int64_t> timestep() const override { return std::nullopt; }
   std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
 
@@ -42,12 +43,12 @@ class RandomWalk : public MovingSeeds {
 
 class Trajectory : public MovingSeeds {
  public:
-  Trajectory(const SeedOptions& seeds, std::optional<int> frames)
-      : particles_(seeds), frames_(frames), bytes_(particles_.bytes_left()) {}
+  Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const std::optional<Bounds>& bounds)
+      : particles_(seeds, 0, motion.fit, bounds), frames_(motion.frames), bytes_(particles_.bytes_left()) {}
 
-  Grid grid() const override { return particles_.grid(); }
+  const View& view() const override { return particles_.view(); }
   Seeds place(const Device& device) const override {
-    return command::place(device, grid(), particles_.points(), particles_.domain());
+    return command::place(device, view().grid, particles_.points(), particles_.domain());
   }
   bool next() override {
     if (frame_ == frames_ || !particles_.next()) return false;
@@ -55,7 +56,9 @@ class Trajectory : public MovingSeeds {
     return true;
   }
   double move(Seeds& seeds) const override {
-    if (const auto& domain = particles_.domain()) {
+    if (particles_.has_other_grid()) {
+      seeds = place(seeds.device());
+    } else if (const auto& domain = particles_.domain()) {
       seeds.move_to(particles_.points(), *domain);
     } else {
       seeds.move_to(particles_.points());
@@ -64,6 +67,7 @@ class Trajectory : public MovingSeeds {
   }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
   const std::vector<double>& values() const override { return particles_.values(); }
+  std::optional<Box> box() const override { return particles_.box(); }
   std::optional<std::int64_t> timestep() const override { return particles_.timestep(); }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
@@ -81,8 +85,15 @@ class Trajectory : public MovingSeeds {
 
 }  // namespace
 
-std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion) {
-  if (!seeds.trajectory.empty()) return std::make_unique<Trajectory>(seeds, motion.frames);
+std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
+                                               const Interruption& interruption) {
+  if (!seeds.trajectory.empty()) {
+    check_seed_options(seeds);
+    const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
+    return std::make_unique<Trajectory>(
+        seeds, motion,
+        needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
+  }
   if (!motion.frames) throw UsageError("--frames A is required, except with --trajectory");
   if (!motion.step_length) throw UsageError("--step-length D is required, except with --trajectory");
   return std::make_unique<RandomWalk>(seeds, motion);

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
+#include "app/sources/trajectory_seeds.hpp"
+#include "app/terminal/interruption.hpp"
 #include "vorocl/motion.hpp"
 
 namespace vorocl::command {
@@ -15,12 +17,15 @@ struct MotionOptions {
   std::optional<int> frames;
   std::optional<int> step_length;
   Border border = Border::reflect;
+  Fit fit = Fit::all;  // of a trajectory
 };
 
 class MovingSeeds {
  public:
   virtual ~MovingSeeds() = default;
-  virtual Grid grid() const = 0;
+
+  /// Where the frame's diagram stands in the picture, which has one size in all frames.
+  virtual const View& view() const = 0;
 
   /// The seeds of frame 0.
   virtual Seeds place(const Device& device) const = 0;
@@ -28,7 +33,8 @@ class MovingSeeds {
   /// Makes the next motion ready; false if there is none. Throws Error if a file is bad there.
   virtual bool next() = 0;
 
-  /// Moves the seeds by it, and returns the greatest displacement along an axis, in pixels.
+  /// Moves the seeds by it, and returns the greatest displacement along an axis, in pixels. Where the
+  /// diagram's grid changes they are other seeds.
   virtual double move(Seeds& seeds) const = 0;
 
   /// The ids that labels carry, by seed; empty: the seeds' own.
@@ -36,6 +42,9 @@ class MovingSeeds {
 
   /// The values of the value column, by seed; NaN: absent.
   virtual const std::vector<double>& values() const = 0;
+
+  /// The box of the frame; none without a trajectory, or in an XYZ without a lattice.
+  virtual std::optional<Box> box() const = 0;
 
   /// What the file calls the time of the frame; none where it has no name for it.
   virtual std::optional<std::int64_t> timestep() const = 0;
@@ -45,7 +54,8 @@ class MovingSeeds {
 };
 
 /// Those of a trajectory, or seeds that move at random. Throws UsageError for options that do not go
-/// together, Error if a file is bad.
-std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion);
+/// together, Error if a file is bad or reading all of it is interrupted.
+std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
+                                               const Interruption& interruption);
 
 }  // namespace vorocl::command

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/sources/bounds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
@@ -45,36 +46,30 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   mapping.y_up = points_up(options);
   mapping.outside = options.outside.value_or(Outside::count);
   mapping.periodic = axes_of(options);
-  mapping.period = options.domain;
+  mapping.domain = options.domain;
+  mapping.in_pixels = in_pixels(options);
   return mapping;
 }
 
 Input input_from_points(const SeedOptions& options) {
-  if (!options.size && options.width == 0)
-    throw UsageError("--size WxH or --width W is required with --points");
   const auto [points, values] = read_points(options);
   try {
     const Mapping mapping = mapping_of(options, points);
-    const Grid size = options.size ? *options.size : grid_of_width(mapping.bounds, options.width);
-    Grid grid(size.width(), size.height(),
-              is_whole_period(mapping, size) ? mapping.periodic : Periodic::none);
-    MappedPoints mapped = map_points(points, mapping, grid);
-    if (mapped.outside > 0 && grid.periodic() != Periodic::none) {  // along the other axis
-      grid = size;
-      mapped = map_points(points, mapping, grid);
-    }
-    warn_of_scales(mapping.bounds, grid);
+    const Grid picture = options.size ? *options.size : grid_of_width(mapping.bounds, options.width);
+    const MappedPoints mapped = map_points(points, mapping, picture);
+    warn_of_scales(mapping.bounds, picture);
     if (mapping.periodic != Periodic::none && !options.bounds && !options.domain) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
                              to_string(mapping.bounds)));
     }
     note_outside(mapped.outside, points.size(), mapping.bounds);
-    return {
-        grid,
-        [grid, mapped](const Device& device) { return place(device, grid, mapped.pixels, mapped.domain); },
-        {},
-        values,
-        mapped.outside > 0 || mapped.domain};
+    return {mapped.view,
+            [mapped](const Device& device) {
+              return place(device, mapped.view.grid, mapped.pixels, mapped.domain);
+            },
+            {},
+            values,
+            mapped.outside > 0 || mapped.domain};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -89,7 +84,7 @@ Input input_from_mask(const SeedOptions& options) {
   }
   const Grid grid = with_axes(mask.grid, options);
   return {
-      grid,
+      {grid, grid},
       [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
       {},
       {}};
@@ -98,7 +93,7 @@ Input input_from_mask(const SeedOptions& options) {
 Input input_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
   const Grid grid = with_axes(*options.size, options);
-  return {grid,
+  return {{grid, grid},
           [grid, options](const Device& device) {
             return Seeds::random(device, grid, options.random, options.rng_seed);
           },
@@ -108,47 +103,56 @@ Input input_at_random(const SeedOptions& options) {
 
 Input input_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
-  const Grid grid = particles.grid();
-  return {grid,
-          [grid, points = particles.points(), domain = particles.domain()](const Device& device) {
+  const View& view = particles.view();
+  return {view,
+          [grid = view.grid, points = particles.points(), domain = particles.domain()](const Device& device) {
             return place(device, grid, points, domain);
           },
-          particles.ids(), particles.values(), particles.is_window()};
+          particles.ids(),
+          particles.values(),
+          particles.is_window(),
+          particles.timestep()};
 }
 
-/// What no parser can say: an option that goes with either of two others.
-void check_needs(const SeedOptions& options) {
+}  // namespace
+
+void check_seed_options(const SeedOptions& options) {
   if (options.domain && options.points.empty()) {
     throw UsageError("--domain is for --points; the domain of a trajectory is its box");
   }
   if (options.domain && axes_of(options) == Periodic::none) {
     throw UsageError("--domain needs --periodic x, y or xy");
   }
-  if (!options.points.empty() || !options.trajectory.empty()) return;
-  const char* const given = options.bounds                  ? "--bounds"
-                            : options.outside               ? "--outside"
-                            : options.width != 0            ? "--width"
-                            : options.y_up                  ? "--y-up"
-                            : options.y_down                ? "--y-down"
-                            : !options.value_column.empty() ? "--color column:NAME"
-                                                            : nullptr;
+  if (!options.points.empty() || !options.trajectory.empty()) {
+    if (options.size || options.width != 0) return;
+    throw UsageError(std::string("--size WxH or --width W is required with ") +
+                     (options.points.empty() ? "--trajectory" : "--points"));
+  }
+  const char* const given = options.bounds                        ? "--bounds"
+                            : options.outside                     ? "--outside"
+                            : options.width != 0                  ? "--width"
+                            : options.y_up                        ? "--y-up"
+                            : options.y_down                      ? "--y-down"
+                            : !options.value_column.empty()       ? "--color column:NAME"
+                            : options.units == MeasureUnits::data ? "--units data"
+                                                                  : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
 }
 
-}  // namespace
-
 void refuse_window(const Input& input, const std::string& what) {
-  if (!input.is_window) return;
-  throw Error("seeds lie outside the bounds, or these are a part of a period, which " + what +
-              " cannot take; give bounds that hold the seeds, or the whole period");
+  if (!input.is_window && input.view.fills_picture()) return;
+  throw Error("seeds lie outside the bounds, or these are a part of a period or more than the box, which " +
+              what + " cannot take; give bounds that hold the seeds, or the whole period or box");
 }
+
+bool in_pixels(const SeedOptions& options) { return options.units == MeasureUnits::pixels; }
 
 bool points_up(const SeedOptions& options) {
   return options.y_up || (!options.trajectory.empty() && !options.y_down);
 }
 
 Input read_input(const SeedOptions& options) {
-  check_needs(options);
+  check_seed_options(options);
   if (!options.trajectory.empty()) return input_from_trajectory(options);
   if (options.random > 0) return input_at_random(options);
   return options.mask.empty() ? input_from_points(options) : input_from_mask(options);

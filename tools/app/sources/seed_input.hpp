@@ -8,10 +8,14 @@
 #include <vector>
 
 #include "app/sources/bounds.hpp"
+#include "app/sources/mapping.hpp"
 #include "formats/csv.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
+
+/// The units of what is measured.
+enum class MeasureUnits { data, pixels };
 
 struct SeedOptions {
   std::size_t random = 0;  // 0: not given, as are empty names
@@ -28,22 +32,30 @@ struct SeedOptions {
   std::optional<Periodic> periodic;   // else none, or what the trajectory says
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
-  std::string value_column;  // whose values are read with the points
+  std::string value_column;           // whose values are read with the points
+  std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
 };
+
+/// What no parser can say: options that go with either of two others. Throws UsageError.
+void check_seed_options(const SeedOptions& options);
 
 /// Whether the data's y axis points up: that of a trajectory does unless the options say otherwise.
 bool points_up(const SeedOptions& options);
 
+/// Whether what is measured stays in pixels although there may be bounds.
+bool in_pixels(const SeedOptions& options);
+
 /// Seeds that were read and checked, and that a device can now be given.
 struct Input {
-  Grid grid;
+  View view;
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
   std::vector<double> values;      // of the value column, by seed; NaN: absent
-  bool is_window = false;          // seeds lie outside the grid, or it is a part of a period
+  bool is_window = false;          // seeds lie outside the picture, or what it shows is a part of a period
+  std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
 };
 
-/// Throws Error for a window; `what` ("bench") takes none.
+/// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.
 void refuse_window(const Input& input, const std::string& what);
 
 /// Seeds at these points, in a plane that repeats if there is a domain.
@@ -53,7 +65,7 @@ Seeds place(const Device& device, const Grid& grid, const std::vector<MaybePoint
   return domain ? Seeds(device, grid, pixels, *domain) : Seeds(device, grid, pixels);
 }
 
-/// Reads and checks the files. Throws Error if one is bad, UsageError where no size is given; warns on
+/// Checks the options, and reads and checks the files. Throws UsageError, Error if a file is bad; warns on
 /// standard error where the axes get different scales.
 Input read_input(const SeedOptions& options);
 

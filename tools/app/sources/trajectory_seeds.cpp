@@ -8,19 +8,22 @@
 #include <unordered_map>
 #include <utility>
 
+#include "app/sources/bounds.hpp"
 #include "app/sources/periodic_step.hpp"
 #include "app/sources/seed_input.hpp"
+#include "app/sources/trajectory_bounds.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-/// Along a periodic axis the bounds repeat.
-bool holds(const Bounds& bounds, const Point& point, const Grid& grid) {
-  return (grid.periodic_x() || (point.x >= bounds.x0 && point.x <= bounds.x1)) &&
-         (grid.periodic_y() || (point.y >= bounds.y0 && point.y <= bounds.y1));
+/// Along which axes a box, as it is drawn, repeats.
+Periodic periodic_axes(const Box& box) {
+  const bool y = box.periodic_y && box.tilt == 0;
+  if (box.periodic_x) return y ? Periodic::xy : Periodic::x;
+  return y ? Periodic::y : Periodic::none;
 }
 
 /// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
@@ -50,32 +53,32 @@ std::vector<T> by_slot(const std::vector<T>& of_particles, const std::vector<std
 
 }  // namespace
 
-TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start)
+TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
+                                 const std::optional<Bounds>& all)
     : path_(options.trajectory),
       given_bounds_(options.bounds),
+      fit_(fit),
+      fitted_(all),
       told_axes_(options.periodic),
-      outside_(options.outside.value_or(Outside::count)),
-      y_up_(points_up(options)) {
-  if (!options.size && options.width == 0) {
-    throw UsageError("--size WxH or --width W is required with --trajectory");
-  }
+      outside_is_(options.outside.value_or(Outside::count)),
+      y_up_(points_up(options)),
+      in_pixels_(in_pixels(options)) {
   reader_ = open_trajectory(path_, options.value_column);
-  std::optional<Bounds> bounds;
   while (number_ < start) {
     if (!read()) {
       throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
                               path_, start, number_));
     }
-    bounds = bounds_of_frame();
   }
-  has_domain_ = given_bounds_ && frame_.box;
-  grid_ = make_grid(options, bounds);
-  take_frame(bounds);
+  has_boxes_ = frame_.box.has_value();
+  const std::optional<Bounds> bounds = shown_bounds();
+  take_frame(bounds, make_picture(options, bounds));
+  note_of_file();
 }
 
 bool TrajectorySeeds::next() {
   if (!read()) return false;
-  take_frame(bounds_of_frame());
+  take_frame(shown_bounds(), view_->picture.grid);
   return true;
 }
 
@@ -85,41 +88,52 @@ bool TrajectorySeeds::read() {
   return true;
 }
 
-std::optional<Bounds> TrajectorySeeds::bounds_of_frame() {
+std::optional<Bounds> TrajectorySeeds::shown_bounds() {
   if (given_bounds_) return given_bounds_;
-  if (frame_.box) return Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
-  if (!first_bounds_ && !frame_.positions.empty()) first_bounds_ = bounding_box(frame_.positions);
-  return first_bounds_;
+  if (fit_ == Fit::frame) return bounds_of(frame_);
+  if (!fitted_) fitted_ = bounds_of(frame_);
+  return fitted_;
 }
 
 Periodic TrajectorySeeds::axes_of_frame() const {
-  if (told_axes_ || !frame_.box) return told_axes_.value_or(Periodic::none);
-  const bool y = frame_.box->periodic_y && frame_.box->tilt == 0;
-  if (frame_.box->periodic_x) return y ? Periodic::xy : Periodic::x;
-  return y ? Periodic::y : Periodic::none;
+  return told_axes_ || !frame_.box ? told_axes_.value_or(Periodic::none) : periodic_axes(*frame_.box);
 }
 
-void TrajectorySeeds::check_tilt() const {
+void TrajectorySeeds::note_of_file() const {
+  if (frame_.z_span > 0) {
+    print_note(fmt::format("z is left out, along which the particles of frame {} span {:.6g}", number_,
+                           frame_.z_span));
+  }
+  if (!frame_.box) return;
+  if (told_axes_ && *told_axes_ != periodic_axes(*frame_.box)) {
+    print_note(fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead",
+                           to_string(periodic_axes(*frame_.box)), to_string(*told_axes_)));
+  }
+}
+
+void TrajectorySeeds::check_tilt() {
   if (!frame_.box || frame_.box->tilt == 0) return;
   if (told_axes_ && has_y(*told_axes_)) {
-    throw Error(path_ + ": the box is tilted, so what is drawn of it repeats in x only; give --periodic x");
+    throw Error(
+        fmt::format("{}: the box of frame {} is tilted, so what is drawn of it repeats in x only; give "
+                    "--periodic x",
+                    path_, number_));
   }
-  if (!told_axes_) {
+  if (!told_axes_ && !tilt_noted_) {
     print_note("the box is tilted: the diagram is periodic in x only, and cells end at its border in y");
   }
+  tilt_noted_ = true;
 }
 
-Grid TrajectorySeeds::make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
-  check_tilt();
-  const Periodic axes = has_domain_ ? Periodic::none : axes_of_frame();
-  if (options.size) return {options.size->width(), options.size->height(), axes};
+Grid TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
+  if (options.size) return *options.size;
   if (!bounds) {
     throw Error(path_ +
                 ": the frame has neither a box nor particles to tell the height by: give --size "
                 "instead of --width, or --bounds");
   }
   try {
-    return grid_of_width(*bounds, options.width, axes);
+    return grid_of_width(*bounds, options.width);
   } catch (const Error& error) {
     throw Error(path_ + ": " + error.what());
   }
@@ -128,40 +142,41 @@ Grid TrajectorySeeds::make_grid(const SeedOptions& options, const std::optional<
 Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   Mapping mapping;
   mapping.bounds = bounds;
-  mapping.closed = !given_bounds_ || outside_ == Outside::refuse;
+  mapping.closed = !given_bounds_ || outside_is_ == Outside::refuse;
   mapping.y_up = y_up_;
-  mapping.outside = outside_;
+  mapping.outside = outside_is_;
   mapping.periodic = axes_of_frame();
-  if (has_domain_ && frame_.box) {
-    mapping.period = Bounds{frame_.box->x0, frame_.box->y0, frame_.box->x1, frame_.box->y1};
-  } else if (has_domain_ && mapping.periodic != Periodic::none) {
+  mapping.in_pixels = in_pixels_;
+  if (const std::optional<Box>& box = frame_.box) {
+    mapping.domain = bounds_of(frame_);
+    mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
+  } else if (given_bounds_ && has_boxes_ && mapping.periodic != Periodic::none) {
     throw Error("there is no box to say what repeats along the axes of --periodic; give --periodic none");
   }
   return mapping;
 }
 
-void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
-  if (!has_domain_ && axes_of_frame() != grid_->periodic()) {
-    throw Error(
-        fmt::format("{}: the box of frame {} is periodic along other axes than that of the first frame; "
-                    "give --periodic none, x, y or xy for all frames",
-                    path_, number_));
-  }
-  MappedPoints mapped;
+void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) {
+  if (!scales_checked_ || fit_ == Fit::frame) warn_of_scales(bounds, view_->picture.grid);
+  if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds);
+  scales_checked_ = true;
+}
+
+void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid& picture) {
+  check_tilt();
+  MappedPoints mapped{{picture, picture}, {}, {}};
   Periods periods;
   if (bounds) {
-    const bool must_be_inside = outside_ == Outside::refuse || grid_->periodic() != Periodic::none;
-    if (must_be_inside && !has_domain_) check_inside(*bounds);
     try {
-      mapped = map_points(frame_.positions, mapping_of_frame(*bounds), *grid_);
+      mapped = map_points(frame_.positions, mapping_of_frame(*bounds), picture, frame_.ids);
     } catch (const Error& error) {
       throw Error(fmt::format("{}: frame {}: {}", path_, number_, error.what()));
     }
-    if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, *grid_, y_up_);
-    if (!scales_checked_) warn_of_scales(*bounds, *grid_);
-    if (!scales_checked_ && given_bounds_) note_outside(mapped.outside, frame_.ids.size(), *bounds);
-    scales_checked_ = true;
+    if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, picture, y_up_);
   }
+  has_other_grid_ = view_ && view_->grid != mapped.view.grid;
+  view_ = mapped.view;
+  if (bounds) note_of_scales(*bounds, mapped.outside);
   const std::vector<Point>& pixels = mapped.pixels;
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
@@ -170,28 +185,16 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds) {
     const std::uint32_t slot = slots_.of_ids()[i];
     points[slot] = pixels[i];
     // A slot that was taken holds the same particle still.
-    if (slot < points_.size() && points_[slot]) {
+    if (!has_other_grid_ && slot < points_.size() && points_[slot]) {
       max_displacement_ = std::max(max_displacement_, displacement(*points_[slot], pixels[i], periods));
     }
   }
   points_ = std::move(points);
   domain_ = mapped.domain;
-  outside_grid_ = mapped.outside;
+  outside_ = mapped.outside;
   const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
   values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());
-}
-
-void TrajectorySeeds::check_inside(const Bounds& bounds) const {
-  for (std::size_t i = 0; i < frame_.positions.size(); ++i) {
-    const Point& point = frame_.positions[i];
-    if (holds(bounds, point, *grid_)) continue;
-    throw Error(
-        fmt::format("{}: particle {} of frame {} is at ({}, {}), outside the {} {}; give --bounds "
-                    "X0,Y0,X1,Y1 that hold the particles of all frames",
-                    path_, frame_.ids[i], number_, point.x, point.y,
-                    given_bounds_ ? "bounds" : "bounding box of the first frame,", to_string(bounds)));
-  }
 }
 
 }  // namespace vorocl::command

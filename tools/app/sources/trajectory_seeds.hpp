@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/sources/bounds.hpp"
+#include "app/sources/mapping.hpp"
 #include "app/sources/particle_slots.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
@@ -16,28 +16,42 @@ namespace vorocl::command {
 
 struct SeedOptions;
 
+/// What a picture of many frames shows where no bounds are given.
+enum class Fit {
+  all,   ///< the bounds of all frames, with one scale
+  frame  ///< each frame's own, stretched onto the picture
+};
+
 /// Holds one frame: memory does not grow with the number of frames.
 class TrajectorySeeds {
  public:
-  /// Reads the first frames, up to the one to start from. Throws UsageError where no size is given, Error if
-  /// the file is bad or has fewer frames; warns on standard error where the axes get different scales, and
-  /// notes there which periodic axes of the box are left out.
-  explicit TrajectorySeeds(const SeedOptions& options, int start = 0);
+  /// Reads the first frames, up to the one to start from. `all` are the bounds of all frames, else those of
+  /// the first that has some. Throws Error if the file is bad or has fewer frames; warns on standard error
+  /// where the axes get different scales, and notes there what of the box is left out.
+  explicit TrajectorySeeds(const SeedOptions& options, int start = 0, Fit fit = Fit::all,
+                           const std::optional<Bounds>& all = std::nullopt);
 
-  const Grid& grid() const { return *grid_; }
+  /// Where the frame's diagram stands in the picture, which has one size in all frames.
+  const View& view() const { return *view_; }
 
   /// Reads the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is
-  /// bad, has a particle outside the bounds, or has other periodic axes.
+  /// bad, or has a particle outside the bounds where that is refused.
   bool next();
 
-  /// The seeds of the frame, by slot, to move_to() from.
+  /// Whether next() has changed the grid of the diagram.
+  bool has_other_grid() const { return has_other_grid_; }
+
+  /// The seeds of the frame, by slot, in pixels of the diagram's grid.
   const std::vector<std::optional<Point>>& points() const { return points_; }
 
   /// Where the frame's box repeats, if the grid does not say it.
   const std::optional<Domain>& domain() const { return domain_; }
 
-  /// Whether particles lie outside the grid, or there is a domain.
-  bool is_window() const { return outside_grid_ > 0 || domain_; }
+  /// Whether particles lie outside the picture, or there is a domain.
+  bool is_window() const { return outside_ > 0 || domain_; }
+
+  /// The frame's box; none in an XYZ without a lattice.
+  const std::optional<Box>& box() const { return frame_.box; }
 
   /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
   /// whose label the pixels carry, has the lowest id.
@@ -46,8 +60,8 @@ class TrajectorySeeds {
   /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
   const std::vector<double>& values() const { return values_; }
 
-  /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels;
-  /// the shorter way round where the box is periodic.
+  /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
+  /// the diagram's grid, and 0 if that is another one; the shorter way round where the box is periodic.
   double max_displacement() const { return max_displacement_; }
 
   /// The frame's time step, where the file has one.
@@ -58,33 +72,38 @@ class TrajectorySeeds {
 
  private:
   bool read();
-  /// None for a frame that has neither a box nor particles.
-  std::optional<Bounds> bounds_of_frame();
+  /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
+  std::optional<Bounds> shown_bounds();
   /// Along which axes the frame's box, as it is drawn, repeats, or the bounds where there is no box.
   Periodic axes_of_frame() const;
-  void check_tilt() const;
+  void note_of_file() const;
+  void check_tilt();
   Mapping mapping_of_frame(const Bounds& bounds) const;
-  Grid make_grid(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
-  void take_frame(const std::optional<Bounds>& bounds);
-  void check_inside(const Bounds& bounds) const;
+  Grid make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
+  void note_of_scales(const Bounds& bounds, std::size_t outside);
+  void take_frame(const std::optional<Bounds>& bounds, const Grid& picture);
 
   std::string path_;
   std::unique_ptr<TrajectoryReader> reader_;
   std::optional<Bounds> given_bounds_;
-  std::optional<Bounds> first_bounds_;  // for frames without a box
-  std::optional<Grid> grid_;            // set by the constructor
-  std::optional<Periodic> told_axes_;   // by the caller, not by the file
-  Outside outside_;
-  bool has_domain_ = false;  // the bounds are given, and the frame's box is what repeats
+  Fit fit_;
+  std::optional<Bounds> fitted_;       // the same for all frames
+  std::optional<Periodic> told_axes_;  // by the caller, not by the file
+  Outside outside_is_;
   bool y_up_;
+  bool in_pixels_;
+  bool has_boxes_ = false;  // the first frame has one
+  bool tilt_noted_ = false;
   bool scales_checked_ = false;
 
   Frame frame_;
   int number_ = -1;
+  std::optional<View> view_;  // set by the constructor
+  bool has_other_grid_ = false;
   ParticleSlots slots_;
   std::vector<std::optional<Point>> points_;
   std::optional<Domain> domain_;
-  std::size_t outside_grid_ = 0;  // particles of the frame
+  std::size_t outside_ = 0;  // particles of the frame
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
   double max_displacement_ = 0;

@@ -31,7 +31,8 @@ std::size_t printable_bytes(std::string_view text) {
 }
 
 void print_line(const char* kind, const std::string& text) {
-  print_on_standard_error(fmt::format("vorocl: {}: {}\n", kind, printable(text)));
+  const char* const start = isatty(STDERR_FILENO) != 0 ? erase_line : "";
+  print_on_standard_error(fmt::format("{}vorocl: {}: {}\n", start, kind, printable(text)));
 }
 
 /// Does what prints, if there is memory for it.

@@ -27,7 +27,11 @@ void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
 /// Throws Error unless all that was printed on standard output has arrived.
 void flush_standard_output();
 
-/// Print on standard error, if that is possible: nothing depends on it.
+/// Goes to the start of a terminal's line, and erases it.
+constexpr const char* erase_line = "\r\x1b[K";
+
+/// Print on standard error, if that is possible: nothing depends on it. On a terminal a note takes the place
+/// of a progress bar.
 void print_note(const std::string& text) noexcept;
 void print_warning(const std::string& text) noexcept;
 void print_error(const std::exception& error) noexcept;

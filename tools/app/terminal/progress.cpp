@@ -14,7 +14,6 @@ namespace {
 
 constexpr int bar_width = 24;
 constexpr double redraw_interval = 0.1;  // in seconds
-const char* const erase_line = "\r\x1b[K";
 
 std::string duration(double seconds) {
   const auto whole = static_cast<long long>(std::ceil(seconds));

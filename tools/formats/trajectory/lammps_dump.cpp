@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,11 +41,11 @@ RowLayout parse_columns(const LineReader& lines, std::string_view text, const st
     return static_cast<std::size_t>(found - columns.begin());
   };
   // All of these lead to the same positions; where there are several, the plain ones lost the least.
-  for (const auto& [x_name, y_name, scaled] :
-       {std::tuple("x", "y", false), {"xs", "ys", true}, {"xu", "yu", false}, {"xsu", "ysu", true}}) {
-    const auto x = find(x_name);
-    const auto y = find(y_name);
-    if (x && y) return {columns.size(), false, *x, *y, find("id"), scaled, value};
+  for (const auto& [ending, scaled] :
+       {std::pair("", false), std::pair("s", true), std::pair("u", false), std::pair("su", true)}) {
+    const auto x = find(std::string("x") + ending), y = find(std::string("y") + ending);
+    if (x && y)
+      return {columns.size(), false, *x, *y, find(std::string("z") + ending), find("id"), scaled, value};
   }
   throw lines.error("the columns name no position; write the dump with x y, xs ys, xu yu or xsu ysu");
 }
@@ -171,7 +170,7 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
   if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
     throw lines_.error("the box is tilted in z (xz, yz); only a tilt xy can be drawn in the plane");
   }
-  return SimulationBox(lines_, x_axis, y_axis, tilt);
+  return SimulationBox(lines_, x_axis, y_axis, z[1] - z[0], tilt);
 }
 
 }  // namespace vorocl::command

@@ -127,6 +127,7 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
     frame.positions.push_back(row.position);
     if (layout.value) frame.values.push_back(row.value);
   }
+  frame.z_span = rows_.empty() ? 0 : z_span(layout.scaled ? box->depth() : 1);
   frame.box = box ? std::optional<Box>(box->extent()) : std::nullopt;
 }
 
@@ -141,12 +142,14 @@ ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& 
   }
   std::string_view x;
   std::string_view y;
+  std::string_view z;
   std::string_view id;
   std::string_view value;
   std::size_t fields = 0;
   for (std::string_view field = take_field(rest); !field.empty(); field = take_field(rest)) {
     if (fields == layout.x) x = field;
     if (fields == layout.y) y = field;
+    if (fields == layout.z) z = field;
     if (fields == layout.id) id = field;
     if (fields == layout.value) value = field;
     ++fields;
@@ -158,7 +161,14 @@ ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& 
   return {layout.id ? parse_id(lines, id) : number,
           number,
           {take_real(lines, x, "a finite x"), take_real(lines, y, "a finite y")},
+          parse_number<double>(z).value_or(0),
           layout.value ? parse_value(lines, value) : 0};
+}
+
+double ParticleRows::z_span(double unit) const {
+  const auto [lowest, highest] =
+      std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.z < b.z; });
+  return (highest->z - lowest->z) * unit;
 }
 
 void ParticleRows::sort(const LineReader& lines, std::size_t first_line) {

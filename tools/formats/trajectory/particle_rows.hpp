@@ -27,8 +27,9 @@ struct RowLayout {
   bool may_have_more = false;  ///< whether a row may have more fields than these
   std::size_t x = 0;
   std::size_t y = 0;
+  std::optional<std::size_t> z;
   std::optional<std::size_t> id;  ///< where there is none, the row's number from 0 is the id
-  bool scaled = false;            ///< x and y are in lengths of the box's edges
+  bool scaled = false;            ///< x, y and z are in lengths of the box's edges
   std::optional<std::size_t> value;
 };
 
@@ -58,10 +59,13 @@ class ParticleRows {
     std::uint32_t id;
     std::uint32_t number;  // from 0
     Point position;
+    double z;
     double value;
   };
 
   Row parse(const LineReader& lines, const RowLayout& layout, const ParticleCount& count) const;
+  /// Of one row or more.
+  double z_span(double unit) const;
   void sort(const LineReader& lines, std::size_t first_line);
 
   std::vector<Row> rows_;

@@ -79,8 +79,13 @@ void hold(const LineReader& lines, std::uint32_t id, const Axis& axis, char name
 
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
-SimulationBox::SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double tilt)
-    : x_(x), y_(y), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
+SimulationBox::SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double depth, double tilt)
+    : x_(x), y_(y), depth_(depth), tilt_(tilt), box_{x.low,        y.low,        x.high, y.high,
+                                                     x.periodic(), y.periodic(), tilt} {
+  box_.open_x0 = x.sides.first == Side::open;
+  box_.open_x1 = x.sides.second == Side::open;
+  box_.open_y0 = y.sides.first == Side::open;
+  box_.open_y1 = y.sides.second == Side::open;
   check(lines, x, 'x');
   check(lines, y, 'y');
   if (x.periodic() && y.periodic()) return;
@@ -123,7 +128,7 @@ SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point 
   }
   const Axis x_axis{origin.x, origin.x + a[0], x};
   const Axis y_axis{origin.y, origin.y + b[1], y};
-  return SimulationBox(lines, x_axis, y_axis, b[0]);
+  return SimulationBox(lines, x_axis, y_axis, c[2], b[0]);
 }
 
 }  // namespace vorocl::command

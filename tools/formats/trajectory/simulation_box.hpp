@@ -30,8 +30,9 @@ struct Axis {
 class SimulationBox {
  public:
   /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
-  /// tilt where not both axes are periodic: only then a rectangle holds the same particles.
-  SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double tilt = 0);
+  /// tilt where not both axes are periodic: only then a rectangle holds the same particles. `depth` is its
+  /// length in z.
+  SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double depth, double tilt = 0);
 
   /// A position given in lengths of the edges, in data units.
   Point from_scaled(Point scaled) const;
@@ -41,12 +42,15 @@ class SimulationBox {
   /// wall.
   Point place(const LineReader& lines, std::uint32_t id, Point position);
 
+  double depth() const { return depth_; }
+
   /// The rectangle that holds all particles placed so far.
   const Box& extent() const { return box_; }
 
  private:
   Axis x_;
   Axis y_;
+  double depth_;
   double tilt_;
   Box box_;
 };

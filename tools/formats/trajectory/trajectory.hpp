@@ -22,6 +22,8 @@ struct Box {
   /// How far the copy of the box above it (at greater y) is shifted in x. Only where both axes are periodic:
   /// a tilted box is drawn as the rectangle that holds the same particles.
   double tilt = 0;
+  /// Sides that give way to particles: shrink-wrapped ones. Beyond the others there is nothing.
+  bool open_x0 = false, open_y0 = false, open_x1 = false, open_y1 = false;
 };
 
 /// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on
@@ -33,6 +35,7 @@ struct Frame {
   /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);
   /// elsewhere the box holds it, grown where the file's box is no wall.
   std::vector<Point> positions;
+  double z_span = 0;           ///< how far the particles lie apart along z; 0 where the file has no z
   std::vector<double> values;  ///< of the value column, in the order of the ids; empty without one
 };
 

@@ -136,6 +136,7 @@ RowLayout parse_properties(const LineReader& lines, std::string_view text, const
       has_position = true;
       layout.x = layout.fields;
       layout.y = layout.fields + 1;
+      if (*count > 2) layout.z = layout.fields + 2;
     }
     if (parts[i] == "id" && *count == 1) layout.id = layout.fields;
     layout.fields += *count;
@@ -155,6 +156,7 @@ RowLayout parse_layout(const LineReader& lines, const Pairs& pairs, const std::s
   layout.may_have_more = true;
   layout.x = 1;
   layout.y = 2;
+  layout.z = 3;
   layout.value = find_value_column(lines, {{"species"}, {"x"}, {"y"}, {"z"}}, value_column);
   return layout;
 }
