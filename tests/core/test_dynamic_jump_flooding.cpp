@@ -337,3 +337,22 @@ BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
   BOOST_TEST(simulation.frame() == 4);
   BOOST_TEST(displacements == (std::vector<double>{0, 3, 6, 3}), boost::test_tools::per_element());
 }
+
+BOOST_AUTO_TEST_CASE(a_skipped_frame_moves_the_seeds_alone) {
+  std::vector<double> displacements;
+  const auto exact = [&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    displacements.push_back(max_displacement);
+    return exact_diagram(seeds, diagram);
+  };
+  Simulation all = random_walk(Grid(30, 20), 9, 3), last = random_walk(Grid(30, 20), 9, 3);
+  all.add_engine(exact);
+  last.add_engine(exact);
+  for (int frame = 0; frame <= 4; ++frame) all.step();
+  displacements.clear();
+  for (int frame = 0; frame < 4; ++frame) last.skip();
+  BOOST_TEST(last.frame() == 3);
+  BOOST_TEST(displacements.empty());
+  last.step();
+  BOOST_TEST((last.diagram().read() == all.diagram().read()));
+  BOOST_TEST(displacements == std::vector<double>{12}, boost::test_tools::per_element());
+}

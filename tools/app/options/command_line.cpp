@@ -1,6 +1,7 @@
 #include "app/options/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/terminal/usage_error.hpp"
 
@@ -123,6 +124,17 @@ Command Command::add_group(const std::string& name, const std::string& about, st
 Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
 
 bool Command::has(const std::string& name) const { return app_->count(name) > 0; }
+
+std::string Command::given(const std::vector<std::string>& others) const {
+  const auto is_meant = [&others](const CLI::Option* option) {
+    return option->count() > 0 && std::find(others.begin(), others.end(), option->get_name()) == others.end();
+  };
+  std::string lines;
+  for (const CLI::Option* const option : app_->get_options(is_meant)) {
+    lines += option->get_name() + " " + CLI::detail::join(option->results(), ",") + "\n";
+  }
+  return lines;
+}
 
 void Command::set_work(const std::function<void()>& work) { app_->callback(work); }
 

@@ -7,9 +7,9 @@
 
 namespace vorocl::command {
 
-FrameStatistics::FrameStatistics(const std::string& path) : file_(path) {
-  file_ << "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds\n";
-}
+FrameStatistics::FrameStatistics(const std::string& path, Journal* journal)
+    : file_(open_table(path, "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds",
+                       journal)) {}
 
 void FrameStatistics::add(int frame, double milliseconds, Measures& measures) {
   const CellStatistics statistics = measures.statistics();
@@ -21,8 +21,8 @@ void FrameStatistics::add(int frame, double milliseconds, Measures& measures) {
                                                    std::size_t{0}, std::plus<>(), std::not_equal_to<>()));
   }
   last_labels_ = labels;
-  file_ << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
-                       statistics.mean_area, statistics.area_deviation, changed, milliseconds);
+  *file_ << fmt::format("{},{},{},{},{},{},{:.6f}\n", frame, statistics.cells, statistics.empty_cells,
+                        statistics.mean_area, statistics.area_deviation, changed, milliseconds);
 }
 
 }  // namespace vorocl::command

@@ -41,6 +41,9 @@ class Painter {
   /// a scale or colours that the values do not allow.
   cv::Mat draw(Measures& measures, const std::vector<double>& values);
 
+  /// Whether the next picture would be the same without those that were drawn before.
+  bool is_independent() const;
+
  private:
   cv::Mat color(Measures& measures, const std::vector<double>& values);
   cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);
