@@ -18,7 +18,7 @@ targets=fuzz_readers
 [[ " $* " != *" command_line "* ]] || targets+=" fuzz_command_line"
 cmake --build "$build" --target $targets >"$build/build.log" || { tail -n 40 "$build/build.log"; exit 1; }
 
-work=$(mktemp -d)
+work=$(TMPDIR=$([ -w /dev/shm ] && echo /dev/shm || echo /tmp) mktemp -d)  # in memory: each input is a file
 trap 'rm -rf "$work"' EXIT
 fuzz_one() { # TARGET
   local target=$1 log=$work/$1.log
