@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
 """Plants mistakes in the sources, one at a time, and runs the tests that are to notice them.
 
-    mutate.py kernels|host [--count N] [--first I] [--build BUILD] [--report FILE]
+    mutate.py kernels|host [--count N] [--first I] [--build BUILD] [--limit LIMIT] [--report FILE]
 
 A mistake ("mutant") changes one operator, number or word of a line. Which ones there are follows from the sources
 alone; N of them are taken, spread over the files, and --first goes on behind those that were tried before.
 kernels: the tests read them from a copy of the folder (VOROCL_KERNEL_DIR), so that nothing is built; a mutant that
 the tests pass runs under Oclgrind, too. host: each mutant is built in a copy of the project.
 
-A mutant is killed by a test that fails, crashes, or takes ten times as long; by the compiler; or it survives. Each
-test must pass without one, which is tried before it is first needed. Prints a line for each, and appends it to the
-report, a CSV file. BUILD, by default build/, is one with the tests.
+A mutant is killed by a test that fails, crashes, or takes more than LIMIT seconds; by the compiler; or it survives.
+Prints a line for each, and appends it to the report, a CSV file. BUILD, by default build/, is one whose tests pass.
 """
 import argparse
 import csv
@@ -44,8 +43,8 @@ OPERATORS = [
 GROUP = ["test_group_shape", "test_exact_diagram -- group", "test_window -- group"]
 EXACT = ["check", "test_window", "test_exact_diagram"]
 FLOODING = ["check", "test_jump_flooding", "test_standard_flooding", "test_dynamic_jump_flooding"]
-MEASURES = ["test_similarity", "test_cells", "test_fields", "test_adjacency", "test_distance_errors",
-            "test_window_measures", "test_relaxation"]
+MEASURES = ["test_c_api_measures", "test_similarity", "test_window_measures", "test_fields", "test_cells",
+            "test_relaxation", "test_adjacency", "test_distance_errors"]
 KERNEL_TESTS = [
     ("exact/group/*", GROUP), ("exact/*", EXACT),
     ("jump_flooding.cl", FLOODING), ("wave.cl", FLOODING), ("standard_flooding.cl", FLOODING),
@@ -54,8 +53,8 @@ KERNEL_TESTS = [
     ("vector.cl", FLOODING + MEASURES), ("seeds.cl", FLOODING + ["test_seeds", "test_method"]),
     ("philox.cl", ["test_seeds", "test_motion"]), ("motion.cl", ["test_motion", "test_seeds"]),
     ("plane*", ["test_window", "test_window_measures"]),
-    ("adjacency.cl", ["test_adjacency", "test_window_measures"]), ("runs.cl", ["test_cells", "test_adjacency"] + MEASURES),
-    ("vertices.cl", ["test_adjacency", "test_window_measures"]), ("*", MEASURES),
+    ("adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("runs.cl", MEASURES),
+    ("vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
 ]
 
 # By source: names of tests.
@@ -117,44 +116,28 @@ def line_of(text, place):
     return number, text.splitlines()[number - 1].strip()
 
 
-class Runs:
-    """Runs programs until they end, fail for the first time, or take too long."""
-
-    def __init__(self):
-        self.usual = {}  # seconds by command
-
-    def check(self, command, cwd, environment):
-        """Once for each command, without a mutant: it must pass, and tells how long it takes."""
-        if tuple(command) in self.usual:
-            return
-        begin = time.monotonic()
-        how = self.failure(command, cwd, environment, 3600)
-        if how:
-            sys.exit(f"{' '.join(command)} {how} without a mutant")
-        self.usual[tuple(command)] = time.monotonic() - begin
-
-    def failure(self, command, cwd, environment, limit=None):
-        begin = time.monotonic()
-        limit = limit or 10 * self.usual[tuple(command)] + 20
-        with tempfile.TemporaryFile("w+") as output:
-            process = subprocess.Popen(command, cwd=cwd, env=environment, stdout=output, stderr=subprocess.STDOUT,
-                                       start_new_session=True)
-            while process.poll() is None and time.monotonic() - begin < limit:
-                time.sleep(0.05)
-                output.seek(0)
-                if ": error: in " in output.read():
-                    break
-            ended = process.poll()
-            if ended is None:
-                os.killpg(process.pid, signal.SIGKILL)
-                process.wait()
+def failure(command, cwd, environment, limit):
+    """How a program ends that is stopped when a test fails, or after so many seconds; empty if all is well."""
+    begin = time.monotonic()
+    with tempfile.TemporaryFile("w+") as output:
+        process = subprocess.Popen(command, cwd=cwd, env=environment, stdout=output, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
+        text = ""
+        while process.poll() is None and time.monotonic() - begin < limit and "error: in " not in text:
+            time.sleep(0.05)
             output.seek(0)
             text = output.read()
-        if ": error: in " in text or (ended or 0) > 0:
-            return "fails"
+        ended = process.poll()
         if ended is None:
-            return "takes too long"
-        return "crashes" if ended < 0 else ""
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+        output.seek(0)
+        text = output.read()
+    if "error: in " in text or (ended or 0) > 0:
+        return "fails"
+    if ended is None:
+        return "takes too long"
+    return "crashes" if ended < 0 else ""
 
 
 def first_that(patterns, name):
@@ -162,14 +145,13 @@ def first_that(patterns, name):
 
 
 class Kernels:
-    def __init__(self, build, work):
-        self.build, self.folder, self.runs = build, work / "kernels", Runs()
+    def __init__(self, build, work, limit):
+        self.build, self.folder, self.limit = build, work / "kernels", limit
         shutil.copytree(ROOT / "kernels", self.folder)
         # Sizes of lists are knobs, which change no result.
         self.files = sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*.cl")
                             if not re.fullmatch("sizes|short_.*", path.stem))
         self.environment = dict(os.environ, VOROCL_KERNEL_DIR=str(self.folder))
-        self.environment_before = dict(os.environ, VOROCL_KERNEL_DIR=str(ROOT / "kernels"))
 
     def command(self, test):
         if test == "check":
@@ -179,19 +161,17 @@ class Kernels:
 
     def verdict(self, name, work):
         for test in first_that(KERNEL_TESTS, name):
-            self.runs.check(self.command(test), work, self.environment_before)
-            how = self.runs.failure(self.command(test), work, self.environment)
+            how = failure(self.command(test), work, self.environment, self.limit)
             if how:
                 return f"{test} {how}"
         check = [str(ROOT / "tools/check_kernels.sh"), str(self.build / "tests/core/run_kernels")]
-        self.runs.check(check, work, self.environment_before)
-        return "Oclgrind" if self.runs.failure(check, work, self.environment) else ""
+        return "Oclgrind" if failure(check, work, self.environment, self.limit) else ""
 
 
 class Host:
-    def __init__(self, build, work):
+    def __init__(self, build, work, limit):
         del build
-        self.folder, self.runs = work / "copy", Runs()
+        self.folder, self.limit = work / "copy", limit
         tracked = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)
         for name in tracked.stdout.split("\n")[:-1]:
             (self.folder / name).parent.mkdir(parents=True, exist_ok=True)
@@ -204,7 +184,6 @@ class Host:
         for tests in sorted({tuple(tests) for _, tests in HOST_TESTS}):
             if self.build(tests):
                 sys.exit(f"{', '.join(tests)} cannot be built without a mutant")
-            self.runs.check(self.ctest(tests), self.folder, self.environment)
 
     def build(self, tests):
         targets = ["vorocl_tool", *(f"test_{test}" for test in tests)]
@@ -221,7 +200,7 @@ class Host:
         tests = first_that(HOST_TESTS, name)
         if self.build(tests):
             return "the compiler"
-        how = self.runs.failure(self.ctest(tests), self.folder, self.environment)
+        how = failure(self.ctest(tests), self.folder, self.environment, self.limit)
         return f"{'|'.join(tests)} {how}" if how else ""
 
 
@@ -231,13 +210,14 @@ def main():
     parser.add_argument("--count", type=int, help="mutants; default 100 of kernels, 50 of the host")
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--build", type=Path, default=ROOT / "build")
+    parser.add_argument("--limit", type=float, default=900)
     parser.add_argument("--report", type=Path)
     options = parser.parse_args()
     count = options.count or {"kernels": 100, "host": 50}[options.what]
     with tempfile.TemporaryDirectory(prefix="vorocl-mutants-") as folder:
         work = Path(folder)
-        os.environ["POCL_CACHE_DIR"] = str(work / "cache")
-        subject = {"kernels": Kernels, "host": Host}[options.what](options.build.resolve(), work)
+        os.environ.setdefault("POCL_CACHE_DIR", str(work / "cache"))
+        subject = {"kernels": Kernels, "host": Host}[options.what](options.build.resolve(), work, options.limit)
         mutants = list(spread(subject.files, subject.folder))[options.first:options.first + count]
         survivors = 0
         for number, mutant in enumerate(mutants, options.first):

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <string_view>
 
 #include "app/terminal/usage_error.hpp"
 
@@ -151,6 +152,10 @@ Command CommandLine::add(const std::string& name, const std::string& about) {
 }
 
 void CommandLine::run(int argc, char** argv) {
+  // CLI11 2.1 takes an empty word for an option group, and may then parse without end.
+  if (std::find(argv, argv + argc, std::string_view()) != argv + argc) {
+    throw UsageError("an argument is empty; if it is a variable of the shell, it is not set");
+  }
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
