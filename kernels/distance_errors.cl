@@ -1,4 +1,5 @@
-// Errors of labels: how much farther a pixel's seed is than the nearest one.
+// What labels say by the distances of their seeds: how much farther a pixel's seed is than the nearest one, and where
+// two diagrams are equal within a tolerance.
 
 #include "plane.cl"
 
@@ -60,4 +61,24 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
   }
   wrong[item] = found;
   excesses[item] = sum_and_greatest;
+}
+
+// Adds the pixels whose two labels name seeds that are not equally far away, within a tolerance in pixels.
+VECTOR_KERNEL void count_distant(global const uint* restrict a, global const uint* restrict b,
+                                 global const position_t* restrict positions, uint count, uint2 periods, int width,
+                                 int height, uint chunk, float tolerance, global uint* restrict differences) {
+  const uint item = (uint)get_global_id(0), pixels = (uint)(width * height);
+  if (item >= (pixels + chunk - 1) / chunk) return;
+  const uint end = min((item + 1) * chunk, pixels);
+  uint found = 0;
+  for (uint i = item * chunk; i < end; ++i) {
+    if (a[i] == b[i]) continue;
+    const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
+    const distance_t of_a = distance_to(positions[min(a[i], count)], x, y, width, height, periods);
+    const distance_t of_b = distance_to(positions[min(b[i], count)], x, y, width, height, periods);
+    if (of_a == of_b) continue;
+    const distance_t longer = max(of_a, of_b);
+    found += longer == NO_SEED || excess(longer, min(of_a, of_b)) > tolerance;
+  }
+  if (found > 0) atomic_add(differences, found);
 }

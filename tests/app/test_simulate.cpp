@@ -108,6 +108,28 @@ BOOST_AUTO_TEST_CASE(similarities_are_those_of_the_label_files) {
   BOOST_TEST(result.at("similarity").at("least") == least);
 }
 
+// Exact diagrams of two metrics, with the tolerance of the program by the paper's authors: 1e-4 of the side.
+BOOST_AUTO_TEST_CASE(similarities_within_a_tolerance) {
+  const TemporaryFolder folder;
+  const Grid grid(1000, 1000);
+  const auto mean = [&](const std::string& more) {
+    const json result = json::parse(succeeds(
+        folder,
+        "simulate --random 10000 --size 1000x1000 --rng-seed 3 --frames 1 --step-length 0 --method exact "
+        "--compare-with exact --compare-metric manhattan --json " +
+            more));
+    return result.at("similarity").at("mean").get<double>();
+  };
+  const Seeds seeds = Seeds::random(test_device(), grid, 10000, 3);
+  Diagram euclidean(test_device(), grid), manhattan(test_device(), grid);
+  exact_diagram(seeds, euclidean);
+  exact_diagram(seeds, manhattan, {Metric::manhattan});
+  BOOST_TEST(mean("") == similarity(euclidean, manhattan));
+  BOOST_TEST(mean("--tolerance 0.1") == similarity(seeds, euclidean, manhattan, 0.1));
+  BOOST_TEST(mean("--tolerance 0.1 --metric euclidean") > mean("") + 0.2);
+  BOOST_TEST(mean("--tolerance 2000") == 100.0);
+}
+
 BOOST_AUTO_TEST_CASE(errors_are_told_where_the_other_method_is_the_truth) {
   const TemporaryFolder folder;
   const Grid grid(120, 90);

@@ -133,6 +133,7 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
   relax(seeds, diagram, engine, 1);
   exact_diagram(seeds, other, {metric});
   similarity(diagram, other);
+  similarity(seeds, diagram, other, 0.5, metric);
   distance_errors(seeds, diagram, other, metric);
   cell_statistics(seeds, diagram);
   CellShapesResult shapes;

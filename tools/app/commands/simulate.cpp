@@ -1,6 +1,7 @@
 // vorocl simulate: the diagrams of moving seeds, frame by frame, as a film, pictures, labels or times alone.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "formats/hash.hpp"
+#include "formats/numbers.hpp"
 #include "studies/error_samples.hpp"
 #include "studies/metric_name.hpp"
 #include "vorocl/similarity.hpp"
@@ -39,6 +41,7 @@ struct SimulateOptions {
   MethodOptions method_options;
   std::optional<Method> compare_with;
   std::optional<Metric> compare_metric;
+  std::optional<double> tolerance;  // of distances in pixels; none: labels are compared
   FrameWriterOptions output;
   std::string device;
   bool json = false;
@@ -50,6 +53,14 @@ struct SimulateOptions {
     return compare_with && compare_with->exact && other_metric() == method_options.metric;
   }
 };
+
+std::optional<double> parse_tolerance(const std::string& text) {
+  const auto pixels = parse_number<double>(text);
+  if (!pixels || !std::isfinite(*pixels) || *pixels < 0) {
+    throw Error("\"" + text + "\" must be a number of pixels, at least 0");
+  }
+  return pixels;
+}
 
 /// What dJFA's plans were, of the frames after frame 0.
 struct PlanSamples {
@@ -133,7 +144,9 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
              FrameWriter& writer) {
   const Diagram& diagram = simulation.diagram(main_engine);
   const Diagram& other = simulation.diagram(other_engine);
-  const double percent = similarity(diagram, other);
+  const double percent = options.tolerance ? similarity(simulation.seeds(), diagram, other,
+                                                        *options.tolerance, options.method_options.metric)
+                                           : similarity(diagram, other);
   std::optional<DistanceErrors> errors;
   if (options.other_is_exact()) {
     errors = distance_errors(simulation.seeds(), diagram, other, options.method_options.metric);
@@ -275,6 +288,7 @@ Json::Members json_of(const SimulateOptions& options, Simulation& simulation, co
   result.emplace_back("compare_with",
                       Json::Members{{"method", options.compare_with->name},
                                     {"metric", to_string(options.other_metric())},
+                                    {"tolerance", options.tolerance ? Json(*options.tolerance) : Json()},
                                     {"waves", simulation.report(other_engine).waves()},
                                     {"milliseconds", simulation.milliseconds(other_engine)},
                                     {"host_milliseconds", simulation.host_milliseconds(other_engine)}});
@@ -365,6 +379,12 @@ void add_simulate(CommandLine& line) {
                                                   {"manhattan", Metric::manhattan}};
   command.add_choice("--compare-metric", options->compare_metric, metrics, "The other method's distance")
       .default_text("that of --metric")
+      .needs(compare_with);
+  command
+      .add_parsed("--tolerance", options->tolerance, parse_tolerance,
+                  "Compare distances instead of labels: pixels are equal if their two seeds are equally far, "
+                  "to within this many pixels, by --metric")
+      .value_name("PIXELS")
       .needs(compare_with);
   add_frame_writer_options(command, options->output);
   add_device_option(command, options->device);

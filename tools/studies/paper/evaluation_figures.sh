@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
-# ablation and tables; without any, all of them.
+# similarities, ablation and tables; without any, all of them.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 vorocl=$(realpath "${1:-build/tools/vorocl}")
 shift || true
-parts=" ${*:-pictures lengths evaluation large ablation tables} "
+parts=" ${*:-pictures lengths evaluation large similarities ablation tables} "
 out=$PWD/docs/evaluation
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -70,6 +70,29 @@ fi
 if wants large; then
   "$vorocl" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 1 -o "$work/evaluation-10000.csv"
   mv "$work/evaluation-10000.csv" "$out/"
+fi
+if wants similarities; then
+  # The mean similarity of a simulation with these options.
+  similarity() { "$vorocl" simulate "$@" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["similarity"]["mean"])'; }
+  {
+    echo "n,seeds,extra_waves,compare_with,similarity"
+    for seeds in 2000 20000 40000; do
+      for way in "0 jfa" "2 jfa" "2 jfa+2"; do
+        read -r extra_waves other <<<"$way"
+        echo "2000,$seeds,$extra_waves,$other,$(similarity --random "$seeds" --size 2000x2000 --frames 20 --step-length 5 \
+          --method djfa --reach paper --extra-waves "$extra_waves" --compare-with "$other")"
+      done
+    done
+  } >"$work/extra_waves.csv"
+  {
+    echo "n,seeds,strict,tolerant"
+    for case in "1000 10000" "2000 40000" "4000 1600" "4000 16000" "4000 160000"; do
+      read -r n seeds <<<"$case"
+      exact=(--random "$seeds" --size "${n}x$n" --frames 1 --step-length 1 --method exact --compare-with exact --compare-metric manhattan)
+      echo "$n,$seeds,$(similarity "${exact[@]}"),$(similarity "${exact[@]}" --tolerance "${n}e-4")"
+    done
+  } >"$work/tolerance.csv"
+  mv "$work"/{extra_waves,tolerance}.csv "$out/"
 fi
 if wants ablation; then
   "$vorocl" ablation -o "$work/ablation.csv"
