@@ -18,13 +18,17 @@ std::size_t Simulation::add_engine(Engine engine) {
   return tracks_.size() - 1;
 }
 
-void Simulation::step() {
+void Simulation::skip() {
   const double max_displacement = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
   ++frame_;
   for (Track& track : tracks_) {
     track.max_displacement += max_displacement;
     if (track.diagram.grid() != seeds_.grid()) track.diagram = Diagram(seeds_.device(), seeds_.grid());
   }
+}
+
+void Simulation::step() {
+  skip();
   for (Track& track : tracks_) {
     track.report = track.engine(seeds_, track.diagram, track.max_displacement);
     track.max_displacement = 0;

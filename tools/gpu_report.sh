@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# All figures of a GPU by one command: builds the core's tests and the command, passes the tests on the device, times
-# jfa, djfa and exact at three sizes and all densities, with the sets made to hurt and with seeds that move, and writes the
-# tables, with the device's name, to FILE:
+# All figures of a GPU by one command: builds the core's tests and the command, passes the tests on the device, checks its
+# labels of known diagrams, times jfa, djfa and exact at three sizes and all densities, with the sets made to hurt and with
+# seeds that move, and writes the tables, with the device's name, to FILE:
 #   tools/gpu_report.sh [FILE]               FILE: default output/gpu.md
 # The exact diagram's labels are held against those of the vector shape on the CPU, by their hashes. With CuPy installed,
 # cupyx.scipy.ndimage.distance_transform_edt() is timed beside them. The sets made to hurt need NumPy.
@@ -24,6 +24,7 @@ if [ -z "${BUILD:-}" ]; then
   ctest --test-dir build/tests/core --output-on-failure
 fi
 vorocl=$(realpath "$BUILD")/tools/vorocl
+"$vorocl" devices --check
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 

@@ -30,7 +30,7 @@ for group in "$@"; do
     # libclc is of the version of the distribution's clang, which a fresh system does not know yet.
     apt-cache show clang >/dev/null 2>&1 || as_root apt-get update -qq
     clang=$(apt-cache depends clang | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p')
-    packages+=(clang "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
+    packages+=(clang "libclang-rt-$clang-dev" "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
       python3-numpy python3-pip)
     ;;
   drivers) packages+=(pocl-opencl-icd python3-pip) ;;

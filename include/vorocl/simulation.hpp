@@ -44,7 +44,12 @@ class VOROCL_API Simulation {
   /// Makes the next frame's diagrams: frame 0 of the seeds as they are, then one motion per frame.
   void step();
 
-  /// The frame that the last step() made, -1 before the first.
+  /// Moves the seeds on to the next frame without its diagrams: these stay those of an earlier frame. The
+  /// engines are told the displacement since then when they run again. Throws what the motion throws, and
+  /// then nothing has changed.
+  void skip();
+
+  /// The frame that the last step() made or skip() passed, -1 before the first.
   int frame() const { return frame_; }
   const Seeds& seeds() const { return seeds_; }
   const Diagram& diagram(std::size_t engine = 0) const { return track(engine).diagram; }

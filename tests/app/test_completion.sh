@@ -21,6 +21,8 @@ expect "render relax" re
 expect "cells compare" c
 expect "devices" d
 expect "evaluate" ev
+expect "--check" devices --c
+expect "--resume" simulate --res
 expect "--seeds" evaluate --se
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""

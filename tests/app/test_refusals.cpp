@@ -48,6 +48,15 @@ BOOST_AUTO_TEST_CASE(files_that_cannot_be_read_are_refused) {
           {"white.png", "3 x 3", "4 x 4"});
 }
 
+BOOST_AUTO_TEST_CASE(empty_arguments_are_refused) {
+  const TemporaryFolder folder;
+  // The first one was parsed without end.
+  for (const char* arguments :
+       {"relax 4 '' --mask m.ppm --l--sigy", "render --random 5 --size 9x9 -o ''", "''"}) {
+    refuses(folder, arguments, usage, {"an argument is empty"}, "timeout 20");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
   const TemporaryFolder folder;
   folder.file("nan.csv", "x,y\n1,2\nnan,3\n");

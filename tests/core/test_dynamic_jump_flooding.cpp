@@ -357,3 +357,22 @@ BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
   BOOST_TEST(simulation.diagram(1).read() == brute_force(after, pixels, Metric::euclidean));
   BOOST_TEST(similarity(simulation.diagram(0), simulation.diagram(1)) > 99);
 }
+
+BOOST_AUTO_TEST_CASE(a_skipped_frame_moves_the_seeds_alone) {
+  std::vector<double> displacements;
+  const auto exact = [&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
+    displacements.push_back(max_displacement);
+    return exact_diagram(seeds, diagram);
+  };
+  Simulation all = random_walk(Grid(30, 20), 9, 3), last = random_walk(Grid(30, 20), 9, 3);
+  all.add_engine(exact);
+  last.add_engine(exact);
+  for (int frame = 0; frame <= 4; ++frame) all.step();
+  displacements.clear();
+  for (int frame = 0; frame < 4; ++frame) last.skip();
+  BOOST_TEST(last.frame() == 3);
+  BOOST_TEST(displacements.empty());
+  last.step();
+  BOOST_TEST((last.diagram().read() == all.diagram().read()));
+  BOOST_TEST(displacements == std::vector<double>{12}, boost::test_tools::per_element());
+}

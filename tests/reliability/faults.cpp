@@ -1,8 +1,8 @@
 // A library to preload into the command (LD_PRELOAD), in which calls fail on request. VOROCL_FAULT is "KIND
 // N", or "KIND N on" where all later calls of the kind fail as well. KIND is an OpenCL call, "event" (an
 // event that ends with an error), "new" (in the command's own code, while it works), or "open", "write",
-// "fsync" and "rename" of temporary files. VOROCL_FAULT_COUNTS names a file for a line "KIND CALLS" of each
-// kind at the end.
+// "fsync" and "rename" of files that are not complete. VOROCL_FAULT_COUNTS names a file for a line "KIND
+// CALLS" of each kind at the end.
 #include <fcntl.h>
 #include <link.h>
 #include <unistd.h>
@@ -68,7 +68,11 @@ Request& request() {
   return only;
 }
 
-bool is_temporary(const char* path) { return std::strstr(path, ".vorocl-") != nullptr; }
+/// Also what a run that can be resumed leaves.
+bool is_temporary(const char* path) {
+  return std::strstr(path, ".vorocl-") != nullptr || std::strstr(path, ".part") != nullptr ||
+         std::strstr(path, ".journal") != nullptr;
+}
 
 bool is_temporary(int file) {
   std::array<char, 40> link{};

@@ -5,26 +5,10 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
 #include "app/terminal/usage_error.hpp"
-#include "vorocl/version.hpp"
 
 namespace {
 
 constexpr int success = 0, failure = 1, usage = 2;
-
-void run(int argc, char** argv) {
-  vorocl::command::CommandLine line("Raster Voronoi diagrams on any OpenCL device.", "vorocl",
-                                    "vorocl " VOROCL_VERSION);
-  vorocl::command::add_devices(line);
-  vorocl::command::add_render(line);
-  vorocl::command::add_simulate(line);
-  vorocl::command::add_cells(line);
-  vorocl::command::add_relax(line);
-  vorocl::command::add_compare(line);
-  vorocl::command::add_bench(line);
-  vorocl::command::add_evaluate(line);
-  vorocl::command::add_ablation(line);
-  line.run(argc, argv);
-}
 
 }  // namespace
 
@@ -33,7 +17,7 @@ int main(int argc, char** argv) {
   open_standard_streams();
   remove_temporary_files_on_signals();
   try {
-    run(argc, argv);
+    run_command(argc, argv);
     flush_standard_output();
     return success;
   } catch (const UsageError& error) {

@@ -42,7 +42,8 @@ class NumberedFiles {
   /// file can be made there.
   explicit NumberedFiles(const std::string& pattern);
 
-  OutputFile file(int number) const { return OutputFile(name_.with(number)); }
+  std::string path(int number) const { return name_.with(number); }
+  OutputFile file(int number) const { return OutputFile(path(number)); }
 
  private:
   NumberedName name_;

@@ -71,6 +71,18 @@ std::string target_of_link(const std::string& path, const struct stat& target) {
   return resolved.get();
 }
 
+/// Opens a file that will replace another one, with that one's access rights. Negative, with errno, if that
+/// fails.
+int open_to_replace(const std::string& target, const std::string& path, int flags) {
+  struct stat replaced = {};
+  const bool replaces = stat(target.c_str(), &replaced) == 0;
+  const int file =
+      open(path.c_str(), flags | O_RDWR | O_NOFOLLOW | O_CLOEXEC, replaces ? S_IRUSR | S_IWUSR : 0666);
+  // Where a file system has no such rights, the file stays its owner's alone.
+  if (file >= 0 && replaces) static_cast<void>(fchmod(file, replaced.st_mode & 0777) == 0);
+  return file;
+}
+
 }  // namespace
 
 // --- OutputFile ---
@@ -118,6 +130,25 @@ GrowingFile::GrowingFile(const OutputFile& file) : path_(file.path_), target_(fi
   }
 }
 
+GrowingFile::GrowingFile(const OutputFile& file, const std::optional<Kept>& kept)
+    : path_(file.path_), target_(file.target_), part_(file.part_path()) {
+  file.require_file("--resume");
+  struct stat there = {};
+  if (kept && kept->is_complete && lstat(part_.c_str(), &there) != 0) {
+    // A run that ended between two renames: back to the state before them.
+    if (rename(target_.c_str(), part_.c_str()) != 0) throw cannot_write(part_, reason(errno));
+  }
+  const Kept begun = kept.value_or(Kept{});
+  descriptor_ = open_to_replace(target_, part_, (begun.bytes == 0 ? O_CREAT : 0) | (kept ? 0 : O_EXCL));
+  if (descriptor_ < 0) throw cannot_write(part_, reason(errno));
+  if (fstat(descriptor_, &there) == 0 && static_cast<std::size_t>(there.st_size) >= begun.bytes &&
+      ftruncate(descriptor_, static_cast<off_t>(begun.bytes)) == 0 && lseek(descriptor_, 0, SEEK_END) >= 0) {
+    return;
+  }
+  close(descriptor_);
+  throw cannot_write(part_, "it is not the file of " + std::to_string(begun.bytes) + " bytes that was left");
+}
+
 GrowingFile::~GrowingFile() {
   if (descriptor_ >= 0) close(descriptor_);
   if (name_) unlink(name_->path().c_str());
@@ -131,12 +162,7 @@ bool GrowingFile::open_beside(const std::string& target) {
     return false;
   }
   name_.emplace(path);
-  struct stat replaced = {};
-  const bool replaces = stat(target.c_str(), &replaced) == 0;
-  descriptor_ = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                     replaces ? S_IRUSR | S_IWUSR : 0666);
-  // Where a file system has no such rights, the file stays its owner's alone.
-  if (descriptor_ >= 0 && replaces) static_cast<void>(fchmod(descriptor_, replaced.st_mode & 0777) == 0);
+  descriptor_ = open_to_replace(target, path, O_CREAT | O_EXCL);
   return descriptor_ >= 0;
 }
 
@@ -150,14 +176,22 @@ void GrowingFile::write(const void* bytes, std::size_t count) {
   }
 }
 
-void GrowingFile::finish() {
+std::size_t GrowingFile::sync() {
   flush();
-  // What a disk or a server refuses late, it refuses here: before the file has its name.
-  if (name_ && fsync(descriptor_) != 0 && errno != EINVAL)
+  const off_t bytes = lseek(descriptor_, 0, SEEK_CUR);
+  if (bytes < 0) throw failed_to_write(path_);
+  if (fsync(descriptor_) != 0 && errno != EINVAL)
     throw failed_to_write(path_);  // EINVAL: cannot be asked there
+  return static_cast<std::size_t>(bytes);
+}
+
+void GrowingFile::finish() {
+  const std::string name = name_ ? name_->path() : part_;
+  // What a disk or a server refuses late, it refuses here: before the file has its name.
+  name.empty() ? flush() : static_cast<void>(sync());
   if (close(std::exchange(descriptor_, -1)) != 0) throw failed_to_write(path_);
-  if (!name_) return;
-  if (rename(name_->path().c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
+  if (name.empty()) return;
+  if (rename(name.c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
   name_.reset();
 }
 

@@ -25,11 +25,20 @@ class OutputFile {
   /// Throws Error for a pipe or a device: `what` ("a film") can only be a file.
   void require_file(const std::string& what) const;
 
+  /// Where it grows if another run can continue it: see GrowingFile.
+  std::string part_path() const { return target_ + ".part"; }
+
  private:
   friend class GrowingFile;
   std::string path_;
   std::string target_;  // where the name leads
   bool is_file_ = true;
+};
+
+/// What a run before has left of a file that grows, for another run to continue.
+struct Kept {
+  std::size_t bytes = 0;     // that are to stay; with none, there may be no file
+  bool is_complete = false;  // nothing is to come, and the file may have its final name
 };
 
 /// An output while it is written: a file with a name that nobody can foresee, beside its final one, until
@@ -38,6 +47,11 @@ class GrowingFile {
  public:
   /// Throws Error if it cannot be made there.
   explicit GrowingFile(const OutputFile& file);
+
+  /// One that another run can continue: until finish() it is at the file's part_path(), and stays there.
+  /// Without `kept` it begins, else it goes on behind what was kept. Throws Error too for a pipe or a device,
+  /// if less was kept, or if it begins and there is a file of this name.
+  GrowingFile(const OutputFile& file, const std::optional<Kept>& kept);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
@@ -50,6 +64,10 @@ class GrowingFile {
     write(text.data(), text.size());
     return *this;
   }
+
+  /// Makes the disk have all that was written, and returns how many bytes these are. Throws Error if that
+  /// fails.
+  std::size_t sync();
 
   /// For libraries that write files by themselves, instead of write(). No such name: a pipe or a device.
   int descriptor() const { return descriptor_; }
@@ -66,7 +84,8 @@ class GrowingFile {
 
   std::string path_;
   std::string target_;
-  std::optional<TemporaryName> name_;  // none: a pipe or a device, or it has its name
+  std::optional<TemporaryName> name_;  // none: a pipe or a device, it has its name, or it stays
+  std::string part_;                   // the name under which it stays; empty: it does not, or has its name
   int descriptor_ = -1;
   std::vector<char> buffer_;
 };

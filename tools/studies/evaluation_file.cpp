@@ -65,28 +65,6 @@ const Column<Row> columns[] = {
     {"mean_excess", [](const Row& row) { return text(row.method.errors.mean_excess.mean()); }},
 };
 
-/// The lines of a file, without their ends.
-struct Lines {
-  std::vector<std::string> whole;
-  std::string cut_off;  // a last one that has no end
-};
-
-constexpr std::size_t longest_line = 1 << 16;
-
-Lines lines_of(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  Lines lines;
-  for (std::string line; std::getline(file, line);) {
-    if (line.size() > longest_line) throw Error(path + " is no evaluation; give another file");
-    if (file.eof()) {
-      lines.cut_off = line;
-    } else {
-      lines.whole.push_back(line);
-    }
-  }
-  return lines;
-}
-
 using Values = std::map<std::string, std::string>;
 
 /// A row as values by column. Throws Error if it is none of an evaluation.
@@ -164,7 +142,7 @@ std::vector<std::string> EvaluationFile::begin(const Origin& origin) {
   std::string kept = header_of(origin, columns) + "\n";
   std::error_code ignored;
   if (std::filesystem::exists(path_, ignored)) {
-    const Lines lines = lines_of(path_);
+    const Lines lines = read_lines(path_, "evaluation");
     const Rows all_rows = rows_of(path_, lines, origin);
     if (!lines.cut_off.empty()) dropped.push_back(path_ + ": the last line was cut off and is dropped");
     for (const auto& [configuration, rows] : all_rows) {

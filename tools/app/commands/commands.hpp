@@ -16,4 +16,8 @@ void add_bench(CommandLine& line);
 void add_evaluate(CommandLine& line);
 void add_ablation(CommandLine& line);
 
+/// Parses a command line and runs the subcommand that it names. Throws UsageError for one that makes no
+/// sense, and what the work throws.
+void run_command(int argc, char** argv);
+
 }  // namespace vorocl::command

@@ -1,12 +1,15 @@
-// vorocl devices: the OpenCL devices, which of them would be picked, and why.
+// vorocl devices: the OpenCL devices, which of them would be picked, and why; and whether they are right.
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <memory>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
+#include "studies/known_answers.hpp"
 #include "vorocl/device.hpp"
 
 namespace vorocl::command {
@@ -15,13 +18,18 @@ namespace {
 
 struct DevicesOptions {
   std::string device;
+  bool check = false;
   bool json = false;
 };
+
+std::string index_of(const DeviceDescription& device) {
+  return fmt::format("{}:{}", device.platform_index, device.device_index);
+}
 
 Json list_of(const std::vector<DeviceDescription>& devices) {
   std::vector<Json> list;
   for (const DeviceDescription& device : devices) {
-    list.push_back(Json::Members{{"index", fmt::format("{}:{}", device.platform_index, device.device_index)},
+    list.push_back(Json::Members{{"index", index_of(device)},
                                  {"platform", device.platform},
                                  {"name", device.name},
                                  {"type", device.type},
@@ -38,7 +46,7 @@ Json list_of(const std::vector<DeviceDescription>& devices) {
 
 void print_text(const DeviceDescription& device) {
   constexpr double mebibyte = 1 << 20;
-  print("{}:{}  {}\n", device.platform_index, device.device_index, device.name);
+  print("{}  {}\n", index_of(device), device.name);
   print("     platform  {}\n", device.platform);
   print("     version   {}, driver {}\n", device.opencl_version, device.driver_version);
   print("     type      {}, {} compute units\n", device.type, device.compute_units);
@@ -49,8 +57,59 @@ void print_text(const DeviceDescription& device) {
   if (device.selected) print("     selected: {}\n", device.reason);
 }
 
+/// The known diagrams that a device gets wrong, each with the reason where it makes none.
+std::vector<std::string> wrong_answers(const Device& device) {
+  const FinishAtEnd finish(device);
+  std::vector<std::string> wrong;
+  for (const KnownAnswer& answer : known_answers()) {
+    try {
+      if (hash_on(device, answer) != answer.hash) wrong.push_back(to_string(answer));
+    } catch (const std::exception& error) {  // ours, or out of memory
+      wrong.push_back(to_string(answer) + ": " + message_of(error));
+    }
+  }
+  return wrong;
+}
+
+/// Those that can be used, or the one that was asked for.
+std::vector<DeviceDescription> devices_to_check(const std::string& request) {
+  const bool is_asked_for = !request.empty() || std::getenv("VOROCL_DEVICE") != nullptr;
+  std::vector<DeviceDescription> devices;
+  for (const DeviceDescription& device : Device::list(request)) {
+    if (is_asked_for ? device.selected : device.why_not.empty()) devices.push_back(device);
+  }
+  return devices;
+}
+
+/// Throws Error, after all is printed, if a diagram was wrong.
+void check(const DevicesOptions& options) {
+  const std::size_t all = known_answers().size();
+  std::vector<Json> list;
+  std::string errors;
+  for (const DeviceDescription& device : devices_to_check(options.device)) {
+    const std::vector<std::string> wrong = wrong_answers(Device::select(index_of(device)));
+    list.push_back(Json::Members{{"index", index_of(device)},
+                                 {"platform", device.platform},
+                                 {"name", device.name},
+                                 {"checked", all},
+                                 {"wrong", std::vector<Json>(wrong.begin(), wrong.end())}});
+    if (!options.json) {
+      print("{}  {}\n", index_of(device), device.name);
+      for (const std::string& answer : wrong) print("     wrong: {}\n", answer);
+      print("     {} of {} known diagrams are right\n", all - wrong.size(), all);
+    }
+    if (!wrong.empty()) {
+      errors += fmt::format("{}{} gets {} of {} known diagrams wrong", errors.empty() ? "" : "; ",
+                            device.name, wrong.size(), all);
+    }
+  }
+  if (options.json) print_json({{"devices", list}});
+  if (!errors.empty()) throw Error(errors + "; take another device or another version of its driver");
+}
+
 void run(const DevicesOptions& options) {
   Device::select(options.device);  // throws, with the reason, if no device can be used
+  if (options.check) return check(options);
   const std::vector<DeviceDescription> devices = Device::list(options.device);
   if (options.json) {
     print_json({{"devices", list_of(devices)}});
@@ -65,6 +124,9 @@ void add_devices(CommandLine& line) {
   const auto options = std::make_shared<DevicesOptions>();
   Command command = line.add("devices", "List the OpenCL devices and the one that would be used");
   add_device_option(command, options->device);
+  command.add("--check", options->check,
+              "Make small diagrams whose labels are known, by every method, on all devices or on the one of "
+              "--device; exit code 1 if one is wrong");
   add_json_option(command, options->json);
   command.set_work([options] { run(*options); });
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -16,11 +17,13 @@
 #include "app/terminal/interruption.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
+#include "formats/hash.hpp"
 #include "formats/numbers.hpp"
 #include "studies/error_samples.hpp"
 #include "studies/metric_name.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
+#include "vorocl/version.hpp"
 
 namespace vorocl::command {
 
@@ -42,6 +45,8 @@ struct SimulateOptions {
   FrameWriterOptions output;
   std::string device;
   bool json = false;
+  std::string
+      run;  // in lines, what is to be written: what a run must share with the one that it goes on with
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
   bool other_is_exact() const {
@@ -76,6 +81,9 @@ struct PlanSamples {
 /// How far a run has come.
 struct Course {
   int frames = 0;        // that are complete, with all that is written of them
+  int made_before = 0;   // of these, by the run that this one goes on with
+  int timed = 0;         // whose diagrams this run has made, without frame 0
+  Hash seeds;            // of all frames, if the run can be resumed
   Samples similarities;  // of the frames after frame 0, where all methods start from nothing
   ErrorSamples errors;   // the same, where the other method is exact
   PlanSamples plans;     // where the method is djfa
@@ -105,6 +113,33 @@ Simulation make_simulation(const SimulateOptions& options, const MovingSeeds& so
   return simulation;
 }
 
+/// Makes the diagrams of the next frame.
+void make_frame(const SimulateOptions& options, Simulation& simulation, const double& displacement,
+                Course& course) {
+  simulation.step();
+  if (simulation.frame() == 0) return;
+  ++course.timed;
+  if (options.method.continues) {
+    course.plans.add(simulation.report(main_engine), displacement, simulation.seeds().grid());
+  }
+}
+
+/// Adds what the frame's files follow from, besides the options.
+void add_seeds(const MovingSeeds& source, const Seeds& seeds, Hash& hash) {
+  const auto add = [&hash](double value) {
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    hash.add(bits);
+  };
+  for (const std::optional<Point>& point : seeds.read()) {
+    add(point ? point->x : -1);
+    add(point ? point->y : -1);
+  }
+  for (const std::uint32_t id : source.ids()) hash.add(id);
+  for (const double value : source.values()) add(value);
+  hash.add(static_cast<std::uint64_t>(source.timestep().value_or(0)));
+}
+
 void compare(const SimulateOptions& options, const Simulation& simulation, Course& course,
              FrameWriter& writer) {
   const Diagram& diagram = simulation.diagram(main_engine);
@@ -121,46 +156,93 @@ void compare(const SimulateOptions& options, const Simulation& simulation, Cours
   writer.add_similarity(simulation.frame(), percent, errors);
 }
 
-void write(const SimulateOptions& options, const MovingSeeds& source, const Simulation& simulation,
-           MeasureBuffers& buffers, FrameWriter& writer) {
-  const int frame = simulation.frame();
-  Measures measures(simulation.seeds(), simulation.diagram(main_engine), source.ids(), source.view(),
-                    options.method_options.metric, buffers);
-  const FrameFacts facts = {frame, source.timestep().value_or(frame), stamp_of(frame, source.timestep()),
-                            simulation.report(main_engine).milliseconds(), source.box()};
-  writer.add(facts, measures, source.values());
+Measures measures_of(const SimulateOptions& options, const MovingSeeds& source, const Simulation& simulation,
+                     MeasureBuffers& buffers) {
+  return {simulation.seeds(), simulation.diagram(main_engine), source.ids(),
+          source.view(),      options.method_options.metric,   buffers};
 }
 
-/// All frames, or those before a signal or an error.
-Course make_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
-                   const double& displacement, const Interruption& interruption, FrameWriter& writer) {
+FrameFacts facts_of(const MovingSeeds& source, int frame, double milliseconds = 0) {
+  return {frame, source.timestep().value_or(frame), stamp_of(frame, source.timestep()), milliseconds,
+          source.box()};
+}
+
+/// Goes through the frames that an earlier run has completed. A method that goes on from the last labels
+/// makes them anew, because what it knows of them besides the labels is in no file. Throws Error if they are
+/// of other seeds.
+void pass_complete_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
+                          const double& displacement, const Interruption& interruption, FrameWriter& writer,
+                          Course& course) {
+  const Journal& journal = *writer.journal();
+  const bool makes_all =
+      options.method.continues || (options.compare_with && options.compare_with->continues);
+  const auto refuse_seeds = [&] {
+    throw Error(
+        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or "
+                    "remove it and the .part files to start again",
+                    journal.last_frame(), journal.path()));
+  };
   Progress progress;
   MeasureBuffers buffers;
-  Course course;
+  for (int frame = 0; frame <= journal.last_frame(); ++frame) {
+    if (frame > 0 && !source.next()) refuse_seeds();
+    const bool needs_diagram = writer.needs_diagram(frame);
+    makes_all || needs_diagram ? make_frame(options, simulation, displacement, course) : simulation.skip();
+    add_seeds(source, simulation.seeds(), course.seeds);
+    if (frame == journal.last_frame() && course.seeds.value() != journal.seeds()) refuse_seeds();
+    const FrameFacts facts = facts_of(source, frame);
+    if (needs_diagram) {
+      Measures measures = measures_of(options, source, simulation, buffers);
+      writer.go_on_from(facts, &measures, source.values());
+    } else {
+      writer.go_on_from(facts, nullptr, source.values());
+    }
+    progress.show(frame + 1, source.done());
+    if (interruption.came()) throw Error("interrupted, before there was a new frame");
+  }
+  course.frames = course.made_before = journal.last_frame() + 1;
+}
+
+/// Makes and writes the next frame.
+void add_frame(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+               const double& displacement, MeasureBuffers& buffers, FrameWriter& writer, Course& course) {
+  make_frame(options, simulation, displacement, course);
+  const int frame = simulation.frame();
+  if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
+  if (writer.wants(frame)) {
+    Measures measures = measures_of(options, source, simulation, buffers);
+    writer.add(facts_of(source, frame, simulation.report(main_engine).milliseconds()), measures,
+               source.values());
+  }
+  if (writer.journal() != nullptr) {
+    add_seeds(source, simulation.seeds(), course.seeds);
+    writer.journal()->complete(frame, course.seeds.value());
+  }
+  if (frame % most_frames_ahead == 0) {
+    simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
+    if (options.compare_with) simulation.milliseconds(other_engine);
+  }
+  ++course.frames;
+}
+
+/// The frames behind those that are complete: all, or those before a signal or an error.
+void make_frames(const SimulateOptions& options, MovingSeeds& source, Simulation& simulation,
+                 const double& displacement, const Interruption& interruption, FrameWriter& writer,
+                 Course& course) {
+  Progress progress;
+  MeasureBuffers buffers;
   try {
-    do {
-      simulation.step();
-      const int frame = simulation.frame();
-      if (options.method.continues && frame > 0) {
-        course.plans.add(simulation.report(main_engine), displacement, simulation.seeds().grid());
-      }
-      if (options.compare_with && frame > 0) compare(options, simulation, course, writer);
-      if (writer.wants(frame)) write(options, source, simulation, buffers, writer);
-      if (frame % most_frames_ahead == 0) {
-        simulation.milliseconds(main_engine);  // waits, and forgets the events of these frames
-        if (options.compare_with) simulation.milliseconds(other_engine);
-      }
-      ++course.frames;
+    for (bool more = course.frames == 0 || source.next(); more; more = source.next()) {
+      add_frame(options, source, simulation, displacement, buffers, writer, course);
       progress.show(course.frames, source.done());
       if (interruption.came()) {
         course.trouble = "interrupted";
         break;
       }
-    } while (source.next());
+    }
   } catch (const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
     course.trouble = message_of(error);
   }
-  return course;
 }
 
 /// A value of the frames after frame 0: null if there are none.
@@ -196,6 +278,7 @@ Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source,
                           {"waves", simulation.report(main_engine).waves()},
                           {"milliseconds", simulation.milliseconds(main_engine)},
                           {"host_milliseconds", simulation.host_milliseconds(main_engine)}};
+  if (options.output.resume) result.emplace_back("made_before", course.made_before);
   if (options.method.continues) {
     const PlanSamples& plans = course.plans;
     result.emplace_back("plans", Json::Members{{"first_step", range(plans.first_steps)},
@@ -226,8 +309,7 @@ Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source,
   return result;
 }
 
-void print_times(const std::string& method, Simulation& simulation, std::size_t engine) {
-  const int frames = simulation.frame();
+void print_times(const std::string& method, Simulation& simulation, std::size_t engine, int frames) {
   print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
         frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
 }
@@ -238,8 +320,9 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
   const Grid& picture = source.view().picture.grid;
   print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
         picture.width(), picture.height(), seeds.device().name());
+  if (course.made_before > 0) print("made before: {} frames, from frame 0 on\n", course.made_before);
   print_empty_cells(empty_cells(simulation), seeds.alive());
-  print_times(options.method.name, simulation, main_engine);
+  print_times(options.method.name, simulation, main_engine, course.timed);
   if (const PlanSamples& plans = course.plans; !plans.waves.empty()) {
     print("plans: first steps {} to {}, {} to {} waves, d_max {:.4g} to {:.4g} pixels\n",
           plans.first_steps.least(), plans.first_steps.greatest(), plans.waves.least(),
@@ -247,7 +330,7 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
     print("frames from the seeds instead of the last labels: {}, of which {} with all waves of JFA\n",
           plans.from_seeds, plans.jfa);
   }
-  if (options.compare_with) print_times(options.compare_with->name, simulation, other_engine);
+  if (options.compare_with) print_times(options.compare_with->name, simulation, other_engine, course.timed);
   if (const Samples& similarities = course.similarities; !similarities.empty()) {
     print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
   }
@@ -264,14 +347,23 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
 void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
   check_picture_options(options.output.picture);
-  FrameWriter writer(options.output, options.other_is_exact());
+  FrameWriter writer(options.output, options.other_is_exact(), options.run);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
   check_picture_size(options.output.picture, source->view().picture.grid);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   double displacement = 0;
   Simulation simulation = make_simulation(options, *source, device, displacement);
-  const Course course = make_frames(options, *source, simulation, displacement, interruption, writer);
+  Course course;
+  if (writer.journal() != nullptr) {
+    pass_complete_frames(options, *source, simulation, displacement, interruption, writer, course);
+  }
+  make_frames(options, *source, simulation, displacement, interruption, writer, course);
+  if (writer.journal() != nullptr && !course.trouble.empty()) {
+    throw Error(
+        fmt::format("{}; frames complete before that: {}; the same command goes on behind them, with {}",
+                    course.trouble, course.frames, writer.journal()->path()));
+  }
   if (course.frames > 0) writer.finish();
   if (!course.trouble.empty()) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
@@ -319,6 +411,7 @@ void add_simulate(CommandLine& line) {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.value_column = options->output.picture.color.column;
+    options->run = "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json"});
     run(*options);
   });
 }

@@ -1,6 +1,8 @@
 #include "app/options/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string_view>
 
 #include "app/terminal/usage_error.hpp"
 
@@ -124,6 +126,17 @@ Option Command::option(const std::string& name) const { return Option(*app_->get
 
 bool Command::has(const std::string& name) const { return app_->count(name) > 0; }
 
+std::string Command::given(const std::vector<std::string>& others) const {
+  const auto is_meant = [&others](const CLI::Option* option) {
+    return option->count() > 0 && std::find(others.begin(), others.end(), option->get_name()) == others.end();
+  };
+  std::string lines;
+  for (const CLI::Option* const option : app_->get_options(is_meant)) {
+    lines += option->get_name() + " " + CLI::detail::join(option->results(), ",") + "\n";
+  }
+  return lines;
+}
+
 void Command::set_work(const std::function<void()>& work) { app_->callback(work); }
 
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
@@ -139,6 +152,10 @@ Command CommandLine::add(const std::string& name, const std::string& about) {
 }
 
 void CommandLine::run(int argc, char** argv) {
+  // CLI11 2.1 takes an empty word for an option group, and may then parse without end.
+  if (std::find(argv, argv + argc, std::string_view()) != argv + argc) {
+    throw UsageError("an argument is empty; if it is a variable of the shell, it is not set");
+  }
   try {
     app_->parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

@@ -119,6 +119,10 @@ class Command {
   /// Whether the option was given.
   bool has(const std::string& name) const;
 
+  /// The options that were given, but for `others`: a line "--name value,..." for each, in the order of the
+  /// help.
+  std::string given(const std::vector<std::string>& others) const;
+
   /// What a subcommand does when its options have been parsed.
   void set_work(const std::function<void()>& work);
 

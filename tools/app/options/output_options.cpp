@@ -46,6 +46,10 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
            "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
            "before, the diagram's milliseconds, and the box of a trajectory")
       .value_name("FILE");
+  command.add(
+      "--resume", options.resume,
+      "Go on where the same command, which was ended, has stopped: behind the last frame whose numbered "
+      "files and rows of tables are complete. It needs --resume too. Not for films");
   command.add("--every", options.every, "Write pictures and numbered files only of frames 0, K, 2 K, ...")
       .value_name("K")
       .in_range(1, 1000000000)

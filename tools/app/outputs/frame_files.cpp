@@ -19,10 +19,9 @@ std::string collection_path(const FileRequest& request) {
   return (pattern.parent_path() / (name + ".pvd")).string();
 }
 
-FrameFiles::FrameFiles(const FileRequest& request) : request_(request) {
+FrameFiles::FrameFiles(const FileRequest& request, Journal* journal) : request_(request) {
   if (request.is_long_table()) {
-    table_.emplace(request.path);
-    *table_ << "frame,timestep," << request.kind.table()->columns << "\n";
+    table_ = open_table(request.path, "frame,timestep," + request.kind.table()->columns, journal);
     return;
   }
   files_.emplace(request.path);
@@ -35,9 +34,12 @@ void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
     request_.kind.table()->add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
-  const OutputFile file = files_->file(frame);
-  request_.kind.write(file, measures);
-  if (collection_) listed_.push_back({time, fs::path(file.path()).filename().string()});
+  request_.kind.write(files_->file(frame), measures);
+  go_on_from(frame, time);
+}
+
+void FrameFiles::go_on_from(int frame, std::int64_t time) {
+  if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});
 }
 
 void FrameFiles::finish() {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/outputs/diagram_files.hpp"
+#include "app/outputs/journal.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/vtk.hpp"
 
@@ -21,11 +23,17 @@ std::string collection_path(const FileRequest& request);
 /// its own, and grows under a temporary name until finish().
 class FrameFiles {
  public:
-  /// Throws Error if no file can be made there.
-  explicit FrameFiles(const FileRequest& request);
+  /// Throws Error if no file can be made there. With a journal, the table can be continued.
+  explicit FrameFiles(const FileRequest& request, Journal* journal = nullptr);
 
   /// Writes the file or the rows of a frame, which shows this time.
   void add(int frame, std::int64_t time, Measures& measures);
+
+  /// As add(), of a frame whose file is there.
+  void go_on_from(int frame, std::int64_t time);
+
+  /// Where the file of a frame is; empty where there is a table.
+  std::string path(int frame) const { return files_ ? files_->path(frame) : std::string(); }
 
   /// Writes the collection, or gives the table its name.
   void finish();
@@ -33,7 +41,7 @@ class FrameFiles {
  private:
   FileRequest request_;
   std::optional<NumberedFiles> files_;
-  std::optional<GrowingFile> table_;
+  std::unique_ptr<GrowingFile> table_;
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
 };

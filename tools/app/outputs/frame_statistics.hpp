@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/outputs/journal.hpp"
 #include "app/outputs/measures.hpp"
-#include "formats/output_file.hpp"
 #include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
@@ -14,15 +15,18 @@ namespace vorocl::command {
 class FrameStatistics {
  public:
   /// Throws Error if the file cannot be made there.
-  explicit FrameStatistics(const std::string& path);
+  explicit FrameStatistics(const std::string& path, Journal* journal = nullptr);
 
   /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
   void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);
 
-  void finish() { file_.finish(); }
+  /// Goes on behind a frame that is in the table.
+  void go_on_from(Measures& measures);
+
+  void finish() { file_->finish(); }
 
  private:
-  GrowingFile file_;
+  std::unique_ptr<GrowingFile> file_;
   std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 

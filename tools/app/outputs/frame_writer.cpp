@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
@@ -25,6 +28,29 @@ void note_of_size(const Film& film, const cv::Size& picture) {
                                             : "row and column"));
 }
 
+/// Those that grow with every frame.
+std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
+  std::vector<std::string> tables;
+  for (const RequestedFile& file : files) {
+    if (!file.path.empty() && !file.numbered && extension_of(file.path) == ".csv")
+      tables.push_back(file.path);
+  }
+  return tables;
+}
+
+/// Beside the first file that is asked for.
+std::string journal_path(const FrameWriterOptions& options, const std::vector<RequestedFile>& files) {
+  if (extension_of(options.picture_path) == film_extension) {
+    throw UsageError(
+        "--resume cannot go on with a film; write pictures, such as -o frames/%05d.png, and make the film of "
+        "them");
+  }
+  const auto first =
+      std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
+  if (first == files.end()) throw UsageError("--resume needs files to write: there is nothing to go on with");
+  return first->path + ".journal";
+}
+
 }  // namespace
 
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
@@ -42,23 +68,52 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   return files;
 }
 
-FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors)
+FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, const std::string& run)
     : options_(options), painter_(options.picture, true) {
-  check_outputs(as_usage([&] { return requested_files(options); }));
+  const std::vector<RequestedFile> requested = as_usage([&] { return requested_files(options); });
+  check_outputs(requested);
+  if (options.resume) journal_ = std::make_unique<Journal>(journal_path(options, requested), run);
+  check_written();
+  open_files();
+  // The tables behind the journal: one that stays without it would be nobody's.
+  if (journal_) journal_->begin(tables_of(requested));
   for (const FileRequest& request : options.files) {
-    if (!request.path.empty()) files_.push_back(std::make_unique<FrameFiles>(request));
-  }
-  if (extension_of(options.picture_path) == film_extension) {
-    film_.emplace(options.picture_path, options.frames_per_second);
-  } else if (!options.picture_path.empty()) {
-    pictures_.emplace(options.picture_path);
+    if (request.is_long_table() && !request.path.empty()) {
+      files_.push_back(std::make_unique<FrameFiles>(request, journal_.get()));
+    }
   }
   if (!options.similarity_path.empty()) {
-    similarities_.emplace(options.similarity_path);
-    *similarities_ << "frame,similarity" << (with_errors ? ",wrong_percent,largest_excess,mean_excess" : "")
-                   << "\n";
+    similarities_ = open_table(
+        options.similarity_path,
+        std::string("frame,similarity") + (with_errors ? ",wrong_percent,largest_excess,mean_excess" : ""),
+        journal_.get());
   }
-  if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path);
+  if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path, journal_.get());
+}
+
+void FrameWriter::open_files() {
+  for (const FileRequest& request : options_.files) {
+    if (!request.is_long_table() && !request.path.empty())
+      files_.push_back(std::make_unique<FrameFiles>(request));
+  }
+  if (extension_of(options_.picture_path) == film_extension) {
+    film_.emplace(options_.picture_path, options_.frames_per_second);
+  } else if (!options_.picture_path.empty()) {
+    pictures_.emplace(options_.picture_path);
+  }
+}
+
+void FrameWriter::check_written() const {
+  std::error_code ignored;
+  for (int frame = 0; journal_ && frame <= journal_->last_frame(); frame += options_.every) {
+    for (const RequestedFile& file : requested_files(options_)) {
+      if (!file.numbered || file.path.empty()) continue;
+      const std::string path = NumberedName(file.path).with(frame);
+      if (std::filesystem::exists(path, ignored)) continue;
+      throw Error(path + " is missing, which an earlier run wrote; remove " + journal_->path() +
+                  " and the .part files to start again");
+    }
+  }
 }
 
 bool FrameWriter::wants_images(int frame) const {
@@ -68,6 +123,20 @@ bool FrameWriter::wants_images(int frame) const {
 void FrameWriter::add(const FrameFacts& facts, Measures& measures, const std::vector<double>& values) {
   if (wants_images(facts.frame)) write_images(facts, measures, values);
   if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, measures);
+}
+
+bool FrameWriter::needs_diagram(int frame) const {
+  if (frame == journal_->last_frame()) return true;  // which the next row of the statistics is compared with
+  return pictures_ && wants_images(frame) && !painter_.is_independent();
+}
+
+void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures, const std::vector<double>& values) {
+  if (wants_images(facts.frame)) {
+    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time);
+    if (pictures_ && measures != nullptr && !painter_.is_independent()) painter_.draw(*measures, values);
+    ++frames_;
+  }
+  if (statistics_ && facts.frame == journal_->last_frame()) statistics_->go_on_from(*measures);
 }
 
 void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
@@ -95,11 +164,13 @@ void FrameWriter::add_similarity(int frame, double percent, const std::optional<
 }
 
 void FrameWriter::finish() {
+  if (journal_) journal_->finish();
   // The film last: should it fail, the others are whole nevertheless.
   for (const auto& files : files_) files->finish();
   if (similarities_) similarities_->finish();
   if (statistics_) statistics_->finish();
   if (film_) film_->finish();
+  if (journal_) journal_->remove();
 }
 
 }  // namespace vorocl::command

@@ -121,6 +121,13 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, con
                                   whole_values_.value_or(false), many_ || options_.scale.has_value()});
 }
 
+bool Painter::is_independent() const {
+  const Quantity quantity = options_.color.quantity;
+  const bool has_scale = quantity == Quantity::id || scale_;
+  const bool has_numbers = quantity == Quantity::id || quantity == Quantity::distance || whole_values_;
+  return has_scale && has_numbers && (!options_.contours || contour_interval_);
+}
+
 cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {

@@ -55,6 +55,9 @@ class Painter {
   /// error what a logarithmic scale leaves out of the first picture.
   cv::Mat draw(Measures& measures, const std::vector<double>& values, const std::string& stamp = "");
 
+  /// Whether the next picture would be the same without those that were drawn before.
+  bool is_independent() const;
+
  private:
   cv::Mat color(Measures& measures, const std::vector<double>& values);
   cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);

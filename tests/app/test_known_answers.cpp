@@ -1,0 +1,121 @@
+// The hashes of the diagrams that `vorocl devices --check` knows, computed anew on the host; and a check of a
+// device that errs.
+#define BOOST_TEST_MODULE known_answers
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "formats/hash.hpp"
+#include "reference_flood.hpp"
+#include "run_command.hpp"
+#include "studies/known_answers.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+using nlohmann::json;
+
+namespace {
+
+using Labels = std::vector<std::uint32_t>;
+
+std::vector<Pixel> pixels_of(const std::vector<Point>& points) {
+  std::vector<Pixel> pixels;
+  for (const Point& point : points) {
+    pixels.push_back({static_cast<int>(point.x - 0.5), static_cast<int>(point.y - 0.5)});
+  }
+  return pixels;
+}
+
+Plan plan_of(const std::string& method, const Grid& grid) {
+  if (method == "standard-flooding") return Plan(static_cast<std::size_t>(grid.longest_side()));  // enough
+  const std::map<std::string, JumpFloodingVariant> variants = {{"jfa", JumpFloodingVariant::jfa},
+                                                               {"djfa", JumpFloodingVariant::jfa},
+                                                               {"jfa+1", JumpFloodingVariant::jfa_plus_1},
+                                                               {"jfa+2", JumpFloodingVariant::jfa_plus_2},
+                                                               {"1+jfa", JumpFloodingVariant::one_plus_jfa}};
+  return jump_flooding_plan(grid, variants.at(method));
+}
+
+/// Labels after motion: of seeds that have come to share a pixel, the lowest id has the cell.
+Labels owners(Labels labels, const std::vector<Pixel>& seeds) {
+  std::map<Pixel, std::uint32_t> owner;
+  for (std::uint32_t id = 0; id < seeds.size(); ++id) owner.emplace(seeds[id], id);
+  for (std::uint32_t& label : labels) label = owner.at(seeds[label]);
+  return labels;
+}
+
+/// dJFA's seeds are spread evenly here: from frame 1 on it runs the paper's waves.
+Labels expected_labels(const KnownAnswer& answer, const std::vector<Pixel>& seeds, const Labels& before) {
+  const Grid grid = known_grid(answer);
+  if (answer.method == "exact") return brute_force(grid, seeds, answer.metric);
+  if (answer.method == "djfa" && !before.empty()) {
+    const Plan plan = dynamic_jump_flooding_plan(grid, seeds.size(), known_displacement);
+    return reference_flood(grid, seeds, plan, answer.metric, owners(before, seeds));
+  }
+  return reference_flood(grid, seeds, plan_of(answer.method, grid), answer.metric);
+}
+
+std::uint64_t expected_hash(const KnownAnswer& answer) {
+  Hash hash;
+  Labels labels;
+  for (const std::vector<Point>& points : known_frames(answer)) {
+    labels = expected_labels(answer, pixels_of(points), labels);
+    for (const std::uint32_t label : labels) hash.add(label);
+  }
+  return hash.value();
+}
+
+/// Copies the kernels into the folder, with one text in one file replaced.
+void copy_kernels(const TemporaryFolder& folder, const std::string& file, const std::string& text,
+                  const std::string& by) {
+  std::filesystem::copy(VOROCL_KERNELS, folder / "kernels", std::filesystem::copy_options::recursive);
+  std::string source = content_of(folder / ("kernels/" + file));
+  const std::size_t at = source.find(text);
+  BOOST_REQUIRE(at != std::string::npos);
+  folder.file("kernels/" + file, source.replace(at, text.size(), by));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(hashes_are_those_of_the_host) {
+  std::set<std::string> names;
+  for (const KnownAnswer& answer : known_answers()) {
+    names.insert(answer.method);
+    const std::uint64_t expected = expected_hash(answer);
+    BOOST_TEST(answer.hash == expected, to_string(answer) << ": 0x" << std::hex << expected);
+  }
+  for (const Method& method : methods()) BOOST_TEST(names.count(method.name) == 1u, method.name);
+}
+
+BOOST_AUTO_TEST_CASE(this_device_knows_them) {
+  const TemporaryFolder folder;
+  const std::string all = std::to_string(known_answers().size());
+  BOOST_TEST(succeeds(folder, "devices --check").find(all + " of " + all + " known diagrams") !=
+             std::string::npos);
+  const json devices = json::parse(succeeds(folder, "devices --check --json")).at("devices");
+  BOOST_REQUIRE(devices.size() == 1u);  // VOROCL_DEVICE says which
+  BOOST_TEST(devices[0]["checked"] == known_answers().size());
+  BOOST_TEST(devices[0]["wrong"].empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_kernel_that_errs_is_named) {
+  const TemporaryFolder folder;
+  copy_kernels(folder, "jump_flooding.cl", "height, step), out", "height, 1), out");
+  const Result result = run(folder, "devices --check", "VOROCL_KERNEL_DIR=kernels");
+  BOOST_TEST(result.exit_code == failure);
+  BOOST_TEST(result.out.find("wrong: jfa, euclidean\n") != std::string::npos, result.out);
+  BOOST_TEST(result.out.find("wrong: exact") == std::string::npos, result.out);
+  BOOST_TEST(result.error.find("vorocl: error: ") == 0u, result.error);
+}
+
+BOOST_AUTO_TEST_CASE(a_kernel_that_cannot_be_built_is_named) {
+  const TemporaryFolder folder;
+  copy_kernels(folder, "jump_flooding.cl", "height, step), out", "no such word");
+  const Result result = run(folder, "devices --check --json", "VOROCL_KERNEL_DIR=kernels");
+  BOOST_TEST(result.exit_code == failure);
+  const json wrong = json::parse(result.out).at("devices")[0]["wrong"];
+  BOOST_TEST(wrong.size() == 24u);  // all but the exact ones
+  BOOST_TEST(wrong[0].get<std::string>().rfind("standard-flooding, euclidean: building", 0) == 0u, wrong[0]);
+}

@@ -1,0 +1,16 @@
+// Masks: images of all kinds that are read.
+#include "formats/mask.hpp"
+
+#include "fuzz.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string path = input_file(data, size, ".png");
+  read_or_refuse([&] {
+    const Mask mask = read_mask(path);
+    require(mask.pixels.size() == mask.grid.pixels());
+  });
+  return 0;
+}

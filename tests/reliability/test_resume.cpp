@@ -1,0 +1,245 @@
+// simulate --resume: whatever ends a run, the same command goes on, and the files are those of a run that
+// nothing ended. VOROCL_LONG_TESTS: many more ends.
+#define BOOST_TEST_MODULE resume
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "left_files.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const std::string at_random = "simulate --random 300 --size 160x120 --frames 30 --step-length 2 ";
+const std::string melt = "simulate --trajectory " VOROCL_SAMPLES "/lj-melt.lammpstrj --width 120 ";
+
+/// Each with something else that a frame needs of those before it.
+const std::string subcommands[] = {
+    at_random +
+        "--method exact --labels l/%05d.vti --cells cells.csv --adjacency a%d.csv --statistics "
+        "statistics.csv",
+    at_random + "--method exact -o p/%d.png --color area --color-bar --contours --every 3",
+    at_random +
+        "--method djfa --refresh-interval 7 --labels l%d.npy --compare-with exact --similarity "
+        "similarity.csv",
+    melt + "--frames 12 --method djfa -o %02d.png --color distance --cells c%d.csv --adjacency adjacency.csv",
+};
+
+/// The contents of all files but hidden ones, which only SIGKILL leaves; of the statistics without the times.
+std::map<std::string, std::string> contents_of(const TemporaryFolder& folder) {
+  std::map<std::string, std::string> contents;
+  for (const std::string& file : files_of(folder)) {
+    if (is_temporary(file)) continue;
+    std::string& content = contents[file] = content_of(folder / file);
+    if (file != "statistics.csv") continue;
+    std::istringstream lines(content);
+    std::string kept;
+    for (std::string line; std::getline(lines, line);) kept += line.substr(0, line.rfind(',')) + "\n";
+    content = kept;
+  }
+  return contents;
+}
+
+void check_same(const TemporaryFolder& folder, const TemporaryFolder& whole) {
+  const auto there = contents_of(folder), expected = contents_of(whole);
+  for (const auto& [file, content] : expected) {
+    BOOST_TEST(there.count(file) == 1u, file << " is missing");
+    if (there.count(file) == 1) BOOST_TEST((there.at(file) == content), file << " differs");
+  }
+  for (const auto& [file, content] : there) BOOST_TEST(expected.count(file) == 1u, file << " is left");
+}
+
+/// Three frames of three particles, as extended XYZ; `third` is where one of them is in frame 2.
+std::string trajectory(const std::string& third) {
+  std::string text;
+  for (const char* const x : {"1", "2", third.c_str()}) {
+    text +=
+        "3\nLattice=\"9 0 0 0 9 0 0 0 1\" pbc=\"F F F\"\nA " + std::string(x) + " 1 0\nA 7 2 0\nA 4 8 0\n";
+  }
+  return text;
+}
+
+const std::string three =
+    "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy --cells cells.csv --resume ";
+
+/// A run that stops before frame 2, which is bad.
+void begin_three(const TemporaryFolder& folder) {
+  folder.file("t.xyz", trajectory("nothing"));
+  const Result result = run(folder, three);
+  BOOST_TEST(result.exit_code == failure);
+  BOOST_TEST(
+      result.error.find("frames complete before that: 2; the same command goes on") != std::string::npos,
+      result.error);
+  BOOST_TEST((folder.names() ==
+              std::set<std::string>{"t.xyz", "l0.npy", "l1.npy", "cells.csv.part", "l%d.npy.journal"}));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_time_is_completed) {
+  std::mt19937 numbers(1);
+  const int times = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 30 : 1;
+  int kills = 0, went_on = 0;
+  for (const std::string& subcommand : subcommands) {
+    const TemporaryFolder whole;
+    succeeds(whole, subcommand);  // builds kernels, too
+    const auto begin = std::chrono::steady_clock::now();
+    succeeds(whole, subcommand);
+    const auto microseconds =
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+    for (int i = 0; i < times; ++i) {
+      const TemporaryFolder folder;
+      bool is_done = false;
+      for (int attempt = 0; attempt < 100 && !is_done; ++attempt) {
+        const pid_t process = start(folder, words_of(subcommand + " --resume"));
+        std::this_thread::sleep_for(
+            std::chrono::microseconds(numbers() % static_cast<unsigned>(microseconds.count())));
+        kill(process, SIGKILL);
+        int status = 0;
+        waitpid(process, &status, 0);
+        is_done = WIFEXITED(status);
+        if (is_done) {
+          BOOST_TEST(WEXITSTATUS(status) == 0, subcommand << "\n" << content_of(folder / "streams"));
+          went_on += content_of(folder / "streams").find("made before: ") != std::string::npos;
+        } else {
+          ++kills;
+        }
+      }
+      BOOST_TEST_CONTEXT(subcommand) {
+        BOOST_TEST(is_done);
+        check_same(folder, whole);
+      }
+    }
+  }
+  BOOST_TEST_MESSAGE(kills << " kills");
+  BOOST_TEST(kills > times);
+  BOOST_TEST(went_on > 0);
+}
+
+BOOST_AUTO_TEST_CASE(so_is_one_that_is_interrupted) {
+  const TemporaryFolder whole, folder;
+  succeeds(whole, subcommands[0]);
+  const pid_t process = start(folder, words_of(subcommands[0] + " --resume"));
+  for (int i = 0; i < 2000 && !std::filesystem::exists(folder / "l/00004.vti"); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  kill(process, SIGINT);
+  int status = 0;
+  waitpid(process, &status, 0);
+  BOOST_TEST(WEXITSTATUS(status) == failure);
+  BOOST_TEST(content_of(folder / "streams").find("interrupted; frames complete before that: ") !=
+             std::string::npos);
+  for (const std::string& file : files_of(folder)) BOOST_TEST(!is_temporary(file), file);
+  const Result result = run(folder, subcommands[0] + " --resume");
+  BOOST_TEST(result.exit_code == 0, result.error);
+  check_same(folder, whole);
+}
+
+#ifdef VOROCL_FAULTS
+BOOST_AUTO_TEST_CASE(so_is_one_whose_files_could_not_be_written) {
+  const std::string subcommand =
+      "simulate --random 9 --size 40x30 --frames 3 --step-length 1 --labels l%d.vti --cells cells.csv "
+      "--adjacency "
+      "adjacency.csv --compare-with jfa --similarity s.csv --resume";
+  const TemporaryFolder whole;
+  run(whole, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT_COUNTS=counts");
+  std::map<std::string, int> calls;
+  std::ifstream counts(whole / "counts");
+  std::string kind;
+  for (int number = 0; counts >> kind >> number;) calls[kind] = number;
+  std::filesystem::remove(whole / "counts");
+  const int step = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 1 : 12;
+  for (const char* const call : {"open", "write", "fsync", "rename"}) {
+    BOOST_TEST(calls[call] > 5);
+    for (int number = call == std::string("rename") ? calls[call] - 3 : 1; number <= calls[call];
+         number += step) {
+      const TemporaryFolder folder;
+      const std::string fault = call + (" " + std::to_string(number));
+      const Result failed =
+          run(folder, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT='" + fault + " on'");
+      BOOST_TEST_CONTEXT(fault << "\n" << failed.error) {
+        BOOST_TEST(failed.exit_code == failure);
+        const Result result = run(folder, subcommand);
+        BOOST_TEST(result.exit_code == 0, result.error);
+        check_same(folder, whole);
+      }
+    }
+  }
+}
+#endif
+
+BOOST_AUTO_TEST_CASE(a_trajectory_that_has_grown_whole_is_gone_on_with) {
+  const TemporaryFolder whole, folder;
+  whole.file("t.xyz", trajectory("3"));
+  run(whole, three);
+  begin_three(folder);
+  folder.file("t.xyz", trajectory("3"));
+  BOOST_TEST(run(folder, three).exit_code == 0);
+  check_same(folder, whole);
+}
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
+  const TemporaryFolder folder;
+  begin_three(folder);
+  folder.file("t.xyz", trajectory("3"));
+  const auto before = contents_of(folder);
+  refuses(folder, three + "--metric manhattan", failure,
+          {"l%d.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
+  refuses(folder, "simulate --trajectory t.xyz --size 31x30 --labels l%d.npy --cells cells.csv --resume",
+          failure, {"there \"--size 30x30\", here \"--size 31x30\"", "remove it and the .part files"});
+  refuses(folder, "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy --resume", failure,
+          {"there \"--cells cells.csv\", here nothing"});
+  folder.file("t.xyz", trajectory("3").replace(trajectory("3").find("A 1 1"), 5, "A 6 1"));
+  refuses(folder, three, failure,
+          {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of"});
+  folder.file("t.xyz", trajectory("3").substr(0, trajectory("3").size() / 3));
+  refuses(folder, three, failure, {"the seeds of frames 0 to 1 are others"});
+  folder.file("t.xyz", trajectory("3"));
+
+  std::filesystem::rename(folder / "l1.npy", folder / "other.npy");
+  refuses(folder, three, failure, {"l1.npy is missing", "remove l%d.npy.journal and the .part files"});
+  std::filesystem::rename(folder / "other.npy", folder / "l1.npy");
+  std::filesystem::rename(folder / "cells.csv.part", folder / "other");
+  refuses(folder, three, failure, {"cells.csv.part: No such file"});
+  folder.file("cells.csv.part", "id");
+  refuses(folder, three, failure, {"cells.csv.part", "bytes that was left"});
+  std::filesystem::remove(folder / "cells.csv.part");
+  std::filesystem::create_symlink("other", folder / "cells.csv.part");
+  refuses(folder, three, failure, {"cells.csv.part"});
+  std::filesystem::rename(folder / "other", folder / "cells.csv.part");
+  BOOST_TEST((contents_of(folder) != before));  // the trajectory
+  BOOST_TEST(run(folder, three).exit_code == 0);
+
+  folder.file("cells.csv.part", "mine");
+  refuses(folder, three, failure, {"cells.csv.part", "remove it"});
+  BOOST_TEST(content_of(folder / "cells.csv.part") == "mine");
+}
+
+BOOST_AUTO_TEST_CASE(damaged_journals_are_refused) {
+  const TemporaryFolder folder;
+  begin_three(folder);
+  const std::string journal = content_of(folder / "l%d.npy.journal");
+  for (const char* const end :
+       {"1 2 more\n", "1 x more 3\n", "-1 2 more 3\n", "\n", "1 2 more 99999999999999999999999\n"}) {
+    folder.file("l%d.npy.journal", journal + end);
+    refuses(folder, three, failure, {"l%d.npy.journal is damaged"});
+  }
+  folder.file("l%d.npy.journal", "id,x,y\n");
+  refuses(folder, three, failure, {"l%d.npy.journal is no journal of a run"});
+  folder.file("l%d.npy.journal", journal + "2 5");  // cut off: the frame counts as not made
+  folder.file("t.xyz", trajectory("3"));
+  const Result result = run(folder, three);
+  BOOST_TEST(result.exit_code == 0, result.error);
+}
+
+BOOST_AUTO_TEST_CASE(films_and_runs_without_files_cannot_be_resumed) {
+  const TemporaryFolder folder;
+  refuses(folder, at_random + "-o f.mp4 --labels l%d.npy --resume", usage,
+          {"--resume cannot go on with a film", "-o frames/%05d.png"});
+  refuses(folder, at_random + "--resume", usage, {"--resume needs files"});
+  refuses(folder, at_random + "--cells /dev/null --resume", usage, {".csv"});
+  std::filesystem::create_symlink("/dev/null", folder / "null.csv");
+  refuses(folder, at_random + "--cells null.csv --resume", failure, {"null.csv", "--resume needs a file"});
+}
