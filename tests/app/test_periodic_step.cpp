@@ -7,6 +7,13 @@
 using namespace vorocl;
 using namespace vorocl::command;
 
+// In a flat box that is tilted, going round in y can be shorter though y itself does not say so.
+BOOST_AUTO_TEST_CASE(a_way_round_that_only_the_tilt_makes_shorter) {
+  const Periods flat{100, 10, 30};
+  BOOST_TEST(displacement({0, 0}, {30, 4}, flat) == 6);
+  BOOST_TEST(displacement({0, 0}, {-30, -4}, flat) == 6);
+}
+
 BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
   const Grid grid(100, 50);
   const Bounds bounds{0, 0, 10, 5};

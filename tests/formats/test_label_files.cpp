@@ -31,6 +31,16 @@ BOOST_AUTO_TEST_CASE(files_keep_every_label) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(the_longest_sides_are_read) {
+  const TemporaryFolder folder;
+  for (const Grid& grid : {Grid(32768, 1), Grid(1, 32768)}) {
+    for (const char* name : {"a.npy", "a.tif"}) {
+      write_labels(folder / name, {grid, std::vector<std::uint32_t>(grid.pixels(), 7)});
+      BOOST_TEST((read_labels(folder / name).grid == grid), name);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
   const TemporaryFolder folder;
   write_labels(folder / "a.npy", example.grid, example.labels);

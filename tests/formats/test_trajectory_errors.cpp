@@ -104,6 +104,8 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {dump("xy xz yz ff pp pp\n0 10 5\n0 10 0\n-1 1 0", "x y", {}), {":8: ", "tilted but not periodic"}},
       {dump("xy xz yz pp pp pp\n0 10 5\n0 10 1\n-1 1 0", "x y", {}), {":8: ", "tilted in z"}},
       {dump("abc origin pp pp pp\n3 4 0 0\n-4 3 0 0\n0 0 1 0", "x y", {}), {":8: ", "turned"}},
+      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n1 0 1 0", "x y", {}), {":8: "}},
+      {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n0 1 1 0", "x y", {}), {":8: "}},
       // the rows
       {dump(periodic_box, "id type vx", {"1 1 1"}), {":9: ", "no position", "xsu ysu"}},
       {dump(periodic_box, "id x ys", {"1 1 1"}), {":9: ", "no position"}},
