@@ -88,7 +88,9 @@ double PixelMap::Axis::pixel(double at) const {
   double offset = std::fmod(at - period_low_, period_);
   if (offset < 0) offset += period_;
   const auto begin = static_cast<double>(begin_), length = static_cast<double>(length_);
-  double position = std::floor(offset * length / period_ + shift_);
+  // A value just below the period can be rounded up to its end.
+  const double scaled = std::min(offset * length / period_, std::nextafter(length, 0.0));
+  double position = std::floor(scaled + shift_);
   if (position < 0) position += length;
   if (position >= length) position -= length;
   return begin + position;

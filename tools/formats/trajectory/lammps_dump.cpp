@@ -33,6 +33,7 @@ std::vector<std::string_view> split(std::string_view text) {
 RowLayout parse_columns(const LineReader& lines, std::string_view text, const std::string& value_column) {
   const std::vector<std::string_view> columns = split(text);
   std::vector<Property> properties;
+  properties.reserve(columns.size());
   for (const std::string_view column : columns) properties.push_back({column});
   const auto value = find_value_column(lines, properties, value_column);
   const auto find = [&](std::string_view name) -> std::optional<std::size_t> {
