@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Fuzzes the readers and the command line with libFuzzer, under the address and undefined behaviour sanitizers, for so many
-# seconds of processor time in all:
+# Fuzzes the readers and the command line with libFuzzer, under the address and undefined behaviour sanitizers, for so
+# many seconds of processor time in all:
 #   fuzz.sh SECONDS [TARGET]...     TARGET: csv, mask, npy, tiff, trajectory, command_line; without any, all
-# Says how many inputs each has read. What it finds lies in build-fuzz/findings/, and the exit code is 1 then; inputs that reach
-# something new are kept in build-fuzz/corpus/ for the next time. The corpus and the dictionaries that it starts from are in
-# tests/reliability/fuzz/.
+# Says how many inputs each has read. What it finds lies in build-fuzz/findings/, and the exit code is not 0 then; inputs
+# that reach something new are kept in build-fuzz/corpus/ for the next time. The corpus and the dictionaries that it
+# starts from are in tests/reliability/fuzz/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || { echo "fuzz.sh SECONDS [TARGET]..." >&2; exit 2; }
@@ -24,7 +24,8 @@ fuzz_one() { # TARGET
   local target=$1 log=$work/$1.log
   mkdir -p "$build/corpus/$target" "$build/findings"
   # Output is discarded, but for libFuzzer's.
-  TMPDIR=$work "$(find "$build" -type f -name "fuzz_$target")" -max_total_time=$((seconds / targets_in_all)) -timeout=20 -max_len=4096 \
+  TMPDIR=$work "$(find "$build" -type f -name "fuzz_$target")" -max_total_time=$((seconds / targets_in_all)) \
+    -timeout=20 -max_len=4096 \
     -malloc_limit_mb=512 -rss_limit_mb=2048 -print_final_stats=1 -close_fd_mask=3 \
     -dict="$fuzz/dictionaries/$target.dict" -artifact_prefix="$build/findings/$target-" \
     "$build/corpus/$target" "$fuzz/corpus/$target" >"$log" 2>&1 || { cat "$log"; echo "$target: a finding"; return 1; }

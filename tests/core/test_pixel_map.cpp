@@ -150,6 +150,7 @@ BOOST_AUTO_TEST_CASE(bounds_without_a_scale_are_refused) {
   const double nan = std::nan("");
   check_error([&] { map({0, 0, nan, 1}, Grid(9, 9)); }, {"0,0,nan,1", "x0 <= x1"});
   check_error([&] { map({1, 0, 0, 1}, Grid(9, 9)); }, {"1,0,0,1", "x0 <= x1"});
+  check_error([&] { map({0, 1, 1, 0}, Grid(9, 9)); }, {"0,1,1,0", "y0 <= y1"});
   check_error([&] { map({0, 0, 1e308, 1}, Grid(9, 9)); }, {"too far apart"});
   check_error([&] { map({0, 0, 1e-320, 1}, Grid(9, 9)); }, {"too near"});
   check_error([&] { map({1, 0, 1, 2}, Grid(9, 9, Periodic::xy)); }, {"no extent in x", "periodic"});

@@ -98,6 +98,7 @@ BOOST_AUTO_TEST_CASE(bad_xyz_files_are_refused_with_their_line) {
       {"0\nLattice=\"1 0 0 0 x 0 0 0 1\"\n", {":2: ", "\"x\"", "Lattice"}},
       {"0\nLattice=\"1 1 0 0 1 0 0 0 1\"\n", {":2: ", "turned"}},
       {"0\nLattice=\"1 0 0 0 1 0 0 1 1\"\n", {":2: ", "tilted in z"}},
+      {"0\nLattice=\"1 0 0 0 1 0 1 0 1\"\n", {":2: ", "tilted in z"}},
       {"0\nLattice=\"-1 0 0 0 1 0 0 0 1\"\n", {":2: ", "no bounds"}},
       {"0\nLattice=\"0 0 0 0 1 0 0 0 1\"\n", {":2: ", "no length"}},
       {"0\nLattice=\"2 0 0 1 2 0 0 0 1\" pbc=\"T F T\"\n", {":2: ", "tilted but not periodic"}},

@@ -28,6 +28,7 @@ std::string index_of(const DeviceDescription& device) {
 
 Json list_of(const std::vector<DeviceDescription>& devices) {
   std::vector<Json> list;
+  list.reserve(devices.size());
   for (const DeviceDescription& device : devices) {
     list.push_back(Json::Members{{"index", index_of(device)},
                                  {"platform", device.platform},

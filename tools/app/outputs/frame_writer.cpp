@@ -136,7 +136,9 @@ void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures, const 
     if (pictures_ && measures != nullptr && !painter_.is_independent()) painter_.draw(*measures, values);
     ++frames_;
   }
-  if (statistics_ && facts.frame == journal_->last_frame()) statistics_->go_on_from(*measures);
+  if (statistics_ && measures != nullptr && facts.frame == journal_->last_frame()) {
+    statistics_->go_on_from(*measures);
+  }
 }
 
 void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
