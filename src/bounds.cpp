@@ -65,7 +65,7 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
   constexpr double rounding = 1e-9;
   if (!(period_ * scale >= 1 - rounding)) {
     std::ostringstream text;
-    text << "the period in " << name << " is " << period_ << ", less than a pixel";
+    text << "the period in " << name << " is " << period_ << ", less than a pixel: take more pixels";
     throw Error(text.str());
   }
   length_ = std::llround(period_ * scale);

@@ -15,7 +15,7 @@ DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const
   const std::size_t items = judging_items(diagram.grid());
   const cl::Buffer wrong = allocate(device, items * sizeof(cl_uint2), "the errors");
   const cl::Buffer excesses = allocate(device, items * sizeof(cl_float2), "the errors");
-  judge_labels("judge_labels", seeds, *measured.seeds, diagram, exact, metric, wrong, excesses);
+  enqueue_judging("judge_labels", seeds, *measured.seeds, diagram, exact, metric, wrong, excesses);
   diagram.wait();
   exact.wait();
   measured.check();

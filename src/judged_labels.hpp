@@ -15,8 +15,8 @@ inline std::size_t judging_items(const Grid& grid) {
 
 /// Enqueues one of them. `arguments` are those behind the chunk.
 template <typename... Arguments>
-void judge_labels(const char* kernel, const Seeds& seeds, const SeedsFrame& frame, const Diagram& a,
-                  const Diagram& b, Metric metric, const Arguments&... arguments) {
+void enqueue_judging(const char* kernel, const Seeds& seeds, const SeedsFrame& frame, const Diagram& a,
+                     const Diagram& b, Metric metric, const Arguments&... arguments) {
   const OuterSeeds* const outer = frame.outer.get();
   const Grid& grid = a.grid();
   Kernel(a.device(), "distance_errors.cl", kernel, grid,

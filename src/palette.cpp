@@ -74,7 +74,8 @@ double round_step(const Scale& scale, int most) {
 
 double part_of(double value, const Scale& scale) {
   if (scale.high <= scale.low) return 0.5;
-  if (scale.logarithmic) return std::log(value / scale.low) / std::log(scale.high / scale.low);
+  if (scale.logarithmic)
+    return (std::log(value) - std::log(scale.low)) / (std::log(scale.high) - std::log(scale.low));
   return (value - scale.low) / (scale.high - scale.low);
 }
 

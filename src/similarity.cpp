@@ -8,19 +8,18 @@
 namespace vorocl {
 
 namespace {
-constexpr std::size_t pixels_per_item = 1024;
-
 double percentage(std::size_t differences, std::size_t pixels) {
   return 100.0 * static_cast<double>(pixels - differences) / static_cast<double>(pixels);
 }
 
-/// A counter on the device, and what it says of the pixels that were compared.
+/// A counter on the device, which is 0.
 cl::Buffer no_differences(const Device& device) {
   cl::Buffer counter = allocate(device, sizeof(cl_uint), "the similarity");
   fill(device, counter, cl_uint{0}, 1);
   return counter;
 }
 
+/// What the counter says of the pixels that were compared.
 double percentage(const cl::Buffer& differences, const Diagram& diagram) {
   return percentage(download<cl_uint>(diagram.device(), differences, 1).front(), diagram.grid().pixels());
 }
@@ -43,11 +42,10 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
 
 double similarity(const Diagram& a, const Diagram& b) {
   check_pair(a, b);
-  const std::size_t pixels = a.grid().pixels();
   const cl::Buffer differences = no_differences(a.device());
   Kernel(a.device(), "similarity.cl", "count_differences", a.grid())
-      .over_items((pixels + pixels_per_item - 1) / pixels_per_item, a.labels(), b.labels(),
-                  static_cast<cl_uint>(pixels), static_cast<cl_uint>(pixels_per_item), differences);
+      .over_items(judging_items(a.grid()), a.labels(), b.labels(), static_cast<cl_uint>(a.grid().pixels()),
+                  static_cast<cl_uint>(judged_per_item), differences);
   a.wait();
   b.wait();
   return percentage(differences, a);
@@ -60,8 +58,8 @@ double similarity(const Seeds& seeds, const Diagram& a, const Diagram& b, double
   check_pair(a, b);
   const MeasuredFrames of_a = frames_of(seeds, a), of_b = frames_of(seeds, b);
   const cl::Buffer differences = no_differences(a.device());
-  judge_labels("count_distant", seeds, *of_a.seeds, a, b, metric, static_cast<cl_float>(tolerance),
-               differences);
+  enqueue_judging("count_distant", seeds, *of_a.seeds, a, b, metric, static_cast<cl_float>(tolerance),
+                  differences);
   a.wait();
   b.wait();
   of_a.check();

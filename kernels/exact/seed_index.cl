@@ -13,7 +13,7 @@
 #ifdef INDEX_OF_GROUPS
 #define MARGIN(period) MARGIN_OF_GROUPS(period)
 #else
-#define MARGIN(period) MARGIN_OF_VECTORS
+#define MARGIN(period) ((void)(period), MARGIN_OF_VECTORS)
 #endif
 static inline int margin_x(int width) { return PERIODIC_X * MARGIN(width); }
 static inline int margin_y(int height) { return PERIODIC_Y * MARGIN(height); }
@@ -103,13 +103,8 @@ static inline int_v in_period(int_v at, int period) {
 static inline uint_v seed_of_image(const SeedIndex* index, uint_v image) {
 #ifdef VOROCL_PERIODIC
   int_v x = AS_INT_V(image & 0xffffu) - index->x0, y = AS_INT_V(image >> 16) - index->y0;
-#if defined(INDEX_OF_GROUPS) && !defined(VOROCL_SHORT_PERIOD)
-  x = wrapped_x(x, index->width);  // the margin is shorter than a period
-  y = wrapped_y(y, index->height);
-#else
   if (PERIODIC_X) x = in_period(x, index->width);
   if (PERIODIC_Y) y = in_period(y, index->height);
-#endif
   return AS_UINT_V(y + margin_y(index->height)) << 16 | AS_UINT_V(x + margin_x(index->width));
 #else
   (void)index;

@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_scale_goes_by_the_logarithms) {
       color_by_value(labels, grid, {0.01, 1, 100, 0, -3}, {0.01, 100, true}, Palette::turbo);
   const cv::Mat linear =
       color_by_value(labels, grid, {0, 1, 2, not_a_number, not_a_number}, {0, 2}, Palette::turbo);
-  BOOST_TEST(cv::norm(logarithmic, linear, cv::NORM_INF) == 0);
+  BOOST_TEST(cv::norm(logarithmic, linear, cv::NORM_INF) <= 3);  // one of 256 levels, by rounding
   check_error(
       [&] {
         color_by_value({0}, Grid(1, 1), {1}, {0, 1, true}, Palette::turbo);

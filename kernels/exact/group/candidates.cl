@@ -165,12 +165,26 @@ static inline int8 keys_of(int4 term, int column, int row, uint rank_bits) {
 }
 #endif
 
+// The position in the frame of the seed of which an image may be given, as seed_of_image(), for one image.
+static inline int in_grid(int at, int size, int periodic) {
+#ifdef VOROCL_SHORT_PERIOD
+  const int rest = at % size;
+  return !periodic ? at : rest < 0 ? rest + size : rest;
+#else
+  return wrapped(at, size, periodic);  // the margin is shorter than a period
+#endif
+}
+static inline uint seed_of_one_image(const SeedIndex* index, uint image) {
+  return pack(in_grid(packed_x(image) - index->x0, index->width, PERIODIC_X) + index->x0,
+              in_grid(packed_y(image) - index->y0, index->height, PERIODIC_Y) + index->y0);
+}
+
 // The order of the candidates of a list by the tie rule; images of one seed are ordered by where they are.
 #ifdef VOROCL_PERIODIC
 static inline void find_seeds_of_images(local Ranked* ranked, const SeedIndex* index, local const uint* images,
                                         int count) {
   for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
-    ranked->seed[i] = seed_of_image(index, images[i]);
+    ranked->seed[i] = seed_of_one_image(index, images[i]);
   }
   SYNC();
 }

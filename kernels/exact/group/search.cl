@@ -140,7 +140,8 @@ static inline void take_best(local const uint* seeds, int seed_count, local Rank
           const uint distance = distance_of_offset(packed_x(seed) - x, packed_y(seed) - y);
           const uint other_distance = distance_of_offset(packed_x(other) - x, packed_y(other) - y);
           if (distance < other_distance ||
-              (distance == other_distance && COMES_FIRST(seed_of_image(index, seed), seed_of_image(index, other)))) {
+              (distance == other_distance &&
+               COMES_FIRST(seed_of_one_image(index, seed), seed_of_one_image(index, other)))) {
             *label = seed;
           }
         }

@@ -135,6 +135,12 @@ void add_seeds(const MovingSeeds& source, const Seeds& seeds, Hash& hash) {
     add(point ? point->x : -1);
     add(point ? point->y : -1);
   }
+  const View& view = source.view();
+  for (const int value : {view.picture.grid.width(), view.picture.grid.height(), view.x, view.y}) add(value);
+  for (const Point& place : {view.picture.corner, view.picture.pixel}) {
+    add(place.x);
+    add(place.y);
+  }
   for (const std::uint32_t id : source.ids()) hash.add(id);
   for (const double value : source.values()) add(value);
   hash.add(static_cast<std::uint64_t>(source.timestep().value_or(0)));

@@ -38,17 +38,31 @@ std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
   return tables;
 }
 
-/// Beside the first file that is asked for.
-std::string journal_path(const FrameWriterOptions& options, const std::vector<RequestedFile>& files) {
+/// Beside the first file that is asked for; "" without files.
+std::string journal_path(const std::vector<RequestedFile>& files) {
+  const auto first =
+      std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
+  return first == files.end() ? "" : first->path + ".journal";
+}
+
+/// That of a run which can go on; none for another, which must not take the place of one that can.
+std::unique_ptr<Journal> open_journal(const FrameWriterOptions& options, const std::string& path,
+                                      const std::string& run) {
+  if (!options.resume) {
+    std::error_code ignored;
+    if (!path.empty() && std::filesystem::exists(path, ignored)) {
+      throw Error(
+          path + " says that a run with --resume can go on; give --resume, or remove it and the .part files");
+    }
+    return nullptr;
+  }
   if (extension_of(options.picture_path) == film_extension) {
     throw UsageError(
         "--resume cannot go on with a film; write pictures, such as -o frames/%05d.png, and make the film of "
         "them");
   }
-  const auto first =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
-  if (first == files.end()) throw UsageError("--resume needs files to write: there is nothing to go on with");
-  return first->path + ".journal";
+  if (path.empty()) throw UsageError("--resume needs files to write: there is nothing to go on with");
+  return std::make_unique<Journal>(path, run);
 }
 
 }  // namespace
@@ -72,7 +86,7 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, co
     : options_(options), painter_(options.picture, true) {
   const std::vector<RequestedFile> requested = as_usage([&] { return requested_files(options); });
   check_outputs(requested);
-  if (options.resume) journal_ = std::make_unique<Journal>(journal_path(options, requested), run);
+  journal_ = open_journal(options, journal_path(requested), run);
   check_written();
   open_files();
   // The tables behind the journal: one that stays without it would be nobody's.

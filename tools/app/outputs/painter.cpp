@@ -132,7 +132,8 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
       const std::vector<float> distances = measures.view().units.lengths(measures.distances());
-      return color_by_distance(distances, measures.view().grid, scale({distances.begin(), distances.end()}),
+      return color_by_distance(distances, measures.view().grid,
+                               scale([&] { return std::vector<double>(distances.begin(), distances.end()); }),
                                palette_);
     }
     case Quantity::area:
@@ -157,11 +158,13 @@ cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<doub
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(image.labels, image.grid, values, scale(shown(image.labels, values)), palette_);
+  return color_by_value(image.labels, image.grid, values, scale([&] { return shown(image.labels, values); }),
+                        palette_);
 }
 
-Scale Painter::scale(std::vector<double> shown) {
+Scale Painter::scale(const std::function<std::vector<double>()>& values) {
   if (scale_) return *scale_;
+  std::vector<double> shown = values();
   const auto is_absent = [](double value) { return !std::isfinite(value); };
   shown.erase(std::remove_if(shown.begin(), shown.end(), is_absent), shown.end());
   if (options_.logarithmic) {
@@ -176,10 +179,12 @@ Scale Painter::scale(std::vector<double> shown) {
   }
   if (options_.scale && !options_.scale->percent) {
     scale_ = {options_.scale->low, options_.scale->high};
-  } else if (!shown.empty()) {
+  } else if (!shown.empty() && options_.scale) {
     std::sort(shown.begin(), shown.end());
-    const ScaleEnds ends = options_.scale.value_or(ScaleEnds{0, 100, true});
-    scale_ = {percentile(shown, ends.low), percentile(shown, ends.high)};
+    scale_ = {percentile(shown, options_.scale->low), percentile(shown, options_.scale->high)};
+  } else if (!shown.empty()) {
+    const auto [low, high] = std::minmax_element(shown.begin(), shown.end());
+    scale_ = {*low, *high};
   }
   if (scale_) scale_->logarithmic = options_.logarithmic;
   return scale_.value_or(Scale{1, 1, options_.logarithmic});  // there is no value, or none that is shown

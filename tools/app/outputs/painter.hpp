@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -63,7 +64,7 @@ class Painter {
   cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
   /// values there.
-  Scale scale(std::vector<double> shown);
+  Scale scale(const std::function<std::vector<double>()>& values);
   void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes);
 
   PictureOptions options_;

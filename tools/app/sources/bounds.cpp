@@ -73,12 +73,13 @@ bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
   return std::abs(grid.height() - wanted_height) <= 0.5 || std::abs(grid.width() - wanted_width) <= 0.5;
 }
 
-void warn_of_scales(const Bounds& bounds, const Grid& grid) {
+void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice) {
   if (has_square_pixels(bounds, grid)) return;
   print_warning(
       fmt::format("the bounds {} get different scales in x and y on {} x {} pixels, so the cells are not "
-                  "Voronoi cells in data units; --width {} keeps pixels square",
-                  to_string(bounds), grid.width(), grid.height(), grid.width()));
+                  "Voronoi cells in data units; {}",
+                  to_string(bounds), grid.width(), grid.height(),
+                  advice.empty() ? fmt::format("--width {} keeps pixels square", grid.width()) : advice));
 }
 
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds) {

@@ -31,7 +31,7 @@ Grid grid_of_width(const Bounds& bounds, int width);
 bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 
 /// Warns on standard error unless pixels are square.
-void warn_of_scales(const Bounds& bounds, const Grid& grid);
+void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice = "");
 
 /// Says on standard error how many points lie outside the bounds, if some do.
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds);

@@ -82,7 +82,7 @@ Units units_of(const Mapping& mapping, const std::optional<Domain>& period, cons
                                   : side_of_pixel(bounds.x1 - bounds.x0, picture.width()),
           has_y(mapping.periodic) ? side_of_pixel(repeated.y1 - repeated.y0, period->height)
                                   : side_of_pixel(bounds.y1 - bounds.y0, picture.height()),
-          has_square_pixels(bounds, picture)};
+          mapping.has_one_scale && has_square_pixels(bounds, picture)};
 }
 
 }  // namespace

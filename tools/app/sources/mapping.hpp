@@ -31,6 +31,7 @@ struct Mapping {
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds
   Ends ends;                     ///< of the domain, along the other axes
   bool in_pixels = false;        ///< what is measured stays in pixels
+  bool has_one_scale = true;     ///< of both axes in all frames; without it, lengths stay in pixels
 };
 
 /// Points in pixels of the diagram's grid, which is periodic itself where it is a whole period and holds all

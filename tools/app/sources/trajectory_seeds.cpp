@@ -147,6 +147,7 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   mapping.outside = outside_is_;
   mapping.periodic = axes_of_frame();
   mapping.in_pixels = in_pixels_;
+  mapping.has_one_scale = fit_ == Fit::all || given_bounds_;
   if (const std::optional<Box>& box = frame_.box) {
     mapping.domain = bounds_of(frame_);
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
@@ -157,9 +158,28 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
 }
 
 void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) {
-  if (!scales_checked_ || fit_ == Fit::frame) warn_of_scales(bounds, view_->picture.grid);
+  if (fit_ == Fit::frame && !given_bounds_) {
+    warn_of_scales(bounds, view_->picture.grid, "--fit all has one scale for all frames");
+  } else if (!scales_checked_) {
+    warn_of_scales(bounds, view_->picture.grid);
+  }
+  note_of_growth();
   if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds);
   scales_checked_ = true;
+}
+
+void TrajectorySeeds::note_of_growth() {
+  const auto own = bounds_of(frame_);
+  if (growth_noted_ || fit_ == Fit::frame || given_bounds_ || !fitted_ || !own) return;
+  if (own->x0 >= fitted_->x0 && own->y0 >= fitted_->y0 && own->x1 <= fitted_->x1 && own->y1 <= fitted_->y1) {
+    return;
+  }
+  print_note(
+      fmt::format("{}: frame {} fills more than the picture, which shows what the first frame does because "
+                  "the file is read "
+                  "once; give --bounds, or the file by its name",
+                  path_, number_));
+  growth_noted_ = true;
 }
 
 void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid& picture) {

@@ -81,6 +81,7 @@ class TrajectorySeeds {
   Mapping mapping_of_frame(const Bounds& bounds) const;
   Grid make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void note_of_scales(const Bounds& bounds, std::size_t outside);
+  void note_of_growth();
   void take_frame(const std::optional<Bounds>& bounds, const Grid& picture);
 
   std::string path_;
@@ -95,6 +96,7 @@ class TrajectorySeeds {
   bool has_boxes_ = false;  // the first frame has one
   bool tilt_noted_ = false;
   bool scales_checked_ = false;
+  bool growth_noted_ = false;
 
   Frame frame_;
   int number_ = -1;

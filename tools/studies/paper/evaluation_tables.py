@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes the tables of docs/evaluation.md between their marks, from the tables that the commands have written:
-evaluation_tables.py DOCUMENT FOLDER, with evaluation.csv, ablation.csv, lengths.csv, extra_waves.csv and tolerance.csv (and
-evaluation-10000.csv, if it is there) in the folder."""
+evaluation_tables.py DOCUMENT FOLDER, with evaluation.csv, ablation.csv and lengths.csv (and evaluation-10000.csv,
+extra_waves.csv and tolerance.csv, where they are there) in the folder."""
 
 import argparse
 import csv
@@ -73,7 +73,6 @@ def times_table(evaluation):
         jfa, djfa = evaluation.row(n, seeds, "jfa"), evaluation.row(n, seeds)
         frames = number(jfa, "timed_frames")
         median, least, greatest = (number(jfa, f"milliseconds_{name}") / frames for name in ("median", "least", "greatest"))
-
 
         def ratio(over, of, with_medians=False):
             least, medians = (evaluation.speedup(n, seeds, over, of, which) for which in ("least", "median"))
@@ -246,15 +245,19 @@ def tables(folder):
     evaluation = Evaluation(rows)
     large_path = os.path.join(folder, "evaluation-10000.csv")
     large = Evaluation(read(folder, "evaluation-10000.csv")) if os.path.exists(large_path) else None
+    similarities = {
+        name: made(read(folder, file))
+        for name, file, made in (("extra waves", "extra_waves.csv", extra_waves_table), ("tolerance", "tolerance.csv", tolerance_table))
+        if os.path.exists(os.path.join(folder, file))
+    }
     return {
         "machine": machine_line(rows),
         "lengths": lengths_table(lengths),
         "similarity": similarity_table(evaluation),
         "times": times_table(evaluation),
         "published": published_table(evaluation, large, lengths),
-        "extra waves": extra_waves_table(read(folder, "extra_waves.csv")),
-        "tolerance": tolerance_table(read(folder, "tolerance.csv")),
         "ablation": machine_line(ablation) + "\n\n" + ablation_table(ablation),
+        **similarities,
     }
 
 
