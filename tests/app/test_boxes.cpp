@@ -222,6 +222,13 @@ BOOST_AUTO_TEST_CASE(one_frame_has_its_own_box_and_a_fitted_film_too) {
   BOOST_TEST(result.exit_code == 0);
   // Every frame but the square one has different scales.
   BOOST_TEST(std::count(result.error.begin(), result.error.end(), '\n') == 2, result.error);
+  BOOST_TEST(result.error.find("--fit all") != std::string::npos, result.error);
+  // The first frame alone has a scale for lengths: no frame uses it.
+  const Result lengths = run(folder, "simulate --trajectory t.lammpstrj --size 60x60 --fit frame --json");
+  BOOST_TEST(json::parse(lengths.out).at("length_unit") == "px");
+  const Result first =
+      run(folder, "simulate --trajectory t.lammpstrj --frames 0 --size 60x60 --fit frame --json");
+  BOOST_TEST(json::parse(first.out).at("length_unit") == "px");
   for (const int frame : {0, 1, 2}) {
     run(folder,
         fmt::format("render --trajectory t.lammpstrj --size 60x60 --frame {} --labels f.npy --method jfa",
@@ -262,7 +269,9 @@ BOOST_AUTO_TEST_CASE(a_pipe_shows_the_box_of_its_first_frame) {
   const Scene small = {0, 0, 10, 10, {{2, 2}, {8, 8}}}, large = {-5, -5, 15, 15, {{1, 1}, {9, 9}}};
   folder.file("t.lammpstrj", text_of({small, large}, "pp pp pp"));
   const std::string pipe = "simulate --trajectory /dev/stdin --width 20 --labels l%d.npy ";
-  BOOST_TEST(run(folder, pipe, "cat t.lammpstrj |").exit_code == 0);
+  const Result piped = run(folder, pipe, "cat t.lammpstrj |");
+  BOOST_TEST(piped.exit_code == 0);
+  BOOST_TEST(piped.error.find("frame 1 fills more than the picture") != std::string::npos, piped.error);
   const LabelImage image = labels_of(folder, "l1.npy");
   BOOST_TEST(image.labels.at(380) == 0u);  // (0.25, 0.25)
   BOOST_TEST(image.labels.at(19) == 1u);

@@ -198,6 +198,8 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
           failure, {"there \"--size 30x30\", here \"--size 31x30\"", "remove it and the .part files"});
   refuses(folder, "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy --resume", failure,
           {"there \"--cells cells.csv\", here nothing"});
+  refuses(folder, "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy", failure,
+          {"l%d.npy.journal", "give --resume, or remove it"});
   folder.file("t.xyz", trajectory("3").replace(trajectory("3").find("A 1 1"), 5, "A 6 1"));
   refuses(folder, three, failure,
           {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of"});
