@@ -1,0 +1,134 @@
+#include "app/commands/simulate_course.hpp"
+
+#include <fmt/format.h>
+
+#include "app/outputs/output_files.hpp"
+#include "app/sources/bounds.hpp"
+#include "app/terminal/console.hpp"
+#include "app/terminal/json.hpp"
+#include "studies/metric_name.hpp"
+#include "vorocl/cells.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// A value of the frames after frame 0: null if there are none.
+Json value(const Samples& samples, double (Samples::*of)() const) {
+  return samples.empty() ? Json() : Json((samples.*of)());
+}
+
+Json range(const Samples& samples) {
+  return Json::Members{{"least", value(samples, &Samples::least)},
+                       {"greatest", value(samples, &Samples::greatest)}};
+}
+
+/// Of the last frame.
+CellStatistics statistics(const Simulation& simulation) {
+  return cell_statistics(simulation.seeds(), simulation.diagram(main_engine));
+}
+
+Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                      const Course& course) {
+  const Seeds& seeds = simulation.seeds();
+  const View& view = source.view();
+  Json::Members result = {{"method", options.method.name},
+                          {"metric", to_string(options.method_options.metric)},
+                          {"device", seeds.device().name()},
+                          {"width", view.picture.grid.width()},
+                          {"height", view.picture.grid.height()},
+                          {"periodic", to_string(seeds.periodic())},
+                          {"area_unit", view.units.of_area()},
+                          {"length_unit", view.units.of_length()},
+                          {"seeds", seeds.alive()},
+                          {"empty_cells", statistics(simulation).empty_cells},
+                          {"frames", simulation.frame()},
+                          {"waves", simulation.report(main_engine).waves()},
+                          {"milliseconds", simulation.milliseconds(main_engine)},
+                          {"host_milliseconds", simulation.host_milliseconds(main_engine)}};
+  if (options.output.resume) result.emplace_back("made_before", course.made_before);
+  if (options.method.continues) {
+    const PlanSamples& plans = course.plans;
+    result.emplace_back("plans", Json::Members{{"first_step", range(plans.first_steps)},
+                                               {"waves", range(plans.waves)},
+                                               {"max_displacement", range(plans.displacements)},
+                                               {"frames_from_seeds", plans.from_seeds},
+                                               {"jfa_frames", plans.jfa}});
+  }
+  if (!options.compare_with) return result;
+  const Samples& similarities = course.similarities;
+  result.emplace_back("similarity", Json::Members{{"mean", value(similarities, &Samples::mean)},
+                                                  {"least", value(similarities, &Samples::least)}});
+  if (options.other_is_exact()) {
+    const ErrorSamples& errors = course.errors;
+    result.emplace_back(
+        "errors", Json::Members{{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
+                                {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
+                                {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
+                                {"mean_excess", value(errors.mean_excess, &Samples::mean)}});
+  }
+  result.emplace_back("compare_with",
+                      Json::Members{{"method", options.compare_with->name},
+                                    {"metric", to_string(options.other_metric())},
+                                    {"tolerance", options.tolerance ? Json(*options.tolerance) : Json()},
+                                    {"waves", simulation.report(other_engine).waves()},
+                                    {"milliseconds", simulation.milliseconds(other_engine)},
+                                    {"host_milliseconds", simulation.host_milliseconds(other_engine)}});
+  return result;
+}
+
+void print_times(const std::string& method, Simulation& simulation, std::size_t engine, int frames) {
+  print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
+        frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
+}
+
+void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                const Course& course) {
+  const Seeds& seeds = simulation.seeds();
+  const Grid& picture = source.view().picture.grid;
+  print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
+        picture.width(), picture.height(), seeds.device().name());
+  if (course.made_before > 0) print("made before: {} frames, from frame 0 on\n", course.made_before);
+  const CellStatistics cells = statistics(simulation);
+  print_empty_cells(cells.empty_cells, cells.cells);
+  const auto name_of = [&](const Method& method, Metric metric) {
+    const bool differs = options.compare_with && options.other_metric() != options.method_options.metric;
+    return differs ? fmt::format("{} ({})", method.name, to_string(metric)) : std::string(method.name);
+  };
+  print_times(name_of(options.method, options.method_options.metric), simulation, main_engine, course.timed);
+  if (const PlanSamples& plans = course.plans; !plans.waves.empty()) {
+    print("plans: first steps {} to {}, {} to {} waves, d_max {:.4g} to {:.4g} pixels\n",
+          plans.first_steps.least(), plans.first_steps.greatest(), plans.waves.least(),
+          plans.waves.greatest(), plans.displacements.least(), plans.displacements.greatest());
+    print("frames from the seeds instead of the last labels: {}, of which {} with all waves of JFA\n",
+          plans.from_seeds, plans.jfa);
+  }
+  if (options.compare_with) {
+    print_times(name_of(*options.compare_with, options.other_metric()), simulation, other_engine,
+                course.timed);
+  }
+  if (const Samples& similarities = course.similarities; !similarities.empty()) {
+    print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
+  }
+  if (const ErrorSamples& errors = course.errors; !errors.wrong_percent.empty()) {
+    print(
+        "wrong pixels: mean {:.4f} %, greatest {:.4f} %; excess distance: mean {:.3g} pixels, largest "
+        "{:.3f}\n",
+        errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),
+        errors.largest_excess.greatest());
+  }
+  print_written(requested_files(options.output));
+}
+
+}  // namespace
+
+void print_result(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                  const Course& course) {
+  if (options.json) {
+    print_json(json_of(options, source, simulation, course));
+  } else {
+    print_text(options, source, simulation, course);
+  }
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,70 @@
+// What vorocl simulate is told, and how far a run of it has come.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "app/outputs/frame_writer.hpp"
+#include "app/sources/moving_seeds.hpp"
+#include "formats/hash.hpp"
+#include "studies/error_samples.hpp"
+#include "vorocl/method.hpp"
+#include "vorocl/simulation.hpp"
+
+namespace vorocl::command {
+
+/// The numbers of the engines of a simulation.
+constexpr std::size_t main_engine = 0, other_engine = 1;
+
+struct SimulateOptions {
+  SeedOptions seeds;
+  MotionOptions motion;
+  Method method = vorocl::method("exact");
+  MethodOptions method_options;
+  std::optional<Method> compare_with;
+  std::optional<Metric> compare_metric;
+  std::optional<double> tolerance;  // of distances in pixels; none: labels are compared
+  FrameWriterOptions output;
+  std::string device;
+  bool json = false;
+  std::string run;  // in lines, what a run must share with the one that it goes on with
+
+  Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
+  bool other_is_exact() const {
+    return compare_with && compare_with->exact && other_metric() == method_options.metric;
+  }
+};
+
+/// What dJFA's plans were, of the frames after frame 0.
+struct PlanSamples {
+  Samples first_steps, waves, displacements;
+  int from_seeds = 0;  // frames that did not start from the last labels
+  int jfa = 0;         // those of them in which all of JFA's waves ran
+
+  void add(const Report& report, double max_displacement, const Grid& grid) {
+    const FloodStart& start = report.start();
+    first_steps.add(start.first_step);
+    waves.add(report.waves());
+    displacements.add(max_displacement);
+    if (start.from_seeds) ++from_seeds;
+    if (start.from_seeds && start.first_step == first_step(grid)) ++jfa;
+  }
+};
+
+/// How far a run has come.
+struct Course {
+  int frames = 0;        // that are complete, with all that is written of them
+  int made_before = 0;   // of these, by the run that this one goes on with
+  int timed = 0;         // whose diagrams this run has made, without frame 0
+  Hash seeds;            // of all frames, if the run can be resumed
+  Samples similarities;  // of the frames after frame 0, where all methods start from nothing
+  ErrorSamples errors;   // the same, where the other method is exact
+  PlanSamples plans;     // where the method is djfa
+  std::string trouble;   // what ended it too early; empty: nothing
+};
+
+/// On standard output, as text or JSON. Of what changes from frame to frame, the last one's.
+void print_result(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+                  const Course& course);
+
+}  // namespace vorocl::command
