@@ -1,0 +1,213 @@
+// Exact diagrams of planes that are larger than a device, tile by tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vorocl/device.hpp"
+#include "vorocl/export.h"
+#include "vorocl/grid.hpp"
+#include "vorocl/opencl.hpp"
+
+namespace vorocl {
+
+/// The size of a plane in pixels, (0, 0) at the top left, and which of its axes are periodic. It may be far
+/// larger than a Grid, for nothing ever holds all of it.
+class VOROCL_API Plane {
+ public:
+  static constexpr std::int64_t max_side = 2147483647;  ///< past it a squared distance leaves 63 bits
+
+  /// Throws Error unless both sides are in [1, max_side].
+  Plane(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
+
+  std::int64_t width() const { return width_; }
+  std::int64_t height() const { return height_; }
+  Periodic periodic() const { return periodic_; }
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+  }
+
+ private:
+  std::int64_t width_, height_;
+  Periodic periodic_;
+};
+
+/// A rectangle of a plane's pixels.
+struct PlaneRectangle {
+  std::int64_t x = 0, y = 0;  ///< the first pixel
+  std::int64_t width = 1, height = 1;
+};
+
+/// A part of a plane that a device labels at once: no larger than a Grid.
+struct Tile {
+  std::int64_t x = 0, y = 0;  ///< its first pixel in the plane
+  int width = 1, height = 1;
+};
+
+/// How a plane, or a rectangle of it, is cut into tiles: squares, from its first pixel on, numbered
+/// row-major. Those at the right and at the bottom may be smaller.
+class VOROCL_API Tiling {
+ public:
+  /// Throws Error unless the side is in [1, Grid::max_side] and side * side at most Grid::max_pixels, and the
+  /// part lies in the plane and has pixels.
+  Tiling(const Plane& plane, std::int64_t side);
+  Tiling(const Plane& plane, std::int64_t side, const PlaneRectangle& part);
+
+  const Plane& plane() const { return plane_; }
+  const PlaneRectangle& part() const { return part_; }
+  int side() const { return side_; }
+  std::uint64_t columns() const { return columns_; }
+  std::uint64_t rows() const { return rows_; }
+  std::uint64_t count() const { return columns_ * rows_; }
+
+  /// Throws Error unless number < count().
+  Tile tile(std::uint64_t number) const;
+
+ private:
+  Plane plane_;
+  PlaneRectangle part_;
+  int side_;
+  std::uint64_t columns_, rows_;
+};
+
+/// A side for tiles that a device holds with a quarter of its memory, and labels fast: 256 to 8192, a power
+/// of two.
+VOROCL_API int default_tile_side(const Device& device);
+
+/// A seed of a plane: its pixel, which may be outside the plane, and its id.
+struct PlaneSeed {
+  std::int32_t x = 0, y = 0;
+  std::uint32_t id = 0;
+};
+
+struct PlaneSeedsState;
+
+/// The seeds of a plane, on the host: 13 bytes each, 24 while they are sorted, which happens at the first
+/// question. Ids are less than 2^32 - 1. Of seeds that share a pixel the lowest id owns the cell.
+///
+/// Threads: one thread at a time until the first question, which sort() can be; any number from then on.
+class VOROCL_API PlaneSeeds {
+ public:
+  explicit PlaneSeeds(const Plane& plane);
+  PlaneSeeds(const Plane& plane, const std::vector<Point>& points);
+  ~PlaneSeeds();
+  PlaneSeeds(PlaneSeeds&& other) noexcept;
+  PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;
+
+  /// Makes room for so many seeds in all, so that add() need not copy those that are there.
+  void reserve(std::size_t count);
+
+  /// Adds the seeds of points in pixel units; their ids go on from the last id. Along a periodic axis points
+  /// wrap; along another one they may lie outside the plane. Throws BadPoint naming the first point that is
+  /// NaN, infinite or 2^31 pixels or more away from a pixel of the plane along an axis, and Error if ids run
+  /// out or the seeds were sorted already; nothing is added then.
+  void add(const Point* points, std::size_t count);
+
+  /// Adds seeds with ids of their own, in any order, each id once: a part of the seeds of a plane that
+  /// several machines share. Throws Error for a pixel that is too far away, as above, or outside the period.
+  void add(const PlaneSeed* seeds, std::size_t count);
+
+  const Plane& plane() const;
+
+  /// The seeds that were added, and one more than their greatest id.
+  std::size_t size() const;
+  std::uint64_t ids() const;
+
+  /// Sorts them along a Z-curve and makes the index.
+  void sort() const;
+
+  /// The seeds that own pixels of a rectangle, and few others, each pixel's once. Cost: in proportion to what
+  /// is found, and the length of the rim.
+  std::vector<PlaneSeed> near(const PlaneRectangle& rectangle) const;
+
+ private:
+  friend struct Internal;
+  std::unique_ptr<PlaneSeedsState> state_;
+};
+
+/// A tile with its labels, which are ids of seeds or no_label, row-major.
+struct TileLabels {
+  std::uint64_t number = 0;  ///< in its Tiling
+  Tile tile;
+  const std::uint32_t* labels = nullptr;  ///< on the host, until the function that is given them returns
+};
+
+/// As above, on the device: for commands on its queue that are enqueued before the function returns.
+struct TileBuffer {
+  std::uint64_t number = 0;
+  Tile tile;
+  cl::Buffer labels;
+};
+
+struct PlaneCellsState;
+
+/// A cell of a plane. Along a periodic axis a pixel counts where it lies the shorter way round from the seed
+/// (half a period away: behind it), as in CellSums.
+struct PlaneCell {
+  std::uint64_t area = 0;                                   ///< pixels
+  Point centroid;                                           ///< (NaN, NaN) of an empty cell
+  std::int64_t left = 0, top = 0, right = -1, bottom = -1;  ///< the bounding box
+  bool touches_border = false;  ///< it has a pixel next to the plane's border; a periodic axis has none
+};
+
+/// Two cells of a plane that share a pixel edge.
+struct PlaneCellPair {
+  std::uint32_t a = 0, b = 0;  ///< their ids, a < b
+  std::uint64_t length = 0;    ///< the pixel edges they share
+};
+
+/// The cells of a plane, summed over its tiles, on the host: 64 bytes per seed, and 16 per pair of cells. The
+/// sums are exact integers, of 128 bits where 64 can overflow, so they do not depend on the tiles.
+class VOROCL_API PlaneCells {
+ public:
+  PlaneCells();
+  ~PlaneCells();
+  PlaneCells(PlaneCells&& other) noexcept;
+  PlaneCells& operator=(PlaneCells&& other) noexcept;
+
+  /// The cells by id.
+  std::size_t size() const;
+  PlaneCell cell(std::size_t id) const;
+
+  /// The pairs that touch, in the order of a and then b. Of a part of the plane: along and in that.
+  std::vector<PlaneCellPair> pairs() const;
+
+ private:
+  friend struct Internal;
+  std::unique_ptr<PlaneCellsState> state_;
+};
+
+struct TileOptions {
+  Metric metric = Metric::euclidean;
+  PlaneCells* cells = nullptr;  ///< where cells are summed too; none: nowhere
+};
+
+/// The number of the next tile to make; none at the end. It is asked from the thread that called.
+using NextTile = std::function<std::optional<std::uint64_t>()>;
+
+/// Makes the exact diagram of a plane tile by tile: the labels are those of exact_diagram() on a grid that
+/// held all of it, tie rule included, whatever the tiles, their order and the device. While the device makes
+/// one tile, the function gets the one before. If it throws, nothing more is made.
+///
+/// How: a host finds the seeds that may own a pixel of the tile (PlaneSeeds::near()), and an exact diagram is
+/// made of a window of the plane. Memory: 14 bytes of the device's per pixel of a tile and what its seeds
+/// need (Seeds), and nothing that grows with the plane. Throws Error as Diagram and exact_diagram().
+VOROCL_API void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+                            const std::function<void(const TileLabels&)>& use,
+                            const TileOptions& options = {});
+
+/// As above, those tiles that `next` names.
+VOROCL_API void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+                            const NextTile& next, const std::function<void(const TileLabels&)>& use,
+                            const TileOptions& options = {});
+
+/// As above, for functions that use the labels on the device: nothing is copied to the host.
+VOROCL_API void exact_tiles_on_device(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+                                      const std::function<void(const TileBuffer&)>& use,
+                                      const TileOptions& options = {});
+
+}  // namespace vorocl
