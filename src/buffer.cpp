@@ -16,9 +16,8 @@ std::string readable(std::size_t bytes) {
   return text;
 }
 
-}  // namespace
-
-cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose, std::size_t held) {
+cl::Buffer make_buffer(const Device& device, cl_mem_flags flags, std::size_t bytes,
+                       const std::string& purpose, std::size_t held) {
   const std::size_t largest = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_MAX_MEM_ALLOC_SIZE);
   const std::size_t all = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_GLOBAL_MEM_SIZE);
   // Asked here, because drivers allocate lazily: what does not fit would fail at some later launch.
@@ -31,9 +30,19 @@ cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& 
   }
   cl_int code = CL_SUCCESS;
   cl::Buffer buffer(
-      clCreateBuffer(device.context()(), CL_MEM_READ_WRITE, std::max<std::size_t>(bytes, 4), nullptr, &code));
+      clCreateBuffer(device.context()(), flags, std::max<std::size_t>(bytes, 4), nullptr, &code));
   check(code, [&] { return "allocating " + readable(bytes) + " for " + purpose + " on " + device.name(); });
   return buffer;
+}
+
+}  // namespace
+
+cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose, std::size_t held) {
+  return make_buffer(device, CL_MEM_READ_WRITE, bytes, purpose, held);
+}
+
+cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose) {
+  return make_buffer(device, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, purpose, 0);
 }
 
 cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes) {

@@ -16,6 +16,9 @@ namespace vorocl {
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,
                     std::size_t held = 0);
 
+/// As above, where the host can map it without a copy.
+cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose);
+
 /// What the caller's buffer is for.
 enum class Access { read, read_and_write };
 

@@ -16,6 +16,9 @@ struct Internal {
   static SeedsState& state(const Seeds& seeds) { return seeds.state(); }
   static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
 
+  /// Seeds of which there are none yet: see SeedsState::place().
+  static Seeds no_seeds(const Device& device, const Grid& grid);
+
   /// What a result holds; made at its first use.
   template <typename Result>
   static auto& result(Result& result) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "buffer.hpp"
+#include "z_order.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
@@ -27,7 +28,7 @@ struct Region {
 
 /// A seed outside the pixels, or an image.
 struct Entry {
-  std::uint64_t order;  // along a Z-curve: Morton's order
+  std::uint64_t order;  // along a Z-curve
   cl_int2 place;
   cl_uint id;
 };
@@ -133,16 +134,6 @@ class Rim {
   std::vector<std::optional<Witness>> witnesses_;
 };
 
-/// The bits of a number at the even places of one of twice the length.
-std::uint64_t spread(cl_int coordinate) {
-  std::uint64_t bits = static_cast<std::uint32_t>(coordinate) ^ 0x80000000u;
-  bits = (bits | bits << 16) & 0x0000ffff0000ffffu;
-  bits = (bits | bits << 8) & 0x00ff00ff00ff00ffu;
-  bits = (bits | bits << 4) & 0x0f0f0f0f0f0f0f0fu;
-  bits = (bits | bits << 2) & 0x3333333333333333u;
-  return (bits | bits << 1) & 0x5555555555555555u;
-}
-
 /// The outer places, in order; of several on one pixel, which are images of seeds on one pixel, that of the
 /// lowest id.
 std::vector<Entry> ordered_entries(const Region& region, const std::optional<Domain>& domain,
@@ -163,7 +154,7 @@ std::vector<Entry> ordered_entries(const Region& region, const std::optional<Dom
     each_outer_place(region, domain, seed, [&](const Place& place) {
       if (rim.rules_out(place)) return;
       const cl_int2 at = {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}};
-      entries.push_back({spread(at.s[1]) << 1 | spread(at.s[0]), at, static_cast<cl_uint>(id)});
+      entries.push_back({z_order(at.s[0], at.s[1]), at, static_cast<cl_uint>(id)});
     });
   });
   std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {

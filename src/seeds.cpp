@@ -199,6 +199,10 @@ Seeds::~Seeds() = default;
 Seeds::Seeds(Seeds&& other) noexcept = default;
 Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
 
+Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
+  return Seeds(std::make_unique<SeedsState>(device, grid));
+}
+
 SeedsState& Seeds::state() const {
   if (!state_)
     throw Error("these seeds were moved from, and have no points; use the ones they were moved to");

@@ -120,12 +120,13 @@ class VOROCL_API PlaneSeeds {
   /// Sorts them along a Z-curve and makes the index.
   void sort() const;
 
-  /// The seeds that own pixels of a rectangle, and few others, each pixel's once. Cost: in proportion to what
-  /// is found, and the length of the rim.
-  std::vector<PlaneSeed> near(const PlaneRectangle& rectangle) const;
+  /// The seeds that own pixels of a rectangle of the plane, and few others: those inside, and those that own
+  /// points of the rim. Of seeds that share a pixel only the one that owns it. Cost: in proportion to what is
+  /// found, and some microseconds for each cell on the rim.
+  std::vector<PlaneSeed> near(const PlaneRectangle& rectangle, Metric metric = Metric::euclidean) const;
 
  private:
-  friend struct Internal;
+  PlaneSeedsState& state() const;
   std::unique_ptr<PlaneSeedsState> state_;
 };
 
@@ -160,8 +161,9 @@ struct PlaneCellPair {
   std::uint64_t length = 0;    ///< the pixel edges they share
 };
 
-/// The cells of a plane, summed over its tiles, on the host: 64 bytes per seed, and 16 per pair of cells. The
-/// sums are exact integers, of 128 bits where 64 can overflow, so they do not depend on the tiles.
+/// The cells of a plane, summed over its tiles, on the host: 96 bytes per cell that has pixels, and 16 per
+/// pair, and while they are summed up to twice that. The sums are exact integers, of 128 bits where 64 can
+/// overflow, so they do not depend on the tiles.
 class VOROCL_API PlaneCells {
  public:
   PlaneCells();
@@ -170,8 +172,8 @@ class VOROCL_API PlaneCells {
   PlaneCells& operator=(PlaneCells&& other) noexcept;
 
   /// The cells by id.
-  std::size_t size() const;
-  PlaneCell cell(std::size_t id) const;
+  std::uint64_t size() const;
+  PlaneCell cell(std::uint64_t id) const;
 
   /// The pairs that touch, in the order of a and then b. Of a part of the plane: along and in that.
   std::vector<PlaneCellPair> pairs() const;

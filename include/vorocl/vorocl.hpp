@@ -20,4 +20,5 @@
 #include "vorocl/similarity.hpp"
 #include "vorocl/simulation.hpp"
 #include "vorocl/standard_flooding.hpp"
+#include "vorocl/tiles.hpp"
 #include "vorocl/version.hpp"

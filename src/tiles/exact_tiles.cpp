@@ -1,0 +1,218 @@
+#include <map>
+#include <utility>
+
+#include "buffer.hpp"
+#include "diagram_state.hpp"
+#include "seeds_state.hpp"
+#include "tiles/plane_cells.hpp"
+#include "vorocl/exact_diagram.hpp"
+#include "vorocl/tiles.hpp"
+
+namespace vorocl {
+
+namespace {
+
+/// What tiles of one size are made with.
+struct TileMaker {
+  TileMaker(const Device& device, const Grid& grid)
+      : seeds(Internal::no_seeds(device, grid)), diagram(device, grid) {}
+
+  Seeds seeds;
+  Diagram diagram;
+};
+
+/// Labels on the device that the host may read, while the object lives.
+class MappedLabels {
+ public:
+  /// Enqueues that they are mapped.
+  MappedLabels(const Device& device, const cl::Buffer& buffer, std::size_t count)
+      : device_(device), buffer_(buffer) {
+    cl_int status = CL_SUCCESS;
+    labels_ = clEnqueueMapBuffer(device.queue()(), buffer(), CL_FALSE, CL_MAP_READ, 0,
+                                 count * sizeof(cl_uint), 0, nullptr, &mapped_(), &status);
+    check(status, "mapping the labels of a tile");
+    check(clFlush(device.queue()()), "starting the commands of a tile");
+  }
+  ~MappedLabels() {
+    // If this fails, so does the next command that uses the buffer, which says so.
+    clEnqueueUnmapMemObject(device_.queue()(), buffer_(), labels_, 0, nullptr, nullptr);
+  }
+  MappedLabels(const MappedLabels&) = delete;
+  MappedLabels& operator=(const MappedLabels&) = delete;
+
+  /// Waits for them.
+  const std::uint32_t* wait() const {
+    check(clWaitForEvents(1, &mapped_()), "waiting for the labels of a tile");
+    return static_cast<const std::uint32_t*>(labels_);
+  }
+
+ private:
+  Device device_;
+  cl::Buffer buffer_;
+  cl::Event mapped_;
+  void* labels_ = nullptr;
+};
+
+std::size_t pixels_of(const Tile& tile) { return Grid(tile.width, tile.height).pixels(); }
+
+/// A tile whose labels are enqueued, and whose cells, if they are asked for, are measured.
+struct MadeTile {
+  std::uint64_t number;
+  Tile tile;
+  cl::Buffer labels;
+  TileMeasures measures;
+};
+
+/// Makes one tile after the other. Their labels go to two buffers in turn.
+class TileEngine {
+ public:
+  TileEngine(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling, const TileOptions& options)
+      : device_(device), seeds_(seeds), tiling_(tiling), options_(options) {
+    const Plane &of_seeds = seeds.plane(), &of_tiles = tiling.plane();
+    if (of_seeds.width() != of_tiles.width() || of_seeds.height() != of_tiles.height() ||
+        of_seeds.periodic() != of_tiles.periodic()) {
+      throw Error("the seeds are of another plane than the tiles; make both for the same one");
+    }
+    seeds.sort();
+    if (options.cells) Internal::result(*options.cells).begin(seeds.ids(), tiling);
+  }
+
+  MadeTile enqueue(std::uint64_t number) {
+    const Tile tile = tiling_.tile(number);
+    // While the device makes the tile before.
+    std::vector<PlaneSeed> near = seeds_.near({tile.x, tile.y, tile.width, tile.height}, options_.metric);
+    std::unique_ptr<TileMaker>& maker = makers_[{tile.width, tile.height}];
+    if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height));
+    place(near, tile, Internal::state(maker->seeds));
+    upload_ids(near);
+    exact_diagram(maker->seeds, maker->diagram, {options_.metric});
+    MadeTile made = {number, tile, name_labels(maker->diagram, near.size()), {}};
+    if (options_.cells) made.measures = measure(*maker, std::move(near));
+    return made;
+  }
+
+  MappedLabels map(const MadeTile& made) const { return {device_, made.labels, pixels_of(made.tile)}; }
+
+  void add_measures(const MadeTile& made, const std::uint32_t* labels) const {
+    if (options_.cells) {
+      Internal::result(*options_.cells).add({made.number, made.tile, labels}, made.measures);
+    }
+  }
+
+ private:
+  /// Places seeds as they lie seen from a tile's first pixel.
+  void place(const std::vector<PlaneSeed>& near, const Tile& tile, SeedsState& seeds) const {
+    const Plane& plane = seeds_.plane();
+    std::optional<Domain> domain;
+    if (plane.periodic() != Periodic::none) {
+      domain = Domain{-tile.x, -tile.y, plane.width(), plane.height(), plane.periodic()};
+    }
+    Placement placement;
+    placement.packed.reserve(near.size() + 1);        // one more is added when they are uploaded
+    placement.in_the_plane.reserve(near.size() + 1);  // likewise
+    bool all_inside = true;
+    for (const PlaneSeed& seed : near) {
+      const PlanePosition at = {{static_cast<cl_int>(seed.x - tile.x), static_cast<cl_int>(seed.y - tile.y)}};
+      const bool inside = is_inside(seeds.grid, at);
+      placement.packed.push_back(inside ? pack(at.s[0], at.s[1]) : absent_position);
+      placement.in_the_plane.push_back(at);
+      all_inside = all_inside && inside;
+    }
+    if (all_inside && !domain) placement.in_the_plane.clear();
+    seeds.place(std::move(placement), domain);
+  }
+
+  void upload_ids(const std::vector<PlaneSeed>& near) {
+    std::vector<cl_uint> ids;
+    ids.reserve(near.size() + 1);
+    for (const PlaneSeed& seed : near) ids.push_back(seed.id);
+    ids.push_back(no_label);
+    const std::size_t bytes = ids.size() * sizeof(cl_uint);
+    if (ids_() == nullptr || size_of(ids_) < bytes)
+      ids_ = allocate(device_, bytes, "the ids of a tile's seeds");
+    upload(device_, ids_, ids);
+  }
+
+  cl::Buffer name_labels(const Diagram& diagram, std::size_t seeds) {
+    cl::Buffer& named = named_[next_];
+    next_ = 1 - next_;
+    if (named() == nullptr) {
+      const std::size_t largest = pixels_of(tiling_.tile(0));
+      named = allocate_mappable(device_, largest * sizeof(cl_uint), "the labels of a tile");
+    }
+    const Grid& grid = diagram.grid();
+    kernels_.get(device_, "tiles.cl", "name_labels", grid)
+        .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(seeds), grid.width(), grid.height(), named);
+    return named;
+  }
+
+  TileMeasures measure(const TileMaker& maker, std::vector<PlaneSeed>&& near) {
+    cell_sums(maker.seeds, maker.diagram, sums_);
+    cell_shapes(maker.seeds, maker.diagram, shapes_, options_.metric);
+    adjacency(maker.seeds, maker.diagram, pairs_);
+    return {std::move(near), sums_.read(), shapes_.read(), pairs_.read_pairs()};
+  }
+
+  Device device_;
+  const PlaneSeeds& seeds_;
+  const Tiling& tiling_;
+  TileOptions options_;
+  std::map<std::pair<int, int>, std::unique_ptr<TileMaker>> makers_;  // by size, of which there are four
+  KernelSet kernels_;
+  cl::Buffer ids_;
+  cl::Buffer named_[2];
+  int next_ = 0;
+  CellSumsResult sums_;
+  CellShapesResult shapes_;
+  AdjacencyResult pairs_;
+};
+
+/// All tiles in their order.
+NextTile every_tile(const Tiling& tiling) {
+  return [number = std::uint64_t{0}, count = tiling.count()]() mutable {
+    return number < count ? std::optional<std::uint64_t>(number++) : std::nullopt;
+  };
+}
+
+}  // namespace
+
+void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+                 const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
+  exact_tiles(device, seeds, tiling, every_tile(tiling), use, options);
+}
+
+void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling, const NextTile& next,
+                 const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
+  TileEngine engine(device, seeds, tiling, options);
+  struct Waiting {
+    MadeTile made;
+    MappedLabels labels;
+  };
+  std::unique_ptr<Waiting> waiting;
+  const auto hand_over = [&] {
+    if (!waiting) return;
+    const std::uint32_t* const labels = waiting->labels.wait();
+    engine.add_measures(waiting->made, labels);
+    use({waiting->made.number, waiting->made.tile, labels});
+  };
+  while (const std::optional<std::uint64_t> number = next()) {
+    MadeTile made = engine.enqueue(*number);
+    auto mapped = std::unique_ptr<Waiting>(new Waiting{made, engine.map(made)});
+    hand_over();
+    waiting = std::move(mapped);
+  }
+  hand_over();
+}
+
+void exact_tiles_on_device(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+                           const std::function<void(const TileBuffer&)>& use, const TileOptions& options) {
+  TileEngine engine(device, seeds, tiling, options);
+  const NextTile next = every_tile(tiling);
+  while (const std::optional<std::uint64_t> number = next()) {
+    const MadeTile made = engine.enqueue(*number);
+    if (options.cells) engine.add_measures(made, engine.map(made).wait());
+    use({made.number, made.tile, made.labels});
+  }
+}
+
+}  // namespace vorocl

@@ -1,0 +1,163 @@
+#include "tiles/plane_cells.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "internal.hpp"
+
+namespace vorocl {
+
+namespace {
+
+/// An axis of a plane, along which pixels of a cell count the shorter way round from its seed.
+struct Unwrapping {
+  std::int64_t period;  // 0: none
+  std::int64_t seed;
+
+  /// What is added to a coordinate: a period, or nothing. Half a period away it lies behind the seed.
+  std::int64_t shift_at(std::int64_t at) const {
+    if (period == 0) return 0;
+    if (2 * (at - seed) > period) return -period;
+    return 2 * (at - seed) <= -period ? period : 0;
+  }
+};
+
+}  // namespace
+
+void PlaneCellsState::begin(std::uint64_t ids_of_seeds, const Tiling& tiling) {
+  *this = PlaneCellsState();
+  ids = ids_of_seeds;
+  tiling_.assign(1, tiling);
+}
+
+void PlaneCellsState::add(const TileLabels& tile, const TileMeasures& measures) {
+  for (std::size_t i = 0; i < measures.seeds.size(); ++i) {
+    if (measures.sums[i].area > 0) add_cell(tile, measures.seeds[i], measures.sums[i], measures.shapes[i]);
+  }
+  for (const CellPair& pair : measures.pairs) {
+    add_pair(measures.seeds[pair.a].id, measures.seeds[pair.b].id, pair.length);
+  }
+  add_rims(tile);
+}
+
+void PlaneCellsState::add_cell(const TileLabels& labels, const PlaneSeed& seed, const CellSums& sums,
+                               const CellShape& shape) {
+  const Tile& tile = labels.tile;
+  const Plane& plane = tiling_.front().plane();
+  const bool periodic_x = has_x(plane.periodic()), periodic_y = has_y(plane.periodic());
+  const Unwrapping x = {periodic_x ? plane.width() : 0, seed.x};
+  const Unwrapping y = {periodic_y ? plane.height() : 0, seed.y};
+  const std::int64_t left = tile.x + shape.left, right = tile.x + shape.right;
+  const std::int64_t top = tile.y + shape.top, bottom = tile.y + shape.bottom;
+  CellRecord record;
+  record.id = seed.id;
+  record.touches_border = (!periodic_x && (left == 0 || right == plane.width() - 1)) ||
+                          (!periodic_y && (top == 0 || bottom == plane.height() - 1));
+
+  const std::int64_t shift_x = x.shift_at(left), shift_y = y.shift_at(top);
+  if (x.shift_at(right) == shift_x && y.shift_at(bottom) == shift_y) {
+    record.area = sums.area;
+    record.sum_x = sums.sum_x + Int128{tile.x + shift_x} * sums.area;
+    record.sum_y = sums.sum_y + Int128{tile.y + shift_y} * sums.area;
+    record.left = left + shift_x;
+    record.right = right + shift_x;
+    record.top = top + shift_y;
+    record.bottom = bottom + shift_y;
+    cells.add(record);
+    return;
+  }
+  // Half a period from the seed runs through this part of the cell: each pixel for itself.
+  for (int row = shape.top; row <= shape.bottom; ++row) {
+    for (int column = shape.left; column <= shape.right; ++column) {
+      if (labels.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width) +
+                        static_cast<std::size_t>(column)] != seed.id) {
+        continue;
+      }
+      CellRecord pixel = record;
+      pixel.area = 1;
+      pixel.left = pixel.right = tile.x + column + x.shift_at(tile.x + column);
+      pixel.top = pixel.bottom = tile.y + row + y.shift_at(tile.y + row);
+      pixel.sum_x = pixel.left;
+      pixel.sum_y = pixel.top;
+      cells.add(pixel);
+    }
+  }
+}
+
+void PlaneCellsState::add_pair(std::uint32_t a, std::uint32_t b, std::uint64_t length) {
+  pairs.add({std::min(a, b), std::max(a, b), length});
+}
+
+// The pixel edges between two tiles are counted when the second one comes.
+void PlaneCellsState::add_rims(const TileLabels& labels) {
+  const Tiling& tiling = tiling_.front();
+  const std::uint64_t column = labels.number % tiling.columns(), row = labels.number / tiling.columns();
+  const auto width = static_cast<std::size_t>(labels.tile.width);
+  const auto height = static_cast<std::size_t>(labels.tile.height);
+  const auto column_of_labels = [&](std::size_t x) {
+    std::vector<std::uint32_t> rim(height);
+    for (std::size_t y = 0; y < height; ++y) rim[y] = labels.labels[y * width + x];
+    return rim;
+  };
+  const auto row_of_labels = [&](std::size_t y) {
+    return std::vector<std::uint32_t>(labels.labels + y * width, labels.labels + (y + 1) * width);
+  };
+  const Plane& plane = tiling.plane();
+  const bool round_x = has_x(plane.periodic()) && tiling.part().width == plane.width();
+  const bool round_y = has_y(plane.periodic()) && tiling.part().height == plane.height();
+  const std::uint64_t last_column = tiling.columns() - 1, last_row = tiling.rows() - 1;
+  if (column < last_column || round_x) meet({row, column, true}, column_of_labels(width - 1));
+  if (column > 0 || round_x) meet({row, column > 0 ? column - 1 : last_column, true}, column_of_labels(0));
+  if (row < last_row || round_y) meet({row, column, false}, row_of_labels(height - 1));
+  if (row > 0 || round_y) meet({row > 0 ? row - 1 : last_row, column, false}, row_of_labels(0));
+}
+
+void PlaneCellsState::meet(const Seam& seam, std::vector<std::uint32_t> rim) {
+  const auto waiting = rims_.find(seam);
+  if (waiting == rims_.end()) {
+    rims_.emplace(seam, std::move(rim));
+    return;
+  }
+  const std::vector<std::uint32_t>& other = waiting->second;
+  for (std::size_t i = 0, end = 0; i < rim.size(); i = end) {
+    while (end < rim.size() && rim[end] == rim[i] && other[end] == other[i]) ++end;
+    if (rim[i] != other[i] && rim[i] != no_label && other[i] != no_label) add_pair(rim[i], other[i], end - i);
+  }
+  rims_.erase(waiting);
+}
+
+PlaneCells::PlaneCells() : state_(std::make_unique<PlaneCellsState>()) {}
+PlaneCells::~PlaneCells() = default;
+PlaneCells::PlaneCells(PlaneCells&& other) noexcept = default;
+PlaneCells& PlaneCells::operator=(PlaneCells&& other) noexcept = default;
+
+std::uint64_t PlaneCells::size() const { return state_ ? state_->ids : 0; }
+
+PlaneCell PlaneCells::cell(std::uint64_t id) const {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  PlaneCell cell;
+  cell.centroid = {none, none};
+  if (!state_) return cell;
+  const std::vector<CellRecord>& records = state_->cells.sorted();
+  const auto found =
+      std::lower_bound(records.begin(), records.end(), id,
+                       [](const CellRecord& record, std::uint64_t key) { return record.id < key; });
+  if (found == records.end() || found->id != id) return cell;
+  const auto mean = [&](Int128 sum) {
+    return static_cast<double>(sum) / static_cast<double>(found->area) + 0.5;
+  };
+  return {found->area,          {mean(found->sum_x), mean(found->sum_y)},
+          found->left,          found->top,
+          found->right,         found->bottom,
+          found->touches_border};
+}
+
+std::vector<PlaneCellPair> PlaneCells::pairs() const {
+  std::vector<PlaneCellPair> pairs;
+  if (!state_) return pairs;
+  for (const PairRecord& record : state_->pairs.sorted())
+    pairs.push_back({record.a, record.b, record.length});
+  return pairs;
+}
+
+}  // namespace vorocl

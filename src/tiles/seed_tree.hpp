@@ -1,0 +1,86 @@
+// The seeds of a plane in the order of a Z-curve, and boxes around them: what tiles find their seeds with.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "vorocl/grid.hpp"
+#include "vorocl/tiles.hpp"
+#include "z_order.hpp"
+
+namespace vorocl {
+
+/// A point of the plane, in pixels, and how far an image is from its own place.
+struct PlanePoint {
+  std::int64_t x, y;
+
+  friend bool operator==(const PlanePoint& a, const PlanePoint& b) { return a.x == b.x && a.y == b.y; }
+};
+
+/// A seed, or one of its images where the plane is periodic, at a distance from a point.
+struct SeedImage {
+  std::size_t index = 0;              // in the tree
+  PlanePoint offset = {0, 0};         // of the image from the seed
+  std::int64_t distance = INT64_MAX;  // squared if Euclidean
+  std::uint64_t rank = UINT64_MAX;    // of the seed in the tie rule: the row-major order of own positions
+
+  /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
+  bool wins(const SeedImage& other) const {
+    return distance != other.distance ? distance < other.distance : rank < other.rank;
+  }
+};
+
+/// A tree of boxes: of each 16 seeds, of each 16 of those boxes, and so on up to one. 13 bytes a seed.
+class SeedTree {
+ public:
+  void reserve(std::size_t count);
+  void add(std::int32_t x, std::int32_t y, std::uint32_t id);
+  void shorten(std::size_t count);  // takes back the last ones
+  std::size_t size() const { return orders_.size(); }
+
+  /// Puts the seeds in order, with one of each pixel, that of the lowest id, and makes the boxes. Cost: some
+  /// passes over the seeds, with as much memory again.
+  void sort();
+
+  PlaneSeed seed(std::size_t index) const {
+    return {x_of_z_order(orders_[index]), y_of_z_order(orders_[index]), ids_[index]};
+  }
+
+  /// Appends the indices of the seeds in a rectangle.
+  void find_inside(const PlaneRectangle& rectangle, std::vector<std::size_t>& found) const;
+
+  /// Makes `best` the image that wins at a point, if it does not yet. Images that are farther than half a
+  /// period along an axis never win, and are not looked at.
+  void find_nearest(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage& best) const;
+
+  /// An image's distance and rank, seen from a point.
+  SeedImage seen_from(const PlanePoint& point, const SeedImage& image, Metric metric) const;
+
+  /// Appends the images that win somewhere on an axis-parallel line from a to b, and some that do not, given
+  /// those that win at both ends; at most `most` of them. Returns whether these were all.
+  bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
+                    const Plane& plane, Metric metric, std::size_t most, std::vector<SeedImage>& found) const;
+
+ private:
+  static constexpr int fan_bits = 4;
+  static constexpr std::size_t fan = std::size_t{1} << fan_bits;
+
+  struct Box {
+    std::int32_t left, top, right, bottom;
+  };
+  struct Nearest;
+  struct Between;
+
+  std::size_t children_end(std::size_t level, std::size_t node) const;
+  void find_inside(std::size_t level, std::size_t node, const PlaneRectangle& rectangle,
+                   std::vector<std::size_t>& found) const;
+  void find_nearest(std::size_t level, std::size_t node, Nearest& search) const;
+  bool find_between(std::size_t level, std::size_t node, Between& search) const;
+
+  std::vector<std::uint64_t> orders_;  // of their positions on the Z-curve
+  std::vector<std::uint32_t> ids_;
+  std::vector<std::vector<Box>> levels_;  // the finest one first
+};
+
+}  // namespace vorocl
