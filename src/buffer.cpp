@@ -17,7 +17,7 @@ std::string readable(std::size_t bytes) {
 }
 
 cl::Buffer make_buffer(const Device& device, cl_mem_flags flags, std::size_t bytes,
-                       const std::string& purpose, std::size_t held) {
+                       const std::string& purpose, std::size_t held, void* values = nullptr) {
   const std::size_t largest = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_MAX_MEM_ALLOC_SIZE);
   const std::size_t all = device_info<cl_ulong>(device.cl_device()(), CL_DEVICE_GLOBAL_MEM_SIZE);
   // Asked here, because drivers allocate lazily: what does not fit would fail at some later launch.
@@ -30,7 +30,7 @@ cl::Buffer make_buffer(const Device& device, cl_mem_flags flags, std::size_t byt
   }
   cl_int code = CL_SUCCESS;
   cl::Buffer buffer(
-      clCreateBuffer(device.context()(), flags, std::max<std::size_t>(bytes, 4), nullptr, &code));
+      clCreateBuffer(device.context()(), flags, std::max<std::size_t>(bytes, 4), values, &code));
   check(code, [&] { return "allocating " + readable(bytes) + " for " + purpose + " on " + device.name(); });
   return buffer;
 }
@@ -39,6 +39,13 @@ cl::Buffer make_buffer(const Device& device, cl_mem_flags flags, std::size_t byt
 
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose, std::size_t held) {
   return make_buffer(device, CL_MEM_READ_WRITE, bytes, purpose, held);
+}
+
+cl::Buffer allocate_with(const Device& device, const void* bytes, std::size_t count,
+                         const std::string& purpose) {
+  // OpenCL reads the values, though it takes them as if it wrote them.
+  return make_buffer(device, CL_MEM_READ_WRITE | CL_MEM_COPY_HOST_PTR, count, purpose, 0,
+                     const_cast<void*>(bytes));
 }
 
 cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device_state.hpp"
@@ -15,6 +16,14 @@ namespace vorocl {
 /// that the caller holds already. Throws Error that names the purpose if the device cannot hold it.
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,
                     std::size_t held = 0);
+
+/// As above, with these bytes, or values, in it. Waits for no command. Throws Error too if there are none.
+cl::Buffer allocate_with(const Device& device, const void* bytes, std::size_t count,
+                         const std::string& purpose);
+template <typename T>
+cl::Buffer allocate_with(const Device& device, const std::vector<T>& values, const std::string& purpose) {
+  return allocate_with(device, values.data(), values.size() * sizeof(T), purpose);
+}
 
 /// As above, where the host can map it without a copy.
 cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose);
@@ -52,6 +61,35 @@ void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>
                              0, nullptr, nullptr),
         "writing a buffer");
 }
+
+/// Values on their way to the device: they stay here until they are there, so that the host need not wait.
+template <typename T>
+class Upload {
+ public:
+  Upload() = default;
+  ~Upload() {
+    // If the device fails, it says so where somebody waits for what it makes of the values.
+    if (copied_() != nullptr) clWaitForEvents(1, &copied_());
+  }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+
+  /// Enqueues that the values are copied to the start of a buffer. Waits for the last ones.
+  void start(const Device& device, const cl::Buffer& buffer, std::vector<T>&& values) {
+    if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
+    copied_ = cl::Event();
+    values_ = std::move(values);
+    if (values_.empty()) return;
+    check(clEnqueueWriteBuffer(device.queue()(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T),
+                               values_.data(), 0, nullptr, &copied_()),
+          "writing a buffer");
+    Internal::state(device).enqueued(copied_);
+  }
+
+ private:
+  std::vector<T> values_;
+  cl::Event copied_;
+};
 
 /// Copies `count` values from the device to where they fit, or to a vector. Waits.
 template <typename T>

@@ -183,13 +183,6 @@ std::vector<cl_int4> level_above(const std::vector<cl_int4>& boxes) {
   return above;
 }
 
-template <typename T>
-cl::Buffer uploaded(const Device& device, const std::vector<T>& values) {
-  cl::Buffer buffer = allocate(device, values.size() * sizeof(T), "seeds outside the grid");
-  upload(device, buffer, values);
-  return buffer;
-}
-
 void make_tree(OuterSeeds& outer, const Device& device, const std::vector<Entry>& entries) {
   std::vector<cl_int2> places;
   std::vector<cl_uint> ids;
@@ -207,9 +200,9 @@ void make_tree(OuterSeeds& outer, const Device& device, const std::vector<Entry>
     nodes.insert(nodes.end(), level.begin(), level.end());
   } while (level.size() > 1);
   outer.count = static_cast<cl_uint>(entries.size());
-  outer.places = uploaded(device, places);
-  outer.ids = uploaded(device, ids);
-  outer.nodes = uploaded(device, nodes);
+  outer.places = allocate_with(device, places, "seeds outside the grid");
+  outer.ids = allocate_with(device, ids, "seeds outside the grid");
+  outer.nodes = allocate_with(device, nodes, "seeds outside the grid");
 }
 
 /// Whether distances from all pixels to all these positions, and their keys (kernels/exact/outer.cl), take 32
@@ -264,7 +257,7 @@ std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const
   for (const Entry& entry : entries) near = near && is_near(grid, entry.place);
   outer.extent = near ? Extent::near : Extent::far;
   positions.push_back({{absent_coordinate, 0}});
-  outer.seeds = uploaded(device, positions);
+  outer.seeds = allocate_with(device, positions, "seeds outside the grid");
   if (!entries.empty()) make_tree(outer, device, entries);
   return std::make_shared<const OuterSeeds>(std::move(outer));
 }

@@ -145,7 +145,7 @@ void SeedsState::place(Placement&& placement, const std::optional<Domain>& domai
   next.outer = gather_outer_seeds(device, grid, domain, std::move(in_the_plane));
   auto made = std::make_shared<const SeedsFrame>(next);
   packed.push_back(absent_position);
-  upload(device, next_positions(there.size()), packed);
+  upload_.start(device, next_positions(there.size()), std::move(packed));
   commit(std::move(made), std::move(there));
 }
 

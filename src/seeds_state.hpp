@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "buffer.hpp"
 #include "internal.hpp"
 #include "kernel.hpp"
 #include "seeds_frame.hpp"
@@ -71,6 +72,7 @@ struct SeedsState {
 
   std::shared_ptr<const SeedsFrame> frame_;
   cl::Buffer spare_;                                 // where the next positions go
+  Upload<std::uint32_t> upload_;                     // of positions that the host has placed
   std::vector<std::shared_ptr<PointCheck>> checks_;  // those of frames that are remembered, and unused ones
 };
 

@@ -126,6 +126,7 @@ class VOROCL_API PlaneSeeds {
   std::vector<PlaneSeed> near(const PlaneRectangle& rectangle, Metric metric = Metric::euclidean) const;
 
  private:
+  friend struct Internal;
   PlaneSeedsState& state() const;
   std::unique_ptr<PlaneSeedsState> state_;
 };

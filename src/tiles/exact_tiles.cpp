@@ -5,6 +5,7 @@
 #include "diagram_state.hpp"
 #include "seeds_state.hpp"
 #include "tiles/plane_cells.hpp"
+#include "tiles/plane_seeds.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -80,14 +81,14 @@ class TileEngine {
   MadeTile enqueue(std::uint64_t number) {
     const Tile tile = tiling_.tile(number);
     // While the device makes the tile before.
-    std::vector<PlaneSeed> near = seeds_.near({tile.x, tile.y, tile.width, tile.height}, options_.metric);
+    Internal::state(seeds_).find_near({tile.x, tile.y, tile.width, tile.height}, options_.metric, near_);
     std::unique_ptr<TileMaker>& maker = makers_[{tile.width, tile.height}];
     if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height));
-    place(near, tile, Internal::state(maker->seeds));
-    upload_ids(near);
+    place(tile, Internal::state(maker->seeds));
+    upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
-    MadeTile made = {number, tile, name_labels(maker->diagram, near.size()), {}};
-    if (options_.cells) made.measures = measure(*maker, std::move(near));
+    MadeTile made = {number, tile, name_labels(maker->diagram, near_.size()), {}};
+    if (options_.cells) made.measures = measure(*maker);
     return made;
   }
 
@@ -101,17 +102,17 @@ class TileEngine {
 
  private:
   /// Places seeds as they lie seen from a tile's first pixel.
-  void place(const std::vector<PlaneSeed>& near, const Tile& tile, SeedsState& seeds) const {
+  void place(const Tile& tile, SeedsState& seeds) const {
     const Plane& plane = seeds_.plane();
     std::optional<Domain> domain;
     if (plane.periodic() != Periodic::none) {
       domain = Domain{-tile.x, -tile.y, plane.width(), plane.height(), plane.periodic()};
     }
     Placement placement;
-    placement.packed.reserve(near.size() + 1);        // one more is added when they are uploaded
-    placement.in_the_plane.reserve(near.size() + 1);  // likewise
+    placement.packed.reserve(near_.size() + 1);        // one more is added when they are uploaded
+    placement.in_the_plane.reserve(near_.size() + 1);  // likewise
     bool all_inside = true;
-    for (const PlaneSeed& seed : near) {
+    for (const PlaneSeed& seed : near_) {
       const PlanePosition at = {{static_cast<cl_int>(seed.x - tile.x), static_cast<cl_int>(seed.y - tile.y)}};
       const bool inside = is_inside(seeds.grid, at);
       placement.packed.push_back(inside ? pack(at.s[0], at.s[1]) : absent_position);
@@ -122,15 +123,15 @@ class TileEngine {
     seeds.place(std::move(placement), domain);
   }
 
-  void upload_ids(const std::vector<PlaneSeed>& near) {
+  void upload_ids() {
     std::vector<cl_uint> ids;
-    ids.reserve(near.size() + 1);
-    for (const PlaneSeed& seed : near) ids.push_back(seed.id);
+    ids.reserve(near_.size() + 1);
+    for (const PlaneSeed& seed : near_) ids.push_back(seed.id);
     ids.push_back(no_label);
     const std::size_t bytes = ids.size() * sizeof(cl_uint);
     if (ids_() == nullptr || size_of(ids_) < bytes)
       ids_ = allocate(device_, bytes, "the ids of a tile's seeds");
-    upload(device_, ids_, ids);
+    upload_.start(device_, ids_, std::move(ids));
   }
 
   cl::Buffer name_labels(const Diagram& diagram, std::size_t seeds) {
@@ -146,11 +147,11 @@ class TileEngine {
     return named;
   }
 
-  TileMeasures measure(const TileMaker& maker, std::vector<PlaneSeed>&& near) {
+  TileMeasures measure(const TileMaker& maker) {
     cell_sums(maker.seeds, maker.diagram, sums_);
     cell_shapes(maker.seeds, maker.diagram, shapes_, options_.metric);
     adjacency(maker.seeds, maker.diagram, pairs_);
-    return {std::move(near), sums_.read(), shapes_.read(), pairs_.read_pairs()};
+    return {near_, sums_.read(), shapes_.read(), pairs_.read_pairs()};
   }
 
   Device device_;
@@ -158,8 +159,10 @@ class TileEngine {
   const Tiling& tiling_;
   TileOptions options_;
   std::map<std::pair<int, int>, std::unique_ptr<TileMaker>> makers_;  // by size, of which there are four
+  std::vector<PlaneSeed> near_;                                       // the tile that is being made
   KernelSet kernels_;
   cl::Buffer ids_;
+  Upload<cl_uint> upload_;
   cl::Buffer named_[2];
   int next_ = 0;
   CellSumsResult sums_;

@@ -1,48 +1,22 @@
+#include "tiles/plane_seeds.hpp"
+
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
-
-#include "internal.hpp"
-#include "tiles/seed_tree.hpp"
-#include "vorocl/error.hpp"
-#include "vorocl/tiles.hpp"
 
 namespace vorocl {
 
 namespace {
 
 constexpr std::uint64_t most_ids = no_label;  // 0 to no_label - 1
-constexpr std::int64_t plane_side = std::int64_t{1} << 31;
 
-/// An axis of a plane: where seeds may lie along it.
-struct PlaneAxis {
-  std::int64_t pixels;
-  bool periodic;
-
-  /// Whether it is less than 2^31 pixels away from all pixels.
-  bool reaches(double at) const {
-    // Written so that a NaN fails.
-    return at >= static_cast<double>(pixels - plane_side) && at < static_cast<double>(plane_side);
-  }
-
-  std::int32_t pixel(double at) const {
-    auto pixel = static_cast<std::int64_t>(std::floor(at));
-    if (periodic) pixel = (pixel % pixels + pixels) % pixels;
-    return static_cast<std::int32_t>(pixel);
-  }
-
-  bool holds(std::int32_t pixel) const {
-    return periodic ? pixel >= 0 && pixel < pixels : pixel >= pixels - plane_side;
-  }
-};
-
-/// Finds the images that own points of a rectangle's rim. A seed outside that owns a pixel inside owns every
-/// point of the plane between them: so one of the rim too. Ties are decided the same at both.
+/// Finds the seeds outside a rectangle of which images own points of its rim. A seed outside that owns a
+/// pixel inside owns every point of the plane between them: so one of the rim too. Ties are decided the same
+/// at both.
 class RimOwners {
  public:
   RimOwners(const SeedTree& tree, const Plane& plane, const PlaneRectangle& rectangle, Metric metric)
-      : tree_(tree), plane_(plane), metric_(metric) {
+      : tree_(tree), plane_(plane), rectangle_(rectangle), metric_(metric) {
     const std::int64_t right = rectangle.x + rectangle.width - 1, bottom = rectangle.y + rectangle.height - 1;
     const PlanePoint corners[] = {
         {rectangle.x, rectangle.y}, {right, rectangle.y}, {right, bottom}, {rectangle.x, bottom}};
@@ -54,7 +28,7 @@ class RimOwners {
   std::vector<std::size_t> take() { return std::move(found_); }
 
  private:
-  static constexpr std::size_t few = 16;  // so many at once cost about as much as to halve the line
+  static constexpr std::size_t few = 32;  // so many at once cost about as much as to halve the line
 
   SeedImage owner_of(const PlanePoint& point, const SeedImage* guess) {
     SeedImage owner;
@@ -64,64 +38,41 @@ class RimOwners {
     return owner;
   }
 
-  void trace(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b) {
-    // What wins at both ends wins between them.
-    if (at_a.index == at_b.index && at_a.offset == at_b.offset) return;
-    const bool can_halve = std::abs(a.x - b.x) + std::abs(a.y - b.y) > 1;
-    between_.clear();
-    if (tree_.find_between(a, at_a, b, at_b, plane_, metric_, can_halve ? few : SIZE_MAX, between_)) {
+  /// Goes from one point to another in steps, which have the length that the last ones needed.
+  void trace(PlanePoint a, SeedImage at_a, const PlanePoint& end, const SeedImage& at_end) {
+    const std::int64_t along_x = end.x > a.x ? 1 : end.x < a.x ? -1 : 0;
+    const std::int64_t along_y = end.y > a.y ? 1 : end.y < a.y ? -1 : 0;
+    std::int64_t left = std::abs(end.x - a.x) + std::abs(end.y - a.y);
+    while (left > 0) {
+      step_ = std::min(step_, left);
+      const PlanePoint b = {a.x + step_ * along_x, a.y + step_ * along_y};
+      const SeedImage at_b = step_ == left ? at_end : owner_of(b, &at_a);
+      between_.clear();
+      // What wins at both ends wins between them.
+      const bool one = at_a.index == at_b.index && at_a.offset == at_b.offset;
+      if (!one && !tree_.find_between(a, at_a, b, at_b, plane_, metric_, rectangle_,
+                                      step_ > 1 ? few : SIZE_MAX, between_)) {
+        step_ /= 2;
+        continue;
+      }
       for (const SeedImage& image : between_) found_.push_back(image.index);
-      return;
+      left -= step_;
+      a = b;
+      at_a = at_b;
+      if (between_.size() < few / 4) step_ *= 2;
     }
-    const PlanePoint middle = {(a.x + b.x) / 2, (a.y + b.y) / 2};
-    const SeedImage at_middle = owner_of(middle, &at_a);
-    trace(a, at_a, middle, at_middle);
-    trace(middle, at_middle, b, at_b);
   }
 
   const SeedTree& tree_;
   const Plane& plane_;
+  PlaneRectangle rectangle_;
   Metric metric_;
+  std::int64_t step_ = 64;  // pixels
   std::vector<SeedImage> between_;
   std::vector<std::size_t> found_;
 };
 
 }  // namespace
-
-struct PlaneSeedsState {
-  explicit PlaneSeedsState(const Plane& plane_of_seeds)
-      : plane(plane_of_seeds),
-        x{plane.width(), has_x(plane.periodic())},
-        y{plane.height(), has_y(plane.periodic())} {}
-
-  /// Calls a function that adds seeds. If it throws, none is there.
-  template <typename Add>
-  void add(Add add_seeds) {
-    if (sorted) throw Error("these seeds were asked for already; add all of them before");
-    const std::size_t size_before = tree.size();
-    const std::uint64_t ids_before = ids;
-    try {
-      add_seeds();
-    } catch (...) {
-      tree.shorten(size_before);
-      ids = ids_before;
-      throw;
-    }
-    size += tree.size() - size_before;
-  }
-
-  void sort() {
-    if (!sorted) tree.sort();
-    sorted = true;
-  }
-
-  Plane plane;
-  PlaneAxis x, y;
-  SeedTree tree;
-  std::size_t size = 0;
-  std::uint64_t ids = 0;
-  bool sorted = false;
-};
 
 PlaneSeeds::PlaneSeeds(const Plane& plane) : state_(std::make_unique<PlaneSeedsState>(plane)) {}
 PlaneSeeds::PlaneSeeds(const Plane& plane, const std::vector<Point>& points) : PlaneSeeds(plane) {
@@ -174,25 +125,24 @@ std::size_t PlaneSeeds::size() const { return state().size; }
 std::uint64_t PlaneSeeds::ids() const { return state().ids; }
 void PlaneSeeds::sort() const { state().sort(); }
 
-std::vector<PlaneSeed> PlaneSeeds::near(const PlaneRectangle& rectangle, Metric metric) const {
+void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
+                                std::vector<PlaneSeed>& seeds) {
   sort();
-  const SeedTree& tree = state().tree;
-  std::vector<PlaneSeed> seeds;
-  if (tree.size() == 0) return seeds;
-  std::vector<std::size_t> inside;
-  tree.find_inside(rectangle, inside);
-  seeds.reserve(inside.size());
-  for (const std::size_t index : inside) seeds.push_back(tree.seed(index));
-
-  std::vector<std::size_t> on_rim = RimOwners(tree, plane(), rectangle, metric).take();
+  seeds.clear();
+  if (tree.size() == 0) return;
+  tree.find_inside(rectangle, seeds);
+  std::vector<std::size_t> on_rim = RimOwners(tree, plane, rectangle, metric).take();
   std::sort(on_rim.begin(), on_rim.end());
   on_rim.erase(std::unique(on_rim.begin(), on_rim.end()), on_rim.end());
   for (const std::size_t index : on_rim) {
     const PlaneSeed seed = tree.seed(index);
-    const bool is_inside = seed.x >= rectangle.x && seed.x - rectangle.x < rectangle.width &&
-                           seed.y >= rectangle.y && seed.y - rectangle.y < rectangle.height;
-    if (!is_inside) seeds.push_back(seed);
+    if (!holds(rectangle, seed.x, seed.y)) seeds.push_back(seed);
   }
+}
+
+std::vector<PlaneSeed> PlaneSeeds::near(const PlaneRectangle& rectangle, Metric metric) const {
+  std::vector<PlaneSeed> seeds;
+  state().find_near(rectangle, metric, seeds);
   return seeds;
 }
 

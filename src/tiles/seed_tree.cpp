@@ -44,24 +44,20 @@ void each_image(const Plane& plane, Use use) {
   }
 }
 
-std::uint64_t rank_of(std::uint64_t order) {
-  return static_cast<std::uint64_t>(gather_bits(order >> 1)) << 32 | gather_bits(order);
-}
-
 }  // namespace
 
 void SeedTree::reserve(std::size_t count) {
-  orders_.reserve(count);
+  places_.reserve(count);
   ids_.reserve(count);
 }
 
 void SeedTree::add(std::int32_t x, std::int32_t y, std::uint32_t id) {
-  orders_.push_back(z_order(x, y));
+  places_.push_back(z_order(x, y));
   ids_.push_back(id);
 }
 
 void SeedTree::shorten(std::size_t count) {
-  orders_.resize(count);
+  places_.resize(count);
   ids_.resize(count);
 }
 
@@ -70,44 +66,47 @@ void SeedTree::sort() {
   constexpr int digit_bits = 11;
   constexpr std::uint64_t digit_mask = (1u << digit_bits) - 1;
   std::uint64_t varying = 0;
-  for (const std::uint64_t order : orders_) varying |= order ^ orders_.front();
+  for (const std::uint64_t place : places_) varying |= place ^ places_.front();
   {
-    std::vector<std::uint64_t> next_orders(orders_.size());
+    std::vector<std::uint64_t> next_places(places_.size());
     std::vector<std::uint32_t> next_ids(ids_.size());
     for (int shift = 0; shift < 64; shift += digit_bits) {
       if ((varying >> shift & digit_mask) == 0) continue;
       std::array<std::size_t, digit_mask + 2> starts = {};
-      for (const std::uint64_t order : orders_) ++starts[(order >> shift & digit_mask) + 1];
+      for (const std::uint64_t place : places_) ++starts[(place >> shift & digit_mask) + 1];
       for (std::size_t digit = 1; digit < starts.size(); ++digit) starts[digit] += starts[digit - 1];
-      for (std::size_t i = 0; i < orders_.size(); ++i) {
-        const std::size_t to = starts[orders_[i] >> shift & digit_mask]++;
-        next_orders[to] = orders_[i];
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        const std::size_t to = starts[places_[i] >> shift & digit_mask]++;
+        next_places[to] = places_[i];
         next_ids[to] = ids_[i];
       }
-      orders_.swap(next_orders);
+      places_.swap(next_places);
       ids_.swap(next_ids);
     }
   }
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < orders_.size(); ++i) {
-    if (kept > 0 && orders_[kept - 1] == orders_[i]) {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (kept > 0 && places_[kept - 1] == places_[i]) {
       ids_[kept - 1] = std::min(ids_[kept - 1], ids_[i]);
     } else {
-      orders_[kept] = orders_[i];
+      places_[kept] = places_[i];
       ids_[kept++] = ids_[i];
     }
   }
   shorten(kept);
+  for (std::uint64_t& place : places_) {
+    place = static_cast<std::uint64_t>(gather_bits(place >> 1)) << 32 | gather_bits(place);
+  }
 
   levels_.clear();
-  if (orders_.empty()) return;
-  std::vector<Box> boxes((orders_.size() - 1) / fan + 1, {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN});
+  if (places_.empty()) return;
+  std::vector<Box> boxes((places_.size() - 1) / fan + 1, {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN});
   const auto join = [](Box& box, const Box& other) {
     box = {std::min(box.left, other.left), std::min(box.top, other.top), std::max(box.right, other.right),
            std::max(box.bottom, other.bottom)};
   };
-  for (std::size_t i = 0; i < orders_.size(); ++i) {
-    const std::int32_t x = x_of_z_order(orders_[i]), y = y_of_z_order(orders_[i]);
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const std::int32_t x = x_of(i), y = y_of(i);
     join(boxes[i / fan], {x, y, x, y});
   }
   levels_.push_back(std::move(boxes));
@@ -121,30 +120,31 @@ void SeedTree::sort() {
 
 /// The children of a node are seeds at level 0, else nodes of the level below.
 std::size_t SeedTree::children_end(std::size_t level, std::size_t node) const {
-  return std::min((node + 1) * fan, level == 0 ? orders_.size() : levels_[level - 1].size());
+  return std::min((node + 1) * fan, level == 0 ? places_.size() : levels_[level - 1].size());
 }
 
-void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<std::size_t>& found) const {
+void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const {
   if (!levels_.empty()) find_inside(levels_.size() - 1, 0, rectangle, found);
 }
 
 void SeedTree::find_inside(std::size_t level, std::size_t node, const PlaneRectangle& rectangle,
-                           std::vector<std::size_t>& found) const {
+                           std::vector<PlaneSeed>& found) const {
   const Box& box = levels_[level][node];
   const std::int64_t right = rectangle.x + rectangle.width - 1, bottom = rectangle.y + rectangle.height - 1;
   if (box.right < rectangle.x || box.left > right || box.bottom < rectangle.y || box.top > bottom) return;
-  if (box.left >= rectangle.x && box.right <= right && box.top >= rectangle.y && box.bottom <= bottom) {
+  if (holds(rectangle, box)) {
     const std::size_t shift = fan_bits * (level + 1);
-    const std::size_t end = std::min((node + 1) << shift, orders_.size());
-    for (std::size_t i = node << shift; i < end; ++i) found.push_back(i);
+    const std::size_t first = node << shift, end = std::min((node + 1) << shift, places_.size());
+    const std::size_t before = found.size();
+    found.resize(before + end - first);
+    for (std::size_t i = first; i < end; ++i) found[before + i - first] = seed(i);
     return;
   }
   for (std::size_t child = node * fan; child < children_end(level, node); ++child) {
     if (level > 0) {
       find_inside(level - 1, child, rectangle, found);
     } else {
-      const std::int32_t x = x_of_z_order(orders_[child]), y = y_of_z_order(orders_[child]);
-      if (x >= rectangle.x && x <= right && y >= rectangle.y && y <= bottom) found.push_back(child);
+      if (holds(rectangle, x_of(child), y_of(child))) found.push_back(seed(child));
     }
   }
 }
@@ -172,12 +172,12 @@ void SeedTree::find_nearest(std::size_t level, std::size_t node, Nearest& search
   const std::size_t first = node * fan, end = children_end(level, node);
   if (level == 0) {
     for (std::size_t i = first; i < end; ++i) {
-      const std::int64_t dx = std::abs(x_of_z_order(orders_[i]) - search.point.x);
-      const std::int64_t dy = std::abs(y_of_z_order(orders_[i]) - search.point.y);
+      const std::int64_t dx = std::abs(x_of(i) - search.point.x);
+      const std::int64_t dy = std::abs(y_of(i) - search.point.y);
       if (!search.half.hold(dx, dy)) continue;
       const std::int64_t distance = distance_of(dx, dy, search.metric);
       if (distance > search.best.distance) continue;
-      const SeedImage image = {i, search.offset, distance, rank_of(orders_[i])};
+      const SeedImage image = {i, search.offset, distance, rank_of(i)};
       if (image.wins(search.best)) search.best = image;
     }
     return;
@@ -202,8 +202,8 @@ void SeedTree::find_nearest(std::size_t level, std::size_t node, Nearest& search
 }
 
 SeedImage SeedTree::seen_from(const PlanePoint& point, const SeedImage& image, Metric metric) const {
-  const std::int64_t x = x_of_z_order(orders_[image.index]) + image.offset.x;
-  const std::int64_t y = y_of_z_order(orders_[image.index]) + image.offset.y;
+  const std::int64_t x = x_of(image.index) + image.offset.x;
+  const std::int64_t y = y_of(image.index) + image.offset.y;
   return {image.index, image.offset, distance_of(std::abs(x - point.x), std::abs(y - point.y), metric),
           image.rank};
 }
@@ -214,13 +214,15 @@ struct SeedTree::Between {
   PlanePoint a, b, offset;
   SeedImage of_b_at_a, of_a_at_b;  // what wins at one end, seen from the other one
   Metric metric;
+  PlaneRectangle rectangle;
   HalfPeriods half;
   std::size_t most;
   std::vector<SeedImage>& found;
 };
 
 bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
-                            const SeedImage& at_b, const Plane& plane, Metric metric, std::size_t most,
+                            const SeedImage& at_b, const Plane& plane, Metric metric,
+                            const PlaneRectangle& rectangle, std::size_t most,
                             std::vector<SeedImage>& found) const {
   // What wins at a is nearer there than another image: if it wins against that one at b too, it does between
   // them. So only images count that are as near at b as what wins at a, and the other way round.
@@ -234,6 +236,7 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
                       of_b_at_a,
                       of_a_at_b,
                       metric,
+                      rectangle,
                       half,
                       most,
                       found};
@@ -246,6 +249,7 @@ bool SeedTree::find_between(std::size_t level, std::size_t node, Between& search
   for (std::size_t child = node * fan; child < children_end(level, node); ++child) {
     if (level > 0) {
       const Box& box = levels_[level - 1][child];
+      if (holds(search.rectangle, box)) continue;
       const std::int64_t ax = gap(search.a.x, box.left, box.right), ay = gap(search.a.y, box.top, box.bottom);
       const std::int64_t bx = gap(search.b.x, box.left, box.right), by = gap(search.b.y, box.top, box.bottom);
       if (!search.half.hold(ax, ay) || !search.half.hold(bx, by)) continue;
@@ -253,13 +257,17 @@ bool SeedTree::find_between(std::size_t level, std::size_t node, Between& search
       if (distance_of(bx, by, search.metric) > search.of_a_at_b.distance) continue;
       if (!find_between(level - 1, child, search)) return false;
     } else {
-      const std::int64_t x = x_of_z_order(orders_[child]), y = y_of_z_order(orders_[child]);
+      const std::int64_t x = x_of(child), y = y_of(child);
+      if (holds(search.rectangle, x, y)) continue;
       const std::int64_t ax = std::abs(x - search.a.x), ay = std::abs(y - search.a.y);
       const std::int64_t bx = std::abs(x - search.b.x), by = std::abs(y - search.b.y);
       if (!search.half.hold(ax, ay) || !search.half.hold(bx, by)) continue;
-      SeedImage image = {child, search.offset, distance_of(ax, ay, search.metric), rank_of(orders_[child])};
-      if (search.of_b_at_a.wins(image)) continue;
-      image.distance = distance_of(bx, by, search.metric);
+      const std::int64_t from_a = distance_of(ax, ay, search.metric);
+      const std::int64_t from_b = distance_of(bx, by, search.metric);
+      if (from_a > search.of_b_at_a.distance || from_b > search.of_a_at_b.distance) continue;
+      const std::uint64_t rank = rank_of(child);
+      if (search.of_b_at_a.wins({child, search.offset, from_a, rank})) continue;
+      const SeedImage image = {child, search.offset, from_b, rank};
       if (search.of_a_at_b.wins(image)) continue;
       if (search.found.size() == search.most) return false;
       search.found.push_back(image);

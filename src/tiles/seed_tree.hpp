@@ -11,6 +11,11 @@
 
 namespace vorocl {
 
+inline bool holds(const PlaneRectangle& rectangle, std::int64_t x, std::int64_t y) {
+  return x >= rectangle.x && x - rectangle.x < rectangle.width && y >= rectangle.y &&
+         y - rectangle.y < rectangle.height;
+}
+
 /// A point of the plane, in pixels, and how far an image is from its own place.
 struct PlanePoint {
   std::int64_t x, y;
@@ -23,7 +28,7 @@ struct SeedImage {
   std::size_t index = 0;              // in the tree
   PlanePoint offset = {0, 0};         // of the image from the seed
   std::int64_t distance = INT64_MAX;  // squared if Euclidean
-  std::uint64_t rank = UINT64_MAX;    // of the seed in the tie rule: the row-major order of own positions
+  std::uint64_t rank = UINT64_MAX;    // of the seed in the tie rule
 
   /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
   bool wins(const SeedImage& other) const {
@@ -37,18 +42,16 @@ class SeedTree {
   void reserve(std::size_t count);
   void add(std::int32_t x, std::int32_t y, std::uint32_t id);
   void shorten(std::size_t count);  // takes back the last ones
-  std::size_t size() const { return orders_.size(); }
+  std::size_t size() const { return places_.size(); }
 
   /// Puts the seeds in order, with one of each pixel, that of the lowest id, and makes the boxes. Cost: some
   /// passes over the seeds, with as much memory again.
   void sort();
 
-  PlaneSeed seed(std::size_t index) const {
-    return {x_of_z_order(orders_[index]), y_of_z_order(orders_[index]), ids_[index]};
-  }
+  PlaneSeed seed(std::size_t index) const { return {x_of(index), y_of(index), ids_[index]}; }
 
-  /// Appends the indices of the seeds in a rectangle.
-  void find_inside(const PlaneRectangle& rectangle, std::vector<std::size_t>& found) const;
+  /// Appends the seeds in a rectangle.
+  void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
   /// Makes `best` the image that wins at a point, if it does not yet. Images that are farther than half a
   /// period along an axis never win, and are not looked at.
@@ -57,10 +60,11 @@ class SeedTree {
   /// An image's distance and rank, seen from a point.
   SeedImage seen_from(const PlanePoint& point, const SeedImage& image, Metric metric) const;
 
-  /// Appends the images that win somewhere on an axis-parallel line from a to b, and some that do not, given
-  /// those that win at both ends; at most `most` of them. Returns whether these were all.
+  /// Appends images of seeds outside a rectangle: all that win somewhere on an axis-parallel line from a to
+  /// b, and some that do not, given those that win at both ends. Returns false if they are more than `most`.
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
-                    const Plane& plane, Metric metric, std::size_t most, std::vector<SeedImage>& found) const;
+                    const Plane& plane, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
+                    std::vector<SeedImage>& found) const;
 
  private:
   static constexpr int fan_bits = 4;
@@ -72,13 +76,27 @@ class SeedTree {
   struct Nearest;
   struct Between;
 
+  static bool holds(const PlaneRectangle& rectangle, const Box& box) {
+    return vorocl::holds(rectangle, box.left, box.top) && vorocl::holds(rectangle, box.right, box.bottom);
+  }
+  static bool holds(const PlaneRectangle& rectangle, std::int64_t x, std::int64_t y) {
+    return vorocl::holds(rectangle, x, y);
+  }
+
+  // Of seeds in order. Their ranks are those of their positions in row-major order, which is the tie rule.
+  std::uint64_t rank_of(std::size_t index) const { return places_[index]; }
+  std::int32_t x_of(std::size_t index) const { return static_cast<std::int32_t>(places_[index] ^ z_bias); }
+  std::int32_t y_of(std::size_t index) const {
+    return static_cast<std::int32_t>(places_[index] >> 32 ^ z_bias);
+  }
+
   std::size_t children_end(std::size_t level, std::size_t node) const;
   void find_inside(std::size_t level, std::size_t node, const PlaneRectangle& rectangle,
-                   std::vector<std::size_t>& found) const;
+                   std::vector<PlaneSeed>& found) const;
   void find_nearest(std::size_t level, std::size_t node, Nearest& search) const;
   bool find_between(std::size_t level, std::size_t node, Between& search) const;
 
-  std::vector<std::uint64_t> orders_;  // of their positions on the Z-curve
+  std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, their ranks
   std::vector<std::uint32_t> ids_;
   std::vector<std::vector<Box>> levels_;  // the finest one first
 };
