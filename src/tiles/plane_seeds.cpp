@@ -1,6 +1,7 @@
 #include "tiles/plane_seeds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 
@@ -17,9 +18,7 @@ class RimOwners {
  public:
   RimOwners(const SeedTree& tree, const Plane& plane, const PlaneRectangle& rectangle, Metric metric)
       : tree_(tree), plane_(plane), rectangle_(rectangle), metric_(metric) {
-    const std::int64_t right = rectangle.x + rectangle.width - 1, bottom = rectangle.y + rectangle.height - 1;
-    const PlanePoint corners[] = {
-        {rectangle.x, rectangle.y}, {right, rectangle.y}, {right, bottom}, {rectangle.x, bottom}};
+    const std::array<PlanePoint, 4> corners = corners_of(rectangle);
     SeedImage owners[4];
     for (int i = 0; i < 4; ++i) owners[i] = owner_of(corners[i], i > 0 ? &owners[i - 1] : nullptr);
     for (int i = 0; i < 4; ++i) trace(corners[i], owners[i], corners[(i + 1) % 4], owners[(i + 1) % 4]);
@@ -32,7 +31,7 @@ class RimOwners {
 
   SeedImage owner_of(const PlanePoint& point, const SeedImage* guess) {
     SeedImage owner;
-    if (guess) owner = tree_.seen_from(point, *guess, metric_);
+    if (guess) owner = tree_.seen_from(point, plane_, metric_, *guess);
     tree_.find_nearest(point, plane_, metric_, owner);
     found_.push_back(owner.index);
     return owner;
@@ -42,16 +41,15 @@ class RimOwners {
   void trace(PlanePoint a, SeedImage at_a, const PlanePoint& end, const SeedImage& at_end) {
     const std::int64_t along_x = end.x > a.x ? 1 : end.x < a.x ? -1 : 0;
     const std::int64_t along_y = end.y > a.y ? 1 : end.y < a.y ? -1 : 0;
-    std::int64_t left = std::abs(end.x - a.x) + std::abs(end.y - a.y);
+    std::int64_t left = length_of(a, end);
     while (left > 0) {
       step_ = std::min(step_, left);
       const PlanePoint b = {a.x + step_ * along_x, a.y + step_ * along_y};
       const SeedImage at_b = step_ == left ? at_end : owner_of(b, &at_a);
       between_.clear();
       // What wins at both ends wins between them.
-      const bool one = at_a.index == at_b.index && at_a.offset == at_b.offset;
-      if (!one && !tree_.find_between(a, at_a, b, at_b, plane_, metric_, rectangle_,
-                                      step_ > 1 ? few : SIZE_MAX, between_)) {
+      if (!(at_a == at_b) && !tree_.find_between(a, at_a, b, at_b, plane_, metric_, rectangle_,
+                                                 step_ > 1 ? few : SIZE_MAX, between_)) {
         step_ /= 2;
         continue;
       }

@@ -5,38 +5,32 @@
 #include <cstdint>
 #include <vector>
 
+#include "tiles/box_tree.hpp"
+#include "tiles/plane_distance.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/tiles.hpp"
 #include "z_order.hpp"
 
 namespace vorocl {
 
-inline bool holds(const PlaneRectangle& rectangle, std::int64_t x, std::int64_t y) {
-  return x >= rectangle.x && x - rectangle.x < rectangle.width && y >= rectangle.y &&
-         y - rectangle.y < rectangle.height;
-}
-
-/// A point of the plane, in pixels, and how far an image is from its own place.
-struct PlanePoint {
-  std::int64_t x, y;
-
-  friend bool operator==(const PlanePoint& a, const PlanePoint& b) { return a.x == b.x && a.y == b.y; }
-};
-
 /// A seed, or one of its images where the plane is periodic, at a distance from a point.
 struct SeedImage {
-  std::size_t index = 0;              // in the tree
-  PlanePoint offset = {0, 0};         // of the image from the seed
-  std::int64_t distance = INT64_MAX;  // squared if Euclidean
-  std::uint64_t rank = UINT64_MAX;    // of the seed in the tie rule
+  std::size_t index = 0;  // in the tree
+  PlanePoint offset;      // of the image from the seed
+  std::int64_t distance = too_far;
+  std::uint64_t rank = UINT64_MAX;  // of the seed in the tie rule
 
   /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
   bool wins(const SeedImage& other) const {
     return distance != other.distance ? distance < other.distance : rank < other.rank;
   }
+
+  friend bool operator==(const SeedImage& a, const SeedImage& b) {
+    return a.index == b.index && a.offset == b.offset;
+  }
 };
 
-/// A tree of boxes: of each 16 seeds, of each 16 of those boxes, and so on up to one. 13 bytes a seed.
+/// 13 bytes a seed.
 class SeedTree {
  public:
   void reserve(std::size_t count);
@@ -53,12 +47,11 @@ class SeedTree {
   /// Appends the seeds in a rectangle.
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
-  /// Makes `best` the image that wins at a point, if it does not yet. Images that are farther than half a
-  /// period along an axis never win, and are not looked at.
+  /// Makes `best` the image that wins at a point, if it does not yet.
   void find_nearest(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage& best) const;
 
-  /// An image's distance and rank, seen from a point.
-  SeedImage seen_from(const PlanePoint& point, const SeedImage& image, Metric metric) const;
+  /// The image as it is seen from another point.
+  SeedImage seen_from(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage image) const;
 
   /// Appends images of seeds outside a rectangle: all that win somewhere on an axis-parallel line from a to
   /// b, and some that do not, given those that win at both ends. Returns false if they are more than `most`.
@@ -67,38 +60,17 @@ class SeedTree {
                     std::vector<SeedImage>& found) const;
 
  private:
-  static constexpr int fan_bits = 4;
-  static constexpr std::size_t fan = std::size_t{1} << fan_bits;
-
-  struct Box {
-    std::int32_t left, top, right, bottom;
-  };
-  struct Nearest;
-  struct Between;
-
-  static bool holds(const PlaneRectangle& rectangle, const Box& box) {
-    return vorocl::holds(rectangle, box.left, box.top) && vorocl::holds(rectangle, box.right, box.bottom);
-  }
-  static bool holds(const PlaneRectangle& rectangle, std::int64_t x, std::int64_t y) {
-    return vorocl::holds(rectangle, x, y);
-  }
-
   // Of seeds in order. Their ranks are those of their positions in row-major order, which is the tie rule.
   std::uint64_t rank_of(std::size_t index) const { return places_[index]; }
   std::int32_t x_of(std::size_t index) const { return static_cast<std::int32_t>(places_[index] ^ z_bias); }
   std::int32_t y_of(std::size_t index) const {
     return static_cast<std::int32_t>(places_[index] >> 32 ^ z_bias);
   }
-
-  std::size_t children_end(std::size_t level, std::size_t node) const;
-  void find_inside(std::size_t level, std::size_t node, const PlaneRectangle& rectangle,
-                   std::vector<PlaneSeed>& found) const;
-  void find_nearest(std::size_t level, std::size_t node, Nearest& search) const;
-  bool find_between(std::size_t level, std::size_t node, Between& search) const;
+  PlanePoint point_of(std::size_t index) const { return {x_of(index), y_of(index)}; }
 
   std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, their ranks
   std::vector<std::uint32_t> ids_;
-  std::vector<std::vector<Box>> levels_;  // the finest one first
+  BoxTree boxes_;
 };
 
 }  // namespace vorocl

@@ -1,0 +1,132 @@
+// A tree of boxes around items of the plane that are in the order of a Z-curve.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "vorocl/tiles.hpp"
+
+namespace vorocl {
+
+/// A rectangle of pixels, both ends included.
+struct Box {
+  std::int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;
+
+  void add(const Box& other) {
+    left = std::min(left, other.left);
+    top = std::min(top, other.top);
+    right = std::max(right, other.right);
+    bottom = std::max(bottom, other.bottom);
+  }
+};
+
+inline bool holds(const PlaneRectangle& rectangle, std::int64_t x, std::int64_t y) {
+  return x >= rectangle.x && x - rectangle.x < rectangle.width && y >= rectangle.y &&
+         y - rectangle.y < rectangle.height;
+}
+
+inline bool holds(const PlaneRectangle& rectangle, const Box& box) {
+  return holds(rectangle, box.left, box.top) && holds(rectangle, box.right, box.bottom);
+}
+
+inline bool meets(const PlaneRectangle& rectangle, const Box& box) {
+  return box.right >= rectangle.x && box.left - rectangle.x < rectangle.width && box.bottom >= rectangle.y &&
+         box.top - rectangle.y < rectangle.height;
+}
+
+/// Boxes around each 16 items, around each 16 of those boxes, and so on up to one.
+class BoxTree {
+ public:
+  /// Of so many items, with a function that gives the box of each.
+  template <typename BoxOf>
+  void make(std::size_t items, BoxOf box_of) {
+    items_ = items;
+    levels_.clear();
+    if (items == 0) return;
+    add_level(items, box_of);
+    while (levels_.back().size() > 1) {
+      const std::vector<Box> below = levels_.back();
+      add_level(below.size(), [&](std::size_t i) { return below[i]; });
+    }
+  }
+
+  enum class Verdict { pass, enter, take };
+
+  /// Shows a function the boxes from the top, in order: it passes a box, enters it, or takes all in it. Gives
+  /// a second function the items that were come to, as a range, with whether it was taken. Ends early, and
+  /// returns false, if that one returns false.
+  template <typename Judge, typename Use>
+  bool visit(Judge judge, Use use) const {
+    return levels_.empty() || visit(levels_.size() - 1, 0, judge, use);
+  }
+
+  /// Gives a function ranges of items: first of the boxes that are nearest, and none of those at a distance
+  /// above `limit()`.
+  template <typename Distance, typename Limit, typename Use>
+  void visit_nearest_first(Distance distance, Limit limit, Use use) const {
+    if (!levels_.empty()) visit_nearest_first(levels_.size() - 1, 0, distance, limit, use);
+  }
+
+ private:
+  static constexpr int fan_bits = 4;
+  static constexpr std::size_t fan = std::size_t{1} << fan_bits;
+
+  template <typename BoxOf>
+  void add_level(std::size_t count, BoxOf box_of) {
+    std::vector<Box> boxes((count - 1) / fan + 1);
+    for (std::size_t i = 0; i < count; ++i) boxes[i / fan].add(box_of(i));
+    levels_.push_back(std::move(boxes));
+  }
+
+  /// The items of a node of a level.
+  std::size_t first_item(std::size_t level, std::size_t node) const { return node << fan_bits * (level + 1); }
+  std::size_t end_item(std::size_t level, std::size_t node) const {
+    return std::min(first_item(level, node + 1), items_);
+  }
+  std::size_t end_child(std::size_t level, std::size_t node) const {
+    return std::min((node + 1) * fan, levels_[level - 1].size());
+  }
+
+  template <typename Judge, typename Use>
+  bool visit(std::size_t level, std::size_t node, const Judge& judge, const Use& use) const {
+    const Verdict verdict = judge(levels_[level][node]);
+    if (verdict == Verdict::pass) return true;
+    if (verdict == Verdict::take || level == 0) {
+      return use(first_item(level, node), end_item(level, node), verdict == Verdict::take);
+    }
+    for (std::size_t child = node * fan; child < end_child(level, node); ++child) {
+      if (!visit(level - 1, child, judge, use)) return false;
+    }
+    return true;
+  }
+
+  template <typename Distance, typename Limit, typename Use>
+  void visit_nearest_first(std::size_t level, std::size_t node, const Distance& distance, const Limit& limit,
+                           const Use& use) const {
+    if (level == 0) {
+      use(first_item(level, node), end_item(level, node));
+      return;
+    }
+    std::array<std::pair<std::int64_t, std::size_t>, fan> order;
+    std::size_t count = 0;
+    for (std::size_t child = node * fan; child < end_child(level, node); ++child) {
+      const std::int64_t away = distance(levels_[level - 1][child]);
+      if (away > limit()) continue;
+      std::size_t place = count++;
+      for (; place > 0 && order[place - 1].first > away; --place) order[place] = order[place - 1];
+      order[place] = {away, child};
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      if (order[i].first <= limit()) visit_nearest_first(level - 1, order[i].second, distance, limit, use);
+    }
+  }
+
+  std::size_t items_ = 0;
+  std::vector<std::vector<Box>> levels_;  // the finest one first
+};
+
+}  // namespace vorocl
