@@ -6,7 +6,6 @@
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/seeds.hpp"
-#include "vorocl/tiles.hpp"
 
 namespace vorocl {
 
@@ -16,7 +15,6 @@ struct Internal {
   /// Throws Error if the object was moved from.
   static SeedsState& state(const Seeds& seeds) { return seeds.state(); }
   static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
-  static PlaneSeedsState& state(const PlaneSeeds& seeds) { return seeds.state(); }
 
   /// Seeds of which there are none yet: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);

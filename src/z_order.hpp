@@ -33,4 +33,12 @@ inline std::uint64_t z_order(std::int32_t x, std::int32_t y) {
          spread_bits(static_cast<std::uint32_t>(x) ^ z_bias);
 }
 
+/// The position of a place in the order.
+inline std::int32_t x_of_z_order(std::uint64_t order) {
+  return static_cast<std::int32_t>(gather_bits(order) ^ z_bias);
+}
+inline std::int32_t y_of_z_order(std::uint64_t order) {
+  return static_cast<std::int32_t>(gather_bits(order >> 1) ^ z_bias);
+}
+
 }  // namespace vorocl

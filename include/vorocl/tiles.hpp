@@ -84,17 +84,33 @@ struct PlaneSeed {
   std::uint32_t id = 0;
 };
 
+/// Where tiles get the seeds of a plane from.
+class VOROCL_API SeedSource {
+ public:
+  virtual ~SeedSource();
+
+  virtual const Plane& plane() const = 0;
+
+  /// One more than the greatest id of a seed.
+  virtual std::uint64_t ids() const = 0;
+
+  /// Replaces what a list has by the seeds that own pixels of a rectangle of the plane, and few others. Of
+  /// seeds that share a pixel only the one that owns it.
+  virtual void find_near(const PlaneRectangle& rectangle, Metric metric,
+                         std::vector<PlaneSeed>& seeds) const = 0;
+};
+
 struct PlaneSeedsState;
 
 /// The seeds of a plane, on the host: 13 bytes each, 24 while they are sorted, which happens at the first
 /// question. Ids are less than 2^32 - 1. Of seeds that share a pixel the lowest id owns the cell.
 ///
 /// Threads: one thread at a time until the first question, which sort() can be; any number from then on.
-class VOROCL_API PlaneSeeds {
+class VOROCL_API PlaneSeeds : public SeedSource {
  public:
   explicit PlaneSeeds(const Plane& plane);
   PlaneSeeds(const Plane& plane, const std::vector<Point>& points);
-  ~PlaneSeeds();
+  ~PlaneSeeds() override;
   PlaneSeeds(PlaneSeeds&& other) noexcept;
   PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;
 
@@ -111,22 +127,20 @@ class VOROCL_API PlaneSeeds {
   /// several machines share. Throws Error for a pixel that is too far away, as above, or outside the period.
   void add(const PlaneSeed* seeds, std::size_t count);
 
-  const Plane& plane() const;
+  const Plane& plane() const override;
+  std::uint64_t ids() const override;
 
-  /// The seeds that were added, and one more than their greatest id.
+  /// The seeds that were added.
   std::size_t size() const;
-  std::uint64_t ids() const;
 
   /// Sorts them along a Z-curve and makes the index.
   void sort() const;
 
-  /// The seeds that own pixels of a rectangle of the plane, and few others: those inside, and those that own
-  /// points of the rim. Of seeds that share a pixel only the one that owns it. Cost: in proportion to what is
-  /// found, and some microseconds for each cell on the rim.
-  std::vector<PlaneSeed> near(const PlaneRectangle& rectangle, Metric metric = Metric::euclidean) const;
+  /// Those inside the rectangle, and those that own points of its rim. Cost: in proportion to what is found,
+  /// and some microseconds for each cell on the rim.
+  void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds) const override;
 
  private:
-  friend struct Internal;
   PlaneSeedsState& state() const;
   std::unique_ptr<PlaneSeedsState> state_;
 };
@@ -196,20 +210,20 @@ using NextTile = std::function<std::optional<std::uint64_t>()>;
 /// held all of it, tie rule included, whatever the tiles, their order and the device. While the device makes
 /// one tile, the function gets the one before. If it throws, nothing more is made.
 ///
-/// How: a host finds the seeds that may own a pixel of the tile (PlaneSeeds::near()), and an exact diagram is
+/// How: a host finds the seeds that may own a pixel of the tile (SeedSource), and an exact diagram is
 /// made of a window of the plane. Memory: 14 bytes of the device's per pixel of a tile and what its seeds
 /// need (Seeds), and nothing that grows with the plane. Throws Error as Diagram and exact_diagram().
-VOROCL_API void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});
 
 /// As above, those tiles that `next` names.
-VOROCL_API void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const NextTile& next, const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});
 
 /// As above, for functions that use the labels on the device: nothing is copied to the host.
-VOROCL_API void exact_tiles_on_device(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+VOROCL_API void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                                       const std::function<void(const TileBuffer&)>& use,
                                       const TileOptions& options = {});
 

@@ -5,7 +5,6 @@
 #include "diagram_state.hpp"
 #include "seeds_state.hpp"
 #include "tiles/plane_cells.hpp"
-#include "tiles/plane_seeds.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -67,21 +66,20 @@ struct MadeTile {
 /// Makes one tile after the other. Their labels go to two buffers in turn.
 class TileEngine {
  public:
-  TileEngine(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling, const TileOptions& options)
+  TileEngine(const Device& device, const SeedSource& seeds, const Tiling& tiling, const TileOptions& options)
       : device_(device), seeds_(seeds), tiling_(tiling), options_(options) {
     const Plane &of_seeds = seeds.plane(), &of_tiles = tiling.plane();
     if (of_seeds.width() != of_tiles.width() || of_seeds.height() != of_tiles.height() ||
         of_seeds.periodic() != of_tiles.periodic()) {
       throw Error("the seeds are of another plane than the tiles; make both for the same one");
     }
-    seeds.sort();
     if (options.cells) Internal::result(*options.cells).begin(seeds.ids(), tiling);
   }
 
   MadeTile enqueue(std::uint64_t number) {
     const Tile tile = tiling_.tile(number);
     // While the device makes the tile before.
-    Internal::state(seeds_).find_near({tile.x, tile.y, tile.width, tile.height}, options_.metric, near_);
+    seeds_.find_near({tile.x, tile.y, tile.width, tile.height}, options_.metric, near_);
     std::unique_ptr<TileMaker>& maker = makers_[{tile.width, tile.height}];
     if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height));
     place(tile, Internal::state(maker->seeds));
@@ -155,7 +153,7 @@ class TileEngine {
   }
 
   Device device_;
-  const PlaneSeeds& seeds_;
+  const SeedSource& seeds_;
   const Tiling& tiling_;
   TileOptions options_;
   std::map<std::pair<int, int>, std::unique_ptr<TileMaker>> makers_;  // by size, of which there are four
@@ -179,12 +177,12 @@ NextTile every_tile(const Tiling& tiling) {
 
 }  // namespace
 
-void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   exact_tiles(device, seeds, tiling, every_tile(tiling), use, options);
 }
 
-void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling, const NextTile& next,
+void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling, const NextTile& next,
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   struct Waiting {
@@ -207,7 +205,7 @@ void exact_tiles(const Device& device, const PlaneSeeds& seeds, const Tiling& ti
   hand_over();
 }
 
-void exact_tiles_on_device(const Device& device, const PlaneSeeds& seeds, const Tiling& tiling,
+void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                            const std::function<void(const TileBuffer&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   const NextTile next = every_tile(tiling);

@@ -72,6 +72,8 @@ class RimOwners {
 
 }  // namespace
 
+SeedSource::~SeedSource() = default;
+
 PlaneSeeds::PlaneSeeds(const Plane& plane) : state_(std::make_unique<PlaneSeedsState>(plane)) {}
 PlaneSeeds::PlaneSeeds(const Plane& plane, const std::vector<Point>& points) : PlaneSeeds(plane) {
   reserve(points.size());
@@ -95,8 +97,9 @@ void PlaneSeeds::add(const Point* points, std::size_t count) {
     if (count > most_ids - seeds.ids) throw Error("there are more than 2^32 - 1 seeds; ids end there");
     for (std::size_t i = 0; i < count; ++i) {
       const Point& point = points[i];
-      if (!seeds.x.reaches(point.x) || !seeds.y.reaches(point.y)) throw BadPoint(seeds.ids, point);
-      seeds.tree.add(seeds.x.pixel(point.x), seeds.y.pixel(point.y), static_cast<std::uint32_t>(seeds.ids));
+      if (!seeds.axes.x.reaches(point.x) || !seeds.axes.y.reaches(point.y)) throw BadPoint(seeds.ids, point);
+      seeds.tree.add(seeds.axes.x.pixel(point.x), seeds.axes.y.pixel(point.y),
+                     static_cast<std::uint32_t>(seeds.ids));
       ++seeds.ids;
     }
   });
@@ -107,11 +110,7 @@ void PlaneSeeds::add(const PlaneSeed* added, std::size_t count) {
   seeds.add([&] {
     for (std::size_t i = 0; i < count; ++i) {
       const PlaneSeed& seed = added[i];
-      if (seed.id == no_label) throw Error("a seed has the id 2^32 - 1, which says that there is none");
-      if (!seeds.x.holds(seed.x) || !seeds.y.holds(seed.y)) {
-        throw Error("seed " + std::to_string(seed.id) + " at pixel (" + std::to_string(seed.x) + ", " +
-                    std::to_string(seed.y) + ") is too far away, or outside the plane's period");
-      }
+      seeds.axes.check(seed);
       seeds.tree.add(seed.x, seed.y, seed.id);
       seeds.ids = std::max<std::uint64_t>(seeds.ids, seed.id + std::uint64_t{1});
     }
@@ -138,10 +137,9 @@ void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
   }
 }
 
-std::vector<PlaneSeed> PlaneSeeds::near(const PlaneRectangle& rectangle, Metric metric) const {
-  std::vector<PlaneSeed> seeds;
+void PlaneSeeds::find_near(const PlaneRectangle& rectangle, Metric metric,
+                           std::vector<PlaneSeed>& seeds) const {
   state().find_near(rectangle, metric, seeds);
-  return seeds;
 }
 
 }  // namespace vorocl

@@ -1,45 +1,18 @@
 // What a PlaneSeeds object holds.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
+#include "tiles/plane_axes.hpp"
 #include "tiles/seed_tree.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
 
-/// An axis of a plane: where seeds may lie along it.
-struct PlaneAxis {
-  static constexpr std::int64_t reach = std::int64_t{1} << 31;
-
-  std::int64_t pixels;
-  bool periodic;
-
-  /// Whether it is less than 2^31 pixels away from all pixels.
-  bool reaches(double at) const {
-    // Written so that a NaN fails.
-    return at >= static_cast<double>(pixels - reach) && at < static_cast<double>(reach);
-  }
-
-  std::int32_t pixel(double at) const {
-    auto pixel = static_cast<std::int64_t>(std::floor(at));
-    if (periodic) pixel = (pixel % pixels + pixels) % pixels;
-    return static_cast<std::int32_t>(pixel);
-  }
-
-  bool holds(std::int32_t pixel) const {
-    return periodic ? pixel >= 0 && pixel < pixels : pixel >= pixels - reach;
-  }
-};
-
 struct PlaneSeedsState {
-  explicit PlaneSeedsState(const Plane& plane_of_seeds)
-      : plane(plane_of_seeds),
-        x{plane.width(), has_x(plane.periodic())},
-        y{plane.height(), has_y(plane.periodic())} {}
+  explicit PlaneSeedsState(const Plane& plane_of_seeds) : plane(plane_of_seeds), axes(plane) {}
 
   /// Calls a function that adds seeds. If it throws, none is there.
   template <typename Add>
@@ -66,7 +39,7 @@ struct PlaneSeedsState {
   void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds);
 
   Plane plane;
-  PlaneAxis x, y;
+  PlaneAxes axes;
   SeedTree tree;
   std::size_t size = 0;
   std::uint64_t ids = 0;

@@ -21,29 +21,31 @@ void SeedTree::shorten(std::size_t count) {
   ids_.resize(count);
 }
 
-void SeedTree::sort() {
-  // By the digits of the order, the lowest first; those that all seeds share are left out.
+// By the digits of their places, the lowest first; those that all seeds share are left out.
+void SeedTree::sort_places() {
   constexpr int digit_bits = 11;
   constexpr std::uint64_t digit_mask = (1u << digit_bits) - 1;
   std::uint64_t varying = 0;
   for (const std::uint64_t place : places_) varying |= place ^ places_.front();
-  {
-    std::vector<std::uint64_t> next_places(places_.size());
-    std::vector<std::uint32_t> next_ids(ids_.size());
-    for (int shift = 0; shift < 64; shift += digit_bits) {
-      if ((varying >> shift & digit_mask) == 0) continue;
-      std::array<std::size_t, digit_mask + 2> starts = {};
-      for (const std::uint64_t place : places_) ++starts[(place >> shift & digit_mask) + 1];
-      for (std::size_t digit = 1; digit < starts.size(); ++digit) starts[digit] += starts[digit - 1];
-      for (std::size_t i = 0; i < places_.size(); ++i) {
-        const std::size_t to = starts[places_[i] >> shift & digit_mask]++;
-        next_places[to] = places_[i];
-        next_ids[to] = ids_[i];
-      }
-      places_.swap(next_places);
-      ids_.swap(next_ids);
+  std::vector<std::uint64_t> next_places(places_.size());
+  std::vector<std::uint32_t> next_ids(ids_.size());
+  for (int shift = 0; shift < 64; shift += digit_bits) {
+    if ((varying >> shift & digit_mask) == 0) continue;
+    std::array<std::size_t, digit_mask + 2> starts = {};
+    for (const std::uint64_t place : places_) ++starts[(place >> shift & digit_mask) + 1];
+    for (std::size_t digit = 1; digit < starts.size(); ++digit) starts[digit] += starts[digit - 1];
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const std::size_t to = starts[places_[i] >> shift & digit_mask]++;
+      next_places[to] = places_[i];
+      next_ids[to] = ids_[i];
     }
+    places_.swap(next_places);
+    ids_.swap(next_ids);
   }
+}
+
+void SeedTree::sort() {
+  if (!std::is_sorted(places_.begin(), places_.end())) sort_places();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
     if (kept > 0 && places_[kept - 1] == places_[i]) {

@@ -60,6 +60,8 @@ class SeedTree {
                     std::vector<SeedImage>& found) const;
 
  private:
+  void sort_places();
+
   // Of seeds in order. Their ranks are those of their positions in row-major order, which is the tie rule.
   std::uint64_t rank_of(std::size_t index) const { return places_[index]; }
   std::int32_t x_of(std::size_t index) const { return static_cast<std::int32_t>(places_[index] ^ z_bias); }

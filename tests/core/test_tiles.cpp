@@ -202,7 +202,8 @@ BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
       const PlaneRectangle tile = {static_cast<std::int64_t>(rng() % 64000),
                                    static_cast<std::int64_t>(rng() % 64000), 1024, 1024};
       for (const Metric metric : both_metrics) {
-        const std::vector<PlaneSeed> near = seeds.near(tile, metric);
+        std::vector<PlaneSeed> near;
+        seeds.find_near(tile, metric, near);
         BOOST_TEST(near.size() < 200u);
         std::set<std::uint32_t> ids;
         for (const PlaneSeed& seed : near) ids.insert(seed.id);
@@ -331,7 +332,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
   check_error([&] { seeds.add(&beyond, 1); }, {"seed 7", "too far away"});
   check_error([&] { seeds.add(&none, 1); }, {"2^32 - 1"});
   BOOST_TEST(seeds.ids() == 2u);
-  BOOST_TEST(seeds.near({0, 0, 100, 100}).size() == 2u);
+  std::vector<PlaneSeed> near;
+  seeds.find_near({0, 0, 100, 100}, Metric::euclidean, near);
+  BOOST_TEST(near.size() == 2u);
   check_error([&] { seeds.add(good.data(), 1); }, {"asked for already"});
   const Plane other(50, 100);
   check_error([&] { exact_tiles(test_device(), seeds, Tiling(other, 10), [](const TileLabels&) {}); },

@@ -1,0 +1,84 @@
+// The seeds of a plane shared among the processes of MPI, and tiles handed out to them.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "vorocl/export.h"
+#include "vorocl/tiles.hpp"
+
+namespace vorocl {
+
+struct SharedSeedsState;
+
+/// The seeds of a plane, of which each process (rank) of a communicator holds as many: they are sorted along
+/// a Z-curve and cut into equal parts, however they are clustered. Of every 512 seeds all ranks know a box.
+/// A tile's seeds are found by the boxes, and those of other ranks are fetched from their memory, without
+/// their help (MPI_Get). Memory per rank: 12 bytes for each of its seeds, 24 while they are shared out; 0.1
+/// bytes for each seed of the plane; and 64 MiB for seeds that were fetched.
+///
+/// What is said to be collective must be called by all ranks. Of errors there all ranks throw one.
+///
+/// Threads: one thread at a time, which may call MPI (MPI_THREAD_SERIALIZED or more).
+class VOROCL_API SharedSeeds : public SeedSource {
+ public:
+  /// Collective. The communicator is copied.
+  SharedSeeds(MPI_Comm communicator, const Plane& plane);
+
+  /// Collective, for it frees what the ranks share.
+  ~SharedSeeds() override;
+  SharedSeeds(const SharedSeeds&) = delete;
+  SharedSeeds& operator=(const SharedSeeds&) = delete;
+
+  /// Takes seeds from this rank, in any order, as PlaneSeeds::add() with ids of their own.
+  void add(const PlaneSeed* seeds, std::size_t count);
+
+  /// Collective: sorts the seeds and shares them out.
+  void share();
+
+  const Plane& plane() const override;
+  std::uint64_t ids() const override;
+
+  /// The seeds of all ranks, and those that this one holds. After share().
+  std::uint64_t size() const;
+  std::uint64_t held() const;
+
+  /// About how many seeds lie in a rectangle, as the boxes say. After share().
+  double expected(const PlaneRectangle& rectangle) const;
+
+  /// Fetches seeds. Not collective. Throws Error before share().
+  void find_near(const PlaneRectangle& rectangle, Metric metric,
+                 std::vector<PlaneSeed>& seeds) const override;
+
+ private:
+  std::unique_ptr<SharedSeedsState> state_;
+};
+
+struct TileCounterState;
+
+/// Hands out tiles to ranks: to each a run of neighbours that is three quarters of its share, and the others
+/// one by one to whoever asks first (MPI_Fetch_and_op). Tiles are weighed by their pixels and their seeds.
+class VOROCL_API TileCounter {
+ public:
+  /// Collective. Of the tiles with these numbers, the same on all ranks. The seeds are shared out.
+  TileCounter(MPI_Comm communicator, const SharedSeeds& seeds, const Tiling& tiling,
+              const std::vector<std::uint64_t>& tiles);
+
+  /// Collective.
+  ~TileCounter();
+  TileCounter(const TileCounter&) = delete;
+  TileCounter& operator=(const TileCounter&) = delete;
+
+  /// The number of the next tile for this rank; none at the end. Not collective.
+  std::optional<std::uint64_t> next();
+
+ private:
+  std::unique_ptr<TileCounterState> state_;
+};
+
+}  // namespace vorocl

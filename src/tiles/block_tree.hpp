@@ -1,0 +1,45 @@
+// Which blocks of a plane's seeds a tile needs, where only the boxes around the blocks are known.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tiles/box_tree.hpp"
+#include "tiles/seed_tree.hpp"
+#include "vorocl/tiles.hpp"
+
+namespace vorocl {
+
+/// Some seeds that follow each other on the Z-curve: the box around them, and one of them.
+struct SeedBlock {
+  Box box;
+  std::int32_t x = 0, y = 0;  // of the one
+  std::uint32_t count = 0;    // of the seeds
+};
+
+class BlockTree {
+ public:
+  explicit BlockTree(const Plane& plane) : plane_(plane) {}
+
+  /// Of blocks in the order of the Z-curve. None is empty.
+  void make(const std::vector<SeedBlock>& blocks);
+
+  /// The numbers of the blocks that may hold a seed that owns a pixel of a rectangle, in order. Cost: as
+  /// PlaneSeeds::find_near(), for blocks instead of seeds.
+  std::vector<std::size_t> find_near(const PlaneRectangle& rectangle, Metric metric) const;
+
+  /// About how many seeds lie in a rectangle: as if they were spread evenly in each box.
+  double expected(const PlaneRectangle& rectangle) const;
+
+ private:
+  void find_at_rim(const PlaneRectangle& rectangle, Metric metric, std::vector<std::size_t>& found) const;
+  bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
+                    Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
+
+  Plane plane_;
+  std::vector<SeedBlock> blocks_;
+  BoxTree tree_;
+  SeedTree samples_;  // one seed of each block
+};
+
+}  // namespace vorocl
