@@ -113,15 +113,15 @@ Course make_tiles(const TilesOptions& options, const Device& device, const Plane
         static_cast<std::uint64_t>(tile.tile.width) * static_cast<std::uint64_t>(tile.tile.height);
     ++course.tiles;
     progress.show({course.tiles, share(), done_before, static_cast<double>(course.pixels) / million});
-    if (interruption.came()) throw Error("interrupted");
+    if (!interruption.came()) return;
+    writer.checkpoint();
+    throw Error("interrupted");
   };
   try {
     exact_tiles(device, seeds, tiling, [&] { return writer.next(); }, write,
                 {options.metric, writer.cells()});
-  } catch (const std::exception& error) {
-    writer.checkpoint();
-    throw Error(fmt::format("{}; tiles complete before that: {} of {}; {}", message_of(error), course.tiles,
-                            tiling.count(), writer.kept()));
+  } catch (const std::exception& error) {  // ours, or out of memory
+    throw Error(message_of(error) + "; " + writer.kept());
   }
   course.milliseconds = stopwatch.milliseconds();
   return course;

@@ -70,6 +70,7 @@ void PlaneWriter::begin(const std::string& seeds) {
   for (std::size_t i = 0; i < files_.size(); ++i) files_[i]->open_part(journal_->kept(i));
   if (tables_.is_asked_for()) tables_.open_part(journal_->kept_sums(), is_complete);
   made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
+  complete_ = made_before_.size();
 }
 
 std::optional<std::uint64_t> PlaneWriter::next() {
@@ -91,15 +92,17 @@ void PlaneWriter::checkpoint() {
   const double begin = stopwatch_.seconds();
   for (const auto& file : files_) file->sync();
   journal_->complete(entries_, tables_.sync());
+  complete_ += entries_.size();
   entries_.clear();
   const double end = stopwatch_.seconds();
   next_checkpoint_ = end + time_between_checkpoints * (end - begin);
 }
 
 std::string PlaneWriter::kept() const {
-  if (!journal_) return "nothing stays of them; --resume makes runs that can go on";
-  return fmt::format("the same command goes on with the others, with {} and {}", journal_->path(),
-                     fmt::join(part_paths(), ", "));
+  if (!journal_) return "nothing stays of the tiles before that; with --resume a run can go on";
+  return fmt::format(
+      "tiles complete before that: {} of {}; the same command goes on with the others, with {} and {}",
+      complete_, tiling_.count(), journal_->path(), fmt::join(part_paths(), ", "));
 }
 
 void PlaneWriter::finish(const Units& units) {

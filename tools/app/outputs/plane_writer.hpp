@@ -51,7 +51,8 @@ class PlaneWriter {
   /// Writes a tile, and notes now and then in the journal which are complete.
   void add(const TileLabels& tile);
 
-  /// Notes it now.
+  /// Notes it now: after add() alone, for cells() hold the tile that is to be added next as soon as it is
+  /// made.
   void checkpoint();
 
   /// Of a run that ends before all tiles are made: what stays of it, for an error.
@@ -70,6 +71,7 @@ class PlaneWriter {
   PlaneTables tables_;
   std::set<std::uint64_t> made_before_;
   std::uint64_t next_ = 0;
+  std::size_t complete_ = 0;                 // tiles that the journal knows
   std::vector<TileJournal::Entry> entries_;  // of tiles that the journal does not know yet
   Stopwatch stopwatch_;
   double next_checkpoint_ = 0;  // in seconds
