@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, random + "--labels a.npy -o a.gif", usage, {"a.gif", ".png"});
   refuses(folder, random + "--labels a.tif -o a.tif", usage, {"--labels and -o cannot write one file"});
   refuses(folder, random + "--labels a.tif --tile 100", failure, {"multiples of 16, not 100"});
-  refuses(folder, random + "--labels there.zarr", failure, {"there.zarr", "remove it"});
+  refuses(folder, random + "--labels there.zarr", failure, {"there.zarr", "no Zarr array; remove it"});
   refuses(folder, random + "--labels none/a.zarr", failure, {"none does not exist"});
   refuses(folder, random + "--labels a.npy --tile 0", usage, {"--tile"});
   refuses(folder, random + "--labels a.npy --only 1,2,3", usage, {"--only", "X0,Y0,X1,Y1"});

@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(what_was_kept_is_gone_on_with) {
     // A run for each tile that is kept before the next one; each ends in the middle of another tile.
     KeptTiles kept;
     for (std::uint64_t complete = 0; complete <= tiling.count(); ++complete) {
-      const auto file = plane_file(folder / "a" + end, tiling, std::nullopt, complete > 0);
+      const auto file = plane_file(folder / "a" + end, tiling);
       file->open_part(complete == 0 ? std::nullopt : std::optional(kept));
       if (complete == tiling.count()) {
         file->finish();
@@ -198,9 +198,21 @@ BOOST_AUTO_TEST_CASE(what_was_kept_is_gone_on_with) {
 
     // A run that ended when this file had its name, and others had not.
     kept.is_complete = true;
-    const auto file = plane_file(folder / "a" + end, tiling, std::nullopt, true);
+    const auto file = plane_file(folder / "a" + end, tiling);
     file->open_part(kept);
     file->finish();
+    BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "whole" + end)), end);
+    BOOST_TEST(folder.names().size() == 2u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
+  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    const TemporaryFolder folder;
+    write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
+    write_whole(folder / "a" + end, other, numbers_of(other));
+    write_whole(folder / "a" + end, tiling, numbers_of(tiling));
     BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "whole" + end)), end);
     BOOST_TEST(folder.names().size() == 2u);
   }
@@ -254,11 +266,9 @@ BOOST_AUTO_TEST_CASE(parts_that_are_not_those_that_were_kept_are_refused) {
       file->open_part(std::nullopt);
       kept.tiles.push_back(write_tile(*file, tiling, 0));
     }
-    const auto begin = [&] {
-      plane_file(folder / "a" + end, tiling, std::nullopt, true)->open_part(std::nullopt);
-    };
+    const auto begin = [&] { plane_file(folder / "a" + end, tiling)->open_part(std::nullopt); };
     BOOST_CHECK_THROW(begin(), Error);
-    const auto go_on = [&] { plane_file(folder / "a" + end, tiling, std::nullopt, true)->open_part(kept); };
+    const auto go_on = [&] { plane_file(folder / "a" + end, tiling)->open_part(kept); };
     BOOST_CHECK_NO_THROW(go_on());
     fs::remove_all(folder / "a" + end + ".part");
     BOOST_CHECK_THROW(go_on(), Error);

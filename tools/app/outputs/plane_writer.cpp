@@ -43,8 +43,7 @@ std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
 PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling,
                          const std::optional<Georeference>& georeference, const std::string& run)
     : tiling_(tiling), journal_(open_journal(options, run)), tables_(options.cells, options.adjacency) {
-  const bool goes_on = journal_ && journal_->is_there();
-  if (!options.labels.empty()) files_.push_back(plane_file(options.labels, tiling, georeference, goes_on));
+  if (!options.labels.empty()) files_.push_back(plane_file(options.labels, tiling, georeference));
   if (!options.picture.empty()) files_.push_back(plane_map(options.picture, tiling));
   if (!journal_) return;
   for (const RequestedFile& file : requested_files(options)) {

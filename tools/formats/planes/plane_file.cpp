@@ -16,11 +16,11 @@ const std::vector<std::string>& plane_extensions() {
 }
 
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
-                                      const std::optional<Georeference>& georeference, bool goes_on) {
+                                      const std::optional<Georeference>& georeference) {
   check_extension(path, plane_extensions());
   const std::string extension = extension_of(path);
   if (extension == ".npy") return npy_plane(path, tiling);
-  if (extension == ".zarr") return zarr_plane(path, tiling, goes_on);
+  if (extension == ".zarr") return zarr_plane(path, tiling);
   return tiff_plane(path, tiling, georeference);
 }
 

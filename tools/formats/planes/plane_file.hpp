@@ -53,13 +53,12 @@ class PlaneFile {
 /// The extensions of files that the labels of planes can be written to.
 const std::vector<std::string>& plane_extensions();
 
-/// The file of a tiling's part. If it `goes_on`, open_part() will be given what was kept. A TIFF file says
-/// where it lies. Throws Error if the extension is none of these, for tiles that the format does not have,
-/// where no file can be made, where the disk has too little space (the least that is possible of those that
-/// are compressed), and for a .zarr folder that is there already: none is replaced.
+/// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
+/// these, for tiles that the format does not have, where no file can be made, where the disk has too little
+/// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
+/// something that is no such array.
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
-                                      const std::optional<Georeference>& georeference = std::nullopt,
-                                      bool goes_on = false);
+                                      const std::optional<Georeference>& georeference = std::nullopt);
 
 /// The bytes of the labels of a tiling's part.
 std::uint64_t label_bytes(const Tiling& tiling);
@@ -75,7 +74,7 @@ constexpr std::uint64_t greatest_compression = 1032;
 
 // Each kind of file, as plane_file() makes it.
 std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling);
-std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling, bool goes_on);
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling);
 std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference);
 

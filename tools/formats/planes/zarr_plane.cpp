@@ -35,10 +35,12 @@ Error failed(const std::string& what, const std::string& path) {
 
 class ZarrPlane : public PlaneFile {
  public:
-  ZarrPlane(const std::string& path, const Tiling& tiling, bool goes_on) : path_(path), tiling_(tiling) {
-    if (!goes_on) refuse_to_replace();
-    if (is_there(path_)) return;
-    OutputFile{path_};  // for its reasons where nothing can be made there
+  ZarrPlane(const std::string& path, const Tiling& tiling) : path_(path), tiling_(tiling) {
+    if (!is_there(path_)) {
+      OutputFile{path_};  // for its reasons where nothing can be made there
+    } else if (!is_there(path_ + "/.zarray")) {
+      throw Error("cannot write " + path_ + ": it is there, and is no Zarr array; remove it");
+    }
     if (!is_there(part_path())) require_space(path_, label_bytes(tiling_) / greatest_compression);
   }
 
@@ -48,8 +50,8 @@ class ZarrPlane : public PlaneFile {
   }
 
   void open() override {
-    refuse_to_replace();
-    folder_ = random_path_beside(path_);
+    name_.emplace(random_path_beside(path_), TemporaryName::Kind::folder);
+    folder_ = name_->path();
     make_folder();
   }
 
@@ -59,7 +61,6 @@ class ZarrPlane : public PlaneFile {
       // A run that ended between two renames: back to the state before them.
       if (rename(path_.c_str(), part_path().c_str()) != 0) throw failed("renaming", path_);
     }
-    refuse_to_replace();
     folder_ = part_path();
     const bool begins = !kept || (kept->tiles.empty() && !is_there(folder_));
     if (begins) make_folder();
@@ -98,17 +99,24 @@ class ZarrPlane : public PlaneFile {
 
   void finish() override {
     sync();
-    refuse_to_replace();
-    if (rename(folder_.c_str(), path_.c_str()) != 0) throw failed("writing", path_);
+    // A folder cannot take the place of another one that has files: that one goes aside first.
+    const bool replaces = is_there(path_);
+    const std::string replaced = random_path_beside(path_);
+    if (replaces && rename(path_.c_str(), replaced.c_str()) != 0) throw failed("replacing", path_);
+    if (rename(folder_.c_str(), path_.c_str()) != 0) {
+      const Error error = failed("writing", path_);
+      if (replaces) static_cast<void>(rename(replaced.c_str(), path_.c_str()) == 0);  // the error says enough
+      throw error;
+    }
     folder_.clear();
+    name_.reset();
+    if (!replaces) return;
+    const TemporaryName name(replaced, TemporaryName::Kind::folder);
+    std::error_code ignored;
+    fs::remove_all(replaced, ignored);
   }
 
  private:
-  void refuse_to_replace() const {
-    if (is_there(path_))
-      throw Error("cannot write " + path_ + ": it is there, and no folder is replaced; remove it");
-  }
-
   void make_folder() {
     if (mkdir(folder_.c_str(), 0777) != 0) throw failed("making", folder_);
     write_metadata();
@@ -147,14 +155,15 @@ class ZarrPlane : public PlaneFile {
   std::string path_;
   Tiling tiling_;
   std::string folder_;  // while it is written; empty: before, and afterwards
+  std::optional<TemporaryName> name_;
   bool stays_ = false;
   std::vector<Bytef> compressed_;
 };
 
 }  // namespace
 
-std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling, bool goes_on) {
-  return std::make_unique<ZarrPlane>(path, tiling, goes_on);
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling) {
+  return std::make_unique<ZarrPlane>(path, tiling);
 }
 
 }  // namespace vorocl::command
