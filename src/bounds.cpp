@@ -17,29 +17,30 @@ namespace {
   throw Error(text.str());
 }
 
-/// A scale in pixels per unit and in units per grid; an axis without extent needs none.
+/// A scale in pixels per unit and in units per plane; an axis without extent needs none.
 bool has_scale(double extent) {
-  return extent == 0 || (std::isfinite(extent * Grid::max_side) && std::isfinite(Grid::max_side / extent));
+  constexpr auto most = static_cast<double>(Plane::max_side);
+  return extent == 0 || (std::isfinite(extent * most) && std::isfinite(most / extent));
 }
 
 }  // namespace
 
-void check_bounds(const Bounds& bounds, const Grid& grid) {
+void check_bounds(const Bounds& bounds, const Plane& plane) {
   const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
   // Written so that a NaN fails.
   if (!(width >= 0 && height >= 0)) refuse(bounds, "must be numbers x0 <= x1 and y0 <= y1");
   if (!has_scale(width) || !has_scale(height))
     refuse(bounds, "are too far apart, or too near, to compute with");
-  if (grid.periodic_x() && width == 0) refuse(bounds, "have no extent in x, which is to be periodic");
-  if (grid.periodic_y() && height == 0) refuse(bounds, "have no extent in y, which is to be periodic");
+  if (has_x(plane.periodic()) && width == 0) refuse(bounds, "have no extent in x, which is to be periodic");
+  if (has_y(plane.periodic()) && height == 0) refuse(bounds, "have no extent in y, which is to be periodic");
 }
 
-PixelMap::PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed)
-    : x_(bounds.x0, bounds.x1, grid.width(), closed),
-      y_(bounds.y0, bounds.y1, grid.height(), closed),
-      height_(grid.height()),
+PixelMap::PixelMap(const Bounds& bounds, const Plane& plane, bool y_up, bool closed)
+    : x_(bounds.x0, bounds.x1, plane.width(), closed),
+      y_(bounds.y0, bounds.y1, plane.height(), closed),
+      height_(plane.height()),
       y_up_(y_up) {
-  check_bounds(bounds, grid);
+  check_bounds(bounds, plane);
 }
 
 void PixelMap::repeat(Periodic axes, const Bounds& period) {
@@ -50,7 +51,7 @@ void PixelMap::repeat(Periodic axes, const Bounds& period) {
 
 Point PixelMap::pixel(const Point& point) const {
   const double row = y_.pixel(point.y);
-  return {x_.pixel(point.x) + 0.5, (y_up_ ? height_ - 1 - row : row) + 0.5};
+  return {x_.pixel(point.x) + 0.5, (y_up_ ? static_cast<double>(height_ - 1) - row : row) + 0.5};
 }
 
 std::optional<Domain> PixelMap::domain() const {
@@ -70,7 +71,7 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
   }
   length_ = std::llround(period_ * scale);
   // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
-  const bool covers = length_ >= count_, holds = period_low <= low_ && high_ <= period_high;
+  const bool covers = length_ >= pixels_, holds = period_low <= low_ && high_ <= period_high;
   const bool apart = period_high <= low_ || high_ <= period_low;
   period_low_ = (covers && !holds) || apart ? low_ : period_low;
   const double first = (period_low_ - low_) * scale;
@@ -80,10 +81,10 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
 }
 
 double PixelMap::Axis::pixel(double at) const {
-  if (high_ == low_) return at == low_ ? count_ / 2 : at < low_ ? -1 : count_;
+  if (high_ == low_) return at == low_ ? static_cast<double>(pixels_ / 2) : at < low_ ? -1 : count_;
   if (period_ == 0) {
     const double position = std::floor((at - low_) * count_ / (high_ - low_));
-    return closed_ && at <= high_ ? std::min(position, count_ - 1.0) : position;
+    return closed_ && at <= high_ ? std::min(position, count_ - 1) : position;
   }
   double offset = std::fmod(at - period_low_, period_);
   if (offset < 0) offset += period_;

@@ -9,7 +9,7 @@
 
 namespace vorocl {
 
-/// The rectangle of the data's plane that the grid shows.
+/// The rectangle of the data's plane that a grid shows, or a plane of pixels.
 struct Bounds {
   double x0 = 0;
   double y0 = 0;
@@ -17,18 +17,18 @@ struct Bounds {
   double y1 = 0;
 };
 
-/// Throws Error unless the bounds are finite, with x0 <= x1 and y0 <= y1, have an extent along the grid's
+/// Throws Error unless the bounds are finite, with x0 <= x1 and y0 <= y1, have an extent along the plane's
 /// periodic axes, and are neither so far apart nor so near that double has no scale for them.
-VOROCL_API void check_bounds(const Bounds& bounds, const Grid& grid);
+VOROCL_API void check_bounds(const Bounds& bounds, const Plane& plane);
 
 /// The map from data to pixels: the column of a point is floor((x - x0) * W / (x1 - x0)), in this order of
 /// operations, so that rounding is the same everywhere; rows likewise, or counted from the bottom if `y_up`.
 /// Along an axis without an extent a point of the bounds falls in the middle pixel. Pixels may lie outside
-/// the grid.
+/// the plane.
 class VOROCL_API PixelMap {
  public:
   /// If `closed`, a point at x1 or y1 falls in the last pixel. Throws as check_bounds().
-  PixelMap(const Bounds& bounds, const Grid& grid, bool y_up, bool closed);
+  PixelMap(const Bounds& bounds, const Plane& plane, bool y_up, bool closed);
 
   /// Makes axes periodic: points wrap. A period is rounded to whole pixels, and positions along it are scaled
   /// to them about its middle. It may begin anywhere: where it covers as many pixels as the bounds and does
@@ -48,17 +48,18 @@ class VOROCL_API PixelMap {
  private:
   class Axis {
    public:
-    Axis(double low, double high, int count, bool closed)
-        : low_(low), high_(high), count_(count), closed_(closed) {}
+    Axis(double low, double high, std::int64_t count, bool closed)
+        : low_(low), high_(high), pixels_(count), count_(static_cast<double>(count)), closed_(closed) {}
     void repeat(double period_low, double period_high, const char* name);
     bool is_outside(double at) const { return period_ == 0 && (at < low_ || at > high_); }
     double pixel(double at) const;
     std::int64_t begin() const { return begin_; }
-    std::int64_t length() const { return period_ == 0 ? count_ : length_; }
+    std::int64_t length() const { return period_ == 0 ? pixels_ : length_; }
 
    private:
     double low_, high_;
-    int count_;
+    std::int64_t pixels_;
+    double count_;  // the same
     bool closed_;
     double period_ = 0;                    // 0: none
     double period_low_ = 0;                // where it begins ...
@@ -67,7 +68,7 @@ class VOROCL_API PixelMap {
   };
 
   Axis x_, y_;
-  int height_;
+  std::int64_t height_;
   bool y_up_;
   Periodic periodic_ = Periodic::none;
 };

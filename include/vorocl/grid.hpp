@@ -71,6 +71,30 @@ class VOROCL_API Grid {
   Periodic periodic_;
 };
 
+/// The size of a plane in pixels, (0, 0) at the top left, and which of its axes are periodic. It may be far
+/// larger than a Grid, for nothing ever holds all of it.
+class VOROCL_API Plane {
+ public:
+  static constexpr std::int64_t max_side = 2147483647;  ///< past it a squared distance leaves 63 bits
+
+  /// Throws Error unless both sides are in [1, max_side].
+  Plane(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
+
+  /// That of a grid.
+  Plane(const Grid& grid) : width_(grid.width()), height_(grid.height()), periodic_(grid.periodic()) {}
+
+  std::int64_t width() const { return width_; }
+  std::int64_t height() const { return height_; }
+  Periodic periodic() const { return periodic_; }
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+  }
+
+ private:
+  std::int64_t width_, height_;
+  Periodic periodic_;
+};
+
 /// The rectangle in which the plane repeats along its periodic axes, where the grid is not one period itself:
 /// the box of a simulation of which the grid is a part, or that lies in a larger grid. In whole pixels from
 /// the grid's first one; x and y may be negative. An axis that is not periodic has no end.

@@ -15,27 +15,6 @@
 
 namespace vorocl {
 
-/// The size of a plane in pixels, (0, 0) at the top left, and which of its axes are periodic. It may be far
-/// larger than a Grid, for nothing ever holds all of it.
-class VOROCL_API Plane {
- public:
-  static constexpr std::int64_t max_side = 2147483647;  ///< past it a squared distance leaves 63 bits
-
-  /// Throws Error unless both sides are in [1, max_side].
-  Plane(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
-
-  std::int64_t width() const { return width_; }
-  std::int64_t height() const { return height_; }
-  Periodic periodic() const { return periodic_; }
-  std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
-  }
-
- private:
-  std::int64_t width_, height_;
-  Periodic periodic_;
-};
-
 /// A rectangle of a plane's pixels.
 struct PlaneRectangle {
   std::int64_t x = 0, y = 0;  ///< the first pixel
@@ -192,6 +171,14 @@ class VOROCL_API PlaneCells {
 
   /// The pairs that touch, in the order of a and then b. Of a part of the plane: along and in that.
   std::vector<PlaneCellPair> pairs() const;
+
+  /// Gives away what was summed so far, as bytes that add() of another object takes, and forgets it: for runs
+  /// that another one goes on with, and for processes that share a plane.
+  std::vector<char> take();
+
+  /// Adds what another object gave away, of other tiles of the same plane and tiling. Throws Error if it is
+  /// no such bytes, or of another plane.
+  void add(const std::vector<char>& taken);
 
  private:
   friend struct Internal;

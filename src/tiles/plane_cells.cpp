@@ -1,9 +1,11 @@
 #include "tiles/plane_cells.hpp"
 
+#include <cstring>
 #include <limits>
 #include <utility>
 
 #include "internal.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl {
 
@@ -22,12 +24,111 @@ struct Unwrapping {
   }
 };
 
+bool is_same(const Tiling& a, const Tiling& b) {
+  const auto key = [](const Tiling& tiling) {
+    const Plane& plane = tiling.plane();
+    const PlaneRectangle& part = tiling.part();
+    return std::make_tuple(plane.width(), plane.height(), plane.periodic(), part.x, part.y, part.width,
+                           part.height, tiling.side());
+  };
+  return key(a) == key(b);
+}
+
+/// What stands before the records that are given away.
+struct TakenHead {
+  std::uint64_t ids;
+  std::int64_t width, height;
+  std::int64_t periodic;
+  PlaneRectangle part;
+  std::int64_t side;
+  std::uint64_t cells, pairs, rims;
+};
+
+struct TakenRim {
+  std::uint64_t row, column, is_right, labels;
+};
+
+class TakenWriter {
+ public:
+  template <typename T>
+  void add(const T* values, std::size_t count) {
+    const char* const first = reinterpret_cast<const char*>(values);
+    bytes_.insert(bytes_.end(), first, first + count * sizeof(T));
+  }
+  std::vector<char> bytes() && { return std::move(bytes_); }
+
+ private:
+  std::vector<char> bytes_;
+};
+
+class TakenReader {
+ public:
+  explicit TakenReader(const std::vector<char>& bytes) : at_(bytes.data()), end_(at_ + bytes.size()) {}
+
+  template <typename T>
+  std::vector<T> next(std::uint64_t count) {
+    if (static_cast<std::size_t>(end_ - at_) / sizeof(T) < count) {
+      throw Error("these are not the sums of a plane's cells that were given away");
+    }
+    std::vector<T> values(count);
+    if (count > 0) std::memcpy(static_cast<void*>(values.data()), at_, count * sizeof(T));
+    at_ += count * sizeof(T);
+    return values;
+  }
+
+ private:
+  const char* at_;
+  const char* end_;
+};
+
 }  // namespace
 
 void PlaneCellsState::begin(std::uint64_t ids_of_seeds, const Tiling& tiling) {
   *this = PlaneCellsState();
   ids = ids_of_seeds;
   tiling_.assign(1, tiling);
+}
+
+std::vector<char> PlaneCellsState::take() {
+  if (tiling_.empty()) return {};
+  const Tiling tiling = tiling_.front();
+  const Plane& plane = tiling.plane();
+  const std::vector<CellRecord>& cell_records = cells.sorted();
+  const std::vector<PairRecord>& pair_records = pairs.sorted();
+  const TakenHead head = {
+      ids,           plane.width(), plane.height(),      static_cast<std::int64_t>(plane.periodic()),
+      tiling.part(), tiling.side(), cell_records.size(), pair_records.size(),
+      rims_.size()};
+  TakenWriter taken;
+  taken.add(&head, 1);
+  taken.add(cell_records.data(), cell_records.size());
+  taken.add(pair_records.data(), pair_records.size());
+  for (const auto& [seam, labels] : rims_) {
+    const auto& [row, column, is_right] = seam;
+    const TakenRim rim = {row, column, is_right ? 1u : 0u, labels.size()};
+    taken.add(&rim, 1);
+    taken.add(labels.data(), labels.size());
+  }
+  begin(ids, tiling);
+  return std::move(taken).bytes();
+}
+
+void PlaneCellsState::add(const std::vector<char>& taken) {
+  if (taken.empty()) return;
+  TakenReader reader(taken);
+  const TakenHead head = reader.next<TakenHead>(1).front();
+  const Plane plane(head.width, head.height, static_cast<Periodic>(head.periodic));
+  const Tiling tiling(plane, head.side, head.part);
+  if (tiling_.empty()) begin(head.ids, tiling);
+  if (head.ids != ids || !is_same(tiling, tiling_.front())) {
+    throw Error("these sums are of the cells of another plane, or of other tiles");
+  }
+  for (const CellRecord& record : reader.next<CellRecord>(head.cells)) cells.add(record);
+  for (const PairRecord& record : reader.next<PairRecord>(head.pairs)) pairs.add(record);
+  for (std::uint64_t i = 0; i < head.rims; ++i) {
+    const TakenRim rim = reader.next<TakenRim>(1).front();
+    meet({rim.row, rim.column, rim.is_right != 0}, reader.next<std::uint32_t>(rim.labels));
+  }
 }
 
 void PlaneCellsState::add(const TileLabels& tile, const TileMeasures& measures) {
@@ -150,6 +251,13 @@ PlaneCell PlaneCells::cell(std::uint64_t id) const {
           found->left,          found->top,
           found->right,         found->bottom,
           found->touches_border};
+}
+
+std::vector<char> PlaneCells::take() { return state_ ? state_->take() : std::vector<char>(); }
+
+void PlaneCells::add(const std::vector<char>& taken) {
+  if (!state_) state_ = std::make_unique<PlaneCellsState>();
+  state_->add(taken);
 }
 
 std::vector<PlaneCellPair> PlaneCells::pairs() const {

@@ -90,6 +90,10 @@ struct PlaneCellsState {
   /// Forgets everything, for the tiles of a plane with so many seeds.
   void begin(std::uint64_t ids, const Tiling& tiling);
 
+  /// As PlaneCells::take() and add().
+  std::vector<char> take();
+  void add(const std::vector<char>& taken);
+
   /// Adds a tile with its labels.
   void add(const TileLabels& tile, const TileMeasures& measures);
 

@@ -141,8 +141,8 @@ BOOST_AUTO_TEST_CASE(a_terminal_gets_a_progress_bar) {
   close(terminal);
   BOOST_TEST(WEXITSTATUS(status) == 0);
   BOOST_TEST(text.find("frames/s") != std::string::npos);
-  BOOST_TEST(command::progress_line(30, 0.25, 10) ==
+  BOOST_TEST(command::progress_line({30, 0.25}, 10) ==
              "[######------------------]  25 %  30 frames  3.0 frames/s  30 s left");
-  BOOST_TEST(command::progress_line(2, 0.001, 10).find("  2 h 46 min left") != std::string::npos);
-  BOOST_TEST(command::progress_line(30, std::nullopt, 10) == "30 frames  3.0 frames/s");
+  BOOST_TEST(command::progress_line({2, 0.001}, 10).find("  2 h 46 min left") != std::string::npos);
+  BOOST_TEST(command::progress_line({30, std::nullopt}, 10) == "30 frames  3.0 frames/s");
 }

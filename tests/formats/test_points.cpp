@@ -1,13 +1,18 @@
 // Points of CSV and NPY files, and of masks.
 #define BOOST_TEST_MODULE points
+#include <sys/stat.h>
+
+#include <cstdio>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 
 #include "fixture.hpp"
 #include "formats/csv.hpp"
 #include "formats/mask.hpp"
 #include "formats/npy.hpp"
+#include "formats/point_files.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;
@@ -148,10 +153,43 @@ BOOST_AUTO_TEST_CASE(bad_npy_files_are_refused) {
   refuses(npy("<f8", "(2, x)", values), {"p.npy", "shape"});
   refuses(npy("<f8", "(0, 2)", values), {"p.npy", "no points"});
   refuses(npy("<f8", "(1000000000, 2)", values), {"p.npy", "ends early"});
-  refuses(npy("<f8", "(5000000000, 2)", values), {"p.npy", "5000000000 points", "2^30"});
+  refuses(npy("<f8", "(5000000000, 2)", values), {"p.npy", "5000000000 points", "1073741824"});
   refuses(npy(">f8", "(2, 2)", values), {"p.npy", ">f8", "little-endian"});
   refuses(npy("<c16", "(1, 2)", values), {"p.npy", "<c16"});
   check_error([&] { read_npy_points(folder / "missing.npy"); }, {"missing.npy", "No such file"});
+}
+
+BOOST_AUTO_TEST_CASE(files_are_read_in_blocks_that_are_the_whole) {
+  const TemporaryFolder folder;
+  std::vector<Point> points;
+  for (int i = 0; i < 150000; ++i) points.push_back({i / 8.0, 1e6 - i});
+  for (const char* const name : {"p.csv", "p.npy"}) {
+    write_points(folder / name, points, {});
+    std::vector<Point> read;
+    std::size_t blocks = 0;
+    read_in_blocks(folder / name, std::nullopt, [&](const std::vector<Point>& block) {
+      read.insert(read.end(), block.begin(), block.end());
+      ++blocks;
+    });
+    BOOST_TEST((pairs_of(read) == pairs_of(points)), name);
+    BOOST_TEST(blocks == 3u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_changes_while_it_is_read_is_refused) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"p.csv", "p.npy"}) {
+    write_points(folder / name, {{1, 2}, {3, 4}}, {});
+    const auto append = [&](const std::vector<Point>&) {
+      std::ofstream(folder / name, std::ios::app) << "5,6,7\n";
+    };
+    check_error([&] { read_in_blocks(folder / name, std::nullopt, append); },
+                {name, "changed while it was read"});
+  }
+  mkfifo((folder / "f.csv").c_str(), 0600);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> writer(std::fopen((folder / "f.csv").c_str(), "r+"),
+                                                               std::fclose);
+  check_error([&] { read_in_blocks(folder / "f.csv", std::nullopt, [](const auto&) {}); }, {"it is a pipe"});
 }
 
 BOOST_AUTO_TEST_CASE(masks_count_every_colour_but_not_alpha) {

@@ -1,8 +1,8 @@
 // A library to preload into the command (LD_PRELOAD), in which calls fail on request. VOROCL_FAULT is "KIND
 // N", or "KIND N on" where all later calls of the kind fail as well. KIND is an OpenCL call, "event" (an
 // event that ends with an error), "new" (in the command's own code, while it works), or "open", "write",
-// "fsync" and "rename" of files that are not complete. VOROCL_FAULT_COUNTS names a file for a line "KIND
-// CALLS" of each kind at the end.
+// "pwrite", "fallocate", "fsync" (or of a whole disk) and "rename" of files that are not complete.
+// VOROCL_FAULT_COUNTS names a file for a line "KIND CALLS" of each kind at the end.
 #include <fcntl.h>
 #include <link.h>
 #include <unistd.h>
@@ -192,6 +192,18 @@ VOROCL_FAULTY int open(const char* path, int flags, ...) {
 VOROCL_FAULTY ssize_t write(int file, const void* bytes, std::size_t count) {
   static const auto next = vorocl::loaders<ssize_t(int, const void*, std::size_t)>("write");
   return fails("write", is_temporary(file)) ? -1 : next(file, bytes, count);
+}
+VOROCL_FAULTY ssize_t pwrite(int file, const void* bytes, std::size_t count, off_t place) {
+  static const auto next = vorocl::loaders<ssize_t(int, const void*, std::size_t, off_t)>("pwrite");
+  return fails("pwrite", is_temporary(file)) ? -1 : next(file, bytes, count, place);
+}
+VOROCL_FAULTY int posix_fallocate(int file, off_t place, off_t count) {
+  static const auto next = vorocl::loaders<int(int, off_t, off_t)>("posix_fallocate");
+  return fails("fallocate", is_temporary(file)) ? ENOSPC : next(file, place, count);
+}
+VOROCL_FAULTY int syncfs(int file) noexcept {
+  static const auto next = vorocl::loaders<int(int)>("syncfs");
+  return fails("fsync", is_temporary(file)) ? -1 : next(file);
 }
 VOROCL_FAULTY int fsync(int file) {
   static const auto next = vorocl::loaders<int(int)>("fsync");

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "formats/numbers.hpp"
-#include "formats/trajectory/line_reader.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -14,12 +14,6 @@ namespace vorocl::command {
 namespace {
 
 using Fields = CsvFields;
-
-struct Indices {
-  std::size_t x = 0;
-  std::size_t y = 1;
-  std::optional<std::size_t> value;
-};
 
 /// A line of the file, for what is wrong with it.
 struct Line {
@@ -71,20 +65,12 @@ std::size_t locate(const std::string& column, const Line& first, bool has_header
   throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header));
 }
 
-Indices locate(const std::optional<Columns>& columns, const std::string& value_column, const Line& first,
-               bool has_header) {
-  Indices indices;
-  if (columns || has_header) {
-    const Columns wanted = columns.value_or(Columns{"x", "y"});
-    try {
-      indices.x = locate(wanted.x, first, has_header);
-      indices.y = locate(wanted.y, first, has_header);
-    } catch (const Error& error) {
-      throw Error(error.what() + std::string(" (choose two with --columns, by name or by index from 0)"));
-    }
+std::pair<std::size_t, std::size_t> locate(const Columns& wanted, const Line& first, bool has_header) {
+  try {
+    return {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header)};
+  } catch (const Error& error) {
+    throw Error(error.what() + std::string(" (choose two with --columns, by name or by index from 0)"));
   }
-  if (!value_column.empty()) indices.value = locate(value_column, first, has_header);
-  return indices;
 }
 
 const std::string& field(const Line& line, std::size_t index) {
@@ -98,7 +84,7 @@ double number(const Line& line, std::size_t index) {
   return *parsed;
 }
 
-double value(const Line& line, std::size_t index) {
+double value_or_absent(const Line& line, std::size_t index) {
   return field(line, index).empty() ? std::numeric_limits<double>::quiet_NaN() : number(line, index);
 }
 
@@ -152,25 +138,41 @@ Columns parse_columns(const std::string& text) {
   return columns;
 }
 
-CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
-                   const std::string& value_column) {
-  LineReader reader(path);
-  CsvPoints result;
-  std::optional<Indices> indices;
-  Line line{reader, {}};
-  while (reader.next_filled()) {
-    auto fields = csv_fields(trimmed(reader.line()));
+CsvReader::CsvReader(const std::string& path, const std::optional<Columns>& columns,
+                     const std::string& value_column)
+    : path_(path), columns_(columns), value_column_(value_column), lines_(path) {}
+
+bool CsvReader::next() {
+  Line line{lines_, {}};
+  while (lines_.next_filled()) {
+    auto fields = csv_fields(trimmed(lines_.line()));
     if (!fields) throw line.error("a quote is not closed");
     line.fields = std::move(*fields);
-    if (!indices) {
+    if (!indices_) {
       const bool has_header = is_header(line.fields);
-      indices = locate(columns, value_column, line, has_header);
+      indices_.emplace();
+      if (columns_ || has_header) {
+        std::tie(indices_->x, indices_->y) = locate(columns_.value_or(Columns{"x", "y"}), line, has_header);
+      }
+      if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
       if (has_header) continue;
     }
-    result.points.push_back({number(line, indices->x), number(line, indices->y)});
-    if (indices->value) result.values.push_back(value(line, *indices->value));
+    point_ = {number(line, indices_->x), number(line, indices_->y)};
+    if (indices_->value) value_ = value_or_absent(line, *indices_->value);
+    return has_points_ = true;
   }
-  if (result.points.empty()) throw Error(path + " holds no points");
+  if (!has_points_) throw Error(path_ + " holds no points");
+  return false;
+}
+
+CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
+                   const std::string& value_column) {
+  CsvReader reader(path, columns, value_column);
+  CsvPoints result;
+  while (reader.next()) {
+    result.points.push_back(reader.point());
+    if (!value_column.empty()) result.values.push_back(reader.value());
+  }
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "formats/trajectory/line_reader.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -28,17 +29,46 @@ struct Columns {
 /// "x,y" to columns. Throws Error unless these are two names.
 Columns parse_columns(const std::string& text);
 
+/// The points of a CSV file with commas, one after the other. A first line without any number is a header.
+/// Without `columns` the header must name an x and a y (in any case); where there is no header the first two
+/// columns count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or
+/// an index too; there an empty field is an absent value (NaN).
+class CsvReader {
+ public:
+  /// Throws Error if the file cannot be read.
+  explicit CsvReader(const std::string& path, const std::optional<Columns>& columns,
+                     const std::string& value_column = "");
+
+  /// Goes to the next point; false at the end of the file. Throws Error that names file, line and text for a
+  /// line that cannot be read or has more than a mebibyte and a column that is not there, and at the end if
+  /// there was no point at all.
+  bool next();
+
+  const Point& point() const { return point_; }
+  double value() const { return value_; }  ///< of the value column
+
+ private:
+  struct Indices {
+    std::size_t x = 0, y = 1;
+    std::optional<std::size_t> value;
+  };
+
+  std::string path_;
+  std::optional<Columns> columns_;
+  std::string value_column_;
+  LineReader lines_;
+  std::optional<Indices> indices_;
+  bool has_points_ = false;
+  Point point_;
+  double value_ = 0;
+};
+
 struct CsvPoints {
   std::vector<Point> points;
   std::vector<double> values;  ///< of the value column, one per point; empty without one
 };
 
-/// The points of a CSV file with commas, in its order. A first line without any number is a header. Without
-/// `columns` the header must name an x and a y (in any case); where there is no header the first two columns
-/// count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or an
-/// index too; there an empty field is an absent value (NaN). Throws Error that names file, line and text for
-/// a line that cannot be read or has more than a mebibyte and a column that is not there, and if there is no
-/// point at all.
+/// All points of such a file. Throws Error as CsvReader.
 CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
                    const std::string& value_column = "");
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 
 #include "vorocl/error.hpp"
@@ -69,6 +68,28 @@ std::ifstream open_to_read(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error("cannot read " + path + ": " + reason(errno));
   return stream;
+}
+
+SteadyFile::SteadyFile(const std::string& path) : path_(path) {
+  open_to_read(path);  // for its reasons
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) {
+    throw Error("cannot read " + path + ": it is a pipe or a device, and is read more than once");
+  }
+  before_ = now();
+}
+
+void SteadyFile::check() const {
+  const State state = now();
+  if (state.bytes == before_.bytes && state.changed == before_.changed) return;
+  throw Error(path_ + " changed while it was read; start again when it is complete");
+}
+
+SteadyFile::State SteadyFile::now() const {
+  std::error_code code;
+  const State state{fs::file_size(path_, code), fs::last_write_time(path_, code)};
+  if (code) throw Error("cannot read " + path_ + ": " + code.message());
+  return state;
 }
 
 Lines read_lines(const std::string& path, const std::string& kind) {

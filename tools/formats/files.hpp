@@ -1,6 +1,8 @@
 // Names of files, and reading with clear errors. output_file.hpp has the writing.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -15,6 +17,26 @@ void check_extension(const std::string& path, const std::vector<std::string>& ex
 
 /// Throws Error, with the reason, if the file is missing, a folder or not readable.
 std::ifstream open_to_read(const std::string& path);
+
+/// A file that must not change while it is read, as its size and the time of its last change tell.
+class SteadyFile {
+ public:
+  /// Throws Error if there is no such file, and for a pipe or a device.
+  explicit SteadyFile(const std::string& path);
+
+  /// Throws Error if it has changed.
+  void check() const;
+
+ private:
+  struct State {
+    std::uintmax_t bytes = 0;
+    std::filesystem::file_time_type changed;
+  };
+  State now() const;
+
+  std::string path_;
+  State before_;
+};
 
 /// The lines of a file that grew by whole ones, without their ends.
 struct Lines {

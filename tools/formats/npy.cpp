@@ -115,60 +115,68 @@ Header read_header(std::ifstream& file, const std::string& path) {
   return header;
 }
 
-/// The values behind the header, which must be `count` of them at least.
-std::vector<char> read_values(std::ifstream& file, const Header& header, std::size_t count,
-                              const std::string& path) {
+/// Where the values begin, which must be `count` of them at least. The file is there then.
+std::uint64_t find_values(std::ifstream& file, const Header& header, std::uint64_t count,
+                          const std::string& path) {
   const auto begin = file.tellg();
-  const auto there_is = static_cast<std::size_t>(file.seekg(0, std::ios::end).tellg() - begin);
-  const std::size_t size = types().at(header.type).size;
-  // Compared before the memory is taken: a damaged header may promise anything.
-  if (there_is / size < count) throw Error(path + " ends early: its shape is " + to_string(header.shape));
-  std::vector<char> bytes(count * size);
-  file.seekg(begin).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const auto there_is = static_cast<std::uint64_t>(file.seekg(0, std::ios::end).tellg() - begin);
+  // Compared before any memory is taken: a damaged header may promise anything.
+  if (there_is / types().at(header.type).size < count) {
+    throw Error(path + " ends early: its shape is " + to_string(header.shape));
+  }
+  file.seekg(begin);
+  return static_cast<std::uint64_t>(begin);
+}
+
+void read_bytes(std::ifstream& file, void* bytes, std::size_t count, const std::string& path) {
+  file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
   if (!file) throw Error("reading " + path + " failed");
-  return bytes;
 }
 
 template <typename T>
 void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
                  const std::vector<T>& values) {
-  std::string header = std::string("{'descr': '") + type_name<T> +
-                       "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
-  // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
-  header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
-  header += '\n';
-  const auto length = static_cast<std::uint16_t>(header.size());
   GrowingFile array(file);
-  array.write(magic, magic_size);
-  array.write("\x01\x00", 2);
-  array.write(&length, sizeof length);
-  array << header;
+  array << npy_header<T>(shape);
   array.write(values.data(), values.size() * sizeof(T));
   array.finish();
 }
 
 }  // namespace
 
-std::vector<Point> read_npy_points(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  const Header header = read_header(file, path);
+NpyPoints::NpyPoints(const std::string& path, std::uint64_t most) : path_(path), file_(open_to_read(path)) {
+  const Header header = read_header(file_, path);
   if (header.shape.size() != 2 || header.shape[1] != 2) {
     throw Error(path + " has the shape " + to_string(header.shape) + "; points need (N, 2)");
   }
-  const std::size_t count = header.shape[0];
-  if (count == 0) throw Error(path + " holds no points");
-  if (count > Grid::max_pixels) {
-    throw Error(path + " holds " + std::to_string(count) + " points; at most 2^30 can be seeds");
+  size_ = header.shape[0];
+  if (size_ == 0) throw Error(path + " holds no points");
+  if (size_ > most) {
+    throw Error(path + " holds " + std::to_string(size_) + " points; at most " + std::to_string(most) +
+                " can be seeds");
   }
-  const std::vector<char> bytes = read_values(file, header, 2 * count, path);
-  const Type& type = types().at(header.type);
+  begin_ = find_values(file_, header, 2 * size_, path);
+  type_ = header.type;
+}
+
+std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
+  const Type& type = types().at(type_);
+  const std::size_t bytes_per_point = 2 * type.size;
+  std::vector<char> bytes(count * bytes_per_point);
+  file_.seekg(static_cast<std::streamoff>(begin_ + first * bytes_per_point));
+  read_bytes(file_, bytes.data(), bytes.size(), path_);
   std::vector<Point> points(count);
   const char* value = bytes.data();
   for (Point& point : points) {
     point = {type.read(value), type.read(value + type.size)};
-    value += 2 * type.size;
+    value += bytes_per_point;
   }
   return points;
+}
+
+std::vector<Point> read_npy_points(const std::string& path) {
+  NpyPoints points(path, Grid::max_pixels);
+  return points.read(0, points.size());
 }
 
 LabelImage read_npy_labels(const std::string& path) {
@@ -184,9 +192,9 @@ LabelImage read_npy_labels(const std::string& path) {
                 std::to_string(most));
   }
   LabelImage image{Grid(static_cast<int>(shape[1]), static_cast<int>(shape[0])), {}};
-  const std::vector<char> bytes = read_values(file, header, image.grid.pixels(), path);
+  find_values(file, header, image.grid.pixels(), path);
   image.labels.resize(image.grid.pixels());
-  std::memcpy(image.labels.data(), bytes.data(), bytes.size());
+  read_bytes(file, image.labels.data(), image.labels.size() * sizeof no_label, path);
   return image;
 }
 
@@ -199,6 +207,19 @@ void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& v
 template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint8_t>&);
 template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint32_t>&);
 template void write_npy(const OutputFile&, const Grid&, const std::vector<float>&);
+
+template <typename T>
+std::string npy_header(const std::vector<std::size_t>& shape) {
+  std::string header = std::string("{'descr': '") + type_name<T> +
+                       "', 'fortran_order': False, 'shape': " + to_string(shape) + ", }";
+  // The values start at a multiple of 64 bytes: behind magic, version (2 bytes), length (2 bytes) and header.
+  header.resize((magic_size + 4 + header.size() + 64) / 64 * 64 - magic_size - 5, ' ');
+  header += '\n';
+  const auto low = static_cast<char>(header.size() % 256), high = static_cast<char>(header.size() / 256);
+  return std::string(magic, magic_size) + '\x01' + '\0' + low + high + header;
+}
+
+template std::string npy_header<std::uint32_t>(const std::vector<std::size_t>&);
 
 void write_npy_points(const OutputFile& file, const std::vector<Point>& points) {
   std::vector<double> values;

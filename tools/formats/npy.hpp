@@ -1,6 +1,8 @@
 // NumPy's array files (.npy, format versions 1 to 3), little-endian and in C order.
 #pragma once
 
+#include <cstdint>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -10,8 +12,26 @@
 
 namespace vorocl::command {
 
-/// The points of an array of shape (N, 2), of any integer or floating-point type of 1 to 8 bytes. Throws
-/// Error if the file is something else, ends early or holds no points.
+/// A file that holds an array of points: of shape (N, 2) and any integer or floating-point type of 1 to 8
+/// bytes. The points are read when they are asked for.
+class NpyPoints {
+ public:
+  /// Throws Error if the file is something else, ends early or holds no points or more than `most`.
+  explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1);
+
+  std::uint64_t size() const { return size_; }
+
+  /// The points from `first` on, which are there. Throws Error if they cannot be read.
+  std::vector<Point> read(std::uint64_t first, std::size_t count);
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  std::uint64_t begin_ = 0, size_ = 0;  // where the values begin in the file, and the points
+  std::string type_;
+};
+
+/// All points of such a file, at most 2^30.
 std::vector<Point> read_npy_points(const std::string& path);
 
 /// Labels: uint32, shape (height, width). Throws Error if the file is something else.
@@ -21,6 +41,10 @@ LabelImage read_npy_labels(const std::string& path);
 /// Error if the file cannot be written.
 template <typename T>
 void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& values);
+
+/// What stands before the values (uint8, uint32, float or double) of an array of this shape.
+template <typename T>
+std::string npy_header(const std::vector<std::size_t>& shape);
 
 /// Points to an array of double of shape (N, 2). Throws Error if the file cannot be written.
 void write_npy_points(const OutputFile& file, const std::vector<Point>& points);

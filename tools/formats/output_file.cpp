@@ -33,9 +33,11 @@ Error failed_to_write(const std::string& path) {
   return Error("writing " + path + " failed: " + reason(errno));
 }
 
-bool write_all(int file, const char* bytes, std::size_t count) {
+/// Writes all bytes by `call`, which is given what is left of them. False, with errno, if that fails.
+template <typename Call>
+bool write_by(const Call& call, const char* bytes, std::size_t count) {
   while (count > 0) {
-    const ssize_t written = write(file, bytes, count);
+    const ssize_t written = call(bytes, count);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return false;
     bytes += written;
@@ -47,15 +49,6 @@ bool write_all(int file, const char* bytes, std::size_t count) {
 std::string folder_of(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
-}
-
-/// ".vorocl-0123456789abcdef.mp4": short, so that it is possible wherever the output's name is, and with its
-/// extension, by which encoders tell the format.
-std::string random_path_beside(const std::string& target) {
-  std::random_device random;
-  std::string name = ".vorocl-";
-  for (int i = 0; i < 16; ++i) name += "0123456789abcdef"[random() % 16];
-  return (fs::path(folder_of(target)) / (name + extension_of(target))).string();
 }
 
 /// Where a link leads. It is opened first, because the system lets nobody write through links that others put
@@ -84,6 +77,28 @@ int open_to_replace(const std::string& target, const std::string& path, int flag
 }
 
 }  // namespace
+
+std::string random_path_beside(const std::string& target) {
+  std::random_device random;
+  std::string name = ".vorocl-";
+  for (int i = 0; i < 16; ++i) name += "0123456789abcdef"[random() % 16];
+  return (fs::path(folder_of(target)) / (name + extension_of(target))).string();
+}
+
+bool write_all(int file, const char* bytes, std::size_t count) {
+  return write_by([file](const char* rest, std::size_t left) { return write(file, rest, left); }, bytes,
+                  count);
+}
+
+bool write_all_at(int file, const char* bytes, std::size_t count, std::uint64_t place) {
+  const char* const end = bytes + count;
+  return write_by(
+      [&](const char* rest, std::size_t left) {
+        return pwrite(file, rest, left,
+                      static_cast<off_t>(place + count - static_cast<std::size_t>(end - rest)));
+      },
+      bytes, count);
+}
 
 // --- OutputFile ---
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -89,6 +90,14 @@ class GrowingFile {
   int descriptor_ = -1;
   std::vector<char> buffer_;
 };
+
+/// ".vorocl-0123456789abcdef.mp4" beside the target: a name that nobody can foresee, short, so that it is
+/// possible wherever the output's name is, and with its extension, by which encoders tell the format.
+std::string random_path_beside(const std::string& target);
+
+/// Writes all bytes, where the file stands or at a place of it. False, with errno, if that fails.
+bool write_all(int file, const char* bytes, std::size_t count);
+bool write_all_at(int file, const char* bytes, std::size_t count, std::uint64_t place);
 
 /// Appends a text to a file. Throws Error if that fails, and leaves the file as it was.
 void append_to_file(const std::string& path, std::string_view text);

@@ -1,14 +1,23 @@
-// Files that points are written to, by the extension of their name: .csv or .npy.
+// Files of points, by the extension of their name: .csv or .npy.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "formats/csv.hpp"
 #include "formats/output_file.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
+
+/// Reads the points of a file in blocks, so that they are never in memory all at once; `use` is given each
+/// block, in the file's order. `columns` are those of a .csv file. Throws Error as the readers of these
+/// files, for another extension, and if the file changes meanwhile.
+void read_in_blocks(const std::string& path, const std::optional<Columns>& columns,
+                    const std::function<void(const std::vector<Point>& block)>& use);
 
 /// Points with their ids, which are their indices if `ids` is empty: a .csv file with the columns id, x and
 /// y, or a .npy array of shape (N, 2) without the ids. Throws Error for another extension, or if the file

@@ -1,5 +1,8 @@
 #include "formats/temporary_names.hpp"
 
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -16,6 +19,7 @@ namespace {
 struct Slot {
   std::atomic<bool> taken{false};
   std::atomic<bool> holds_name{false};
+  TemporaryName::Kind kind{};
   char name[PATH_MAX];
 };
 
@@ -29,12 +33,32 @@ std::size_t take_slot() {
   throw Error("too many files are written at once");
 }
 
+/// Removes the files in a folder. readdir() may lock and allocate: the system itself is asked.
+void remove_files_in(const char* folder) noexcept {
+  const int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+  if (descriptor < 0) return;
+  alignas(dirent64) char entries[4096];
+  for (bool some = true; some;) {
+    some = false;
+    lseek(descriptor, 0, SEEK_SET);
+    for (long bytes = 0; (bytes = syscall(SYS_getdents64, descriptor, entries, sizeof entries)) > 0;) {
+      for (long at = 0; at < bytes;) {
+        const auto* const entry = reinterpret_cast<const dirent64*>(entries + at);
+        some = unlinkat(descriptor, entry->d_name, 0) == 0 || some;
+        at += entry->d_reclen;
+      }
+    }
+  }
+  close(descriptor);
+}
+
 }  // namespace
 
-TemporaryName::TemporaryName(const std::string& path) : path_(path) {
+TemporaryName::TemporaryName(const std::string& path, Kind kind) : path_(path) {
   if (path.size() >= PATH_MAX) throw Error(path + ": this path is too long");
   slot_ = take_slot();
   std::memcpy(all[slot_].name, path.c_str(), path.size() + 1);
+  all[slot_].kind = kind;
   all[slot_].holds_name = true;
 }
 
@@ -45,7 +69,9 @@ TemporaryName::~TemporaryName() {
 
 void remove_temporary_files() noexcept {
   for (const Slot& slot : all) {
-    if (slot.holds_name) unlink(slot.name);
+    if (!slot.holds_name) continue;
+    unlink(slot.name);
+    if (slot.kind == TemporaryName::Kind::folder) remove_files_in(slot.name);
   }
   for (const Slot& slot : all) {
     if (slot.holds_name) rmdir(slot.name);

@@ -11,6 +11,7 @@ void run_command(int argc, char** argv) {
   add_simulate(line);
   add_cells(line);
   add_relax(line);
+  add_tiles(line);
   add_compare(line);
   add_bench(line);
   add_evaluate(line);

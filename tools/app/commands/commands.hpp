@@ -11,6 +11,7 @@ void add_render(CommandLine& line);
 void add_simulate(CommandLine& line);
 void add_cells(CommandLine& line);
 void add_relax(CommandLine& line);
+void add_tiles(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_bench(CommandLine& line);
 void add_evaluate(CommandLine& line);

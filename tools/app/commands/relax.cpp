@@ -98,7 +98,7 @@ void write_energies(const OutputFile& file, const Relaxation& relaxation) {
 
 Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& seeds, Diagram& diagram,
                       const Interruption& interruption, FrameWriter* writer) {
-  Progress progress("rounds");
+  Progress progress({"rounds"});
   MeasureBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled, double) { return exact_diagram(at, filled); };
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {

@@ -65,7 +65,7 @@ class Run {
   /// makes them anew, because what it knows of them besides the labels is in no file. Throws Error if they
   /// are of other seeds.
   void pass_complete_frames() {
-    const Journal& journal = *writer_.journal();
+    const FrameJournal& journal = *writer_.journal();
     const bool makes_all =
         options_.method.continues || (options_.compare_with && options_.compare_with->continues);
     Progress progress;
@@ -216,7 +216,7 @@ void run(const SimulateOptions& options) {
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Run run(options, *source, device, interruption, writer);
-  const Journal* const journal = writer.journal();
+  const FrameJournal* const journal = writer.journal();
   if (journal != nullptr) run.pass_complete_frames();
   run.make_frames();
   const Course& course = run.course();

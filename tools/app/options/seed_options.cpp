@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/files.hpp"
@@ -11,8 +13,11 @@ namespace vorocl::command {
 
 namespace {
 
+/// Whose option a file is that stands alone: of all sources of seeds, or of points.
+enum class Sources { all, points };
+
 /// What to write instead of the name of a file alone.
-std::string option_for(const std::string& file) {
+std::string option_for(const std::string& file, Sources sources) {
   const std::string extension = extension_of(file);
   const auto is_one_of = [&extension](const std::vector<std::string>& extensions) {
     return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
@@ -21,35 +26,95 @@ std::string option_for(const std::string& file) {
                              : is_one_of({".xyz", ".extxyz", ".lammpstrj", ".dump"})         ? "--trajectory "
                              : is_one_of({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}) ? "--mask "
                                                                                              : nullptr;
-  if (option == nullptr) return "\"" + file + "\" is neither an option nor the value of one";
+  if (option == nullptr || (sources == Sources::points && option != std::string_view("--points "))) {
+    return "\"" + file + "\" is neither an option nor the value of one";
+  }
   return "\"" + file + "\" is no option; for its seeds write " + option + file;
+}
+
+Option add_random_option(Command& source, SeedOptions& options, std::size_t most) {
+  return source.add("--random", options.random, "N uniformly random pixels")
+      .value_name("N")
+      .in_range(std::size_t{1}, most);
+}
+
+Option add_points_option(Command& source, SeedOptions& options) {
+  return source.add("--points", options.points, "Points of a .csv or .npy file, in data units")
+      .value_name("FILE");
+}
+
+Option add_rng_seed_option(Command& command, SeedOptions& options) {
+  return command.add("--rng-seed", options.rng_seed, "Seed of the random numbers")
+      .value_name("R")
+      .default_is_value();
+}
+
+Option add_columns_option(Command& command, SeedOptions& options) {
+  return command
+      .add_parsed("--columns", options.columns, parse_columns,
+                  "Columns of the CSV file, by name or by index from 0; else x and y, or the first two")
+      .value_name("X,Y");
+}
+
+void add_bounds_option(Command& command, SeedOptions& options, const std::string& about) {
+  command.add_parsed("--bounds", options.bounds, parse_bounds, about).value_name("X0,Y0,X1,Y1");
+}
+
+void add_outside_option(Command& command, SeedOptions& options) {
+  const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
+  command
+      .add_choice(
+          "--outside", options.outside, outside,
+          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
+      .default_text("count");
+}
+
+Option add_periodic_option(Command& command, SeedOptions& options, const std::string& about) {
+  Choices<std::optional<Periodic>> axes;
+  for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
+    axes.emplace_back(to_string(some), some);
+  }
+  return command.add_choice("--periodic", options.periodic, axes, about);
+}
+
+void add_y_options(Command& command, SeedOptions& options) {
+  const Option up =
+      command.add("--y-up", options.y_up, "The data's y axis points up, as a trajectory's does anyway");
+  command.add("--y-down", options.y_down, "The data's y axis points down, as that of points does anyway")
+      .excludes(up);
+}
+
+/// Both numbers of "WxH".
+std::pair<std::int64_t, std::int64_t> parse_sides(const std::string& text) {
+  const auto x = text.find('x');
+  const auto width = parse_number<std::int64_t>(text.substr(0, x));
+  const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
+  if (!width || !height) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
+  return {*width, *height};
+}
+
+std::optional<Plane> parse_plane(const std::string& text) {
+  const auto [width, height] = parse_sides(text);
+  return Plane(width, height);
 }
 
 }  // namespace
 
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move) {
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
-  if (least > 0) command.refuse_words(option_for);
+  if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
   constexpr std::size_t most_seeds = Grid::max_pixels;
-  const Option random = source.add("--random", options.random, "N uniformly random pixels")
-                            .value_name("N")
-                            .in_range(std::size_t{1}, most_seeds);
-  const Option points = source.add("--points", options.points, "Points of a .csv or .npy file, in data units")
-                            .value_name("FILE");
+  const Option random = add_random_option(source, options, most_seeds);
+  const Option points = add_points_option(source, options);
   source.add("--mask", options.mask, "Non-zero pixels of an image, numbered in row-major order")
       .value_name("FILE");
   const Option trajectory =
       source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
           .value_name("FILE");
 
-  Option rng_seed = command.add("--rng-seed", options.rng_seed, "Seed of the random numbers");
-  rng_seed.value_name("R").default_is_value();
+  Option rng_seed = add_rng_seed_option(command, options);
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
-  command
-      .add_parsed("--columns", options.columns, parse_columns,
-                  "Columns of the CSV file, by name or by index from 0; else x and y, or the first two")
-      .value_name("X,Y")
-      .needs(points);
+  add_columns_option(command, options).needs(points);
   const Option size =
       command
           .add_parsed("--size", options.size, parse_size,
@@ -62,18 +127,11 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .value_name("W")
       .in_range(1, Grid::max_side)
       .excludes(size);
-  command
-      .add_parsed("--bounds", options.bounds, parse_bounds,
-                  "Rectangle in data units that the grid shows; else what the boxes of all frames fill, or "
-                  "the domain or "
-                  "the bounding box of the points")
-      .value_name("X0,Y0,X1,Y1");
-  const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
-  command
-      .add_choice(
-          "--outside", options.outside, outside,
-          "Points outside the bounds: they own the pixels that are nearest to them, or they are an error")
-      .default_text("count");
+  add_bounds_option(
+      command, options,
+      "Rectangle in data units that the grid shows; else what the boxes of all frames fill, or the domain or "
+      "the bounding box of the points");
+  add_outside_option(command, options);
   command
       .add_parsed(
           "--domain", options.domain, parse_bounds,
@@ -81,20 +139,34 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "part of it")
       .value_name("X0,Y0,X1,Y1")
       .default_text("the bounds");
-  Choices<std::optional<Periodic>> axes;
-  for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
-    axes.emplace_back(to_string(some), some);
-  }
-  command
-      .add_choice(
-          "--periodic", options.periodic, axes,
-          "Axes along which the plane repeats: distances go the shorter way round, cells reach across "
-          "the border, and points outside the domain wrap")
+  add_periodic_option(command, options,
+                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
+                      "across the border, "
+                      "and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
-  const Option up =
-      command.add("--y-up", options.y_up, "The data's y axis points up, as a trajectory's does anyway");
-  command.add("--y-down", options.y_down, "The data's y axis points down, as that of points does anyway")
-      .excludes(up);
+  add_y_options(command, options);
+}
+
+void add_plane_options(Command& command, PlaneInputOptions& options) {
+  SeedOptions& seeds = options.seeds;
+  Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", 1, 1);
+  command.refuse_words([](const std::string& word) { return option_for(word, Sources::points); });
+  const Option random = add_random_option(source, seeds, no_label - 1);
+  const Option points = add_points_option(source, seeds);
+  add_rng_seed_option(command, seeds).needs(random);
+  add_columns_option(command, seeds).needs(points);
+  command.add_parsed("--size", options.size, parse_plane, "Width and height of the plane in pixels")
+      .value_name("WxH")
+      .required();
+  add_bounds_option(command, seeds,
+                    "Rectangle in data units that the plane shows; else the bounding box of the points");
+  add_outside_option(command, seeds);
+  add_periodic_option(command, seeds,
+                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
+                      "across the border, "
+                      "and points outside the bounds wrap")
+      .default_text("none");
+  add_y_options(command, seeds);
 }
 
 void add_frame_option(Command& command, SeedOptions& options) {
@@ -145,11 +217,8 @@ void add_motion_options(Command& command, MotionOptions& options) {
 }
 
 Grid parse_size(const std::string& text) {
-  const auto x = text.find('x');
-  const auto width = parse_number<std::int64_t>(text.substr(0, x));
-  const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
-  if (!width || !height) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
-  return Grid(*width, *height);
+  const auto [width, height] = parse_sides(text);
+  return {width, height};
 }
 
 }  // namespace vorocl::command

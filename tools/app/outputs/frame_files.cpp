@@ -19,7 +19,7 @@ std::string collection_path(const FileRequest& request) {
   return (pattern.parent_path() / (name + ".pvd")).string();
 }
 
-FrameFiles::FrameFiles(const FileRequest& request, Journal* journal) : request_(request) {
+FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : request_(request) {
   if (request.is_long_table()) {
     table_ = open_table(request.path, "frame,timestep," + request.kind.table()->columns, journal);
     return;

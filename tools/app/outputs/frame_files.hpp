@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/outputs/diagram_files.hpp"
-#include "app/outputs/journal.hpp"
+#include "app/outputs/frame_journal.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/vtk.hpp"
 
@@ -24,7 +24,7 @@ std::string collection_path(const FileRequest& request);
 class FrameFiles {
  public:
   /// Throws Error if no file can be made there. With a journal, the table can be continued.
-  explicit FrameFiles(const FileRequest& request, Journal* journal = nullptr);
+  explicit FrameFiles(const FileRequest& request, FrameJournal* journal = nullptr);
 
   /// Writes the file or the rows of a frame, which shows this time.
   void add(int frame, std::int64_t time, Measures& measures);

@@ -17,7 +17,7 @@ std::vector<std::uint32_t> labels_in_picture(Measures& measures) {
 
 }  // namespace
 
-FrameStatistics::FrameStatistics(const std::string& path, Journal* journal)
+FrameStatistics::FrameStatistics(const std::string& path, FrameJournal* journal)
     : file_(open_table(path,
                        "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
                        "box_x0,box_y0,box_x1,box_y1",

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/outputs/journal.hpp"
+#include "app/outputs/frame_journal.hpp"
 #include "app/outputs/measures.hpp"
 #include "formats/trajectory/trajectory.hpp"
 
@@ -15,7 +15,7 @@ namespace vorocl::command {
 class FrameStatistics {
  public:
   /// Throws Error if the file cannot be made there.
-  explicit FrameStatistics(const std::string& path, Journal* journal = nullptr);
+  explicit FrameStatistics(const std::string& path, FrameJournal* journal = nullptr);
 
   /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
   void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);

@@ -42,18 +42,14 @@ std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
 std::string journal_path(const std::vector<RequestedFile>& files) {
   const auto first =
       std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
-  return first == files.end() ? "" : first->path + ".journal";
+  return first == files.end() ? "" : command::journal_path(first->path);
 }
 
 /// That of a run which can go on; none for another, which must not take the place of one that can.
-std::unique_ptr<Journal> open_journal(const FrameWriterOptions& options, const std::string& path,
-                                      const std::string& run) {
+std::unique_ptr<FrameJournal> open_journal(const FrameWriterOptions& options, const std::string& path,
+                                           const std::string& run) {
   if (!options.resume) {
-    std::error_code ignored;
-    if (!path.empty() && std::filesystem::exists(path, ignored)) {
-      throw Error(
-          path + " says that a run with --resume can go on; give --resume, or remove it and the .part files");
-    }
+    if (!path.empty()) refuse_journal(path);
     return nullptr;
   }
   if (extension_of(options.picture_path) == film_extension) {
@@ -62,7 +58,7 @@ std::unique_ptr<Journal> open_journal(const FrameWriterOptions& options, const s
         "them");
   }
   if (path.empty()) throw UsageError("--resume needs files to write: there is nothing to go on with");
-  return std::make_unique<Journal>(path, run);
+  return std::make_unique<FrameJournal>(path, run);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ class FrameWriter {
   void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
 
   /// How far an earlier run came, if this one goes on with it; null: it cannot be resumed.
-  Journal* journal() const { return journal_.get(); }
+  FrameJournal* journal() const { return journal_.get(); }
 
   /// Whether go_on_from() needs the diagram of a frame that is complete.
   bool needs_diagram(int frame) const;
@@ -82,7 +82,7 @@ class FrameWriter {
 
   FrameWriterOptions options_;
   Painter painter_;
-  std::unique_ptr<Journal> journal_;
+  std::unique_ptr<FrameJournal> journal_;
   std::optional<Film> film_;
   std::optional<NumberedFiles> pictures_;
   std::vector<std::unique_ptr<FrameFiles>> files_;

@@ -7,19 +7,23 @@
 #include <cerrno>
 #include <filesystem>
 #include <sstream>
-#include <utility>
 
 #include "formats/files.hpp"
-#include "formats/numbers.hpp"
+#include "formats/output_file.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-const std::string title = "VoroCL journal", end_of_run = "frames";
+const std::string title = "VoroCL journal", end_of_run = "steps";
 
-/// The lines of the journal before those of its frames.
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::exists(path, ignored);
+}
+
+/// The lines of the journal before those of its steps.
 std::vector<std::string> head_of(const std::string& run) {
   std::vector<std::string> head = {title};
   std::istringstream text(run);
@@ -38,9 +42,8 @@ std::string first_not_in(const std::vector<std::string>& others, const std::vect
 
 }  // namespace
 
-Journal::Journal(const std::string& path, const std::string& run) : path_(path), run_(run) {
-  std::error_code ignored;
-  is_there_ = std::filesystem::exists(path_, ignored);
+Journal::Journal(const std::string& path, const std::string& run)
+    : path_(path), run_(run), is_there_(is_file(path)) {
   if (is_there_) read();
 }
 
@@ -49,87 +52,45 @@ void Journal::read() {
   if (there.empty() || there.front() != title) throw Error(path_ + " is no journal of a run; remove it");
   const auto end = std::find(there.begin(), there.end(), end_of_run);
   const std::vector<std::string> head_there(there.begin(), end == there.end() ? end : end + 1);
-  if (head_there != head) {
-    throw Error(
-        fmt::format("{} is of another run: there {}, here {}; give its options, or remove it and the .part "
-                    "files to start "
-                    "again",
-                    path_, first_not_in(head, head_there), first_not_in(head_there, head)));
-  }
-  if (there.size() > head.size()) last_ = entry_of(there.back());
+  if (head_there != head) refuse_run(first_not_in(head, head_there), first_not_in(head_there, head));
+  steps_.assign(end + 1, there.end());
 }
 
-Journal::Entry Journal::entry_of(const std::string& line) const {
-  Entry entry;
-  std::istringstream text(line);
-  std::string is_last;
-  text >> entry.frame >> entry.seeds >> is_last;
-  entry.is_last = is_last == "last";
-  for (std::size_t bytes = 0; text >> bytes;) entry.tables.push_back(bytes);
-  if (line_of(entry) != line + "\n" || entry.frame < 0) {
-    throw Error(path_ + " is damaged; remove it and the .part files to start again");
-  }
-  return entry;
+void Journal::refuse_run(const std::string& there, const std::string& here) const {
+  throw Error(
+      fmt::format("{} is of another run: there {}, here {}; give its options, or remove it and the .part "
+                  "files to start again",
+                  path_, there, here));
 }
 
-std::string Journal::line_of(const Entry& entry) {
-  std::string line = fmt::format("{} {} {}", entry.frame, entry.seeds, entry.is_last ? "last" : "more");
-  for (const std::size_t bytes : entry.tables) line += fmt::format(" {}", bytes);
-  return line + "\n";
+void Journal::refuse_damage() const {
+  throw Error(path_ + " is damaged; remove it and the .part files to start again");
 }
 
-void Journal::begin(const std::vector<std::string>& tables) {
-  for (const std::string& path : tables) {
-    const OutputFile table(path);
-    table.require_file("--resume");
-    std::error_code ignored;
-    if (!is_there_ && std::filesystem::exists(table.part_path(), ignored)) {
-      throw Error(table.part_path() + " is there, and nothing says of which run it is; remove it");
+void Journal::begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps) {
+  for (const std::string& part : outputs) {
+    if (!is_there_ && is_file(part)) {
+      throw Error(part + " is there, and nothing says of which run it is; remove it");
     }
   }
   GrowingFile journal{OutputFile(path_)};
   for (const std::string& line : head_of(run_)) journal << line << "\n";
-  if (last_) journal << line_of(*last_);
+  for (const std::string& line : steps) journal << line << "\n";
   journal.finish();
 }
 
-std::unique_ptr<GrowingFile> Journal::open_table(const std::string& path) {
-  std::optional<Kept> kept;
-  if (is_there_) kept.emplace();
-  if (last_) {
-    if (tables_.size() >= last_->tables.size()) throw Error(path_ + " is damaged: it lacks a table");
-    kept = Kept{last_->tables[tables_.size()], last_->is_last};
-  }
-  auto table = std::make_unique<GrowingFile>(OutputFile(path), kept);
-  tables_.push_back(table.get());
-  return table;
-}
-
-void Journal::complete(int frame, std::uint64_t seeds) {
-  Entry entry;
-  entry.frame = frame;
-  entry.seeds = seeds;
-  for (GrowingFile* const table : tables_) entry.tables.push_back(table->sync());
-  append_to_file(path_, line_of(entry));
-  last_ = std::move(entry);
-}
-
-void Journal::finish() {
-  if (!last_ || last_->is_last) return;
-  last_->is_last = true;
-  append_to_file(path_, line_of(*last_));
-}
+void Journal::append(const std::string& lines) { append_to_file(path_, lines); }
 
 void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
 }
 
-std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header,
-                                        Journal* journal) {
-  auto table =
-      journal != nullptr ? journal->open_table(path) : std::make_unique<GrowingFile>(OutputFile(path));
-  if (journal == nullptr || journal->last_frame() < 0) *table << header << "\n";
-  return table;
+std::string journal_path(const std::string& output) { return output + ".journal"; }
+
+void refuse_journal(const std::string& path) {
+  if (!is_file(path)) return;
+  throw Error(path +
+              " says that a run with --resume can go on; give --resume, or remove it and the .part files");
 }
 
 }  // namespace vorocl::command

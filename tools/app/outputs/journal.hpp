@@ -1,69 +1,54 @@
-// How far a run has come, beside its outputs, so that another run can go on.
+// The file beside the outputs of a run that says how far it has come, so that another run can go on.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "formats/output_file.hpp"
-
 namespace vorocl::command {
 
-/// A file with a line for each frame that is complete: its numbered files are there, and the tables, which
-/// grow under names that stay (see GrowingFile), hold its rows. A run that ends between two frames, or in the
-/// middle of one, is continued behind the last line.
+/// What the run is, in lines, and behind them a line for each step that is complete. frame_journal.hpp and
+/// tile_journal.hpp say what such a line holds.
 class Journal {
  public:
-  /// `run` says in lines what the run is. Reads the file, if there is one. Throws Error if it is of another
-  /// run, or no journal.
-  Journal(const std::string& path, const std::string& run);
-
   const std::string& path() const { return path_; }
 
-  /// The last frame that is complete; -1: none.
-  int last_frame() const { return last_ ? last_->frame : -1; }
-
-  /// What complete() was told of the seeds of that frame.
-  std::uint64_t seeds() const { return last_ ? last_->seeds : 0; }
-
-  /// Writes the file, before any output. Throws Error if that fails, and before if one of the tables cannot
-  /// be continued or one is there that no journal tells of.
-  void begin(const std::vector<std::string>& tables);
-
-  /// A table of the run, always in the same order. Throws as GrowingFile.
-  std::unique_ptr<GrowingFile> open_table(const std::string& path);
-
-  /// All that is written of a frame is there; `seeds` tells them from others. Throws Error if it cannot be
-  /// noted.
-  void complete(int frame, std::uint64_t seeds);
-
-  /// No frame is to come: the tables may get their names.
-  void finish();
-
-  /// When they have them.
+  /// When the outputs have their names.
   void remove();
 
+ protected:
+  /// `run` says what the run is. Reads the file, if there is one. Throws Error if it is of another run, or no
+  /// journal.
+  Journal(const std::string& path, const std::string& run);
+  ~Journal() = default;
+
+  bool is_there() const { return is_there_; }
+
+  /// The lines that were there behind those of the run.
+  const std::vector<std::string>& steps() const { return steps_; }
+
+  /// Writes the file, with those of its steps that still say something. Throws Error if that fails, and
+  /// before if the outputs cannot be continued or one is there that no journal tells of.
+  void begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps);
+
+  /// Adds lines, each with its end. Throws Error if that fails.
+  void append(const std::string& lines);
+
+  [[noreturn]] void refuse_damage() const;
+  [[noreturn]] void refuse_run(const std::string& there, const std::string& here) const;
+
  private:
-  struct Entry {
-    int frame = 0;
-    std::uint64_t seeds = 0;
-    bool is_last = false;             // no frame is to come
-    std::vector<std::size_t> tables;  // their bytes
-  };
-  Entry entry_of(const std::string& line) const;
-  static std::string line_of(const Entry& entry);
   void read();
 
   std::string path_, run_;
   bool is_there_ = false;
-  std::optional<Entry> last_;
-  std::vector<GrowingFile*> tables_;
+  std::vector<std::string> steps_;
 };
 
-/// A table of all frames with this header, which another run can continue if there is a journal. Throws Error
-/// if it cannot be made there.
-std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header, Journal* journal);
+/// The path of the journal of a run whose first output this is.
+std::string journal_path(const std::string& output);
+
+/// Throws Error if there is a journal, for a run without --resume: it must not take the place of one that can
+/// go on.
+void refuse_journal(const std::string& path);
 
 }  // namespace vorocl::command

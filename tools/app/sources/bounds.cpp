@@ -65,21 +65,22 @@ Grid grid_of_width(const Bounds& bounds, int width) {
   return Grid(width, std::max(1, static_cast<int>(height)));
 }
 
-bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
+bool has_square_pixels(const Bounds& bounds, const Plane& plane) {
   const double x_extent = bounds.x1 - bounds.x0, y_extent = bounds.y1 - bounds.y0;
   if (x_extent == 0 || y_extent == 0) return true;
-  const double wanted_height = std::max(1.0, grid.width() * y_extent / x_extent);
-  const double wanted_width = std::max(1.0, grid.height() * x_extent / y_extent);
-  return std::abs(grid.height() - wanted_height) <= 0.5 || std::abs(grid.width() - wanted_width) <= 0.5;
+  const auto width = static_cast<double>(plane.width()), height = static_cast<double>(plane.height());
+  const double wanted_height = std::max(1.0, width * y_extent / x_extent);
+  const double wanted_width = std::max(1.0, height * x_extent / y_extent);
+  return std::abs(height - wanted_height) <= 0.5 || std::abs(width - wanted_width) <= 0.5;
 }
 
-void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice) {
-  if (has_square_pixels(bounds, grid)) return;
+void warn_of_scales(const Bounds& bounds, const Plane& plane, const std::string& advice) {
+  if (has_square_pixels(bounds, plane)) return;
   print_warning(
       fmt::format("the bounds {} get different scales in x and y on {} x {} pixels, so the cells are not "
                   "Voronoi cells in data units; {}",
-                  to_string(bounds), grid.width(), grid.height(),
-                  advice.empty() ? fmt::format("--width {} keeps pixels square", grid.width()) : advice));
+                  to_string(bounds), plane.width(), plane.height(),
+                  advice.empty() ? fmt::format("--width {} keeps pixels square", plane.width()) : advice));
 }
 
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds) {

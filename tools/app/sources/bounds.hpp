@@ -28,10 +28,10 @@ Grid grid_of_width(const Bounds& bounds, int width);
 
 /// True if a pixel is a square in data units, to the nearest whole number of pixels. If not, the seed that is
 /// nearest in pixels need not be the nearest in the data. An axis without extent has no scale.
-bool has_square_pixels(const Bounds& bounds, const Grid& grid);
+bool has_square_pixels(const Bounds& bounds, const Plane& plane);
 
 /// Warns on standard error unless pixels are square.
-void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice = "");
+void warn_of_scales(const Bounds& bounds, const Plane& plane, const std::string& advice = "");
 
 /// Says on standard error how many points lie outside the bounds, if some do.
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds);

@@ -36,7 +36,7 @@ std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optiona
   if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
   const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path);
   const std::optional<std::uintmax_t> bytes = reader->bytes_left();
-  Progress progress("frames read");
+  Progress progress({"frames read"});
   Frame frame;
   std::optional<Bounds> all;
   for (int count = 0; (!frames || count <= *frames) && read(*reader, frame); ++count) {

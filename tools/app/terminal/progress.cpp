@@ -24,19 +24,25 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-std::string progress_line(int count, std::optional<double> done, double seconds, const std::string& unit) {
+std::string progress_line(const Advance& advance, double seconds, const ProgressUnits& units) {
   std::string line;
+  const std::optional<double>& done = advance.done;
   if (done) {
     const auto filled = static_cast<std::size_t>(std::clamp(*done, 0.0, 1.0) * bar_width);
     line = fmt::format("[{}{}] {:3.0f} %  ", std::string(filled, '#'), std::string(bar_width - filled, '-'),
                        100 * *done);
   }
-  line += fmt::format("{0} {2}  {1:.1f} {2}/s", count, seconds > 0 ? count / seconds : 0, unit);
-  if (done && *done > 0) line += fmt::format("  {} left", duration(seconds * (1 - *done) / *done));
+  const bool is_counted = units.work.empty();
+  const double work = is_counted ? static_cast<double>(advance.count) : advance.work;
+  line += fmt::format("{} {}  {:.1f} {}/s", advance.count, units.count, seconds > 0 ? work / seconds : 0,
+                      is_counted ? units.count : units.work);
+  if (done && *done > advance.done_before) {
+    line += fmt::format("  {} left", duration(seconds * (1 - *done) / (*done - advance.done_before)));
+  }
   return line;
 }
 
-Progress::Progress(const std::string& unit) : unit_(unit), on_terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(const ProgressUnits& units) : units_(units), on_terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { erase(); }
 
@@ -46,11 +52,11 @@ void Progress::erase() {
   shown_at_.reset();
 }
 
-void Progress::show(int count, std::optional<double> done) {
+void Progress::show(const Advance& advance) {
   const double seconds = stopwatch_.seconds();
   if (!on_terminal_ || (shown_at_ && seconds - *shown_at_ < redraw_interval)) return;
   shown_at_ = seconds;
-  print_on_standard_error(erase_line + progress_line(count, done, seconds, unit_));
+  print_on_standard_error(erase_line + progress_line(advance, seconds, units_));
 }
 
 }  // namespace vorocl::command

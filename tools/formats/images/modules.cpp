@@ -1,34 +1,22 @@
 #include "formats/images/modules.hpp"
 
-#include <dlfcn.h>
-
-#include "vorocl/error.hpp"
+#include "formats/load_module.hpp"
 
 namespace vorocl::command {
 
 namespace {
 
-const void* load(const std::string& file) {
-  // Looked for in the executable's run path: beside it in the build tree, in lib/vorocl in an installed copy.
-  void* const library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const function = library != nullptr ? dlsym(library, "vorocl_module") : nullptr;
-  if (function == nullptr) {
-    const char* const reason = dlerror();
-    throw Error("a part of vorocl cannot be loaded: " + std::string(reason != nullptr ? reason : file) +
-                "; install vorocl again, with the folder vorocl of its libraries, and OpenCV");
-  }
-  return reinterpret_cast<const void* (*)()>(function)();
-}
+const char* const advice = "install vorocl again, with the folder vorocl of its libraries, and OpenCV";
 
 }  // namespace
 
 const ImageModule& image_module() {
-  static const auto& module = *static_cast<const ImageModule*>(load("vorocl_images.so"));
+  static const auto& module = *static_cast<const ImageModule*>(load_module("vorocl_images.so", advice));
   return module;
 }
 
 const FilmModule& film_module() {
-  static const auto& module = *static_cast<const FilmModule*>(load("vorocl_films.so"));
+  static const auto& module = *static_cast<const FilmModule*>(load_module("vorocl_films.so", advice));
   return module;
 }
 

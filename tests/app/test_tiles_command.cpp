@@ -1,0 +1,217 @@
+// vorocl tiles: the same diagrams, tables and pictures as of one grid, and what it refuses.
+#define BOOST_TEST_MODULE tiles_command
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "app/sources/random_pixels.hpp"
+#include "formats/npy.hpp"
+#include "run_command.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+const std::string csv = "x,y\n1,2\n30,4\n-20,-5\n55,66\n55,67\n12.5,9\n";
+
+/// Each with what a tiling can get wrong: sides that tiles do not divide, points outside, periods.
+const std::string planes[] = {
+    "--random 200 --size 150x100",
+    "--random 3 --size 97x203 --rng-seed 18446744073709551615",
+    "--random 1 --size 1x130",
+    "--random 2000 --size 64x64 --metric manhattan",
+    "--random 40 --size 130x70 --periodic x",
+    "--random 40 --size 130x70 --periodic xy --metric manhattan",
+    "--points p.csv --size 80x60",
+    "--points p.csv --size 90x60 --bounds 0,0,60,40 --y-up",
+    "--points p.csv --size 90x60 --bounds -20,0,60,40 --periodic y",
+};
+
+void write_points_file(const TemporaryFolder& folder) { folder.file("p.csv", csv); }
+
+/// The rows of a table, by the names of its columns.
+std::vector<std::map<std::string, std::string>> rows_of(const std::string& path) {
+  std::istringstream text(content_of(path));
+  const auto fields_of = [](const std::string& line) {
+    std::vector<std::string> fields;
+    std::istringstream rest(line);
+    for (std::string field; std::getline(rest, field, ',');) fields.push_back(field);
+    return fields;
+  };
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = fields_of(line);
+  std::vector<std::map<std::string, std::string>> rows;
+  while (std::getline(text, line)) {
+    const std::vector<std::string> fields = fields_of(line);
+    rows.emplace_back();
+    for (std::size_t i = 0; i < names.size(); ++i) rows.back()[names[i]] = fields.at(i);
+  }
+  return rows;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(labels_are_those_of_one_grid) {
+  for (const std::string& plane : planes) {
+    const TemporaryFolder folder;
+    write_points_file(folder);
+    run(folder, "render " + plane + " --labels whole.npy");
+    for (const char* const tile : {"16", "33", "64", "4096"}) {
+      const Result result = run(folder, "tiles " + plane + " --labels tiles.npy --tile " + std::string(tile));
+      BOOST_TEST_CONTEXT(plane << " in tiles of " << tile << "\n" << result.error) {
+        BOOST_TEST(result.exit_code == 0);
+        BOOST_TEST((content_of(folder / "tiles.npy") == content_of(folder / "whole.npy")));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tables_are_those_of_one_grid) {
+  for (const std::string& plane : planes) {
+    const TemporaryFolder folder;
+    write_points_file(folder);
+    run(folder, "cells " + plane + " --cells whole.csv --adjacency pairs_of_whole.csv");
+    const Result result =
+        run(folder, "tiles " + plane + " --tile 32 --cells tiles.csv --adjacency pairs.csv");
+    BOOST_TEST_CONTEXT(plane << "\n" << result.error) {
+      BOOST_TEST((content_of(folder / "pairs.csv") == content_of(folder / "pairs_of_whole.csv")));
+      auto expected = rows_of(folder / "whole.csv");
+      expected.erase(std::remove_if(expected.begin(), expected.end(),
+                                    [](const auto& row) { return row.at("area") == "0"; }),
+                     expected.end());
+      for (auto& row : expected) {
+        for (const char* const column : {"x", "y", "largest_distance"}) row.erase(column);
+      }
+      BOOST_TEST((rows_of(folder / "tiles.csv") == expected));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(random_pixels_are_those_of_a_device) {
+  const Device device = Device::select();
+  for (const std::uint64_t rng_seed : {std::uint64_t{1}, std::uint64_t{0xfedcba9876543210}}) {
+    const Grid grid(1000, 777);
+    const Seeds seeds = Seeds::random(device, grid, 500, rng_seed);
+    const auto points = seeds.read();
+    for (std::uint32_t id = 0; id < 500; ++id) {
+      const Point pixel = random_pixel(grid, id, rng_seed);
+      BOOST_TEST((pixel.x == points[id]->x && pixel.y == points[id]->y));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(points_of_an_array_make_the_same_plane) {
+  const TemporaryFolder folder;
+  write_points_file(folder);
+  write_npy_points(folder / "p.npy", {{1, 2}, {30, 4}, {-20, -5}, {55, 66}, {55, 67}, {12.5, 9}});
+  for (const std::string file : {"p.csv", "p.npy"}) {
+    BOOST_TEST(run(folder, "tiles --points " + file + " --size 80x60 --labels " + file + ".npy").exit_code ==
+               0);
+  }
+  BOOST_TEST((content_of(folder / "p.csv.npy") == content_of(folder / "p.npy.npy")));
+}
+
+BOOST_AUTO_TEST_CASE(a_part_has_the_labels_of_the_whole) {
+  const TemporaryFolder folder;
+  const std::string plane = "--random 60 --size 150x100 --periodic x ";
+  run(folder, "render " + plane + "--labels whole.npy");
+  const LabelImage whole = read_npy_labels(folder / "whole.npy");
+  succeeds(folder, "tiles " + plane + "--only 140,13,150,90 --tile 16 --labels part.npy -o part.png");
+  const LabelImage part = read_npy_labels(folder / "part.npy");
+  BOOST_REQUIRE((part.grid == Grid(10, 77)));
+  std::size_t wrong = 0;
+  for (std::size_t y = 0; y < 77; ++y) {
+    for (std::size_t x = 0; x < 10; ++x) {
+      wrong += part.labels[y * 10 + x] != whole.labels[(y + 13) * 150 + x + 140];
+    }
+  }
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(cv::imread(folder / "part.png").size() == cv::Size(10, 77));
+}
+
+BOOST_AUTO_TEST_CASE(far_parts_of_huge_planes_are_made) {
+  const TemporaryFolder folder;
+  const std::string out = succeeds(
+      folder,
+      "tiles --random 1000 --size 2147483647x2147483647 --only 2147483600,2147483600,2147483647,2147483647 "
+      "--tile 32 --labels a.npy --cells c.csv --json");
+  const auto json = nlohmann::json::parse(out);
+  BOOST_TEST(json["width"] == 2147483647);
+  BOOST_TEST(json["part"]["width"] == 47);
+  BOOST_TEST(json["tiles"] == 4);
+  BOOST_TEST(json["seeds"] == 1000);
+  BOOST_TEST(read_npy_labels(folder / "a.npy").grid.width() == 47);
+  BOOST_TEST(rows_of(folder / "c.csv").at(0).at("right") == "2147483646");
+}
+
+BOOST_AUTO_TEST_CASE(pictures_are_those_of_render_and_of_larger_planes_samples) {
+  const TemporaryFolder folder;
+  succeeds(folder, "render --random 60 --size 150x100 -o whole.png");
+  succeeds(folder, "tiles --random 60 --size 150x100 --tile 32 -o tiles.png");
+  BOOST_TEST((content_of(folder / "tiles.png") == content_of(folder / "whole.png")));
+  succeeds(folder, "tiles --random 500 --size 9000x50 --tile 128 -o long.png --labels long.npy");
+  const cv::Mat picture = cv::imread(folder / "long.png");
+  BOOST_REQUIRE(picture.size() == cv::Size(3000, 17));
+  // Every third pixel of every third row, from the second one on; the last row is the last one.
+  const LabelImage labels = read_npy_labels(folder / "long.npy");
+  std::map<std::uint32_t, cv::Vec3b> colors;
+  std::size_t wrong = 0;
+  for (int y = 0; y < 17; ++y) {
+    for (int x = 0; x < 3000; ++x) {
+      const auto row = static_cast<std::size_t>(std::min(3 * y + 1, 49));
+      const std::uint32_t label = labels.labels[row * 9000 + static_cast<std::size_t>(3 * x + 1)];
+      const auto color = colors.emplace(label, picture.at<cv::Vec3b>(y, x)).first;
+      wrong += color->second != picture.at<cv::Vec3b>(y, x);
+    }
+  }
+  BOOST_TEST(wrong == 0u);
+  BOOST_TEST(colors.size() > 100u);
+}
+
+BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
+  const TemporaryFolder folder;
+  write_points_file(folder);
+  folder.file("nan.csv", "x,y\n1,2\n3,nan\n");
+  folder.file("empty.csv", "x,y\n");
+  folder.file("far.csv", "x,y\n1,2\n1e12,3\n");
+  std::filesystem::create_directory(folder / "there.zarr");
+  const std::string random = "tiles --random 9 --size 40x30 ", points = "tiles --points p.csv --size 40x30 ";
+  refuses(folder, "tiles --random 9 --labels a.npy", usage, {"--size"});
+  refuses(folder, "tiles --size 40x30 --labels a.npy", usage, {"--random,--points"});
+  refuses(folder, "tiles p.csv --size 40x30 --labels a.npy", usage, {"for its seeds write --points p.csv"});
+  refuses(folder, "tiles m.png --random 5 --size 40x30 --labels a.npy", usage, {"neither an option"});
+  refuses(folder, random, usage, {"nothing to write", "--labels"});
+  refuses(folder, random + "--labels a.vti", usage, {"a.vti", ".npy, .zarr, .tif, .tiff"});
+  refuses(folder, random + "--labels a.npy -o a.gif", usage, {"a.gif", ".png"});
+  refuses(folder, random + "--labels a.tif -o a.tif", usage, {"--labels and -o cannot write one file"});
+  refuses(folder, random + "--labels a.tif --tile 100", failure, {"multiples of 16, not 100"});
+  refuses(folder, random + "--labels there.zarr", failure, {"there.zarr", "no Zarr array; remove it"});
+  refuses(folder, random + "--labels none/a.zarr", failure, {"none does not exist"});
+  refuses(folder, random + "--labels a.npy --tile 0", usage, {"--tile"});
+  refuses(folder, random + "--labels a.npy --only 1,2,3", usage, {"--only", "X0,Y0,X1,Y1"});
+  refuses(folder, random + "--labels a.npy --only 10,10,50,20", failure, {"40"});
+  refuses(folder, random + "--labels a.npy --bounds 0,0,1,1", usage, {"--bounds needs --points"});
+  refuses(folder, random + "--labels a.npy --units data", usage, {"--units data needs --points"});
+  refuses(folder, "tiles --random 9 --size 2147483648x30 --labels a.npy", usage, {"2147483647"});
+  refuses(folder, "tiles --random 4294967295 --size 40x30 --labels a.npy", usage, {"--random", "4294967294"});
+  refuses(folder, "tiles --random 9 --size 2000000000x2000000000 --labels a.npy", failure,
+          {"GB of disk space"});
+  refuses(folder, points + "--labels a.tif --crs 32632 --bounds 0,0,60,40", usage, {"EPSG:n"});
+  refuses(folder, points + "--labels a.tif --crs EPSG:9 --bounds 0,0,60,40", usage, {"--crs"});
+  refuses(folder, points + "--labels a.npy --crs EPSG:4326 --bounds 0,0,60,40", usage, {"--crs is for"});
+  refuses(folder, points + "--labels a.tif --crs EPSG:4326", usage, {"with --bounds"});
+  refuses(folder, points + "--labels a.npy --outside refuse --bounds 0,0,60,40", failure,
+          {"p.csv: point 2 at (-20, -5) is outside the bounds"});
+  refuses(folder, "tiles --points nan.csv --size 40x30 --labels a.npy", failure,
+          {"nan.csv: point 1 at (3, nan) is not finite"});
+  refuses(folder, "tiles --points far.csv --size 40x30 --bounds 0,0,9,9 --labels a.npy", failure,
+          {"far.csv: point 1 at (1000000000000, 3) is 2^31 pixels or more away"});
+  refuses(folder, "tiles --points empty.csv --size 40x30 --labels a.npy", failure,
+          {"empty.csv", "no points"});
+  refuses(folder, "tiles --points none.npy --size 40x30 --labels a.npy", failure,
+          {"none.npy", "No such file"});
+  refuses(folder, "tiles --points p.txt --size 40x30 --labels a.npy", usage, {"p.txt", ".csv, .npy"});
+  refuses(folder, random + "--cells /dev/null --resume", usage, {".csv"});
+}

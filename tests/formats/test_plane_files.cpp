@@ -1,0 +1,279 @@
+// Files of planes: every tile is where other readers look for it, and what was kept of a file is gone on
+// with.
+#define BOOST_TEST_MODULE plane_files
+#include <sys/stat.h>
+#include <tiffio.h>
+#include <zlib.h>
+
+#include <cstring>
+#include <functional>
+#include <numeric>
+#include <random>
+
+#include "fixture.hpp"
+#include "formats/npy.hpp"
+#include "formats/planes/plane_file.hpp"
+#include "temporary_folder.hpp"
+
+using namespace vorocl;
+using namespace vorocl::command;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A label for each pixel of the plane, some of them as large as can be.
+std::uint32_t label_at(std::int64_t x, std::int64_t y) {
+  return (x + y) % 7 == 0 ? no_label - static_cast<std::uint32_t>(x % 3)
+                          : static_cast<std::uint32_t>(x / 5 + 1000 * (y / 3));
+}
+
+std::vector<std::uint32_t> labels_of(const Tile& tile) {
+  std::vector<std::uint32_t> labels;
+  for (std::int64_t y = tile.y; y < tile.y + tile.height; ++y) {
+    for (std::int64_t x = tile.x; x < tile.x + tile.width; ++x) labels.push_back(label_at(x, y));
+  }
+  return labels;
+}
+
+WrittenTile write_tile(PlaneFile& file, const Tiling& tiling, std::uint64_t number) {
+  const Tile tile = tiling.tile(number);
+  const std::vector<std::uint32_t> labels = labels_of(tile);
+  return file.write({number, tile, labels.data()});
+}
+
+std::vector<std::uint64_t> numbers_of(const Tiling& tiling) {
+  std::vector<std::uint64_t> numbers(tiling.count());
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
+void write_whole(const std::string& path, const Tiling& tiling, const std::vector<std::uint64_t>& numbers) {
+  const auto file = plane_file(path, tiling);
+  file->open();
+  for (const std::uint64_t number : numbers) write_tile(*file, tiling, number);
+  file->finish();
+}
+
+/// The contents of a file, or of those of a folder, by their names.
+std::map<std::string, std::string> contents_of(const std::string& path) {
+  if (!fs::is_directory(path)) return {{"", content_of(path)}};
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    contents[entry.path().filename().string()] = content_of(entry.path().string());
+  }
+  return contents;
+}
+
+/// What a reader gives for each pixel of the part.
+using Reader = std::function<std::uint32_t(std::int64_t x, std::int64_t y)>;
+
+void check_labels(const Tiling& tiling, const Reader& read) {
+  const PlaneRectangle& part = tiling.part();
+  std::size_t wrong = 0;
+  for (std::int64_t y = 0; y < part.height; ++y) {
+    for (std::int64_t x = 0; x < part.width; ++x) wrong += read(x, y) != label_at(part.x + x, part.y + y);
+  }
+  BOOST_TEST(wrong == 0u);
+}
+
+const std::vector<Tiling>& tilings() {
+  static const std::vector<Tiling> all = {
+      Tiling(Plane(100, 70), 32), Tiling(Plane(64, 64), 32), Tiling(Plane(5, 3), 16),
+      Tiling(Plane(1, 200), 16), Tiling(Plane(2147483647, 2147483647), 16, {2000000000, 2147483600, 50, 40})};
+  return all;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(npy_files_hold_every_label) {
+  for (const Tiling& tiling : tilings()) {
+    const TemporaryFolder folder;
+    write_whole(folder / "a.npy", tiling, numbers_of(tiling));
+    const LabelImage image = read_npy_labels(folder / "a.npy");
+    BOOST_TEST(image.grid.width() == tiling.part().width);
+    BOOST_TEST(image.grid.height() == tiling.part().height);
+    check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
+      return image.labels[static_cast<std::size_t>(y * image.grid.width() + x)];
+    });
+    BOOST_TEST((folder.names() == std::set<std::string>{"a.npy"}));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(zarr_folders_hold_every_label) {
+  for (const Tiling& tiling : tilings()) {
+    const TemporaryFolder folder;
+    write_whole(folder / "a.zarr", tiling, numbers_of(tiling));
+    const auto contents = contents_of(folder / "a.zarr");
+    BOOST_TEST(contents.size() == tiling.count() + 1);
+    const auto side = static_cast<std::size_t>(tiling.side());
+    std::map<std::string, std::vector<std::uint32_t>> chunks;
+    for (const auto& [name, content] : contents) {
+      if (name == ".zarray") continue;
+      std::vector<std::uint32_t>& chunk = chunks[name] = std::vector<std::uint32_t>(side * side);
+      uLongf bytes = side * side * 4;
+      BOOST_TEST(uncompress(reinterpret_cast<Bytef*>(chunk.data()), &bytes,
+                            reinterpret_cast<const Bytef*>(content.data()), content.size()) == Z_OK);
+      BOOST_TEST(bytes == side * side * 4);
+    }
+    check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
+      const int length = tiling.side();
+      const std::string name = std::to_string(y / length) + "." + std::to_string(x / length);
+      return chunks.at(name)[static_cast<std::size_t>(y % length * length + x % length)];
+    });
+    // Beyond the plane there is the value that the array is filled with.
+    if (tiling.part().width % tiling.side() != 0) {
+      BOOST_TEST(chunks.at("0." + std::to_string(tiling.columns() - 1))[side - 1] == no_label);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tiff_files_hold_every_label) {
+  for (const Tiling& tiling : tilings()) {
+    const TemporaryFolder folder;
+    write_whole(folder / "a.tif", tiling, numbers_of(tiling));
+    BOOST_TEST(content_of(folder / "a.tif").substr(0, 3) == "II+");
+    TIFF* const file = TIFFOpen((folder / "a.tif").c_str(), "r");
+    BOOST_REQUIRE(file != nullptr);
+    std::uint32_t width = 0, height = 0, side = 0;
+    std::uint16_t format = 0;
+    TIFFGetField(file, TIFFTAG_IMAGEWIDTH, &width);
+    TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height);
+    TIFFGetField(file, TIFFTAG_TILEWIDTH, &side);
+    TIFFGetField(file, TIFFTAG_SAMPLEFORMAT, &format);
+    BOOST_TEST(width == tiling.part().width);
+    BOOST_TEST(height == tiling.part().height);
+    BOOST_TEST(static_cast<int>(side) == tiling.side());
+    BOOST_TEST(format == SAMPLEFORMAT_UINT);
+    std::vector<std::vector<std::uint32_t>> tiles;
+    for (std::uint32_t number = 0; number < tiling.count(); ++number) {
+      tiles.emplace_back(side * side);
+      BOOST_TEST(TIFFReadEncodedTile(file, number, tiles.back().data(), -1) ==
+                 static_cast<tmsize_t>(side * side * 4));
+    }
+    TIFFClose(file);
+    check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
+      const int length = tiling.side();
+      const auto number =
+          static_cast<std::uint64_t>(y / length) * tiling.columns() + static_cast<std::uint64_t>(x / length);
+      return tiles[number][static_cast<std::size_t>(y % length * length + x % length)];
+    });
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_order_of_tiles_does_not_matter) {
+  const Tiling tiling(Plane(100, 70), 16);
+  std::vector<std::uint64_t> numbers = numbers_of(tiling);
+  const TemporaryFolder folder;
+  for (const char* const name : {"a.npy", "a.zarr"}) write_whole(folder / name, tiling, numbers);
+  std::shuffle(numbers.begin(), numbers.end(), std::mt19937(1));
+  for (const std::string end : {".npy", ".zarr"}) {
+    write_whole(folder / "b" + end, tiling, numbers);
+    BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "b" + end)), end);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_was_kept_is_gone_on_with) {
+  const Tiling tiling(Plane(100, 70), 32);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    const TemporaryFolder folder;
+    write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
+    // A run for each tile that is kept before the next one; each ends in the middle of another tile.
+    KeptTiles kept;
+    for (std::uint64_t complete = 0; complete <= tiling.count(); ++complete) {
+      const auto file = plane_file(folder / "a" + end, tiling);
+      file->open_part(complete == 0 ? std::nullopt : std::optional(kept));
+      if (complete == tiling.count()) {
+        file->finish();
+        break;
+      }
+      kept.tiles.push_back(write_tile(*file, tiling, complete));
+      file->sync();
+      if (complete + 1 < tiling.count()) write_tile(*file, tiling, complete + 1);
+      BOOST_TEST(!fs::exists(folder / "a" + end));
+      BOOST_TEST(fs::exists(file->part_path()));
+    }
+    BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "whole" + end)), end);
+    BOOST_TEST(!fs::exists(folder / "a" + end + ".part"));
+
+    // A run that ended when this file had its name, and others had not.
+    kept.is_complete = true;
+    const auto file = plane_file(folder / "a" + end, tiling);
+    file->open_part(kept);
+    file->finish();
+    BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "whole" + end)), end);
+    BOOST_TEST(folder.names().size() == 2u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
+  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    const TemporaryFolder folder;
+    write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
+    write_whole(folder / "a" + end, other, numbers_of(other));
+    write_whole(folder / "a" + end, tiling, numbers_of(tiling));
+    BOOST_TEST((contents_of(folder / "a" + end) == contents_of(folder / "whole" + end)), end);
+    BOOST_TEST(folder.names().size() == 2u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
+  const Tiling tiling(Plane(100, 70), 32);
+  const TemporaryFolder folder;
+  for (const char* const name : {"a.npy", "a.zarr", "a.tif"}) {
+    const auto file = plane_file(folder / name, tiling);
+    BOOST_TEST(folder.names().empty());
+    file->open();
+    write_tile(*file, tiling, 3);
+    BOOST_TEST(folder.names().size() == 1u);
+  }
+  BOOST_TEST(folder.names().empty());
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
+  const Tiling tiling(Plane(100, 70), 32), odd(Plane(100, 70), 100),
+      huge(Plane(1000000000, 1000000000), 32768);
+  const TemporaryFolder folder;
+  const auto refuses = [&](const std::string& name, const Tiling& of, const std::string& part) {
+    BOOST_CHECK_EXCEPTION(plane_file(folder / name, of), Error, [&](const Error& error) {
+      BOOST_TEST_MESSAGE(error.what());
+      return std::string(error.what()).find(part) != std::string::npos;
+    });
+  };
+  refuses("a.vti", tiling, "the name must end in one of .npy, .zarr, .tif, .tiff");
+  refuses("a.tif", odd, "multiples of 16, not 100");
+  refuses("a.tif", Tiling(huge.plane(), 16), "at most 2^32 - 1 tiles");
+  for (const char* const name : {"a.npy", "a.zarr", "a.tif"}) {
+    refuses(name, huge, "GB of disk space");
+    refuses(std::string("none/") + name, tiling, "none does not exist");
+  }
+  fs::create_directory(folder / "a.zarr");
+  refuses("a.zarr", tiling, "remove it");
+  fs::create_directory(folder / "a.npy");
+  refuses("a.npy", tiling, "it is a folder");
+  mkfifo((folder / "b.tif").c_str(), 0600);
+  refuses("b.tif", tiling, "a TIFF file needs a file");
+}
+
+BOOST_AUTO_TEST_CASE(parts_that_are_not_those_that_were_kept_are_refused) {
+  const Tiling tiling(Plane(100, 70), 32);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    const TemporaryFolder folder;
+    KeptTiles kept;
+    {
+      const auto file = plane_file(folder / "a" + end, tiling);
+      file->open_part(std::nullopt);
+      kept.tiles.push_back(write_tile(*file, tiling, 0));
+    }
+    const auto begin = [&] { plane_file(folder / "a" + end, tiling)->open_part(std::nullopt); };
+    BOOST_CHECK_THROW(begin(), Error);
+    const auto go_on = [&] { plane_file(folder / "a" + end, tiling)->open_part(kept); };
+    BOOST_CHECK_NO_THROW(go_on());
+    fs::remove_all(folder / "a" + end + ".part");
+    BOOST_CHECK_THROW(go_on(), Error);
+    folder.file("a" + end + ".part", "mine");
+    BOOST_CHECK_THROW(go_on(), Error);
+    BOOST_TEST(content_of(folder / "a" + end + ".part") == "mine");
+  }
+}

@@ -1,0 +1,236 @@
+// tiles --resume: whatever ends a run, the same command goes on, and the files are those of a run that
+// nothing ended. VOROCL_LONG_TESTS: many more ends.
+#define BOOST_TEST_MODULE resume_tiles
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <random>
+#include <thread>
+
+#include "left_files.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+const std::string plane = "tiles --random 3000 --size 700x500 --tile 64 ";
+
+const std::string subcommands[] = {
+    plane + "--labels a.npy --cells c.csv --adjacency p.csv",
+    plane + "--labels a.zarr -o a.png --periodic xy",
+    plane + "--labels a.tif --adjacency p.csv --only 100,30,699,499",
+};
+
+std::map<std::string, std::string> contents_of(const TemporaryFolder& folder) {
+  std::map<std::string, std::string> contents;
+  for (const std::string& file : files_of(folder)) {
+    if (!is_temporary(file)) contents[file] = content_of(folder / file);
+  }
+  return contents;
+}
+
+void check_same(const TemporaryFolder& folder, const TemporaryFolder& whole) {
+  const auto there = contents_of(folder), expected = contents_of(whole);
+  for (const auto& [file, content] : expected) {
+    BOOST_TEST(there.count(file) == 1u, file << " is missing");
+    if (there.count(file) == 1) BOOST_TEST((there.at(file) == content), file << " differs");
+  }
+  for (const auto& [file, content] : there) BOOST_TEST(expected.count(file) == 1u, file << " is left");
+}
+
+/// Starts a run, and sends it a signal when the journal tells of a tile. Returns its status.
+int interrupt(const TemporaryFolder& folder, const std::string& subcommand, const std::string& journal,
+              int signal) {
+  const pid_t process = start(folder, words_of(subcommand));
+  for (int i = 0; i < 4000; ++i) {
+    if (content_of(folder / journal).find("tile ") != std::string::npos) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  kill(process, signal);
+  int status = 0;
+  waitpid(process, &status, 0);
+  return status;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_time_is_completed) {
+  std::mt19937 numbers(1);
+  const int times = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 15 : 1;
+  int kills = 0, went_on = 0;
+  for (const std::string& subcommand : subcommands) {
+    const TemporaryFolder whole;
+    succeeds(whole, subcommand);  // builds kernels, too
+    const auto begin = std::chrono::steady_clock::now();
+    succeeds(whole, subcommand);
+    const auto microseconds =
+        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+    for (int i = 0; i < times; ++i) {
+      const TemporaryFolder folder;
+      bool is_done = false;
+      for (int attempt = 0; attempt < 100 && !is_done; ++attempt) {
+        const pid_t process = start(folder, words_of(subcommand + " --resume"));
+        // Longer and longer: to go on takes time, too.
+        const auto most = microseconds.count() * (10 + attempt) / 10;
+        std::this_thread::sleep_for(std::chrono::microseconds(numbers() % static_cast<unsigned>(most)));
+        kill(process, SIGKILL);
+        int status = 0;
+        waitpid(process, &status, 0);
+        is_done = WIFEXITED(status);
+        if (is_done) {
+          BOOST_TEST(WEXITSTATUS(status) == 0, subcommand << "\n" << content_of(folder / "streams"));
+          went_on += content_of(folder / "streams").find("made before: ") != std::string::npos;
+        } else {
+          ++kills;
+        }
+      }
+      BOOST_TEST_CONTEXT(subcommand) {
+        BOOST_TEST(is_done);
+        check_same(folder, whole);
+      }
+    }
+  }
+  BOOST_TEST_MESSAGE(kills << " kills");
+  BOOST_TEST(kills > times);
+  BOOST_TEST(went_on > 0);
+}
+
+BOOST_AUTO_TEST_CASE(signals_keep_what_is_complete_and_name_it) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    const TemporaryFolder whole, folder;
+    succeeds(whole, subcommands[0]);
+    const int status = interrupt(folder, subcommands[0] + " --resume", "a.npy.journal", signal);
+    const std::string said = content_of(folder / "streams");
+    BOOST_TEST_CONTEXT(said) {
+      BOOST_TEST(WEXITSTATUS(status) == failure);
+      for (const char* const part :
+           {"interrupted; tiles complete before that: ", " of 88; the same command goes on", "a.npy.journal",
+            "a.npy.part", "c.csv.part"}) {
+        BOOST_TEST(said.find(part) != std::string::npos, part);
+      }
+      BOOST_TEST((files_of(folder) == std::set<std::string>{"a.npy.journal", "a.npy.part", "c.csv.part"}));
+    }
+    const Result result = run(folder, subcommands[0] + " --resume");
+    BOOST_TEST(result.exit_code == 0, result.error);
+    BOOST_TEST(result.out.find("made before: ") != std::string::npos);
+    check_same(folder, whole);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(without_resume_nothing_stays) {
+  const std::string large = "tiles --random 300000 --size 6000x6000 --tile 64 -o a.png --labels a";
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    for (const int signals : {1, 2}) {
+      const TemporaryFolder folder;
+      const pid_t process = start(folder, words_of(large + end));
+      const auto begun = [&] {
+        const auto names = folder.names();
+        return std::any_of(names.begin(), names.end(), is_temporary);
+      };
+      for (int i = 0; i < 4000 && !begun(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      for (int i = 0; i < signals; ++i) kill(process, i == 0 ? SIGINT : SIGTERM);
+      int status = 0;
+      waitpid(process, &status, 0);
+      BOOST_TEST_CONTEXT(end << ", " << signals << " signals: " << content_of(folder / "streams")) {
+        if (signals == 1) {
+          BOOST_TEST(WEXITSTATUS(status) == failure);
+          BOOST_TEST(content_of(folder / "streams").find("interrupted; nothing stays") != std::string::npos);
+        }
+        BOOST_TEST((folder.names() == std::set<std::string>{"streams"}));
+      }
+    }
+  }
+}
+
+#ifdef VOROCL_FAULTS
+BOOST_AUTO_TEST_CASE(a_run_whose_files_could_not_be_written_is_completed) {
+  const int step = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 1 : 23;
+  for (const std::string end : {".npy -o a.png", ".zarr", ".tif --cells c.csv"}) {
+    const std::string subcommand = "tiles --random 9 --size 90x70 --tile 32 --resume --labels a" + end;
+    const TemporaryFolder whole;
+    run(whole, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT_COUNTS=counts");
+    std::map<std::string, int> calls;
+    std::ifstream counts(whole / "counts");
+    std::string kind;
+    for (int number = 0; counts >> kind >> number;) calls[kind] = number;
+    std::filesystem::remove(whole / "counts");
+    for (const char* const call : {"open", "write", "pwrite", "fallocate", "fsync", "rename"}) {
+      for (int number = 1; number <= calls[call]; number += number < 4 ? 1 : step) {
+        const TemporaryFolder folder;
+        const std::string fault = call + (" " + std::to_string(number));
+        const Result failed =
+            run(folder, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT='" + fault + " on'");
+        BOOST_TEST_CONTEXT(subcommand << " " << fault << "\n" << failed.error) {
+          BOOST_TEST(failed.exit_code == failure);
+          const Result result = run(folder, subcommand);
+          BOOST_TEST(result.exit_code == 0, result.error);
+          check_same(folder, whole);
+        }
+      }
+    }
+  }
+}
+#endif
+
+BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
+  const TemporaryFolder folder;
+  const std::string large = "tiles --random 3000 --size 700x500 --tile 64 --labels a.npy --cells c.csv ";
+  const int status = interrupt(folder, large + "--resume", "a.npy.journal", SIGKILL);
+  BOOST_REQUIRE(WIFSIGNALED(status));
+  const auto before = contents_of(folder);
+  refuses(folder, large + "--resume --metric manhattan", failure,
+          {"a.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
+  refuses(folder, "tiles --random 3001 --size 700x500 --tile 64 --labels a.npy --cells c.csv --resume",
+          failure, {"there \"seeds 3000 ", "here \"seeds 3001 ", "remove it and the .part files"});
+  refuses(folder, "tiles --random 3000 --size 700x500 --tile 32 --labels a.npy --cells c.csv --resume",
+          failure, {"there \"tiles of 64\", here \"tiles of 32\""});
+  refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove it"});
+  std::filesystem::rename(folder / "a.npy.part", folder / "other");
+  refuses(folder, large + "--resume", failure, {"a.npy.part: No such file"});
+  std::filesystem::rename(folder / "other", folder / "a.npy.part");
+  std::filesystem::rename(folder / "c.csv.part", folder / "other");
+  refuses(folder, large + "--resume", failure, {"c.csv.part: No such file"});
+  folder.file("c.csv.part", std::string(content_of(folder / "other").size(), 'x'));
+  refuses(folder, large + "--resume", failure, {"c.csv.part is damaged"});
+  std::filesystem::rename(folder / "other", folder / "c.csv.part");
+  BOOST_TEST((contents_of(folder) == before));
+  BOOST_TEST(run(folder, large + "--resume").exit_code == 0);
+
+  folder.file("a.npy.part", "mine");
+  refuses(folder, large + "--resume", failure, {"a.npy.part is there", "remove it"});
+  BOOST_TEST(content_of(folder / "a.npy.part") == "mine");
+}
+
+BOOST_AUTO_TEST_CASE(other_seeds_are_refused) {
+  const TemporaryFolder folder;
+  std::mt19937 numbers(1);
+  std::string points = "x,y\n";
+  for (int i = 0; i < 3000; ++i)
+    points += std::to_string(numbers() % 700) + "," + std::to_string(numbers() % 500) + "\n";
+  folder.file("p.csv", points);
+  const std::string subcommand =
+      "tiles --points p.csv --bounds 0,0,700,500 --size 700x500 --tile 64 --labels a.zarr --resume";
+  BOOST_REQUIRE(WIFSIGNALED(interrupt(folder, subcommand, "a.zarr.journal", SIGKILL)));
+  folder.file("p.csv", points + "1,1\n");
+  refuses(folder, subcommand, failure,
+          {"a.zarr.journal is of another run: there \"seeds 3000 ", "here \"seeds 3001 "});
+  folder.file("p.csv", points.replace(4, 1, points[4] == '1' ? "2" : "1"));
+  refuses(folder, subcommand, failure, {"there \"seeds 3000 ", "here \"seeds 3000 "});
+}
+
+BOOST_AUTO_TEST_CASE(damaged_journals_are_refused) {
+  const TemporaryFolder folder;
+  BOOST_REQUIRE(WIFSIGNALED(interrupt(folder, subcommands[2] + " --resume", "a.tif.journal", SIGKILL)));
+  const std::string journal = content_of(folder / "a.tif.journal");
+  for (const char* const end : {"tile x 3\nsums 0\n", "tile 3\nsums 0\n", "sums\n", "\n", "tiles 3\n"}) {
+    folder.file("a.tif.journal", journal + end);
+    refuses(folder, subcommands[2] + " --resume", failure, {"a.tif.journal is damaged"});
+  }
+  folder.file("a.tif.journal", journal + "tile 87 5");  // cut off: the tile counts as not made
+  const Result result = run(folder, subcommands[2] + " --resume");
+  BOOST_TEST(result.exit_code == 0, result.error);
+  const TemporaryFolder whole;
+  succeeds(whole, subcommands[2]);
+  check_same(folder, whole);
+}

@@ -1,0 +1,126 @@
+#include "app/outputs/plane_tables.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "app/outputs/output_files.hpp"
+#include "formats/files.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// What a cell shares with others.
+struct Shares {
+  std::size_t neighbours = 0;
+  std::uint64_t perimeter = 0;
+};
+
+/// The shares of cells, which are asked for in the order of their ids.
+class SharesByCell {
+ public:
+  explicit SharesByCell(const std::vector<PlaneCellPair>& pairs) {
+    lengths_.reserve(2 * pairs.size());
+    for (const PlaneCellPair& pair : pairs) {
+      lengths_.emplace_back(pair.a, pair.length);
+      lengths_.emplace_back(pair.b, pair.length);
+    }
+    std::sort(lengths_.begin(), lengths_.end());
+    next_ = lengths_.begin();
+  }
+
+  Shares of(std::uint64_t id) {
+    Shares shares;
+    for (; next_ != lengths_.end() && next_->first == id; ++next_) {
+      ++shares.neighbours;
+      shares.perimeter += next_->second;
+    }
+    return shares;
+  }
+
+ private:
+  using Lengths = std::vector<std::pair<std::uint32_t, std::uint64_t>>;
+  Lengths lengths_;
+  Lengths::const_iterator next_;
+};
+
+void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
+                 const Units& units) {
+  GrowingFile table(file);
+  table << "id,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,touches_border\n";
+  SharesByCell shares_by_cell(pairs);
+  for (std::uint64_t id = 0; id < cells.size(); ++id) {
+    const PlaneCell cell = cells.cell(id);
+    if (cell.area == 0) continue;
+    const Shares shares = shares_by_cell.of(id);
+    table << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", id, units.area(static_cast<double>(cell.area)),
+                         cell.centroid.x, cell.centroid.y, cell.left, cell.top, cell.right, cell.bottom,
+                         units.length(static_cast<double>(shares.perimeter)), shares.neighbours,
+                         cell.touches_border ? 1 : 0);
+  }
+  table.finish();
+}
+
+void write_pairs(const OutputFile& file, const std::vector<PlaneCellPair>& pairs, const Units& units) {
+  GrowingFile table(file);
+  table << "a,b,length\n";
+  for (const PlaneCellPair& pair : pairs) {
+    table << fmt::format("{},{},{}\n", pair.a, pair.b, units.length(static_cast<double>(pair.length)));
+  }
+  table.finish();
+}
+
+}  // namespace
+
+PlaneTables::PlaneTables(const std::string& cells, const std::string& adjacency)
+    : cells_file_(open_output(cells)), adjacency_file_(open_output(adjacency)) {}
+
+void PlaneTables::open_part(const std::optional<Kept>& kept, bool is_complete) {
+  std::error_code ignored;
+  is_finished_ = is_complete && !std::filesystem::exists(part_path(), ignored);
+  if (is_finished_) return;
+  sums_ = std::make_unique<GrowingFile>(cells_file_ ? *cells_file_ : *adjacency_file_, kept);
+  if (kept) read_sums(part_path(), kept->bytes);
+}
+
+void PlaneTables::read_sums(const std::string& path, std::size_t bytes) {
+  std::ifstream file = open_to_read(path);
+  const Error damaged(path + " is damaged; remove it and the journal to start again");
+  std::vector<char> piece;
+  while (bytes > 0) {
+    std::uint64_t size = 0;
+    file.read(reinterpret_cast<char*>(&size), sizeof size);
+    if (!file || bytes < sizeof size || bytes - sizeof size < size) throw damaged;
+    piece.resize(size);
+    file.read(piece.data(), static_cast<std::streamsize>(size));
+    if (!file) throw damaged;
+    cells_.add(piece);
+    bytes -= sizeof size + size;
+  }
+}
+
+std::size_t PlaneTables::sync() {
+  if (!sums_) return 0;
+  const std::vector<char> piece = recent_.take();
+  const std::uint64_t size = piece.size();
+  sums_->write(&size, sizeof size);
+  sums_->write(piece.data(), piece.size());
+  cells_.add(piece);
+  return sums_->sync();
+}
+
+void PlaneTables::finish(const Units& units) {
+  if (!is_asked_for() || is_finished_) return;
+  cells_.add(recent_.take());
+  const std::vector<PlaneCellPair> pairs = cells_.pairs();
+  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units);
+  if (adjacency_file_) write_pairs(*adjacency_file_, pairs, units);
+  if (sums_) unlink(part_path().c_str());
+}
+
+}  // namespace vorocl::command

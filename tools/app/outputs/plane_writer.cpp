@@ -1,0 +1,115 @@
+#include "app/outputs/plane_writer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "app/outputs/plane_map.hpp"
+#include "formats/files.hpp"
+#include "formats/images/pictures.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// Checkpoints are made so rarely that they take a tenth of the time.
+constexpr double time_between_checkpoints = 10;
+
+/// Beside the first file that is asked for.
+std::string journal_of(const PlaneWriterOptions& options) {
+  for (const RequestedFile& file : requested_files(options)) {
+    if (!file.path.empty()) return journal_path(file.path);
+  }
+  return "";
+}
+
+std::unique_ptr<TileJournal> open_journal(const PlaneWriterOptions& options, const std::string& run) {
+  const std::string path = journal_of(options);
+  if (options.resume) return std::make_unique<TileJournal>(path, run);
+  refuse_journal(path);
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
+  return {{"--labels", options.labels, plane_extensions()},
+          {"-o", options.picture, picture_extensions()},
+          {"--cells", options.cells, {".csv"}},
+          {"--adjacency", options.adjacency, {".csv"}}};
+}
+
+PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling,
+                         const std::optional<Georeference>& georeference, const std::string& run)
+    : tiling_(tiling), journal_(open_journal(options, run)), tables_(options.cells, options.adjacency) {
+  if (!options.labels.empty()) files_.push_back(plane_file(options.labels, tiling, georeference));
+  if (!options.picture.empty()) files_.push_back(plane_map(options.picture, tiling));
+  if (!journal_) return;
+  for (const RequestedFile& file : requested_files(options)) {
+    if (!file.path.empty() && extension_of(file.path) == ".csv")
+      OutputFile(file.path).require_file("--resume");
+  }
+}
+
+std::vector<std::string> PlaneWriter::part_paths() const {
+  std::vector<std::string> paths;
+  for (const auto& file : files_) paths.push_back(file->part_path());
+  if (tables_.is_asked_for()) paths.push_back(tables_.part_path());
+  return paths;
+}
+
+void PlaneWriter::begin(const std::string& seeds) {
+  if (!journal_) {
+    for (const auto& file : files_) file->open();
+    return;
+  }
+  const bool is_complete = journal_->is_complete();
+  journal_->begin(part_paths(), seeds);
+  for (std::size_t i = 0; i < files_.size(); ++i) files_[i]->open_part(journal_->kept(i));
+  if (tables_.is_asked_for()) tables_.open_part(journal_->kept_sums(), is_complete);
+  made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
+  complete_ = made_before_.size();
+}
+
+std::optional<std::uint64_t> PlaneWriter::next() {
+  while (made_before_.count(next_) > 0) ++next_;
+  return next_ < tiling_.count() ? std::optional(next_++) : std::nullopt;
+}
+
+void PlaneWriter::add(const TileLabels& tile) {
+  TileJournal::Entry entry;
+  entry.number = tile.number;
+  for (const auto& file : files_) entry.bytes.push_back(file->write(tile).bytes);
+  if (!journal_) return;
+  entries_.push_back(std::move(entry));
+  if (stopwatch_.seconds() >= next_checkpoint_) checkpoint();
+}
+
+void PlaneWriter::checkpoint() {
+  if (!journal_ || entries_.empty()) return;
+  const double begin = stopwatch_.seconds();
+  for (const auto& file : files_) file->sync();
+  journal_->complete(entries_, tables_.sync());
+  complete_ += entries_.size();
+  entries_.clear();
+  const double end = stopwatch_.seconds();
+  next_checkpoint_ = end + time_between_checkpoints * (end - begin);
+}
+
+std::string PlaneWriter::kept() const {
+  if (!journal_) return "nothing stays of the tiles before that; with --resume a run can go on";
+  return fmt::format(
+      "tiles complete before that: {} of {}; the same command goes on with the others, with {} and {}",
+      complete_, tiling_.count(), journal_->path(), fmt::join(part_paths(), ", "));
+}
+
+void PlaneWriter::finish(const Units& units) {
+  checkpoint();
+  if (journal_) journal_->finish();
+  for (const auto& file : files_) file->finish();
+  tables_.finish(units);
+  if (journal_) journal_->remove();
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,58 @@
+// Labels as a NumPy array, in whose file each row of a tile has its place.
+#include "formats/npy.hpp"
+#include "formats/planes/placed_file.hpp"
+#include "formats/planes/plane_file.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+class NpyPlane : public PlaneFile {
+ public:
+  NpyPlane(const std::string& path, const Tiling& tiling)
+      : part_(tiling.part()),
+        header_(npy_header<std::uint32_t>({size(part_.height), size(part_.width)})),
+        file_(path, header_.size() + size(part_.width) * size(part_.height) * sizeof no_label) {}
+
+  void open() override {
+    file_.open();
+    write_header();
+  }
+
+  void open_part(const std::optional<KeptTiles>& kept) override {
+    file_.open_part(kept);
+    write_header();
+  }
+
+  std::string part_path() const override { return file_.part_path(); }
+
+  WrittenTile write(const TileLabels& tile) override {
+    const auto width = static_cast<std::size_t>(tile.tile.width);
+    for (int row = 0; row < tile.tile.height; ++row) {
+      const std::size_t first =
+          size(tile.tile.y + row - part_.y) * size(part_.width) + size(tile.tile.x - part_.x);
+      file_.write(header_.size() + first * sizeof no_label,
+                  tile.labels + static_cast<std::size_t>(row) * width, width * sizeof no_label);
+    }
+    return {tile.number, 0};
+  }
+
+  void sync() override { file_.sync(); }
+  void finish() override { file_.finish(); }
+
+ private:
+  static std::size_t size(std::int64_t count) { return static_cast<std::size_t>(count); }
+  void write_header() { file_.write(0, header_.data(), header_.size()); }
+
+  PlaneRectangle part_;
+  std::string header_;
+  PlacedFile file_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling) {
+  return std::make_unique<NpyPlane>(path, tiling);
+}
+
+}  // namespace vorocl::command

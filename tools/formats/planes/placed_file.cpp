@@ -1,0 +1,61 @@
+#include "formats/planes/placed_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "formats/files.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+PlacedFile::PlacedFile(const std::string& path, std::uint64_t bytes) : output_(path), bytes_(bytes) {
+  output_.require_file("a plane");
+  // A part that is there has taken its space.
+  if (access(part_path().c_str(), F_OK) != 0) require_space(path, bytes_);
+}
+
+void PlacedFile::open() {
+  file_ = std::make_unique<GrowingFile>(output_);
+  reserve();
+}
+
+void PlacedFile::open_part(const std::optional<KeptTiles>& kept) {
+  std::optional<Kept> same;
+  // A run that ended before it had its space has left what it had.
+  if (kept) same = Kept{kept->tiles.empty() ? 0 : static_cast<std::size_t>(bytes_), kept->is_complete};
+  file_ = std::make_unique<GrowingFile>(output_, same);
+  reserve();
+}
+
+void PlacedFile::reserve() {
+  int code = EINTR;
+  while (code == EINTR) code = posix_fallocate(file_->descriptor(), 0, static_cast<off_t>(bytes_));
+  if (code == 0) return;
+  file_.reset();
+  throw Error("no " + std::to_string(bytes_) + " bytes can be reserved for " + output_.path() + ": " +
+              reason(code));
+}
+
+void PlacedFile::write(std::uint64_t place, const void* bytes, std::size_t count) {
+  if (write_all_at(file_->descriptor(), static_cast<const char*>(bytes), count, place)) return;
+  throw Error("writing " + output_.path() + " failed: " + reason(errno));
+}
+
+void PlacedFile::read(std::uint64_t place, void* bytes, std::size_t count) {
+  char* const first = static_cast<char*>(bytes);
+  for (std::size_t done = 0; done < count;) {
+    const ssize_t more =
+        pread(file_->descriptor(), first + done, count - done, static_cast<off_t>(place + done));
+    if (more < 0 && errno == EINTR) continue;
+    if (more <= 0) throw Error("reading " + output_.path() + " failed: " + reason(more < 0 ? errno : EIO));
+    done += static_cast<std::size_t>(more);
+  }
+}
+
+void PlacedFile::sync() { file_->sync(); }
+
+void PlacedFile::finish() { file_->finish(); }
+
+}  // namespace vorocl::command

@@ -1,0 +1,53 @@
+#include "formats/planes/plane_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "formats/files.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+const std::vector<std::string>& plane_extensions() {
+  static const std::vector<std::string> all = {".npy", ".zarr", ".tif", ".tiff"};
+  return all;
+}
+
+std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
+                                      const std::optional<Georeference>& georeference) {
+  check_extension(path, plane_extensions());
+  const std::string extension = extension_of(path);
+  if (extension == ".npy") return npy_plane(path, tiling);
+  if (extension == ".zarr") return zarr_plane(path, tiling);
+  return tiff_plane(path, tiling, georeference);
+}
+
+std::uint64_t label_bytes(const Tiling& tiling) {
+  return static_cast<std::uint64_t>(tiling.part().width) * static_cast<std::uint64_t>(tiling.part().height) *
+         sizeof no_label;
+}
+
+std::vector<std::uint32_t> padded(const TileLabels& tile, int side) {
+  const auto width = static_cast<std::size_t>(tile.tile.width), length = static_cast<std::size_t>(side);
+  std::vector<std::uint32_t> labels(length * length, no_label);
+  for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height); ++row) {
+    std::copy_n(tile.labels + row * width, width, labels.data() + row * length);
+  }
+  return labels;
+}
+
+void require_space(const std::string& path, std::uint64_t bytes) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::path(path).parent_path();
+  std::error_code code;
+  const fs::space_info space = fs::space(folder.empty() ? "." : folder, code);
+  if (code || space.available >= bytes) return;  // writing will say what is wrong with the disk
+  constexpr double gigabyte = 1e9;
+  throw Error(fmt::format("{} needs {:.1f} GB of disk space at least, and there are {:.1f} GB", path,
+                          static_cast<double>(bytes) / gigabyte,
+                          static_cast<double>(space.available) / gigabyte));
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,81 @@
+// Files of the labels of a plane, tile by tile, by the extension of their name: .npy, .zarr, and .tif or
+// .tiff.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/planes/georeference.hpp"
+#include "vorocl/tiles.hpp"
+
+namespace vorocl::command {
+
+/// A tile that a file holds whole.
+struct WrittenTile {
+  std::uint64_t number = 0;
+  std::uint64_t bytes = 0;  ///< that it takes behind the tiles before it; 0 where its number says its place
+};
+
+/// What a run before has left of a file, for another run to continue.
+struct KeptTiles {
+  std::vector<WrittenTile> tiles;  ///< in the order in which they were written; there may be others
+  bool is_complete = false;        ///< nothing is to come, and the file may have its final name
+};
+
+/// A file that tiles are written to. It is made in two steps, so that what cannot be written is refused
+/// before any work: the constructors of those in plane_files() check, and one of open() and open_part()
+/// begins.
+class PlaneFile {
+ public:
+  virtual ~PlaneFile() = default;
+
+  /// Begins a file of which nothing stays without finish(). Throws Error, as the following, if that fails.
+  virtual void open() = 0;
+
+  /// Begins one that another run can continue: until finish() it is at part_path(), and stays there. Without
+  /// `kept` there may be no such file, else it goes on behind what was kept.
+  virtual void open_part(const std::optional<KeptTiles>& kept) = 0;
+  virtual std::string part_path() const = 0;
+
+  /// Writes a tile: each once, in any order. What it returns, open_part() must be given.
+  virtual WrittenTile write(const TileLabels& tile) = 0;
+
+  /// Makes the disk have all that was written.
+  virtual void sync() = 0;
+
+  /// When all tiles are written: gives the file its name.
+  virtual void finish() = 0;
+};
+
+/// The extensions of files that the labels of planes can be written to.
+const std::vector<std::string>& plane_extensions();
+
+/// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
+/// these, for tiles that the format does not have, where no file can be made, where the disk has too little
+/// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
+/// something that is no such array.
+std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
+                                      const std::optional<Georeference>& georeference = std::nullopt);
+
+/// The bytes of the labels of a tiling's part.
+std::uint64_t label_bytes(const Tiling& tiling);
+
+/// The labels of a tile as `side` rows of as many, with no_label beyond its own.
+std::vector<std::uint32_t> padded(const TileLabels& tile, int side);
+
+/// Throws Error if the disk of the folder that holds the path has less space.
+void require_space(const std::string& path, std::uint64_t bytes);
+
+/// Deflate cannot make more of a byte than this many.
+constexpr std::uint64_t greatest_compression = 1032;
+
+// Each kind of file, as plane_file() makes it.
+std::unique_ptr<PlaneFile> npy_plane(const std::string& path, const Tiling& tiling);
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling);
+std::unique_ptr<PlaneFile> tiff_plane(const std::string& path, const Tiling& tiling,
+                                      const std::optional<Georeference>& georeference);
+
+}  // namespace vorocl::command

@@ -1,0 +1,169 @@
+// Labels as a Zarr array (version 2): a folder with a file for each tile, compressed by zlib.
+//
+// Nothing in the folder needs a temporary name: the folder has one until it is complete, and a tile that is
+// not known to be whole is written anew.
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <cerrno>
+#include <filesystem>
+
+#include "formats/files.hpp"
+#include "formats/output_file.hpp"
+#include "formats/planes/plane_file.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int level = 1;  // higher ones take several times as long, for a few per cent
+
+bool is_there(const std::string& path) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(path, ignored));
+}
+
+Error failed(const std::string& what, const std::string& path) {
+  return Error(what + " " + path + " failed: " + reason(errno));
+}
+
+class ZarrPlane : public PlaneFile {
+ public:
+  ZarrPlane(const std::string& path, const Tiling& tiling) : path_(path), tiling_(tiling) {
+    if (!is_there(path_)) {
+      OutputFile{path_};  // for its reasons where nothing can be made there
+    } else if (!is_there(path_ + "/.zarray")) {
+      throw Error("cannot write " + path_ + ": it is there, and is no Zarr array; remove it");
+    }
+    if (!is_there(part_path())) require_space(path_, label_bytes(tiling_) / greatest_compression);
+  }
+
+  ~ZarrPlane() override {
+    std::error_code ignored;
+    if (!stays_ && !folder_.empty()) fs::remove_all(folder_, ignored);
+  }
+
+  void open() override {
+    name_.emplace(random_path_beside(path_), TemporaryName::Kind::folder);
+    folder_ = name_->path();
+    make_folder();
+  }
+
+  void open_part(const std::optional<KeptTiles>& kept) override {
+    stays_ = true;
+    if (kept && kept->is_complete && !is_there(part_path())) {
+      // A run that ended between two renames: back to the state before them.
+      if (rename(path_.c_str(), part_path().c_str()) != 0) throw failed("renaming", path_);
+    }
+    folder_ = part_path();
+    const bool begins = !kept || (kept->tiles.empty() && !is_there(folder_));
+    if (begins) make_folder();
+    if (!kept) return;
+    for (const WrittenTile& tile : kept->tiles) {
+      if (!is_there(chunk(tile.number))) {
+        throw Error(chunk(tile.number) + " is missing; remove " + folder_ +
+                    " and the journal to start again");
+      }
+    }
+    write_metadata();
+  }
+
+  std::string part_path() const override { return path_ + ".part"; }
+
+  WrittenTile write(const TileLabels& tile) override {
+    const std::vector<std::uint32_t> labels = padded(tile, tiling_.side());
+    const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
+    uLongf size = compressBound(bytes);
+    compressed_.resize(size);
+    if (compress2(compressed_.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes, level) !=
+        Z_OK) {
+      throw std::bad_alloc();  // all else that could go wrong is a wrong call
+    }
+    write_file(chunk(tile.number), compressed_.data(), size);
+    return {tile.number, 0};
+  }
+
+  void sync() override {
+    const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const bool done = folder >= 0 && syncfs(folder) == 0;
+    const Error error = failed("writing", path_);
+    if (folder >= 0) close(folder);
+    if (!done) throw error;
+  }
+
+  void finish() override {
+    sync();
+    // A folder cannot take the place of another one that has files: that one goes aside first.
+    const bool replaces = is_there(path_);
+    const std::string replaced = random_path_beside(path_);
+    if (replaces && rename(path_.c_str(), replaced.c_str()) != 0) throw failed("replacing", path_);
+    if (rename(folder_.c_str(), path_.c_str()) != 0) {
+      const Error error = failed("writing", path_);
+      if (replaces) static_cast<void>(rename(replaced.c_str(), path_.c_str()) == 0);  // the error says enough
+      throw error;
+    }
+    folder_.clear();
+    name_.reset();
+    if (!replaces) return;
+    const TemporaryName name(replaced, TemporaryName::Kind::folder);
+    std::error_code ignored;
+    fs::remove_all(replaced, ignored);
+  }
+
+ private:
+  void make_folder() {
+    if (mkdir(folder_.c_str(), 0777) != 0) throw failed("making", folder_);
+    write_metadata();
+  }
+
+  void write_metadata() const {
+    const std::string text = fmt::format(
+        R"({{
+    "chunks": [{0}, {0}],
+    "compressor": {{"id": "zlib", "level": {1}}},
+    "dtype": "<u4",
+    "fill_value": {2},
+    "filters": null,
+    "order": "C",
+    "shape": [{3}, {4}],
+    "zarr_format": 2
+}}
+)",
+        tiling_.side(), level, no_label, tiling_.part().height, tiling_.part().width);
+    write_file(folder_ + "/.zarray", text.data(), text.size());
+  }
+
+  /// The file of a tile: "row.column".
+  std::string chunk(std::uint64_t number) const {
+    return fmt::format("{}/{}.{}", folder_, number / tiling_.columns(), number % tiling_.columns());
+  }
+
+  static void write_file(const std::string& path, const void* bytes, std::size_t count) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file < 0) throw failed("writing", path);
+    const bool is_written = write_all(file, static_cast<const char*>(bytes), count);
+    const Error error = failed("writing", path);
+    if (close(file) != 0 || !is_written) throw error;
+  }
+
+  std::string path_;
+  Tiling tiling_;
+  std::string folder_;  // while it is written; empty: before, and afterwards
+  std::optional<TemporaryName> name_;
+  bool stays_ = false;
+  std::vector<Bytef> compressed_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlaneFile> zarr_plane(const std::string& path, const Tiling& tiling) {
+  return std::make_unique<ZarrPlane>(path, tiling);
+}
+
+}  // namespace vorocl::command
