@@ -62,11 +62,11 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .value_name("W")
       .in_range(1, Grid::max_side)
       .excludes(size);
+  const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
   command
       .add_parsed("--bounds", options.bounds, parse_bounds,
-                  "Rectangle in data units that the grid shows; else what the boxes of all frames fill, or "
-                  "the domain or "
-                  "the bounding box of the points")
+                  "Rectangle in data units that the grid shows; else " + fitted +
+                      ", or the domain or the bounding box of the points")
       .value_name("X0,Y0,X1,Y1");
   const Choices<std::optional<Outside>> outside = {{"count", Outside::count}, {"refuse", Outside::refuse}};
   command

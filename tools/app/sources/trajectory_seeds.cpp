@@ -176,8 +176,7 @@ void TrajectorySeeds::note_of_growth() {
   }
   print_note(
       fmt::format("{}: frame {} fills more than the picture, which shows what the first frame does because "
-                  "the file is read "
-                  "once; give --bounds, or the file by its name",
+                  "the file is read once; give --bounds, or the file by its name",
                   path_, number_));
   growth_noted_ = true;
 }
