@@ -111,10 +111,10 @@ class Run {
   }
 
   [[noreturn]] void refuse_seeds() const {
+    const Journal& journal = *writer_.journal();
     throw Error(
-        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or "
-                    "remove it and the .part files to start again",
-                    writer_.journal()->last_frame(), writer_.journal()->path()));
+        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or {}",
+                    journal.last_frame(), journal.path(), how_to_start_again(journal.path())));
   }
 
   /// Makes the diagrams of the next frame.

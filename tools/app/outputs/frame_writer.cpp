@@ -51,8 +51,8 @@ std::unique_ptr<Journal> open_journal(const FrameWriterOptions& options, const s
   if (!options.resume) {
     std::error_code ignored;
     if (!path.empty() && std::filesystem::exists(path, ignored)) {
-      throw Error(
-          path + " says that a run with --resume can go on; give --resume, or remove it and the .part files");
+      throw Error(path + " says that a run with --resume can go on; give --resume, or " +
+                  how_to_start_again(path));
     }
     return nullptr;
   }
@@ -124,8 +124,7 @@ void FrameWriter::check_written() const {
       if (!file.numbered || file.path.empty()) continue;
       const std::string path = NumberedName(file.path).with(frame);
       if (std::filesystem::exists(path, ignored)) continue;
-      throw Error(path + " is missing, which an earlier run wrote; remove " + journal_->path() +
-                  " and the .part files to start again");
+      throw Error(path + " is missing, which an earlier run wrote; " + how_to_start_again(journal_->path()));
     }
   }
 }

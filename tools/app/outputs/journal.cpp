@@ -46,15 +46,15 @@ Journal::Journal(const std::string& path, const std::string& run) : path_(path),
 
 void Journal::read() {
   const std::vector<std::string> there = read_lines(path_, "journal").whole, head = head_of(run_);
-  if (there.empty() || there.front() != title) throw Error(path_ + " is no journal of a run; remove it");
+  if (there.empty() || there.front() != title) {
+    throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
+  }
   const auto end = std::find(there.begin(), there.end(), end_of_run);
   const std::vector<std::string> head_there(there.begin(), end == there.end() ? end : end + 1);
   if (head_there != head) {
-    throw Error(
-        fmt::format("{} is of another run: there {}, here {}; give its options, or remove it and the .part "
-                    "files to start "
-                    "again",
-                    path_, first_not_in(head, head_there), first_not_in(head_there, head)));
+    throw Error(fmt::format("{} is of another run: there {}, here {}; give its options, or {}", path_,
+                            first_not_in(head, head_there), first_not_in(head_there, head),
+                            how_to_start_again(path_)));
   }
   if (there.size() > head.size()) last_ = entry_of(there.back());
 }
@@ -67,7 +67,7 @@ Journal::Entry Journal::entry_of(const std::string& line) const {
   entry.is_last = is_last == "last";
   for (std::size_t bytes = 0; text >> bytes;) entry.tables.push_back(bytes);
   if (line_of(entry) != line + "\n" || entry.frame < 0) {
-    throw Error(path_ + " is damaged; remove it and the .part files to start again");
+    throw Error(path_ + " is damaged; " + how_to_start_again(path_));
   }
   return entry;
 }
@@ -84,7 +84,9 @@ void Journal::begin(const std::vector<std::string>& tables) {
     table.require_file("--resume");
     std::error_code ignored;
     if (!is_there_ && std::filesystem::exists(table.part_path(), ignored)) {
-      throw Error(table.part_path() + " is there, and nothing says of which run it is; remove it");
+      throw Error(
+          fmt::format("{0} is there, and no {1} that says of which run it is; remove {0} to start again",
+                      table.part_path(), path_));
     }
   }
   GrowingFile journal{OutputFile(path_)};
@@ -97,12 +99,19 @@ std::unique_ptr<GrowingFile> Journal::open_table(const std::string& path) {
   std::optional<Kept> kept;
   if (is_there_) kept.emplace();
   if (last_) {
-    if (tables_.size() >= last_->tables.size()) throw Error(path_ + " is damaged: it lacks a table");
+    if (tables_.size() >= last_->tables.size()) {
+      throw Error(path_ + " is damaged: it lacks a table; " + how_to_start_again(path_));
+    }
     kept = Kept{last_->tables[tables_.size()], last_->is_last};
   }
-  auto table = std::make_unique<GrowingFile>(OutputFile(path), kept);
-  tables_.push_back(table.get());
-  return table;
+  try {
+    auto table = std::make_unique<GrowingFile>(OutputFile(path), kept);
+    tables_.push_back(table.get());
+    return table;
+  } catch (const Error& error) {
+    if (!kept) throw;  // of a run that begins, nothing was left
+    throw Error(std::string(error.what()) + "; " + how_to_start_again(path_));
+  }
 }
 
 void Journal::complete(int frame, std::uint64_t seeds) {
@@ -122,6 +131,10 @@ void Journal::finish() {
 
 void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
+}
+
+std::string how_to_start_again(const std::string& journal) {
+  return "remove " + journal + " and the .part files of its tables to start again";
 }
 
 std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header,

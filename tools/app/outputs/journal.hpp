@@ -62,6 +62,9 @@ class Journal {
   std::vector<GrowingFile*> tables_;
 };
 
+/// For errors: what to remove of the run that a journal is of, which cannot go on.
+std::string how_to_start_again(const std::string& journal);
+
 /// A table of all frames with this header, which another run can continue if there is a journal. Throws Error
 /// if it cannot be made there.
 std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header, Journal* journal);
