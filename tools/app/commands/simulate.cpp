@@ -45,8 +45,10 @@ class Run {
         source_(source),
         interruption_(interruption),
         writer_(writer),
-        simulation_(source.place(device),
-                    [this](Seeds& moving, int) { return displacement_ = source_.move(moving); }) {
+        simulation_(source.place(device), [this](Seeds& moving, int) {
+          displacement_ = source_.move(moving);
+          return displacement_.value_or(0);  // engines start from nothing on another grid
+        }) {
     add_engine(options.method, options.method_options);
     if (options.compare_with) {
       // The reference: it runs with its own waves, whatever those of the first method are.
@@ -201,7 +203,7 @@ class Run {
   MovingSeeds& source_;
   const Interruption& interruption_;
   FrameWriter& writer_;
-  double displacement_ = 0;  // of the last motion
+  std::optional<double> displacement_;  // of the last motion
   Simulation simulation_;
   MeasureBuffers buffers_;
   Course course_;
