@@ -41,8 +41,8 @@ std::string number_text(double value, double step) {
   return {text.data(), end};
 }
 
-/// 1, 2 and 5 times powers of ten, or these powers, or every second or so, as many as there is room for. None
-/// if there is no such number on the scale.
+/// 1, 2 and 5 times powers of ten, or these powers, or every second or so, as many as there is room for. On a
+/// short scale there may be one such number, or none.
 std::vector<Tick> logarithmic_ticks(const Scale& scale, int most) {
   const int first = magnitude(scale.low), last = magnitude(scale.high);
   std::vector<double> numbers;
@@ -69,7 +69,7 @@ std::vector<Tick> logarithmic_ticks(const Scale& scale, int most) {
 std::vector<Tick> ticks_of(const ColorBar& bar, int most) {
   if (bar.scale.logarithmic) {
     std::vector<Tick> ticks = logarithmic_ticks(bar.scale, most);
-    if (!ticks.empty()) return ticks;
+    if (ticks.size() >= 2) return ticks;
   }
   double step = round_step(bar.scale, most);
   if (step == 0) return {{bar.scale.low, number_text(bar.scale.low, 0)}};
@@ -104,7 +104,7 @@ class Bar {
     const int top = place_.y + point_, bottom = place_.br().y - point_;
     for (int y = top; y < bottom; ++y) {
       const double part = (bottom - y - 0.5) / (bottom - top);
-      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(value_at(part)));
+      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(value_at(part, ends_)));
     }
     const int left = place_.x, right = place_.br().x - 1, middle = place_.x + place_.width / 2;
     const cv::Point upper_tip(middle, place_.y), lower_tip(middle, place_.br().y - 1);
@@ -127,10 +127,6 @@ class Bar {
   static Scale with_blocks(const ColorBar& bar) {
     const double margin = is_categorical(bar.palette) ? 0.5 : 0;
     return {bar.scale.low - margin, bar.scale.high + margin, bar.scale.logarithmic};
-  }
-  double value_at(double part) const {
-    return ends_.logarithmic ? ends_.low * std::pow(ends_.high / ends_.low, part)
-                             : ends_.low + part * (ends_.high - ends_.low);
   }
   static void fill(cv::Mat& picture, const std::vector<cv::Point>& corners, const cv::Vec3b& color) {
     cv::fillConvexPoly(picture, corners, color);

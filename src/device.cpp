@@ -124,6 +124,7 @@ std::optional<Candidate> choose(const std::vector<Candidate>& candidates, const 
   }
   if (best) {
     best->description.selected = true;
+    best->description.asked_for = !request.empty();
     best->description.reason =
         request.empty() ? preference(best->description).second : "\"" + request + "\" was asked for";
   }

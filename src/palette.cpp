@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <sstream>
 
 #include "vorocl/error.hpp"
 
@@ -41,18 +42,23 @@ cv::Mat_<cv::Vec3b> table_of(Palette palette) {
   return table;
 }
 
+/// What is spread evenly over a scale: the value, or its logarithm (ratios of values may overflow).
+double spread(double value, const Scale& scale) { return scale.logarithmic ? std::log(value) : value; }
+
 }  // namespace
 
 bool is_categorical(Palette palette) { return palette == Palette::okabe_ito; }
 
 void check_scale(const Scale& scale) {
+  std::ostringstream text;
   if (scale.logarithmic && scale.low <= 0) {
-    throw Error("a logarithmic scale cannot begin at " + std::to_string(scale.low) + "; it begins above 0");
+    text << "a logarithmic scale cannot begin at " << scale.low << "; it begins above 0";
+    throw Error(text.str());
   }
   if (std::isfinite(scale.high - scale.low) && scale.low <= scale.high) return;
-  throw Error(
-      "a scale cannot go from " + std::to_string(scale.low) + " to " + std::to_string(scale.high) +
-      "; it goes from a finite number to one that is not less, and the difference is a finite number too");
+  text << "a scale cannot go from " << scale.low << " to " << scale.high
+       << "; it goes from a finite number to one that is not less, and the difference is a finite number too";
+  throw Error(text.str());
 }
 
 void check_picture(const cv::Mat& picture) {
@@ -73,15 +79,25 @@ double round_step(const Scale& scale, int most) {
 }
 
 double part_of(double value, const Scale& scale) {
-  if (scale.high <= scale.low) return 0.5;
-  if (scale.logarithmic)
-    return (std::log(value) - std::log(scale.low)) / (std::log(scale.high) - std::log(scale.low));
-  return (value - scale.low) / (scale.high - scale.low);
+  const double low = spread(scale.low, scale), high = spread(scale.high, scale);
+  if (high <= low) return 0.5;
+  return (spread(value, scale) - low) / (high - low);
+}
+
+double value_at(double part, const Scale& scale) {
+  const double low = spread(scale.low, scale), high = spread(scale.high, scale);
+  const double value = low + part * (high - low);
+  return scale.logarithmic ? std::exp(value) : value;
 }
 
 Colors::Colors(const Scale& scale, Palette palette)
     : scale_(scale), categorical_(is_categorical(palette)), table_(table_of(palette)) {
   check_scale(scale);
+  if (categorical_ && scale.logarithmic) {
+    throw Error(
+        "a logarithmic scale is for quantities, and a categorical palette for classes; "
+        "take viridis, turbo or greys");
+  }
 }
 
 cv::Vec3b Colors::operator()(double value) const {

@@ -22,10 +22,13 @@ void check_picture(const cv::Mat& picture);
 /// Where a value lies on a scale: 0 at its low end, 1 at its high one, and 0.5 on a scale without extent.
 double part_of(double value, const Scale& scale);
 
+/// The value at a part of a scale.
+double value_at(double part, const Scale& scale);
+
 /// A palette laid over a scale.
 class Colors {
  public:
-  /// Throws Error for a bad scale.
+  /// Throws Error for a bad scale, and for a logarithmic one with a categorical palette.
   Colors(const Scale& scale, Palette palette);
 
   /// Values beyond the scale have the colours of its ends; NaN, and what has no logarithm on a logarithmic

@@ -43,6 +43,7 @@ struct DeviceDescription {
   std::string why_not;             ///< why VoroCL cannot use it; empty if it can
   bool selected = false;           ///< Device::select() would take it ...
   std::string reason;              ///< ... and why
+  bool asked_for = false;          ///< it is selected because the request or VOROCL_DEVICE says so
 };
 
 /// A context, an in-order queue and the programs built for them.
@@ -58,10 +59,10 @@ struct DeviceDescription {
 /// after it has enqueued many frames.
 class VOROCL_API Device {
  public:
-  /// Picks a device: the `request` if it is not empty, else the environment variable VOROCL_DEVICE, else an
-  /// NVIDIA GPU, another GPU, a CPU (PoCL), in this order. A request is a case-insensitive part of a
-  /// platform's or a device's name, or "platform:device" indices. Throws Error, which lists what there is, if
-  /// nothing matches.
+  /// Picks a device: the `request`, else what the environment variable VOROCL_DEVICE says (an empty one, as
+  /// an empty request, says nothing), else an NVIDIA GPU, another GPU, a CPU (PoCL), in this order. A request
+  /// is a case-insensitive part of a platform's or a device's name, or "platform:device" indices. Throws
+  /// Error, which lists what there is, if nothing matches.
   static Device select(const std::string& request = "");
 
   /// All devices of all platforms, with the one that select(request) would take marked. Empty without a

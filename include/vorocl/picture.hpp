@@ -27,7 +27,8 @@ VOROCL_API bool is_categorical(Palette palette);
 
 /// The values that the ends of a palette stand for, low <= high; values beyond get the colours of the ends.
 /// Colours go by the values or, where the scale is logarithmic and low > 0, by their logarithms: values of 0
-/// or less are absent then.
+/// or less are absent then. A logarithmic scale is for quantities: with a categorical palette it is a bad
+/// one.
 struct Scale {
   double low = 0;
   double high = 1;
@@ -100,7 +101,7 @@ struct ColorBar {
 
 /// The picture with a colour bar at its right: a white strip with the title, the bar with its least value at
 /// the bottom, and ticks with numbers at round values; of a logarithmic scale, at 1, 2 and 5 times powers of
-/// ten, or powers alone. The text grows with the picture's height; a picture of
+/// ten, or powers alone, where there are two of these. The text grows with the picture's height; a picture of
 /// less than 96 rows gets white ones below. The result's width is even, for films, and bars that are alike
 /// make results of one size. Throws Error for a bad scale.
 VOROCL_API cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar);

@@ -117,7 +117,8 @@ class VOROCL_API PlaneSeeds : public SeedSource {
 
   /// Those inside the rectangle, and those that own points of its rim. Cost: in proportion to what is found,
   /// and some microseconds for each cell on the rim.
-  void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds) const override;
+  void find_near(const PlaneRectangle& rectangle, Metric metric,
+                 std::vector<PlaneSeed>& seeds) const override;
 
  private:
   PlaneSeedsState& state() const;

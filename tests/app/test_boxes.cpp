@@ -239,6 +239,22 @@ BOOST_AUTO_TEST_CASE(one_frame_has_its_own_box_and_a_fitted_film_too) {
           usage, {"--fit", "--trajectory"});
 }
 
+BOOST_AUTO_TEST_CASE(a_displacement_is_that_between_frames_of_one_grid) {
+  const TemporaryFolder folder;
+  const Scene wide = {0, 0, 10, 10, {{1, 1}, {9, 9}}}, moved = {0, 0, 10, 10, {{1, 3}, {9, 9}}},
+              narrow = {2, 0, 8, 10, {{3, 5}, {7, 5}}};
+  const std::string simulate = "simulate --trajectory t.lammpstrj --width 40 --method djfa ";
+  const auto displacements = [&](const std::vector<Scene>& scenes) {
+    folder.file("t.lammpstrj", text_of(scenes, "pp pp pp"));
+    return json::parse(succeeds(folder, simulate + "--json")).at("plans").at("max_displacement");
+  };
+  const json eight = {{"least", 8.0}, {"greatest", 8.0}}, none = {{"least", nullptr}, {"greatest", nullptr}};
+  BOOST_TEST(displacements({wide, moved}) == eight);
+  BOOST_TEST(displacements({narrow, wide, moved, narrow}) == eight);
+  BOOST_TEST(displacements({wide, narrow, wide}) == none);
+  BOOST_TEST(succeeds(folder, simulate).find("waves, no d_max (") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(there_is_nothing_beyond_fixed_sides_and_cells_go_on_beyond_shrink_wrapped_ones) {
   const TemporaryFolder folder;
   const Scene wide = {0, 0, 10, 10, {{1, 1}, {9, 9}}}, narrow = {2, 0, 8, 10, {{3, 5}, {7, 5}}};
@@ -309,6 +325,9 @@ BOOST_AUTO_TEST_CASE(seeds_that_share_a_pixel_are_counted) {
     const std::string line = std::string(command) + " --size 20x20 --trajectory t.lammpstrj";
     BOOST_TEST(succeeds(folder, line).find(said) != std::string::npos, command);
     BOOST_TEST(json::parse(succeeds(folder, line + " --json")).at("empty_cells") == 2, command);
+    // Of the seeds of a window those count that may have a cell: the last one is too far away.
+    const std::string in_window = run(folder, line + " --bounds 0,0,2,2").out;
+    BOOST_TEST(in_window.find("2 of 3 seeds share") != std::string::npos, in_window);
   }
 }
 

@@ -39,6 +39,13 @@ BOOST_AUTO_TEST_CASE(every_level_has_help) {
     BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
   }
   BOOST_TEST(succeeds(folder, "--version") == "vorocl " VOROCL_VERSION "\n");
+  // Without --bounds: one frame shows its own box, and a film what --fit says.
+  for (const char* subcommand : {"render", "cells", "relax", "compare", "bench", "simulate"}) {
+    const std::string help = succeeds(folder, subcommand + std::string(" --help"));
+    const bool has_fit = help.find("else what --fit says of a trajectory") != std::string::npos;
+    BOOST_TEST(has_fit == (subcommand == std::string("simulate")), help);
+    BOOST_TEST(has_fit == (help.find("the box of a trajectory's frame") == std::string::npos), help);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(devices_names_the_one_that_is_picked) {

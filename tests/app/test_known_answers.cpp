@@ -100,6 +100,21 @@ BOOST_AUTO_TEST_CASE(this_device_knows_them) {
   BOOST_TEST(devices[0]["wrong"].empty());
 }
 
+BOOST_AUTO_TEST_CASE(all_devices_are_checked_unless_one_is_asked_for) {
+  const TemporaryFolder folder;
+  // Two devices of PoCL; and no kernels, so that a check is short.
+  const auto checked = [&](const std::string& variable) {
+    const Result result =
+        run(folder, "devices --check --json", "POCL_DEVICES='basic pthread' VOROCL_KERNEL_DIR=. " + variable);
+    BOOST_TEST(result.exit_code == failure, result.error);
+    return json::parse(result.out).at("devices").size();
+  };
+  const std::size_t all = checked("env -u VOROCL_DEVICE");
+  BOOST_TEST(all >= 2u);
+  BOOST_TEST(checked("VOROCL_DEVICE=") == all);
+  BOOST_TEST(checked("VOROCL_DEVICE=0:0") == 1u);
+}
+
 BOOST_AUTO_TEST_CASE(a_kernel_that_errs_is_named) {
   const TemporaryFolder folder;
   copy_kernels(folder, "jump_flooding.cl", "height, step), out", "height, 1), out");

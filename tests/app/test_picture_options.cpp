@@ -55,6 +55,17 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_scale_leaves_out_what_has_no_logarithm) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   BOOST_TEST(same(cv::imread(folder / "a.png"),
                   color_by_value(labels, Grid(50, 10), {0, 1, 2, none, none}, {0, 2}, Palette::viridis)));
+  // A series has no scale before there is a value above 0: the note comes once nevertheless.
+  std::string frames;
+  for (const char* const value : {"0", "-2", "3"}) {
+    frames += dump(walled_box, "id x y c_pe", {"1 2.5 5 0", std::string("2 7.5 5 ") + value});
+  }
+  folder.file("t.lammpstrj", frames);
+  const std::string notes =
+      run(folder, "simulate --trajectory t.lammpstrj --size 9x9 --color column:c_pe --log -o %d.png").error;
+  BOOST_TEST(notes ==
+             "vorocl: note: 2 of 2 values are 0 or less; a logarithmic scale leaves them out, and "
+             "they are grey\n");
   refuses(folder, points + "--scale 0,10", usage, {"--log", "above 0"});
   refuses(folder, points + "--palette okabe-ito", usage, {"--log", "okabe-ito"});
   refuses(folder, random_render + "--log", usage, {"--log", "--color", "area"});

@@ -80,6 +80,11 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, "", usage, {"no subcommand", "--help"});
   refuses(folder, "rendre", usage, {"rendre"});
   refuses(folder, render + "--size 10x10 --sise", usage, {"--sise"});
+  for (const std::string subcommand :
+       {"render", "simulate", "cells", "relax", "bench", "compare", "devices"}) {
+    refuses(folder, subcommand + " --sise 3", usage, {"--sise"});
+  }
+  refuses(folder, render + "--sise p.csv --size 10x10", usage, {"not expected: --sise"});
   refuses(folder, "render --random 0" + square, usage, {"--random", "0"});
   refuses(folder, "render --random -3" + square, usage, {"--random", "-3"});
   refuses(folder, "render --random few" + square, usage, {"--random", "few"});

@@ -51,6 +51,11 @@ BOOST_AUTO_TEST_CASE(the_environment_is_asked_before_the_librarys_own_order) {
   check_error([] { Device::select(); }, {"something else"});
   const DeviceDescription first = Device::list("0:0").front();
   BOOST_TEST(Device::select("0:0").name() == first.name);  // and a request before the environment
+  BOOST_TEST(first.asked_for);
+  setenv("VOROCL_DEVICE", "0:0", 1);
+  BOOST_TEST(Device::list().front().asked_for);
+  setenv("VOROCL_DEVICE", "", 1);  // says nothing
+  for (const DeviceDescription& device : Device::list()) BOOST_TEST(!device.asked_for);
   if (before == nullptr) {
     unsetenv("VOROCL_DEVICE");
   } else {

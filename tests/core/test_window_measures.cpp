@@ -32,6 +32,23 @@ std::vector<MeasuredWindow> measured_windows() {
   return windows;
 }
 
+/// Calls a function with the exact diagram of each window, in both metrics and by each engine.
+template <typename Use>
+void each_exact_diagram(Use use) {
+  for (const MeasuredWindow& window : measured_windows()) {
+    for (const Metric metric : both_metrics) {
+      for (const Engine& engine : engines()) {
+        const Seeds seeds(engine.device, window.grid, centres(window.seeds), window.domain);
+        Diagram diagram(engine.device, window.grid);
+        exact_diagram(seeds, diagram, {metric});
+        BOOST_TEST_CONTEXT(text_of(window.grid, window.domain, seeds.size()) << ", " << engine.name) {
+          use(window, metric, seeds, diagram);
+        }
+      }
+    }
+  }
+}
+
 /// Calls a function with each pixel that has a label, and its distance to the label's seed.
 template <typename Use>
 void each_labelled_pixel(const MeasuredWindow& window, const Labels& labels, Metric metric, Use use) {
@@ -48,12 +65,8 @@ void each_labelled_pixel(const MeasuredWindow& window, const Labels& labels, Met
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(distances_of_windows) {
-  for (const MeasuredWindow& window : measured_windows()) {
-    for (const Metric metric : both_metrics) {
-      for (const Engine& engine : engines()) {
-        const Seeds seeds(engine.device, window.grid, centres(window.seeds), window.domain);
-        Diagram diagram(engine.device, window.grid);
-        exact_diagram(seeds, diagram, {metric});
+  each_exact_diagram(
+      [](const MeasuredWindow& window, Metric metric, const Seeds& seeds, const Diagram& diagram) {
         const Labels labels = diagram.read();
         std::vector<std::int64_t> expected(labels.size(), -1);
         each_labelled_pixel(window, labels, metric,
@@ -79,24 +92,18 @@ BOOST_AUTO_TEST_CASE(distances_of_windows) {
         if (!fits) {
           check_error([&] { distance_field(seeds, diagram, integers, metric); }, {"31 bits", "floats"});
           BOOST_TEST(integers.read().empty());
-          continue;
+          return;
         }
         distance_field(seeds, diagram, integers, metric);
         for (std::int64_t& d : expected) d = d < 0 ? no_distance : d;
         const std::vector<std::int32_t> found = integers.read();
         BOOST_TEST(std::equal(found.begin(), found.end(), expected.begin(), expected.end()));
-      }
-    }
-  }
+      });
 }
 
 BOOST_AUTO_TEST_CASE(cells_of_windows) {
-  for (const MeasuredWindow& window : measured_windows()) {
-    for (const Metric metric : both_metrics) {
-      for (const Engine& engine : engines()) {
-        const Seeds seeds(engine.device, window.grid, centres(window.seeds), window.domain);
-        Diagram diagram(engine.device, window.grid);
-        exact_diagram(seeds, diagram, {metric});
+  each_exact_diagram(
+      [](const MeasuredWindow& window, Metric metric, const Seeds& seeds, const Diagram& diagram) {
         std::vector<CellShape> shapes(seeds.size(), CellShape{INT_MAX, INT_MAX, INT_MIN, INT_MIN, -1, false});
         std::vector<CellSums> sums(seeds.size());
         each_labelled_pixel(window, diagram.read(), metric,
@@ -129,7 +136,7 @@ BOOST_AUTO_TEST_CASE(cells_of_windows) {
           wrong += read_sums[id].area != sums[id].area || read_sums[id].sum_x != sums[id].sum_x ||
                    read_sums[id].sum_y != sums[id].sum_y;
         }
-        BOOST_TEST(wrong == 0u, text_of(window.grid, window.domain, seeds.size()) << ", " << engine.name);
+        BOOST_TEST(wrong == 0u);
         const bool far = std::any_of(window.seeds.begin(), window.seeds.end(),
                                      [](const PlanePixel& seed) { return std::abs(seed.x) > 50000; });
         if (far) BOOST_TEST((found_shapes.largest_distances()() == nullptr));
@@ -142,9 +149,7 @@ BOOST_AUTO_TEST_CASE(cells_of_windows) {
           cells += inside || sums[id].area > 0 ? 1 : 0;
         }
         BOOST_TEST(cell_statistics(found_sums).cells == cells);
-      }
-    }
-  }
+      });
 }
 
 BOOST_AUTO_TEST_CASE(errors_of_labels_of_windows) {

@@ -125,8 +125,28 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_bar_is_divided_by_powers_of_ten) {
         std::abs(strip.at<cv::Vec3b>(y, found.left)[0] - of_exponents.at<cv::Vec3b>(y, found.left)[0]) <= 1);
   }
   BOOST_TEST(find(bar({1, 100, true}), 10).ticks.size() == 7u);  // 1, 2, 5, 10, 20, 50, 100
-  for (const Scale& scale : {Scale{3, 4, true}, {1e-9, 1e9, true}, {5, 5, true}, {0.5, 70, true}}) {
-    BOOST_TEST(bar(scale).cols > 10);
+  // Where one such number is on the scale, or none, ticks are at 6, 8, ... 14 and at 3, 3.2, ... 4.
+  BOOST_TEST(find(bar({6, 15, true}), 10).ticks.size() == 5u);
+  BOOST_TEST(find(bar({3, 4, true}), 10).ticks.size() == 6u);
+  BOOST_TEST(find(bar({5, 5, true}), 10).ticks.size() == 1u);
+  for (const Scale& scale : {Scale{1e-9, 1e9, true}, {0.5, 70, true}}) BOOST_TEST(bar(scale).cols > 10);
+  // Classes have no logarithms.
+  check_error(
+      [&] {
+        with_color_bar(picture, {{1, 8, true}, Palette::okabe_ito, "", true, false});
+      },
+      {"logarithmic", "categorical"});
+}
+
+BOOST_AUTO_TEST_CASE(the_ends_of_a_logarithmic_bar_may_be_any_numbers) {
+  const auto bar = [](const Scale& scale) {
+    return with_color_bar(grey_picture(10, 300), {scale, Palette::greys, "", false, false});
+  };
+  const cv::Mat strip = bar({1e-300, 1e300, true}), of_exponents = bar({-300, 300});
+  const Found found = find(strip, 10);
+  for (int y = found.top; y <= found.bottom; ++y) {
+    BOOST_TEST(
+        std::abs(strip.at<cv::Vec3b>(y, found.left)[0] - of_exponents.at<cv::Vec3b>(y, found.left)[0]) <= 1);
   }
 }
 

@@ -143,6 +143,18 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_scale_goes_by_the_logarithms) {
         color_by_value({0}, Grid(1, 1), {1}, {0, 1, true}, Palette::turbo);
       },
       {"logarithmic", "above 0"});
+  check_error(
+      [&] {
+        color_by_value({0}, Grid(1, 1), {1}, {1, 2, true}, Palette::okabe_ito);
+      },
+      {"logarithmic", "categorical", "viridis"});
+}
+
+BOOST_AUTO_TEST_CASE(bad_scales_are_told_with_their_numbers) {
+  const auto color = [](const Scale& scale) { color_by_value({0}, Grid(1, 1), {1}, scale, Palette::turbo); };
+  check_error([&] { color({-1e-9, 1, true}); }, {"begin at -1e-09;"});
+  check_error([&] { color({2e-9, 1e-9}); }, {"from 2e-09 to 1e-09;"});
+  check_error([&] { color({-1e308, 1e308}); }, {"from -1e+308 to 1e+308;"});
 }
 
 BOOST_AUTO_TEST_CASE(reversed_palettes_run_the_other_way) {

@@ -71,6 +71,9 @@ std::string trajectory(const std::string& third) {
 const std::string three =
     "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy --cells cells.csv --resume ";
 
+/// What to do where it cannot go on.
+const std::string start_again = "remove l%d.npy.journal and the .part files of its outputs to start again\n";
+
 /// A run that stops before frame 2, which is bad.
 void begin_three(const TemporaryFolder& folder) {
   folder.file("t.xyz", trajectory("nothing"));
@@ -193,27 +196,27 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   folder.file("t.xyz", trajectory("3"));
   const auto before = contents_of(folder);
   refuses(folder, three + "--metric manhattan", failure,
-          {"l%d.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
+          {"l%d.npy.journal is of another run: there nothing, here \"--metric manhattan\"", start_again});
   refuses(folder, "simulate --trajectory t.xyz --size 31x30 --labels l%d.npy --cells cells.csv --resume",
-          failure, {"there \"--size 30x30\", here \"--size 31x30\"", "remove it and the .part files"});
+          failure, {"there \"--size 30x30\", here \"--size 31x30\"; give its options, or " + start_again});
   refuses(folder, "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy --resume", failure,
           {"there \"--cells cells.csv\", here nothing"});
   refuses(folder, "simulate --trajectory t.xyz --size 30x30 --labels l%d.npy", failure,
-          {"l%d.npy.journal", "give --resume, or remove it"});
+          {"l%d.npy.journal says", "give --resume, or " + start_again});
   folder.file("t.xyz", trajectory("3").replace(trajectory("3").find("A 1 1"), 5, "A 6 1"));
   refuses(folder, three, failure,
-          {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of"});
+          {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of", start_again});
   folder.file("t.xyz", trajectory("3").substr(0, trajectory("3").size() / 3));
   refuses(folder, three, failure, {"the seeds of frames 0 to 1 are others"});
   folder.file("t.xyz", trajectory("3"));
 
   std::filesystem::rename(folder / "l1.npy", folder / "other.npy");
-  refuses(folder, three, failure, {"l1.npy is missing", "remove l%d.npy.journal and the .part files"});
+  refuses(folder, three, failure, {"l1.npy is missing", start_again});
   std::filesystem::rename(folder / "other.npy", folder / "l1.npy");
   std::filesystem::rename(folder / "cells.csv.part", folder / "other");
-  refuses(folder, three, failure, {"cells.csv.part: No such file"});
+  refuses(folder, three, failure, {"cells.csv.part: No such file", "; " + start_again});
   folder.file("cells.csv.part", "id");
-  refuses(folder, three, failure, {"cells.csv.part", "bytes that was left"});
+  refuses(folder, three, failure, {"cells.csv.part", "bytes that was left; " + start_again});
   std::filesystem::remove(folder / "cells.csv.part");
   std::filesystem::create_symlink("other", folder / "cells.csv.part");
   refuses(folder, three, failure, {"cells.csv.part"});
@@ -222,7 +225,8 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   BOOST_TEST(run(folder, three).exit_code == 0);
 
   folder.file("cells.csv.part", "mine");
-  refuses(folder, three, failure, {"cells.csv.part", "remove it"});
+  refuses(folder, three, failure,
+          {"cells.csv.part is there, and no l%d.npy.journal", "; remove cells.csv.part to start again\n"});
   BOOST_TEST(content_of(folder / "cells.csv.part") == "mine");
 }
 
@@ -233,10 +237,10 @@ BOOST_AUTO_TEST_CASE(damaged_journals_are_refused) {
   for (const char* const end :
        {"1 2 more\n", "1 x more 3\n", "-1 2 more 3\n", "\n", "1 2 more 99999999999999999999999\n"}) {
     folder.file("l%d.npy.journal", journal + end);
-    refuses(folder, three, failure, {"l%d.npy.journal is damaged"});
+    refuses(folder, three, failure, {"l%d.npy.journal is damaged", start_again});
   }
   folder.file("l%d.npy.journal", "id,x,y\n");
-  refuses(folder, three, failure, {"l%d.npy.journal is no journal of a run"});
+  refuses(folder, three, failure, {"l%d.npy.journal is no journal of a run; " + start_again});
   folder.file("l%d.npy.journal", journal + "2 5");  // cut off: the frame counts as not made
   folder.file("t.xyz", trajectory("3"));
   const Result result = run(folder, three);

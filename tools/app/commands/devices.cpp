@@ -1,7 +1,6 @@
 // vorocl devices: the OpenCL devices, which of them would be picked, and why; and whether they are right.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <memory>
 
 #include "app/commands/commands.hpp"
@@ -72,12 +71,12 @@ std::vector<std::string> wrong_answers(const Device& device) {
   return wrong;
 }
 
-/// Those that can be used, or the one that was asked for.
+/// The one that was asked for, or those that can be used.
 std::vector<DeviceDescription> devices_to_check(const std::string& request) {
-  const bool is_asked_for = !request.empty() || std::getenv("VOROCL_DEVICE") != nullptr;
   std::vector<DeviceDescription> devices;
   for (const DeviceDescription& device : Device::list(request)) {
-    if (is_asked_for ? device.selected : device.why_not.empty()) devices.push_back(device);
+    if (device.asked_for) return {device};
+    if (device.why_not.empty()) devices.push_back(device);
   }
   return devices;
 }

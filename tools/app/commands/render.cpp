@@ -68,7 +68,7 @@ Outputs open_outputs(const RenderOptions& options) {
 void print_result(const RenderOptions& options, const Seeds& seeds, const Report& report,
                   Measures& measures) {
   const View& view = measures.view();
-  const std::size_t empty_cells = measures.statistics().empty_cells;
+  const CellStatistics statistics = measures.statistics();
   if (options.json) {
     print_json({{"method", options.method.name},
                 {"metric", to_string(options.method_options.metric)},
@@ -79,7 +79,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
                 {"area_unit", view.units.of_area()},
                 {"length_unit", view.units.of_length()},
                 {"seeds", seeds.alive()},
-                {"empty_cells", empty_cells},
+                {"empty_cells", statistics.empty_cells},
                 {"frames", 1},
                 {"waves", report.waves()},
                 {"milliseconds", report.milliseconds()},
@@ -89,7 +89,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
         options.method.name, seeds.alive(), view.picture.grid.width(), view.picture.grid.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
-  print_empty_cells(empty_cells, seeds.alive());
+  print_empty_cells(statistics.empty_cells, statistics.cells);
   print_written(requested_files(options));
 }
 

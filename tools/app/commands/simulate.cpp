@@ -45,8 +45,10 @@ class Run {
         source_(source),
         interruption_(interruption),
         writer_(writer),
-        simulation_(source.place(device),
-                    [this](Seeds& moving, int) { return displacement_ = source_.move(moving); }) {
+        simulation_(source.place(device), [this](Seeds& moving, int) {
+          displacement_ = source_.move(moving);
+          return displacement_.value_or(0);  // engines start from nothing on another grid
+        }) {
     add_engine(options.method, options.method_options);
     if (options.compare_with) {
       // The reference: it runs with its own waves, whatever those of the first method are.
@@ -111,10 +113,10 @@ class Run {
   }
 
   [[noreturn]] void refuse_seeds() const {
+    const Journal& journal = *writer_.journal();
     throw Error(
-        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or "
-                    "remove it and the .part files to start again",
-                    writer_.journal()->last_frame(), writer_.journal()->path()));
+        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or {}",
+                    journal.last_frame(), journal.path(), how_to_start_again(journal.path())));
   }
 
   /// Makes the diagrams of the next frame.
@@ -201,7 +203,7 @@ class Run {
   MovingSeeds& source_;
   const Interruption& interruption_;
   FrameWriter& writer_;
-  double displacement_ = 0;  // of the last motion
+  std::optional<double> displacement_;  // of the last motion
   Simulation simulation_;
   MeasureBuffers buffers_;
   Course course_;

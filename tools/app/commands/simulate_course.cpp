@@ -13,7 +13,7 @@ namespace vorocl::command {
 
 namespace {
 
-/// A value of the frames after frame 0: null if there are none.
+/// A value of the frames after frame 0: null if none has one.
 Json value(const Samples& samples, double (Samples::*of)() const) {
   return samples.empty() ? Json() : Json((samples.*of)());
 }
@@ -97,9 +97,13 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
   };
   print_times(name_of(options.method, options.method_options.metric), simulation, main_engine, course.timed);
   if (const PlanSamples& plans = course.plans; !plans.waves.empty()) {
-    print("plans: first steps {} to {}, {} to {} waves, d_max {:.4g} to {:.4g} pixels\n",
-          plans.first_steps.least(), plans.first_steps.greatest(), plans.waves.least(),
-          plans.waves.greatest(), plans.displacements.least(), plans.displacements.greatest());
+    const std::string displacements =
+        plans.displacements.empty()
+            ? "no d_max (each frame has another grid than the one before)"
+            : fmt::format("d_max {:.4g} to {:.4g} pixels", plans.displacements.least(),
+                          plans.displacements.greatest());
+    print("plans: first steps {} to {}, {} to {} waves, {}\n", plans.first_steps.least(),
+          plans.first_steps.greatest(), plans.waves.least(), plans.waves.greatest(), displacements);
     print("frames from the seeds instead of the last labels: {}, of which {} with all waves of JFA\n",
           plans.from_seeds, plans.jfa);
   }

@@ -37,15 +37,16 @@ struct SimulateOptions {
 
 /// What dJFA's plans were, of the frames after frame 0.
 struct PlanSamples {
-  Samples first_steps, waves, displacements;
-  int from_seeds = 0;  // frames that did not start from the last labels
-  int jfa = 0;         // those of them in which all of JFA's waves ran
+  Samples first_steps, waves;
+  Samples displacements;  // of the frames that have one
+  int from_seeds = 0;     // frames that did not start from the last labels
+  int jfa = 0;            // those of them in which all of JFA's waves ran
 
-  void add(const Report& report, double max_displacement, const Grid& grid) {
+  void add(const Report& report, const std::optional<double>& max_displacement, const Grid& grid) {
     const FloodStart& start = report.start();
     first_steps.add(start.first_step);
     waves.add(report.waves());
-    displacements.add(max_displacement);
+    if (max_displacement) displacements.add(*max_displacement);
     if (start.from_seeds) ++from_seeds;
     if (start.from_seeds && start.first_step == first_step(grid)) ++jfa;
   }

@@ -111,7 +111,13 @@ Option Command::add_texts(const std::string& name, const ListSetter& set, const 
 }
 
 void Command::refuse_words(const std::function<std::string(const std::string& word)>& advice) {
-  const auto refuse = [advice](const std::string& word) -> void { throw CLI::ValidationError(advice(word)); };
+  const auto refuse = [advice, app = app_](const std::string& word) -> void {
+    // The word may be the value of an option that there is not: that one is to blame.
+    for (const std::string& unknown : app->remaining()) {
+      if (unknown.front() == '-') throw CLI::ExtrasError({unknown});
+    }
+    throw CLI::ValidationError(advice(word));
+  };
   app_->add_option_function<std::string>("word", refuse)->group("");  // which help does not show
 }
 

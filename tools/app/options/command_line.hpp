@@ -106,8 +106,8 @@ class Command {
     return add_parsed(name, value, parse, about + ": " + names_of(choices)).value_name("NAME");
   }
 
-  /// Refuses a word that no option takes with what `advice` says of it. For commands without positional
-  /// arguments.
+  /// Refuses a word that no option takes with what `advice` says of it, unless there is an unknown option to
+  /// name. For commands without positional arguments.
   void refuse_words(const std::function<std::string(const std::string& word)>& advice);
 
   /// A group of options of which at least and at most so many must be given.

@@ -35,9 +35,8 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
   for (FileRequest& request : options.files) add_file_option(command, request, true);
   command
       .add("--similarity", options.similarity_path,
-           "Similarities to write, frame by frame: a .csv file with the columns frame and similarity "
-           "and, with --compare-with exact in the same metric, wrong_percent, largest_excess and "
-           "mean_excess")
+           "Similarities to write, frame by frame: a .csv file with the columns frame and similarity and, "
+           "with --compare-with exact in the same metric, wrong_percent, largest_excess and mean_excess")
       .value_name("FILE")
       .needs("--compare-with");
   command
@@ -48,8 +47,9 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
       .value_name("FILE");
   command.add(
       "--resume", options.resume,
-      "Go on where the same command, which was ended, has stopped: behind the last frame whose numbered "
-      "files and rows of tables are complete. It needs --resume too. Not for films");
+      "Go on where the same command stopped when something ended it: behind the last frame whose numbered "
+      "files and rows of tables are complete. The command that ended must have had --resume too. Not for "
+      "films");
   command.add("--every", options.every, "Write pictures and numbered files only of frames 0, K, 2 K, ...")
       .value_name("K")
       .in_range(1, 1000000000)

@@ -55,15 +55,13 @@ void add_picture_options(Command& command, PictureOptions& options) {
   command.add_choice(
       "--palette", options.palette, palettes,
       "Colours of quantities (else viridis), with _r reversed, or okabe-ito: 8 colours for whole numbers and "
-      "ids, for the "
-      "colour-blind too (an id keeps its colour, and cells that touch may share one; without it ids "
-      "have a colour each)");
+      "ids, for the colour-blind too (an id keeps its colour, and cells that touch may share one; without it "
+      "ids have a colour each)");
   command
       .add_parsed("--scale", options.scale, parse_scale,
                   "Values at the ends of the palette, or percentiles of the picture's, such as 2%,98%; those "
-                  "beyond get "
-                  "the colours of the ends. Else the range of the picture, in a film or series of the first "
-                  "one drawn")
+                  "beyond get the colours of the ends. Else the range of the picture, in a film or series of "
+                  "the first one drawn")
       .value_name("LOW,HIGH");
   command.add("--log", options.logarithmic,
               "Colours go by the logarithm of the quantity; values of 0 or less are left out and counted");
@@ -110,8 +108,7 @@ void check_picture_options(const PictureOptions& options) {
   if (is_continuous && options.palette && is_categorical(*options.palette)) {
     throw UsageError(
         "--palette okabe-ito is for ids and whole numbers, and distances and areas are continuous "
-        "quantities; "
-        "take viridis, turbo or greys");
+        "quantities; take viridis, turbo or greys");
   }
   const char* const of_quantities = options.color_bar     ? "--color-bar"
                                     : options.scale       ? "--scale"
@@ -126,8 +123,8 @@ void check_picture_options(const PictureOptions& options) {
         fmt::format("--log needs a --scale that begins above 0, and not at {}", options.scale->low));
   }
   if (by_id && of_quantities != nullptr) {
-    throw UsageError(of_quantities + std::string(" needs a --color that is a quantity: distance, area, "
-                                                 "neighbours or column:NAME"));
+    throw UsageError(fmt::format(
+        "{} needs a --color that is a quantity: distance, area, neighbours or column:NAME", of_quantities));
   }
 }
 

@@ -127,22 +127,21 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .value_name("W")
       .in_range(1, Grid::max_side)
       .excludes(size);
-  add_bounds_option(
-      command, options,
-      "Rectangle in data units that the grid shows; else what the boxes of all frames fill, or the domain or "
-      "the bounding box of the points");
+  const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
+  add_bounds_option(command, options,
+                    "Rectangle in data units that the grid shows; else " + fitted +
+                        ", or the domain or the bounding box of the points");
   add_outside_option(command, options);
   command
       .add_parsed(
           "--domain", options.domain, parse_bounds,
-          "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a "
-          "part of it")
+          "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a part "
+          "of it")
       .value_name("X0,Y0,X1,Y1")
       .default_text("the bounds");
   add_periodic_option(command, options,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "
-                      "across the border, "
-                      "and points outside the domain wrap")
+                      "across the border, and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
   add_y_options(command, options);
 }
@@ -163,8 +162,7 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   add_outside_option(command, seeds);
   add_periodic_option(command, seeds,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "
-                      "across the border, "
-                      "and points outside the bounds wrap")
+                      "across the border, and points outside the bounds wrap")
       .default_text("none");
   add_y_options(command, seeds);
 }

@@ -120,8 +120,7 @@ void FrameWriter::check_written() const {
       if (!file.numbered || file.path.empty()) continue;
       const std::string path = NumberedName(file.path).with(frame);
       if (std::filesystem::exists(path, ignored)) continue;
-      throw Error(path + " is missing, which an earlier run wrote; remove " + journal_->path() +
-                  " and the .part files to start again");
+      throw Error(path + " is missing, which an earlier run wrote; " + how_to_start_again(journal_->path()));
     }
   }
 }

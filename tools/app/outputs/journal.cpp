@@ -49,7 +49,8 @@ Journal::Journal(const std::string& path, const std::string& run)
 
 void Journal::read() {
   const std::vector<std::string> there = read_lines(path_, "journal").whole, head = head_of(run_);
-  if (there.empty() || there.front() != title) throw Error(path_ + " is no journal of a run; remove it");
+  if (there.empty() || there.front() != title)
+    throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
   const auto end = std::find(there.begin(), there.end(), end_of_run);
   const std::vector<std::string> head_there(there.begin(), end == there.end() ? end : end + 1);
   if (head_there != head) refuse_run(first_not_in(head, head_there), first_not_in(head_there, head));
@@ -57,20 +58,17 @@ void Journal::read() {
 }
 
 void Journal::refuse_run(const std::string& there, const std::string& here) const {
-  throw Error(
-      fmt::format("{} is of another run: there {}, here {}; give its options, or remove it and the .part "
-                  "files to start again",
-                  path_, there, here));
+  throw Error(fmt::format("{} is of another run: there {}, here {}; give its options, or {}", path_, there,
+                          here, how_to_start_again(path_)));
 }
 
-void Journal::refuse_damage() const {
-  throw Error(path_ + " is damaged; remove it and the .part files to start again");
-}
+void Journal::refuse_damage() const { throw Error(path_ + " is damaged; " + how_to_start_again(path_)); }
 
 void Journal::begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps) {
   for (const std::string& part : outputs) {
     if (!is_there_ && is_file(part)) {
-      throw Error(part + " is there, and nothing says of which run it is; remove it");
+      throw Error(fmt::format(
+          "{0} is there, and no {1} that says of which run it is; remove {0} to start again", part, path_));
     }
   }
   GrowingFile journal{OutputFile(path_)};
@@ -85,12 +83,16 @@ void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
 }
 
+std::string how_to_start_again(const std::string& journal) {
+  return "remove " + journal + " and the .part files of its outputs to start again";
+}
+
 std::string journal_path(const std::string& output) { return output + ".journal"; }
 
 void refuse_journal(const std::string& path) {
   if (!is_file(path)) return;
-  throw Error(path +
-              " says that a run with --resume can go on; give --resume, or remove it and the .part files");
+  throw Error(path + " says that a run with --resume can go on; give --resume, or " +
+              how_to_start_again(path));
 }
 
 }  // namespace vorocl::command

@@ -44,6 +44,9 @@ class Journal {
   std::vector<std::string> steps_;
 };
 
+/// For errors: what to remove of the run that a journal is of, which cannot go on.
+std::string how_to_start_again(const std::string& journal);
+
 /// The path of the journal of a run whose first output this is.
 std::string journal_path(const std::string& output);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "app/terminal/console.hpp"
 #include "vorocl/error.hpp"
@@ -171,7 +172,7 @@ Scale Painter::scale(const std::function<std::vector<double>()>& values) {
     const std::size_t all = shown.size();
     shown.erase(std::remove_if(shown.begin(), shown.end(), [](double value) { return value <= 0; }),
                 shown.end());
-    if (shown.size() < all) {
+    if (shown.size() < all && !std::exchange(omission_noted_, true)) {
       print_note(
           fmt::format("{} of {} values are 0 or less; a logarithmic scale leaves them out, and they are grey",
                       all - shown.size(), all));

@@ -53,7 +53,7 @@ class Painter {
 
   /// `values` are those of the value column, by label; NaN: absent. `stamp` is written where the options ask
   /// for it. Throws Error if they ask for a scale or colours that the values do not allow. Notes on standard
-  /// error what a logarithmic scale leaves out of the first picture.
+  /// error, once, what a logarithmic scale leaves out of the first picture.
   cv::Mat draw(Measures& measures, const std::vector<double>& values, const std::string& stamp = "");
 
   /// Whether the next picture would be the same without those that were drawn before.
@@ -71,6 +71,7 @@ class Painter {
   bool many_;
   Palette palette_;
   std::optional<Scale> scale_;
+  bool omission_noted_ = false;       // what a logarithmic scale leaves out of the first picture
   std::optional<bool> whole_values_;  // whether those of the first picture are
   std::optional<double> contour_interval_;
 };

@@ -27,7 +27,7 @@ class RandomWalk : public MovingSeeds {
     ++frame_;
     return true;
   }
-  double move(Seeds& seeds) const override { return motion_(seeds, frame_); }
+  std::optional<double> move(Seeds& seeds) const override { return motion_(seeds, frame_); }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
   const std::vector<double>& values() const override { return input_.values; }
   std::optional<Box> box() const override { return std::nullopt; }
@@ -55,7 +55,7 @@ class Trajectory : public MovingSeeds {
     ++frame_;
     return true;
   }
-  double move(Seeds& seeds) const override {
+  std::optional<double> move(Seeds& seeds) const override {
     if (particles_.has_other_grid()) {
       seeds = place(seeds.device());
     } else if (const auto& domain = particles_.domain()) {

@@ -34,8 +34,8 @@ class MovingSeeds {
   virtual bool next() = 0;
 
   /// Moves the seeds by it, and returns the greatest displacement along an axis, in pixels. Where the
-  /// diagram's grid changes they are other seeds.
-  virtual double move(Seeds& seeds) const = 0;
+  /// diagram's grid changes they are other seeds, and there is no displacement.
+  virtual std::optional<double> move(Seeds& seeds) const = 0;
 
   /// The ids that labels carry, by seed; empty: the seeds' own.
   virtual const std::vector<std::uint32_t>& ids() const = 0;

@@ -176,8 +176,7 @@ void TrajectorySeeds::note_of_growth() {
   }
   print_note(
       fmt::format("{}: frame {} fills more than the picture, which shows what the first frame does because "
-                  "the file is read "
-                  "once; give --bounds, or the file by its name",
+                  "the file is read once; give --bounds, or the file by its name",
                   path_, number_));
   growth_noted_ = true;
 }
@@ -200,13 +199,13 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid
   const std::vector<Point>& pixels = mapped.pixels;
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
-  max_displacement_ = 0;
+  max_displacement_ = has_other_grid_ ? std::nullopt : std::optional<double>(0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::uint32_t slot = slots_.of_ids()[i];
     points[slot] = pixels[i];
     // A slot that was taken holds the same particle still.
-    if (!has_other_grid_ && slot < points_.size() && points_[slot]) {
-      max_displacement_ = std::max(max_displacement_, displacement(*points_[slot], pixels[i], periods));
+    if (max_displacement_ && slot < points_.size() && points_[slot]) {
+      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], pixels[i], periods));
     }
   }
   points_ = std::move(points);

@@ -61,8 +61,8 @@ class TrajectorySeeds {
   const std::vector<double>& values() const { return values_; }
 
   /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
-  /// the diagram's grid, and 0 if that is another one; the shorter way round where the box is periodic.
-  double max_displacement() const { return max_displacement_; }
+  /// the diagram's grid, and none if that is another one; the shorter way round where the box is periodic.
+  std::optional<double> max_displacement() const { return max_displacement_; }
 
   /// The frame's time step, where the file has one.
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
@@ -108,7 +108,7 @@ class TrajectorySeeds {
   std::size_t outside_ = 0;  // particles of the frame
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
-  double max_displacement_ = 0;
+  std::optional<double> max_displacement_;
 };
 
 }  // namespace vorocl::command
