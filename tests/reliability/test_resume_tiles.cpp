@@ -162,9 +162,12 @@ BOOST_AUTO_TEST_CASE(a_run_whose_files_could_not_be_written_is_completed) {
         const Result failed =
             run(folder, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT='" + fault + " on'");
         BOOST_TEST_CONTEXT(subcommand << " " << fault << "\n" << failed.error) {
-          BOOST_TEST(failed.exit_code == failure);
-          const Result result = run(folder, subcommand);
-          BOOST_TEST(result.exit_code == 0, result.error);
+          // How often the outputs are synced goes by the clock: this run may have made fewer calls.
+          BOOST_TEST((failed.exit_code == failure || number > 3));
+          if (failed.exit_code != 0) {
+            const Result result = run(folder, subcommand);
+            BOOST_TEST(result.exit_code == 0, result.error);
+          }
           check_same(folder, whole);
         }
       }
