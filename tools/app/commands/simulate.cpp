@@ -113,7 +113,7 @@ class Run {
   }
 
   [[noreturn]] void refuse_seeds() const {
-    const Journal& journal = *writer_.journal();
+    const FrameJournal& journal = *writer_.journal();
     throw Error(
         fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or {}",
                     journal.last_frame(), journal.path(), how_to_start_again(journal.path())));
