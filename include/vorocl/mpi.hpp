@@ -35,8 +35,13 @@ class VOROCL_API SharedSeeds : public SeedSource {
   SharedSeeds(const SharedSeeds&) = delete;
   SharedSeeds& operator=(const SharedSeeds&) = delete;
 
-  /// Takes seeds from this rank, in any order, as PlaneSeeds::add() with ids of their own.
+  /// Makes room for so many seeds of this rank.
+  void reserve(std::size_t count);
+
+  /// Takes seeds from this rank, in any order, as PlaneSeeds::add(): with ids of their own, or the ids first,
+  /// first + 1, ...
   void add(const PlaneSeed* seeds, std::size_t count);
+  void add(const Point* points, std::size_t count, std::uint64_t first);
 
   /// Collective: sorts the seeds and shares them out.
   void share();

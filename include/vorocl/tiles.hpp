@@ -27,6 +27,10 @@ struct Tile {
   int width = 1, height = 1;
 };
 
+inline std::uint64_t pixels_of(const Tile& tile) {
+  return static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height);
+}
+
 /// How a plane, or a rectangle of it, is cut into tiles: squares, from its first pixel on, numbered
 /// row-major. Those at the right and at the bottom may be smaller.
 class VOROCL_API Tiling {

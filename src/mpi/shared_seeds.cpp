@@ -280,6 +280,21 @@ void SharedSeeds::add(const PlaneSeed* seeds, std::size_t count) {
     state_->ids = std::max<std::uint64_t>(state_->ids, seeds[i].id + 1ull);
 }
 
+void SharedSeeds::add(const Point* points, std::size_t count, std::uint64_t first) {
+  const PlaneAxes& axes = state_->axes;
+  std::vector<PlaneSeed> seeds;
+  seeds.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t id = first + i;
+    if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
+    if (!axes.x.reaches(points[i].x) || !axes.y.reaches(points[i].y)) throw BadPoint(id, points[i]);
+    seeds.push_back({axes.x.pixel(points[i].x), axes.y.pixel(points[i].y), static_cast<std::uint32_t>(id)});
+  }
+  add(seeds.data(), count);
+}
+
+void SharedSeeds::reserve(std::size_t count) { state_->added.reserve(count); }
+
 void SharedSeeds::share() { state_->share(); }
 const Plane& SharedSeeds::plane() const { return state_->plane; }
 std::uint64_t SharedSeeds::ids() const { return state_->ids; }

@@ -53,8 +53,6 @@ class MappedLabels {
   void* labels_ = nullptr;
 };
 
-std::size_t pixels_of(const Tile& tile) { return Grid(tile.width, tile.height).pixels(); }
-
 /// A tile whose labels are enqueued, and whose cells, if they are asked for, are measured.
 struct MadeTile {
   std::uint64_t number;

@@ -11,36 +11,40 @@ namespace vorocl::command {
 
 namespace {
 
-using UseBlock = std::function<void(const std::vector<Point>& block)>;
-
-constexpr std::size_t block_points = 1 << 16;
-
-void read_npy_blocks(const std::string& path, const UseBlock& use) {
+void read_npy_blocks(const std::string& path, const Slice& slice, const UseBlock& use) {
   NpyPoints points(path);
   for (std::uint64_t first = 0; first < points.size(); first += block_points) {
-    use(points.read(first,
-                    static_cast<std::size_t>(std::min<std::uint64_t>(block_points, points.size() - first))));
+    if (!slice.holds(first / block_points)) continue;
+    const std::uint64_t count = std::min<std::uint64_t>(block_points, points.size() - first);
+    use(first, points.read(first, static_cast<std::size_t>(count)));
   }
 }
 
-void read_csv_blocks(const std::string& path, const std::optional<Columns>& columns, const UseBlock& use) {
+void read_csv_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
+                     const UseBlock& use) {
   CsvReader reader(path, columns);
   std::vector<Point> block;
+  std::uint64_t first = 0;
+  const auto use_block = [&] {
+    if (!block.empty() && slice.holds(first / block_points)) use(first, block);
+    first += block.size();
+    block.clear();
+  };
   while (reader.next()) {
     block.push_back(reader.point());
-    if (block.size() < block_points) continue;
-    use(block);
-    block.clear();
+    if (block.size() == block_points) use_block();
   }
-  if (!block.empty()) use(block);
+  use_block();
 }
 
 }  // namespace
 
-void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const UseBlock& use) {
+void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
+                    const UseBlock& use) {
   check_extension(path, {".csv", ".npy"});
   const SteadyFile file(path);
-  extension_of(path) == ".npy" ? read_npy_blocks(path, use) : read_csv_blocks(path, columns, use);
+  extension_of(path) == ".npy" ? read_npy_blocks(path, slice, use)
+                               : read_csv_blocks(path, columns, slice, use);
   file.check();
 }
 

@@ -13,11 +13,25 @@
 
 namespace vorocl::command {
 
+/// So many points make a block: of a file, or of random ones.
+constexpr std::size_t block_points = 1 << 16;
+
+/// What a process takes of the blocks that several share: every parts-th one.
+struct Slice {
+  std::uint64_t part = 0, parts = 1;
+
+  bool holds(std::uint64_t block) const { return block % parts == part; }
+};
+
+/// A block, and the number of its first point.
+using UseBlock = std::function<void(std::uint64_t first, const std::vector<Point>& block)>;
+
 /// Reads the points of a file in blocks, so that they are never in memory all at once; `use` is given each
-/// block, in the file's order. `columns` are those of a .csv file. Throws Error as the readers of these
-/// files, for another extension, and if the file changes meanwhile.
-void read_in_blocks(const std::string& path, const std::optional<Columns>& columns,
-                    const std::function<void(const std::vector<Point>& block)>& use);
+/// block of the slice, in the file's order. `columns` are those of a .csv file, of which the other blocks are
+/// read too. Throws Error as the readers of these files, for another extension, and if the file changes
+/// meanwhile.
+void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
+                    const UseBlock& use);
 
 /// Points with their ids, which are their indices if `ids` is empty: a .csv file with the columns id, x and
 /// y, or a .npy array of shape (N, 2) without the ids. Throws Error for another extension, or if the file

@@ -53,6 +53,11 @@ class PlaneMap : public PlaneFile {
 
   std::string part_path() const override { return labels_.part_path(); }
 
+  void join() override {
+    stays_ = true;
+    labels_.join();
+  }
+
   WrittenTile write(const TileLabels& labels) override {
     const Tile& tile = labels.tile;
     const std::int64_t left = tile.x - part_.x, top = tile.y - part_.y;

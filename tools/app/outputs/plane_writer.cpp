@@ -25,10 +25,8 @@ std::string journal_of(const PlaneWriterOptions& options) {
 }
 
 std::unique_ptr<TileJournal> open_journal(const PlaneWriterOptions& options, const std::string& run) {
-  const std::string path = journal_of(options);
-  if (options.resume) return std::make_unique<TileJournal>(path, run);
-  refuse_journal(path);
-  return nullptr;
+  check_journal(options);
+  return options.resume ? std::make_unique<TileJournal>(journal_of(options), run) : nullptr;
 }
 
 }  // namespace
@@ -40,11 +38,24 @@ std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options) {
           {"--adjacency", options.adjacency, {".csv"}}};
 }
 
+void check_journal(const PlaneWriterOptions& options) {
+  if (!options.resume) refuse_journal(journal_of(options));
+}
+
+std::vector<std::unique_ptr<PlaneFile>> plane_files(const PlaneWriterOptions& options, const Tiling& tiling,
+                                                    const std::optional<Georeference>& georeference) {
+  std::vector<std::unique_ptr<PlaneFile>> files;
+  if (!options.labels.empty()) files.push_back(plane_file(options.labels, tiling, georeference));
+  if (!options.picture.empty()) files.push_back(plane_map(options.picture, tiling));
+  return files;
+}
+
 PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling,
                          const std::optional<Georeference>& georeference, const std::string& run)
-    : tiling_(tiling), journal_(open_journal(options, run)), tables_(options.cells, options.adjacency) {
-  if (!options.labels.empty()) files_.push_back(plane_file(options.labels, tiling, georeference));
-  if (!options.picture.empty()) files_.push_back(plane_map(options.picture, tiling));
+    : tiling_(tiling),
+      journal_(open_journal(options, run)),
+      files_(plane_files(options, tiling, georeference)),
+      tables_(options.cells, options.adjacency) {
   if (!journal_) return;
   for (const RequestedFile& file : requested_files(options)) {
     if (!file.path.empty() && extension_of(file.path) == ".csv")
@@ -84,6 +95,11 @@ void PlaneWriter::add(const TileLabels& tile) {
   if (!journal_) return;
   entries_.push_back(std::move(entry));
   if (stopwatch_.seconds() >= next_checkpoint_) checkpoint();
+}
+
+void PlaneWriter::add(const std::vector<TileJournal::Entry>& entries, const std::vector<char>& sums) {
+  entries_.insert(entries_.end(), entries.begin(), entries.end());
+  if (PlaneCells* const cells = tables_.recent()) cells->add(sums);
 }
 
 void PlaneWriter::checkpoint() {

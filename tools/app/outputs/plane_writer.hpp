@@ -26,6 +26,13 @@ struct PlaneWriterOptions {
 /// The files that it asks for. The first one gives the journal its name.
 std::vector<RequestedFile> requested_files(const PlaneWriterOptions& options);
 
+/// Whether the journal of an earlier run is there. Throws Error then, unless the run is to go on with that.
+void check_journal(const PlaneWriterOptions& options);
+
+/// The files that hold tiles: the labels' and the picture's, as far as they are asked for.
+std::vector<std::unique_ptr<PlaneFile>> plane_files(const PlaneWriterOptions& options, const Tiling& tiling,
+                                                    const std::optional<Georeference>& georeference);
+
 /// The outputs of a run. They have their names when finish() is through; without it nothing stays of them,
 /// unless the run can be resumed.
 class PlaneWriter {
@@ -40,7 +47,7 @@ class PlaneWriter {
   void begin(const std::string& seeds);
 
   /// The tiles that an earlier run has completed.
-  std::size_t made_before() const { return made_before_.size(); }
+  const std::set<std::uint64_t>& made_before() const { return made_before_; }
 
   /// The next tile to make; none at the end.
   std::optional<std::uint64_t> next();
@@ -54,6 +61,9 @@ class PlaneWriter {
   /// Notes it now: after add() alone, for cells() hold the tile that is to be added next as soon as it is
   /// made.
   void checkpoint();
+
+  /// Notes tiles that another process has written, with the sums of their cells (PlaneCells::take()).
+  void add(const std::vector<TileJournal::Entry>& entries, const std::vector<char>& sums);
 
   /// Of a run that ends before all tiles are made: what stays of it, for an error.
   std::string kept() const;

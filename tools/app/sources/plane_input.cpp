@@ -19,79 +19,69 @@ namespace vorocl::command {
 
 namespace {
 
-constexpr std::size_t block_points = 1 << 16;
-
-/// What a first reading of a file says: how many points there are, and the rectangle that they fill.
-struct Survey {
-  std::size_t points = 0;
-  Bounds box;
-};
-
-/// Adds seeds, and keeps the hash of those that were added.
-class SeedAdder {
- public:
-  explicit SeedAdder(const Plane& plane) : seeds_(plane) {}
-
-  PlaneSeeds& seeds() { return seeds_; }
-
-  void add(const std::vector<Point>& pixels) {
-    seeds_.add(pixels.data(), pixels.size());
-    for (const Point& pixel : pixels) {
-      for (const double at : {pixel.x, pixel.y}) {
-        std::uint64_t bits = 0;
-        std::memcpy(&bits, &at, sizeof bits);
-        hash_.add(bits);
-      }
-    }
-  }
-
-  PlaneInput take(const Units& units) {
-    std::string name = fmt::format("{} {:016x}", seeds_.size(), hash_.value());
-    return {std::move(seeds_), units, std::move(name)};
-  }
-
- private:
-  PlaneSeeds seeds_;
-  Hash hash_;
-};
-
 void check_stop(const std::function<bool()>& stops) {
   if (stops()) throw Error("interrupted, before all seeds were read");
 }
 
 /// Throws Error for a point of the file, counted from 0, that is not `possible`.
-void require(bool possible, const SeedOptions& options, std::size_t index, const Point& point,
+void require(bool possible, const SeedOptions& options, std::uint64_t index, const Point& point,
              const std::string& why) {
   if (possible) return;
   throw Error(fmt::format("{}: point {} at ({}, {}) is {}", options.points, index, point.x, point.y, why));
 }
 
-Survey survey(const SeedOptions& options, const std::function<bool()>& stops) {
+Survey survey(const SeedOptions& options, const PlaneReading& reading) {
   Survey result;
-  read_in_blocks(options.points, options.columns, [&](const std::vector<Point>& block) {
-    check_stop(stops);
-    for (const Point& point : block) {
-      require(std::isfinite(point.x) && std::isfinite(point.y), options, result.points, point, "not finite");
-      const Bounds here = {point.x, point.y, point.x, point.y};
-      result.box = result.points++ == 0 ? here : joined(result.box, here);
-    }
-  });
-  return result;
+  read_in_blocks(options.points, options.columns, reading.slice,
+                 [&](std::uint64_t first, const std::vector<Point>& block) {
+                   check_stop(reading.stops);
+                   for (const Point& point : block) {
+                     require(std::isfinite(point.x) && std::isfinite(point.y), options, first++, point,
+                             "not finite");
+                     const Bounds here = {point.x, point.y, point.x, point.y};
+                     result.box = result.points++ == 0 ? here : joined(result.box, here);
+                   }
+                 });
+  return reading.join(result);
 }
 
+/// A hash of the seeds that does not depend on their order, or on which process has them.
+class SeedsHash {
+ public:
+  void add(std::uint64_t first, const std::vector<Point>& pixels) {
+    for (const Point& pixel : pixels) {
+      Hash hash;
+      hash.add(first++);
+      for (const double at : {pixel.x, pixel.y}) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, &at, sizeof bits);
+        hash.add(bits);
+      }
+      sum_ += hash.value();
+    }
+  }
+
+  std::string name(std::uint64_t seeds, const PlaneReading& reading) const {
+    return fmt::format("{} {:016x}", seeds, reading.sum(sum_));
+  }
+
+ private:
+  std::uint64_t sum_ = 0;
+};
+
 /// Reads the file a second time, and adds its points as they lie in the plane.
-PlaneInput map_points(const SeedOptions& options, const Plane& plane, const Survey& survey,
-                      const std::function<bool()>& stops) {
+PlaneFacts map_points(const SeedOptions& options, const Plane& plane, const Survey& survey,
+                      const PlaneReading& reading) {
   const Bounds bounds = options.bounds.value_or(survey.box);
   const Outside outside = options.outside.value_or(Outside::count);
   PixelMap map(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
   map.repeat(plane.periodic(), bounds);
-  SeedAdder adder(plane);
-  adder.seeds().reserve(survey.points);
-  std::size_t first = 0, points_outside = 0;
+  reading.reserve(survey.points);
+  SeedsHash hash;
+  std::uint64_t points_outside = 0;
   std::vector<Point> pixels;
-  read_in_blocks(options.points, options.columns, [&](const std::vector<Point>& block) {
-    check_stop(stops);
+  const auto add = [&](std::uint64_t first, const std::vector<Point>& block) {
+    check_stop(reading.stops);
     pixels.clear();
     for (const Point& point : block) {
       const Point pixel = map.pixel(point);
@@ -103,46 +93,51 @@ PlaneInput map_points(const SeedOptions& options, const Plane& plane, const Surv
       pixels.push_back(pixel);
     }
     try {
-      adder.add(pixels);
+      reading.add(first, pixels);
     } catch (const BadPoint& bad) {
-      require(false, options, first + bad.index(), block[bad.index()],
+      require(false, options, bad.index(), block[bad.index() - first],
               "2^31 pixels or more away from a pixel of the bounds " + to_string(bounds));
     }
-    first += block.size();
-  });
+    hash.add(first, pixels);
+  };
+  read_in_blocks(options.points, options.columns, reading.slice, add);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
   if (plane.periodic() != Periodic::none && !options.bounds) {
     print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
                            to_string(bounds)));
   }
-  note_outside(points_outside, first, bounds);
+  note_outside(reading.sum(points_outside), survey.points, bounds);
   const Units units = in_pixels(options)
                           ? Units()
                           : Units((bounds.x1 - bounds.x0) / static_cast<double>(plane.width()),
                                   (bounds.y1 - bounds.y0) / static_cast<double>(plane.height()),
                                   has_square_pixels(bounds, plane));
-  return adder.take(units);
+  return {survey.points, units, hash.name(survey.points, reading)};
 }
 
-PlaneInput read_points(const SeedOptions& options, const Plane& plane, const std::function<bool()>& stops) {
+PlaneFacts read_points(const SeedOptions& options, const Plane& plane, const PlaneReading& reading) {
   const SteadyFile file(options.points);
-  PlaneInput input = map_points(options, plane, survey(options, stops), stops);
+  PlaneFacts facts = map_points(options, plane, survey(options, reading), reading);
   file.check();
-  return input;
+  return facts;
 }
 
-PlaneInput at_random(const SeedOptions& options, const Plane& plane, const std::function<bool()>& stops) {
-  SeedAdder adder(plane);
-  adder.seeds().reserve(options.random);
+PlaneFacts make_random(const SeedOptions& options, const Plane& plane, const PlaneReading& reading) {
+  reading.reserve(options.random);
+  SeedsHash hash;
   std::vector<Point> pixels;
-  for (std::size_t id = 0; id < options.random; ++id) {
-    pixels.push_back(random_pixel(plane, static_cast<std::uint32_t>(id), options.rng_seed));
-    if (pixels.size() < block_points && id + 1 < options.random) continue;
-    check_stop(stops);
-    adder.add(pixels);
+  for (std::size_t first = 0; first < options.random; first += block_points) {
+    if (!reading.slice.holds(first / block_points)) continue;
+    check_stop(reading.stops);
     pixels.clear();
+    const std::size_t end = std::min(first + block_points, options.random);
+    for (std::size_t id = first; id < end; ++id) {
+      pixels.push_back(random_pixel(plane, static_cast<std::uint32_t>(id), options.rng_seed));
+    }
+    reading.add(first, pixels);
+    hash.add(first, pixels);
   }
-  return adder.take(Units());
+  return {options.random, Units(), hash.name(options.random, reading)};
 }
 
 }  // namespace
@@ -170,10 +165,10 @@ void check_plane_options(const PlaneInputOptions& options) {
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points");
 }
 
-PlaneInput read_plane_input(const PlaneInputOptions& options, const std::function<bool()>& stops) {
+PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading) {
   const SeedOptions& seeds = options.seeds;
-  return seeds.points.empty() ? at_random(seeds, options.plane(), stops)
-                              : read_points(seeds, options.plane(), stops);
+  return seeds.points.empty() ? make_random(seeds, options.plane(), reading)
+                              : read_points(seeds, options.plane(), reading);
 }
 
 }  // namespace vorocl::command

@@ -8,6 +8,8 @@
 
 #include "app/sources/seed_input.hpp"
 #include "app/sources/units.hpp"
+#include "formats/point_files.hpp"
+#include "vorocl/bounds.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
@@ -24,16 +26,34 @@ struct PlaneInputOptions {
 /// What no parser can say. Throws UsageError, and Error for bounds that have no scale.
 void check_plane_options(const PlaneInputOptions& options);
 
-/// Seeds of a plane, in memory.
-struct PlaneInput {
-  PlaneSeeds seeds;
+/// How many points there are, and the rectangle that they fill.
+struct Survey {
+  std::uint64_t points = 0;
+  Bounds box;  ///< if there are any
+};
+
+/// How seeds are read: by a process alone, or by several that read a slice each, all at once.
+struct PlaneReading {
+  /// Takes the pixels of seeds with the ids first, first + 1, ...
+  std::function<void(std::uint64_t first, const std::vector<Point>& pixels)> add;
+  std::function<void(std::uint64_t seeds)> reserve;  ///< says before how many seeds all have
+  std::function<bool()> stops;                       ///< asked between two blocks
+  Slice slice = {};
+
+  // What is known of a slice becomes what is known of all.
+  std::function<Survey(const Survey&)> join = [](const Survey& survey) { return survey; };
+  std::function<std::uint64_t(std::uint64_t)> sum = [](std::uint64_t number) { return number; };
+};
+
+/// What is known of a plane's seeds besides where they are.
+struct PlaneFacts {
+  std::uint64_t seeds = 0;
   Units units;
   std::string name;  ///< which tells them from others: how many they are, and a hash of their pixels
 };
 
-/// Reads the seeds in blocks; between two of them it asks `stops`, and throws Error if that is so. Throws
-/// Error if a file is bad or changes, that names the first point that cannot be a seed; warns on standard
-/// error as read_input().
-PlaneInput read_plane_input(const PlaneInputOptions& options, const std::function<bool()>& stops);
+/// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or
+/// changes, which names the first point that cannot be a seed; warns on standard error as read_input().
+PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading);
 
 }  // namespace vorocl::command

@@ -17,6 +17,8 @@ namespace vorocl::command {
 
 namespace {
 
+bool errors_alone = false;
+
 /// How many bytes from here are one character of UTF-8 that a terminal prints; 0: none.
 std::size_t printable_bytes(std::string_view text) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -68,11 +70,16 @@ void flush_standard_output() {
   throw Error("cannot write standard output: " + reason(errno));
 }
 
+void say_errors_alone() noexcept {
+  errors_alone = true;
+  if (std::freopen("/dev/null", "w", stdout) == nullptr) std::fclose(stdout);
+}
+
 void print_note(const std::string& text) noexcept {
-  if_possible([&] { print_line("note", text); });
+  if (!errors_alone) if_possible([&] { print_line("note", text); });
 }
 void print_warning(const std::string& text) noexcept {
-  if_possible([&] { print_line("warning", text); });
+  if (!errors_alone) if_possible([&] { print_line("warning", text); });
 }
 void print_error(const std::exception& error) noexcept {
   if_possible([&] { print_line("error", message_of(error)); });

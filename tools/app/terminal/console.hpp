@@ -27,6 +27,9 @@ void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
 /// Throws Error unless all that was printed on standard output has arrived.
 void flush_standard_output();
 
+/// For all but one of several processes that do the same: from here on it prints errors, and nothing else.
+void say_errors_alone() noexcept;
+
 /// Goes to the start of a terminal's line, and erases it.
 constexpr const char* erase_line = "\r\x1b[K";
 

@@ -25,6 +25,7 @@ class NpyPlane : public PlaneFile {
   }
 
   std::string part_path() const override { return file_.part_path(); }
+  void join() override { file_.join(); }
 
   WrittenTile write(const TileLabels& tile) override {
     const auto width = static_cast<std::size_t>(tile.tile.width);

@@ -29,6 +29,10 @@ void PlacedFile::open_part(const std::optional<KeptTiles>& kept) {
   reserve();
 }
 
+void PlacedFile::join() {
+  file_ = std::make_unique<GrowingFile>(output_, Kept{static_cast<std::size_t>(bytes_), false});
+}
+
 void PlacedFile::reserve() {
   int code = EINTR;
   while (code == EINTR) code = posix_fallocate(file_->descriptor(), 0, static_cast<off_t>(bytes_));

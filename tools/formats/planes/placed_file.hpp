@@ -20,6 +20,7 @@ class PlacedFile {
   void open();
   void open_part(const std::optional<KeptTiles>& kept);
   std::string part_path() const { return output_.part_path(); }
+  void join();
   void write(std::uint64_t place, const void* bytes, std::size_t count);
   void read(std::uint64_t place, void* bytes, std::size_t count);
   void sync();

@@ -40,6 +40,10 @@ class PlaneFile {
   virtual void open_part(const std::optional<KeptTiles>& kept) = 0;
   virtual std::string part_path() const = 0;
 
+  /// Opens one that another process has begun by open_part(), to write tiles too; that process finishes it.
+  /// Throws Error if its tiles cannot come from several processes.
+  virtual void join() = 0;
+
   /// Writes a tile: each once, in any order. What it returns, open_part() must be given.
   virtual WrittenTile write(const TileLabels& tile) = 0;
 

@@ -108,6 +108,12 @@ class TiffPlane : public PlaneFile {
 
   std::string part_path() const override { return output_.part_path(); }
 
+  void join() override {
+    throw Error(output_.path() +
+                ": the tiles of a TIFF file follow each other, and so one process alone writes it; take "
+                ".zarr or .npy");
+  }
+
   WrittenTile write(const TileLabels& tile) override {
     std::vector<std::uint32_t> labels = padded(tile, tiling_.side());
     const std::uint64_t begin = content_.end;

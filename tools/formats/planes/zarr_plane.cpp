@@ -76,6 +76,11 @@ class ZarrPlane : public PlaneFile {
 
   std::string part_path() const override { return path_ + ".part"; }
 
+  void join() override {
+    stays_ = true;
+    folder_ = part_path();
+  }
+
   WrittenTile write(const TileLabels& tile) override {
     const std::vector<std::uint32_t> labels = padded(tile, tiling_.side());
     const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);

@@ -1,0 +1,176 @@
+#include "app/commands/tiles_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "app/options/common_options.hpp"
+#include "app/options/seed_options.hpp"
+#include "app/terminal/console.hpp"
+#include "app/terminal/json.hpp"
+#include "app/terminal/usage_error.hpp"
+#include "formats/files.hpp"
+#include "formats/numbers.hpp"
+#include "studies/metric_name.hpp"
+#include "vorocl/version.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+constexpr double million = 1e6;
+
+/// "X0,Y0,X1,Y1" to the pixels from (X0, Y0) up to, and without, (X1, Y1).
+std::optional<PlaneRectangle> parse_part(const std::string& text) {
+  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four whole numbers with X0 < X1 and Y0 < Y1");
+  std::vector<std::int64_t> values;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto comma = std::min(text.find(',', begin), text.size());
+    const auto value = parse_number<std::int64_t>(std::string_view(text).substr(begin, comma - begin));
+    if (!value || *value < 0) throw error;
+    values.push_back(*value);
+    begin = comma + 1;
+  }
+  if (values.size() != 4 || values[0] >= values[2] || values[1] >= values[3]) throw error;
+  return PlaneRectangle{values[0], values[1], values[2] - values[0], values[3] - values[1]};
+}
+
+void check_options(const TilesOptions& options) {
+  const PlaneWriterOptions& output = options.output;
+  const std::vector<RequestedFile> files = requested_files(output);
+  check_outputs(files);
+  if (std::all_of(files.begin(), files.end(), [](const RequestedFile& file) { return file.path.empty(); })) {
+    throw UsageError("nothing to write: give at least one of --labels, -o, --cells and --adjacency");
+  }
+  check_plane_options(options.input);
+  const std::string extension = extension_of(output.labels);
+  const bool is_tiff = extension == ".tif" || extension == ".tiff";
+  if (options.crs && !(is_tiff && options.input.seeds.bounds)) {
+    throw UsageError("--crs is for --labels FILE.tif, with --bounds in its coordinates");
+  }
+}
+
+}  // namespace
+
+void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>& run) {
+  const auto options = std::make_shared<TilesOptions>();
+  Command command =
+      line.add("tiles", "Make the diagram of a plane that is larger than a device, tile by tile");
+  add_plane_options(command, options->input);
+  add_units_option(command, options->input.seeds);
+  add_metric_option(command, options->metric);
+  command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
+      .value_name("N")
+      .in_range(1, Grid::max_side)
+      .default_text("what a quarter of the device's memory holds, 4096 at most");
+  command
+      .add_parsed("--only", options->part, parse_part,
+                  "Make a part of the plane alone: the pixels from (X0, Y0) up to, and without, (X1, Y1)")
+      .value_name("X0,Y0,X1,Y1");
+  command
+      .add("--labels", options->output.labels,
+           "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
+           "(tiled BigTIFF; with --bounds a GeoTIFF)")
+      .value_name("FILE");
+  command
+      .add_parsed("--crs", options->crs, parse_crs,
+                  "Coordinate reference system of the bounds, which a .tif file says, such as EPSG:32632")
+      .value_name("EPSG:N");
+  command
+      .add("-o", options->output.picture,
+           "Picture of the whole to write, of 4096 pixels a side at most: .png, .jpg, .bmp or .tif")
+      .value_name("PICTURE");
+  command
+      .add("--cells", options->output.cells,
+           "A .csv file with one row per cell that has pixels: its area, centroid, extent, perimeter, "
+           "neighbours")
+      .value_name("FILE");
+  command
+      .add("--adjacency", options->output.adjacency,
+           "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share")
+      .value_name("FILE");
+  command.add(
+      "--resume", options->output.resume,
+      "Go on where the same command, which was ended, has stopped: with the tiles that its outputs do "
+      "not have yet. It needs --resume too");
+  add_device_option(command, options->device);
+  add_json_option(command, options->json);
+  command.set_work([command, options, run] {
+    options->run =
+        "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json", "--tile"});
+    check_options(*options);
+    run(*options);
+  });
+}
+
+Tiling tiling_of(const TilesOptions& options, const Device& device) {
+  const Plane plane = options.input.plane();
+  const int side = options.side > 0 ? options.side : default_tile_side(device);
+  return options.part ? Tiling(plane, side, *options.part) : Tiling(plane, side);
+}
+
+std::string run_of(const TilesOptions& options, const Tiling& tiling) {
+  return options.run + fmt::format("tiles of {}\n", tiling.side());
+}
+
+std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling) {
+  const std::optional<Bounds>& bounds = options.input.seeds.bounds;
+  if (!bounds) return std::nullopt;
+  const Plane& plane = tiling.plane();
+  const PlaneRectangle& part = tiling.part();
+  const bool y_up = points_up(options.input.seeds);
+  const auto between = [](double low, double high, std::int64_t pixel, std::int64_t pixels) {
+    return pixel == pixels ? high
+                           : low + (high - low) * (static_cast<double>(pixel) / static_cast<double>(pixels));
+  };
+  const std::int64_t bottom = part.y + part.height, height = plane.height();
+  return Georeference{{between(bounds->x0, bounds->x1, part.x, plane.width()),
+                       between(bounds->y0, bounds->y1, y_up ? height - bottom : part.y, height),
+                       between(bounds->x0, bounds->x1, part.x + part.width, plane.width()),
+                       between(bounds->y0, bounds->y1, y_up ? height - part.y : bottom, height)},
+                      y_up,
+                      options.crs};
+}
+
+void print_result(const TilesOptions& options, const Device& device, const PlaneFacts& seeds,
+                  const Tiling& tiling, const TilesCourse& course) {
+  const Plane& plane = tiling.plane();
+  const PlaneRectangle& part = tiling.part();
+  const double rate =
+      course.milliseconds > 0 ? 1e3 * static_cast<double>(course.pixels) / course.milliseconds : 0;
+  if (options.json) {
+    Json::Members result = {
+        {"method", "exact"},
+        {"metric", to_string(options.metric)},
+        {"device", device.name()},
+        {"width", plane.width()},
+        {"height", plane.height()},
+        {"periodic", to_string(plane.periodic())},
+        {"part", Json::Members{{"x", part.x}, {"y", part.y}, {"width", part.width}, {"height", part.height}}},
+        {"area_unit", seeds.units.of_area()},
+        {"length_unit", seeds.units.of_length()},
+        {"seeds", seeds.seeds},
+        {"tile", tiling.side()},
+        {"tiles", course.tiles}};
+    if (options.output.resume) result.emplace_back("made_before", course.made_before);
+    if (course.processes > 1) result.emplace_back("processes", course.processes);
+    result.emplace_back("milliseconds", course.milliseconds);
+    result.emplace_back("writing_milliseconds", course.writing);
+    result.emplace_back("pixels_per_second", rate);
+    print_json(result);
+    return;
+  }
+  print("exact: {} seeds on {} x {} pixels, {} tiles of {} x {}, on {}\n", seeds.seeds, plane.width(),
+        plane.height(), course.tiles, tiling.side(), tiling.side(), device.name());
+  if (options.part) {
+    print("of these pixels {} x {}, from ({}, {}) on\n", part.width, part.height, part.x, part.y);
+  }
+  if (course.made_before > 0) print("made before: {} tiles\n", course.made_before);
+  if (course.processes > 1) print("processes: {}\n", course.processes);
+  print("{:.1f} million pixels per second, {:.0f} % of the time for writing\n", rate / million,
+        course.milliseconds > 0 ? 100 * course.writing / course.milliseconds : 0);
+  print_written(requested_files(options.output));
+}
+
+}  // namespace vorocl::command

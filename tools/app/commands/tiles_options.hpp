@@ -1,0 +1,53 @@
+// What vorocl tiles is told, and what it says at the end.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "app/options/command_line.hpp"
+#include "app/outputs/plane_writer.hpp"
+#include "app/sources/plane_input.hpp"
+#include "vorocl/device.hpp"
+
+namespace vorocl::command {
+
+struct TilesOptions {
+  PlaneInputOptions input;
+  int side = 0;  // of tiles; 0: the device's
+  std::optional<PlaneRectangle> part;
+  Metric metric = Metric::euclidean;
+  PlaneWriterOptions output;
+  std::optional<Crs> crs;
+  std::string device;
+  bool json = false;
+  std::string run;  // in lines, what a run must share with the one that it goes on with
+};
+
+/// Adds the subcommand, which checks its options and gives them to a function.
+void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>& run);
+
+/// The tiles that are asked for, on a device that is to make them.
+Tiling tiling_of(const TilesOptions& options, const Device& device);
+
+/// Where the part lies in the coordinates of the bounds; none without bounds.
+std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling);
+
+/// What tells a run from others, in lines.
+std::string run_of(const TilesOptions& options, const Tiling& tiling);
+
+/// How far a run has come.
+struct TilesCourse {
+  std::uint64_t made_before = 0;  // tiles of the run that this one goes on with
+  std::uint64_t tiles = 0;        // that are complete, these too
+  std::uint64_t pixels = 0;       // of those that this run has made
+  double milliseconds = 0;        // of the tiles that this run has made, with the time to write them ...
+  double writing = 0;             // ... which is this, for each process
+  int processes = 1;
+};
+
+void print_result(const TilesOptions& options, const Device& device, const PlaneFacts& seeds,
+                  const Tiling& tiling, const TilesCourse& course);
+
+}  // namespace vorocl::command
