@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# vorocl-mpi tiles against vorocl tiles: the same bytes from one to four processes, also after some were killed, and one
+# message where it cannot be: test_shared_tiles.sh FOLDER_OF_COMMANDS [KILLS]
+set -euo pipefail
+commands=$1 kills=${2:-2}
+ranks=$(dirname "$(readlink -f "$0")")/run_ranks.sh
+folder=$(mktemp -d)
+trap 'rm -r "$folder"' EXIT
+cd "$folder"
+
+fail() {
+  echo "$*" >&2
+  exit 1
+}
+
+# Seeds in the file blobs.csv: in two discs, of which one is dense.
+awk 'BEGIN { srand(3); print "x,y"; for (i = 0; i < 60000; ++i) { a = 6.2831853 * rand(); r = sqrt(rand()) * (i % 3 ? 40 : 300);
+  print 400 + 100 * (i % 3 == 0) + r * cos(a) "," 350 + r * sin(a) } }' >blobs.csv
+
+same() { # ...: these options make the same files on all numbers of ranks
+  local files=(labels.npy map.png cells.csv pairs.csv)
+  "$commands/vorocl" tiles "$@" --labels labels.npy -o map.png --cells cells.csv --adjacency pairs.csv >/dev/null
+  "$commands/vorocl" tiles "$@" --labels labels.zarr >/dev/null
+  mkdir alone
+  mv "${files[@]}" labels.zarr alone
+  for count in 1 2 3 4; do
+    "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.npy -o map.png --cells cells.csv \
+      --adjacency pairs.csv >log || fail "$count ranks, $*: failed"
+    "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.zarr >>log || fail "$count ranks, $*: failed"
+    for file in "${files[@]}" labels.zarr; do
+      diff -r "$file" "alone/$file" >/dev/null || fail "$count ranks, $*: $file differs"
+    done
+    rm -r "${files[@]}" labels.zarr
+    [ -z "$(ls -A | grep -vxE 'alone|blobs.csv|log')" ] || fail "$count ranks, $*: left $(ls -A)"
+  done
+  rm -r alone
+}
+same --points blobs.csv --size 1000x700 --bounds 0,0,1000,700 --tile 128
+same --random 50000 --size 1500x900 --periodic xy --tile 400 --metric manhattan
+same --random 3 --size 900x20 --tile 64 --only 100,3,801,19
+
+# Whatever is killed, and when: another run goes on, with another number of processes.
+options=(--points blobs.csv --size 4000x3000 --bounds 0,0,1000,700 --tile 250)
+"$commands/vorocl" tiles "${options[@]}" --labels alone.npy --cells alone.csv >/dev/null 2>&1
+for kill in $(seq "$kills"); do
+  setsid "$ranks" $((kill % 3 + 2)) "$commands/vorocl-mpi" tiles "${options[@]}" --labels labels.npy --cells cells.csv \
+    >log 2>&1 &
+  leader=$!
+  sleep "$(awk -v seed="$kill" 'BEGIN { srand(seed); print 0.4 + 2.2 * rand() }')"
+  if [ $((kill % 2)) = 0 ]; then
+    kill -KILL -- -$leader 2>/dev/null || true
+    pkill -KILL -s "$leader" 2>/dev/null || true
+  else # one process alone; mpiexec ends the others
+    one=$(pgrep -s "$leader" vorocl-mpi | tail -n 1) && kill -KILL "$one" || true
+  fi
+  wait "$leader" 2>/dev/null || true
+  while pgrep -s "$leader" vorocl-mpi >/dev/null; do sleep 0.05; done
+  if [ ! -e labels.npy ]; then
+    "$ranks" $((kill % 2 + 1)) "$commands/vorocl-mpi" tiles "${options[@]}" --labels labels.npy --cells cells.csv \
+      --resume >log 2>&1 || fail "after kill $kill: $(grep vorocl: log)"
+  fi
+  cmp labels.npy alone.npy || fail "after kill $kill: other labels"
+  cmp cells.csv alone.csv || fail "after kill $kill: other cells"
+  rm labels.npy cells.csv
+done
+
+refused() { # MESSAGE COUNT ...: the options end the run with this message, once
+  local message=$1 count=$2
+  shift 2
+  if "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" >log 2>&1; then fail "$*: was not refused"; fi
+  [ "$(grep -c '^vorocl: error: ' log)" = 1 ] || fail "$*: not one message: $(cat log)"
+  grep -qF "$message" log || fail "$*: no \"$message\" in: $(cat log)"
+}
+refused 'cannot read missing.csv' 3 --points missing.csv --size 100x100 --labels x.npy
+refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --labels x.tif
+refused 'nothing to write' 2 --random 10 --size 100x100
+refused "the plane's width is 0" 2 --random 10 --size 0x100 --labels x.npy
+{ cat blobs.csv blobs.csv blobs.csv; echo 'nan,1'; } | sed '2,$ { /x,y/d }' >bad.csv
+refused 'not finite' 3 --points bad.csv --size 100x100 --labels x.npy
+echo mine >x.npy.journal
+refused 'x.npy.journal is no journal of a run' 2 --random 10 --size 100x100 --labels x.npy --resume
+rm x.npy.journal
+[ ! -e x.npy ] && [ ! -e x.npy.part ] || fail "a refused run left something"
+
+# Fewer seeds than ranks, and ranks without tiles, are no error.
+"$ranks" 4 "$commands/vorocl-mpi" tiles --random 2 --size 100x100 --labels x.npy >log 2>&1
+grep -q 'these ranks made none: ' log || fail "idle ranks are not named: $(cat log)"
