@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
           failure, {"there \"seeds 3000 ", "here \"seeds 3001 ", "remove a.npy.journal and the .part files"});
   refuses(folder, "tiles --random 3000 --size 700x500 --tile 32 --labels a.npy --cells c.csv --resume",
           failure, {"there \"tiles of 64\", here \"tiles of 32\""});
-  refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove it"});
+  refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove a.npy.journal"});
   std::filesystem::rename(folder / "a.npy.part", folder / "other");
   refuses(folder, large + "--resume", failure, {"a.npy.part: No such file"});
   std::filesystem::rename(folder / "other", folder / "a.npy.part");
