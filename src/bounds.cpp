@@ -81,7 +81,7 @@ void PixelMap::Axis::repeat(double period_low, double period_high, const char* n
 }
 
 double PixelMap::Axis::pixel(double at) const {
-  if (high_ == low_) return at == low_ ? static_cast<double>(pixels_ / 2) : at < low_ ? -1 : count_;
+  if (high_ == low_) return at == low_ ? std::floor(count_ / 2) : at < low_ ? -1 : count_;
   if (period_ == 0) {
     const double position = std::floor((at - low_) * count_ / (high_ - low_));
     return closed_ && at <= high_ ? std::min(position, count_ - 1) : position;

@@ -106,11 +106,9 @@ BOOST_AUTO_TEST_CASE(points_of_an_array_make_the_same_plane) {
   const TemporaryFolder folder;
   write_points_file(folder);
   write_npy_points(folder / "p.npy", {{1, 2}, {30, 4}, {-20, -5}, {55, 66}, {55, 67}, {12.5, 9}});
-  for (const std::string file : {"p.csv", "p.npy"}) {
-    BOOST_TEST(run(folder, "tiles --points " + file + " --size 80x60 --labels " + file + ".npy").exit_code ==
-               0);
-  }
-  BOOST_TEST((content_of(folder / "p.csv.npy") == content_of(folder / "p.npy.npy")));
+  BOOST_TEST(run(folder, "tiles --points p.csv --size 80x60 --labels a.npy").exit_code == 0);
+  BOOST_TEST(run(folder, "tiles --points p.npy --size 80x60 --labels b.npy").exit_code == 0);
+  BOOST_TEST((content_of(folder / "a.npy") == content_of(folder / "b.npy")));
 }
 
 BOOST_AUTO_TEST_CASE(a_part_has_the_labels_of_the_whole) {
@@ -197,7 +195,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, "tiles --random 9 --size 2147483648x30 --labels a.npy", usage, {"2147483647"});
   refuses(folder, "tiles --random 4294967295 --size 40x30 --labels a.npy", usage, {"--random", "4294967294"});
   refuses(folder, "tiles --random 9 --size 2000000000x2000000000 --labels a.npy", failure,
-          {"GB of disk space"});
+          {"of disk space at least"});
   refuses(folder, points + "--labels a.tif --crs 32632 --bounds 0,0,60,40", usage, {"EPSG:n"});
   refuses(folder, points + "--labels a.tif --crs EPSG:9 --bounds 0,0,60,40", usage, {"--crs"});
   refuses(folder, points + "--labels a.npy --crs EPSG:4326 --bounds 0,0,60,40", usage, {"--crs is for"});

@@ -58,6 +58,8 @@ BOOST_AUTO_TEST_CASE(files_that_do_not_fit_on_the_disk_are_errors,
         render + "--labels a.npy", render + "--labels a.tif", render + "--labels a.vti",
         std::string("cells --random 200 --size 256x256 --adjacency a.csv"),
         std::string("cells --random 200 --size 256x256 --border a.png"),
+        std::string("tiles --random 200 --size 256x256 --tile 64 --labels a.npy"),
+        std::string("tiles --random 200 --size 256x256 --tile 64 --labels a.tif"),
         std::string("relax --random 2000 --size 256x256 --rounds 1 --relaxed-points a.csv")}) {
     const TemporaryFolder whole;
     succeeds(whole, arguments);
@@ -65,6 +67,26 @@ BOOST_AUTO_TEST_CASE(files_that_do_not_fit_on_the_disk_are_errors,
     fills_the_disk(arguments, pages - 1, whole);
     const TemporaryFolder folder;
     BOOST_TEST(run(folder, arguments, on_disk_of(pages)).exit_code == 0);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tiles_that_do_not_fit_on_the_disk_are_made_later,
+                     *boost::unit_test::precondition(may_mount)) {
+  const std::string arguments = "tiles --random 2000 --size 256x256 --tile 64 --labels a.zarr";
+  const TemporaryFolder whole, folder;
+  succeeds(whole, arguments);
+  fills_the_disk(arguments, 6, whole);
+  const Result result = run(folder, arguments + " --resume", on_disk_of(12));
+  BOOST_TEST(result.exit_code == failure);
+  for (const char* const part : {"No space left", "tiles complete before that: ", "a.zarr.journal"}) {
+    BOOST_TEST(result.error.find(part) != std::string::npos, result.error);
+  }
+  const Result more = run(folder, arguments + " --resume", "cd left && ");
+  BOOST_TEST(more.exit_code == 0, more.error);
+  BOOST_TEST(more.out.find("made before: ") != std::string::npos, more.out);
+  for (const auto& entry : std::filesystem::directory_iterator(whole / "a.zarr")) {
+    const std::string name = "a.zarr/" + entry.path().filename().string();
+    BOOST_TEST((content_of(folder / ("left/" + name)) == content_of(whole / name)), name);
   }
 }
 

@@ -268,6 +268,66 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
+  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+    const Plane plane(231, 190, axes);
+    const std::vector<Point> points = centres(random_pixels(Grid(231, 190), 300, 4));
+    const PlaneSeeds seeds(plane, points);
+    const Tiling tiling(plane, 50);
+    PlaneCells whole;
+    TileOptions options;
+    options.cells = &whole;
+    labels_of(seeds, tiling, options);
+
+    // By two who have every other tile, and give away what they have after every third.
+    PlaneCells sums;
+    for (const std::uint64_t first : {1, 0}) {
+      PlaneCells some;
+      options.cells = &some;
+      std::uint64_t number = first;
+      const NextTile next = [&]() -> std::optional<std::uint64_t> {
+        number += 2;
+        return number - 2 < tiling.count() ? std::optional(number - 2) : std::nullopt;
+      };
+      int made = 0;
+      exact_tiles(
+          test_device(), seeds, tiling, next,
+          [&](const TileLabels&) {
+            if (++made % 3 == 0) sums.add(some.take());
+          },
+          options);
+      sums.add(some.take());
+      sums.add(some.take());  // nothing is left
+    }
+    BOOST_TEST(sums.size() == whole.size());
+    for (std::size_t id = 0; id < points.size(); ++id) {
+      const PlaneCell cell = sums.cell(id), expected = whole.cell(id);
+      BOOST_TEST(cell.area == expected.area);
+      if (cell.area == 0) continue;
+      BOOST_TEST((cell.centroid.x == expected.centroid.x && cell.centroid.y == expected.centroid.y));
+      BOOST_TEST((cell.left == expected.left && cell.bottom == expected.bottom));
+      BOOST_TEST(cell.touches_border == expected.touches_border);
+    }
+    const auto pairs = sums.pairs(), expected = whole.pairs();
+    BOOST_REQUIRE(pairs.size() == expected.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      BOOST_TEST((pairs[i].a == expected[i].a && pairs[i].b == expected[i].b &&
+                  pairs[i].length == expected[i].length));
+    }
+
+    std::vector<char> taken = sums.take();
+    PlaneCells of_other_tiles;
+    options.cells = &of_other_tiles;
+    labels_of(seeds, Tiling(plane, 64), options);
+    check_error([&] { of_other_tiles.add(taken); }, {"of other tiles"});
+    taken.pop_back();
+    check_error([&] { PlaneCells().add(taken); }, {"these are not the sums"});
+    PlaneCells none;
+    none.add(PlaneCells().take());
+    BOOST_TEST(none.size() == 0u);
+  }
+}
+
 // One cell of 2^62 pixels is more than can be made; some tiles of it are enough for sums past 64 bits.
 BOOST_AUTO_TEST_CASE(sums_may_pass_64_bits) {
   const std::int64_t side = Plane::max_side;

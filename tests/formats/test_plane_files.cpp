@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
   refuses("a.tif", odd, "multiples of 16, not 100");
   refuses("a.tif", Tiling(huge.plane(), 16), "at most 2^32 - 1 tiles");
   for (const char* const name : {"a.npy", "a.zarr", "a.tif"}) {
-    refuses(name, huge, "GB of disk space");
+    refuses(name, huge, "of disk space at least");
     refuses(std::string("none/") + name, tiling, "none does not exist");
   }
   fs::create_directory(folder / "a.zarr");

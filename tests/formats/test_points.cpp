@@ -161,8 +161,10 @@ BOOST_AUTO_TEST_CASE(bad_npy_files_are_refused) {
 
 BOOST_AUTO_TEST_CASE(files_are_read_in_blocks_that_are_the_whole) {
   const TemporaryFolder folder;
-  std::vector<Point> points;
-  for (int i = 0; i < 150000; ++i) points.push_back({i / 8.0, 1e6 - i});
+  std::vector<Point> points(150000);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    points[i] = {static_cast<double>(i) / 8, 1e6 - static_cast<double>(i)};
+  }
   for (const char* const name : {"p.csv", "p.npy"}) {
     write_points(folder / name, points, {});
     std::vector<Point> read;

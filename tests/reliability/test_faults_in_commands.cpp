@@ -21,6 +21,7 @@ const std::string subcommands[] = {
     "cells --random 9 --size 40x30 --cells c.csv --adjacency a.csv --distance d.tif --border b.png --labels "
     "l.npy",
     "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
+    "tiles --random 9 --size 40x30 --tile 16 --labels l.tif -o p.png --cells c.csv --adjacency a.csv",
     "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",
     "evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
     "ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",

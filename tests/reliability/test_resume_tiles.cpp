@@ -185,10 +185,10 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   refuses(folder, large + "--resume --metric manhattan", failure,
           {"a.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
   refuses(folder, "tiles --random 3001 --size 700x500 --tile 64 --labels a.npy --cells c.csv --resume",
-          failure, {"there \"seeds 3000 ", "here \"seeds 3001 ", "remove it and the .part files"});
+          failure, {"there \"seeds 3000 ", "here \"seeds 3001 ", "remove a.npy.journal and the .part files"});
   refuses(folder, "tiles --random 3000 --size 700x500 --tile 32 --labels a.npy --cells c.csv --resume",
           failure, {"there \"tiles of 64\", here \"tiles of 32\""});
-  refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove it"});
+  refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove a.npy.journal"});
   std::filesystem::rename(folder / "a.npy.part", folder / "other");
   refuses(folder, large + "--resume", failure, {"a.npy.part: No such file"});
   std::filesystem::rename(folder / "other", folder / "a.npy.part");
@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   BOOST_TEST(run(folder, large + "--resume").exit_code == 0);
 
   folder.file("a.npy.part", "mine");
-  refuses(folder, large + "--resume", failure, {"a.npy.part is there", "remove it"});
+  refuses(folder, large + "--resume", failure, {"a.npy.part is there", "remove a.npy.part"});
   BOOST_TEST(content_of(folder / "a.npy.part") == "mine");
 }
 

@@ -28,7 +28,8 @@ const std::string subcommands[] = {
     "cells --random 500 --size 700x600 --cells c.csv --adjacency a.csv --distance d.tif --border b.png "
     "--labels l.npy",
     "relax --random 500 --size 300x200 --rounds 20 -o r.mp4 --relaxed-points p.csv --energy e.csv",
-    "relax --random 500 --size 300x200 --rounds 20 -o r/%d.png --labels l.npy"};
+    "relax --random 500 --size 300x200 --rounds 20 -o r/%d.png --labels l.npy",
+    "tiles --random 500 --size 300x200 --tile 32 --labels l.tif -o p.png --cells c.csv"};
 
 /// Waits for the end; whether a signal was it, which must be one of these.
 bool ended_by_signal(pid_t process, const std::set<int>& signals) {

@@ -29,6 +29,12 @@ struct Columns {
 /// "x,y" to columns. Throws Error unless these are two names.
 Columns parse_columns(const std::string& text);
 
+/// The columns of points and values, from 0.
+struct CsvIndices {
+  std::size_t x = 0, y = 1;
+  std::optional<std::size_t> value;
+};
+
 /// The points of a CSV file with commas, one after the other. A first line without any number is a header.
 /// Without `columns` the header must name an x and a y (in any case); where there is no header the first two
 /// columns count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or
@@ -48,16 +54,11 @@ class CsvReader {
   double value() const { return value_; }  ///< of the value column
 
  private:
-  struct Indices {
-    std::size_t x = 0, y = 1;
-    std::optional<std::size_t> value;
-  };
-
   std::string path_;
   std::optional<Columns> columns_;
   std::string value_column_;
   LineReader lines_;
-  std::optional<Indices> indices_;
+  std::optional<CsvIndices> indices_;
   bool has_points_ = false;
   Point point_;
   double value_ = 0;

@@ -32,10 +32,9 @@ std::string progress_line(const Advance& advance, double seconds, const Progress
     line = fmt::format("[{}{}] {:3.0f} %  ", std::string(filled, '#'), std::string(bar_width - filled, '-'),
                        100 * *done);
   }
-  const bool is_counted = units.work.empty();
-  const double work = is_counted ? static_cast<double>(advance.count) : advance.work;
+  const double work = units.work ? advance.work : static_cast<double>(advance.count);
   line += fmt::format("{} {}  {:.1f} {}/s", advance.count, units.count, seconds > 0 ? work / seconds : 0,
-                      is_counted ? units.count : units.work);
+                      units.work.value_or(units.count));
   if (done && *done > advance.done_before) {
     line += fmt::format("  {} left", duration(seconds * (1 - *done) / (*done - advance.done_before)));
   }

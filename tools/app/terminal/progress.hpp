@@ -20,7 +20,7 @@ struct Advance {
 /// The units of what is counted, and of the rate that is shown.
 struct ProgressUnits {
   std::string count = "frames";
-  std::string work = "";  ///< empty: those that are counted
+  std::optional<std::string> work = std::nullopt;  ///< none: that of what is counted
 };
 
 /// One line on standard error, where that is a terminal, else nothing; gone at the end of the scope.

@@ -4,11 +4,25 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 
 #include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
+
+namespace {
+
+/// "58.5 GB".
+std::string amount_of(std::uint64_t bytes) {
+  auto amount = static_cast<double>(bytes);
+  const char* const units[] = {"bytes", "kB", "MB", "GB", "TB", "PB", "EB"};
+  std::size_t unit = 0;
+  for (; amount >= 1000 && unit + 1 < std::size(units); ++unit) amount /= 1000;
+  return fmt::format("{:.4g} {}", amount, units[unit]);
+}
+
+}  // namespace
 
 const std::vector<std::string>& plane_extensions() {
   static const std::vector<std::string> all = {".npy", ".zarr", ".tif", ".tiff"};
@@ -44,10 +58,8 @@ void require_space(const std::string& path, std::uint64_t bytes) {
   std::error_code code;
   const fs::space_info space = fs::space(folder.empty() ? "." : folder, code);
   if (code || space.available >= bytes) return;  // writing will say what is wrong with the disk
-  constexpr double gigabyte = 1e9;
-  throw Error(fmt::format("{} needs {:.1f} GB of disk space at least, and there are {:.1f} GB", path,
-                          static_cast<double>(bytes) / gigabyte,
-                          static_cast<double>(space.available) / gigabyte));
+  throw Error(fmt::format("{} needs {} of disk space at least, and there are {}", path, amount_of(bytes),
+                          amount_of(space.available)));
 }
 
 }  // namespace vorocl::command

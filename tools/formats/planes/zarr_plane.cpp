@@ -35,13 +35,14 @@ Error failed(const std::string& what, const std::string& path) {
 
 class ZarrPlane : public PlaneFile {
  public:
-  ZarrPlane(const std::string& path, const Tiling& tiling) : path_(path), tiling_(tiling) {
+  ZarrPlane(const std::string& path, const Tiling& tiling)
+      : path_(path), part_path_(path + ".part"), tiling_(tiling) {
     if (!is_there(path_)) {
       OutputFile{path_};  // for its reasons where nothing can be made there
     } else if (!is_there(path_ + "/.zarray")) {
       throw Error("cannot write " + path_ + ": it is there, and is no Zarr array; remove it");
     }
-    if (!is_there(part_path())) require_space(path_, label_bytes(tiling_) / greatest_compression);
+    if (!is_there(part_path_)) require_space(path_, label_bytes(tiling_) / greatest_compression);
   }
 
   ~ZarrPlane() override {
@@ -57,11 +58,11 @@ class ZarrPlane : public PlaneFile {
 
   void open_part(const std::optional<KeptTiles>& kept) override {
     stays_ = true;
-    if (kept && kept->is_complete && !is_there(part_path())) {
+    if (kept && kept->is_complete && !is_there(part_path_)) {
       // A run that ended between two renames: back to the state before them.
-      if (rename(path_.c_str(), part_path().c_str()) != 0) throw failed("renaming", path_);
+      if (rename(path_.c_str(), part_path_.c_str()) != 0) throw failed("renaming", path_);
     }
-    folder_ = part_path();
+    folder_ = part_path_;
     const bool begins = !kept || (kept->tiles.empty() && !is_there(folder_));
     if (begins) make_folder();
     if (!kept) return;
@@ -74,7 +75,7 @@ class ZarrPlane : public PlaneFile {
     write_metadata();
   }
 
-  std::string part_path() const override { return path_ + ".part"; }
+  std::string part_path() const override { return part_path_; }
 
   void join() override {
     stays_ = true;
@@ -157,7 +158,7 @@ class ZarrPlane : public PlaneFile {
     if (close(file) != 0 || !is_written) throw error;
   }
 
-  std::string path_;
+  std::string path_, part_path_;
   Tiling tiling_;
   std::string folder_;  // while it is written; empty: before, and afterwards
   std::optional<TemporaryName> name_;
