@@ -5,7 +5,7 @@ set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VoroCL)
 install(TARGETS vorocl EXPORT VoroCLTargets)
 install(EXPORT VoroCLTargets NAMESPACE VoroCL:: DESTINATION ${package_folder})
 install(DIRECTORY include/vorocl ${CMAKE_CURRENT_BINARY_DIR}/include/vorocl TYPE INCLUDE
-        PATTERN picture.hpp EXCLUDE)
+        PATTERN picture.hpp EXCLUDE PATTERN mpi.hpp EXCLUDE)
 
 # Two export files, so that who uses the core alone needs no OpenCV.
 set(pkgconfig_files vorocl)
@@ -14,6 +14,12 @@ if(VOROCL_BUILD_PICTURE)
   install(EXPORT VoroCLPictureTargets NAMESPACE VoroCL:: DESTINATION ${package_folder})
   install(FILES include/vorocl/picture.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vorocl)
   list(APPEND pkgconfig_files vorocl-picture)
+endif()
+
+if(VOROCL_MPI)
+  install(TARGETS vorocl_mpi EXPORT VoroCLMpiTargets)
+  install(EXPORT VoroCLMpiTargets NAMESPACE VoroCL:: DESTINATION ${package_folder})
+  install(FILES include/vorocl/mpi.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vorocl)
 endif()
 
 set(library_is_static TRUE)

@@ -70,7 +70,9 @@ struct TileCounterState;
 /// one by one to whoever asks first (MPI_Fetch_and_op). Tiles are weighed by their pixels and their seeds.
 class VOROCL_API TileCounter {
  public:
-  /// Collective. Of the tiles with these numbers, the same on all ranks. The seeds are shared out.
+  /// Collective. Of all tiles, or of those with these numbers, the same on all ranks. The seeds are shared
+  /// out.
+  TileCounter(MPI_Comm communicator, const SharedSeeds& seeds, const Tiling& tiling);
   TileCounter(MPI_Comm communicator, const SharedSeeds& seeds, const Tiling& tiling,
               const std::vector<std::uint64_t>& tiles);
 

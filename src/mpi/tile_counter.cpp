@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <exception>
+#include <numeric>
 
 #include "mpi/agreement.hpp"
 #include "vorocl/mpi.hpp"
@@ -13,6 +14,12 @@ double cost_of(const SharedSeeds& seeds, const Tile& tile) {
   constexpr double pixels_per_seed = 20;
   return static_cast<double>(tile.width) * tile.height +
          pixels_per_seed * seeds.expected({tile.x, tile.y, tile.width, tile.height});
+}
+
+std::vector<std::uint64_t> all_of(const Tiling& tiling) {
+  std::vector<std::uint64_t> tiles(tiling.count());
+  std::iota(tiles.begin(), tiles.end(), std::uint64_t{0});
+  return tiles;
 }
 
 }  // namespace
@@ -80,6 +87,8 @@ struct TileCounterState {
 TileCounter::TileCounter(MPI_Comm communicator, const SharedSeeds& seeds, const Tiling& tiling,
                          const std::vector<std::uint64_t>& tiles)
     : state_(std::make_unique<TileCounterState>(communicator, seeds, tiling, tiles)) {}
+TileCounter::TileCounter(MPI_Comm communicator, const SharedSeeds& seeds, const Tiling& tiling)
+    : TileCounter(communicator, seeds, tiling, all_of(tiling)) {}
 TileCounter::~TileCounter() = default;
 std::optional<std::uint64_t> TileCounter::next() { return state_->next(); }
 

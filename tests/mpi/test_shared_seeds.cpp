@@ -47,9 +47,7 @@ void add_slice(SharedSeeds& seeds, const std::vector<Pixel>& pixels, bool shuffl
 /// The labels that all ranks make together, on all of them.
 std::vector<std::uint32_t> labels_of(const SharedSeeds& seeds, const Grid& grid, int side, Metric metric) {
   const Tiling tiling(seeds.plane(), side);
-  std::vector<std::uint64_t> numbers(tiling.count());
-  for (std::uint64_t i = 0; i < tiling.count(); ++i) numbers[i] = i;
-  TileCounter counter(MPI_COMM_WORLD, seeds, tiling, numbers);
+  TileCounter counter(MPI_COMM_WORLD, seeds, tiling);
   // A label is written by one rank; pixels of none would be 0 here, and so would those of two be wrong.
   std::vector<std::uint32_t> own(grid.pixels(), 0), all(grid.pixels());
   std::uint64_t made = 0, made_by_all = 0;
