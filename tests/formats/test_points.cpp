@@ -167,14 +167,20 @@ BOOST_AUTO_TEST_CASE(files_are_read_in_blocks_that_are_the_whole) {
   }
   for (const char* const name : {"p.csv", "p.npy"}) {
     write_points(folder / name, points, {});
-    std::vector<Point> read;
-    std::size_t blocks = 0;
-    read_in_blocks(folder / name, std::nullopt, [&](const std::vector<Point>& block) {
-      read.insert(read.end(), block.begin(), block.end());
-      ++blocks;
-    });
-    BOOST_TEST((pairs_of(read) == pairs_of(points)), name);
-    BOOST_TEST(blocks == 3u);
+    for (const std::uint64_t parts : {1, 2, 5}) {
+      std::vector<Point> read(points.size());
+      std::size_t blocks = 0;
+      for (std::uint64_t part = 0; part < parts; ++part) {
+        read_in_blocks(folder / name, std::nullopt, {part, parts},
+                       [&](std::uint64_t first, const std::vector<Point>& block) {
+                         std::copy(block.begin(), block.end(),
+                                   read.begin() + static_cast<std::ptrdiff_t>(first));
+                         ++blocks;
+                       });
+      }
+      BOOST_TEST((pairs_of(read) == pairs_of(points)), name);
+      BOOST_TEST(blocks == 3u);
+    }
   }
 }
 
@@ -182,16 +188,17 @@ BOOST_AUTO_TEST_CASE(a_file_that_changes_while_it_is_read_is_refused) {
   const TemporaryFolder folder;
   for (const std::string name : {"p.csv", "p.npy"}) {
     write_points(folder / name, {{1, 2}, {3, 4}}, {});
-    const auto append = [&](const std::vector<Point>&) {
+    const auto append = [&](std::uint64_t, const std::vector<Point>&) {
       std::ofstream(folder / name, std::ios::app) << "5,6,7\n";
     };
-    check_error([&] { read_in_blocks(folder / name, std::nullopt, append); },
+    check_error([&] { read_in_blocks(folder / name, std::nullopt, {}, append); },
                 {name, "changed while it was read"});
   }
   mkfifo((folder / "f.csv").c_str(), 0600);
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> writer(std::fopen((folder / "f.csv").c_str(), "r+"),
                                                                std::fclose);
-  check_error([&] { read_in_blocks(folder / "f.csv", std::nullopt, [](const auto&) {}); }, {"it is a pipe"});
+  check_error([&] { read_in_blocks(folder / "f.csv", std::nullopt, {}, [](std::uint64_t, const auto&) {}); },
+              {"it is a pipe"});
 }
 
 BOOST_AUTO_TEST_CASE(masks_count_every_colour_but_not_alpha) {
