@@ -118,6 +118,7 @@ BOOST_AUTO_TEST_CASE(signals_keep_what_is_complete_and_name_it) {
 }
 
 BOOST_AUTO_TEST_CASE(without_resume_nothing_stays) {
+  succeeds({}, "tiles --random 300 --size 200x200 --tile 64 -o a.png");  // builds kernels
   const std::string large = "tiles --random 300000 --size 6000x6000 --tile 64 -o a.png --labels a";
   for (const std::string end : {".npy", ".zarr", ".tif"}) {
     for (const int signals : {1, 2}) {
