@@ -31,8 +31,10 @@ class SummedRecords {
 
  private:
   void sum() {
-    std::sort(records_.begin(), records_.end(),
-              [](const Record& a, const Record& b) { return a.key() < b.key(); });
+    const auto by_key = [](const Record& a, const Record& b) { return a.key() < b.key(); };
+    const auto first_new = records_.begin() + static_cast<std::ptrdiff_t>(summed_);
+    std::sort(first_new, records_.end(), by_key);
+    std::inplace_merge(records_.begin(), first_new, records_.end(), by_key);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < records_.size(); ++i) {
       if (kept > 0 && records_[kept - 1].key() == records_[i].key()) {

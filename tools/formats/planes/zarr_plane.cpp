@@ -14,6 +14,7 @@
 #include "formats/files.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
+#include "formats/planes/workers.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -22,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int level = 1;  // higher ones take several times as long, for a few per cent
+constexpr int level = 1;                 // higher ones take several times as long, for a few per cent
+constexpr std::size_t most_workers = 4;  // each has a tile in memory, and what becomes of it
 
 bool is_there(const std::string& path) {
   std::error_code ignored;
@@ -46,6 +48,7 @@ class ZarrPlane : public PlaneFile {
   }
 
   ~ZarrPlane() override {
+    workers_.reset();  // what still writes into the folder
     std::error_code ignored;
     if (!stays_ && !folder_.empty()) fs::remove_all(folder_, ignored);
   }
@@ -83,19 +86,23 @@ class ZarrPlane : public PlaneFile {
   }
 
   WrittenTile write(const TileLabels& tile) override {
-    const std::vector<std::uint32_t> labels = padded(tile, tiling_.side());
-    const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
-    uLongf size = compressBound(bytes);
-    compressed_.resize(size);
-    if (compress2(compressed_.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes, level) !=
-        Z_OK) {
-      throw std::bad_alloc();  // all else that could go wrong is a wrong call
-    }
-    write_file(chunk(tile.number), compressed_.data(), size);
+    // Compressing takes longer than making the tile.
+    if (!workers_) workers_.emplace(most_workers);
+    workers_->add([labels = padded(tile, tiling_.side()), path = chunk(tile.number)] {
+      const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
+      uLongf size = compressBound(bytes);
+      std::vector<Bytef> compressed(size);
+      if (compress2(compressed.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes, level) !=
+          Z_OK) {
+        throw std::bad_alloc();  // all else that could go wrong is a wrong call
+      }
+      write_file(path, compressed.data(), size);
+    });
     return {tile.number, 0};
   }
 
   void sync() override {
+    if (workers_) workers_->wait();
     const int folder = ::open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool done = folder >= 0 && syncfs(folder) == 0;
     const Error error = failed("writing", path_);
@@ -163,7 +170,7 @@ class ZarrPlane : public PlaneFile {
   std::string folder_;  // while it is written; empty: before, and afterwards
   std::optional<TemporaryName> name_;
   bool stays_ = false;
-  std::vector<Bytef> compressed_;
+  std::optional<Workers> workers_;
 };
 
 }  // namespace
