@@ -20,11 +20,14 @@ struct SharedSeedsState;
 /// a Z-curve and cut into equal parts, however they are clustered. Of every 512 seeds all ranks know a box.
 /// A tile's seeds are found by the boxes, and those of other ranks are fetched from their memory, without
 /// their help (MPI_Get). Memory per rank: 12 bytes for each of its seeds, 24 while they are shared out; 0.1
-/// bytes for each seed of the plane; and 64 MiB for seeds that were fetched.
+/// bytes for each seed of the plane; 64 MiB for seeds that were fetched; and what PlaneSeeds need for those
+/// near a tile.
 ///
-/// What is said to be collective must be called by all ranks. Of errors there all ranks throw one.
+/// What is said to be collective must be called by all ranks. Where one of them has too little memory for its
+/// seeds, all throw. Another error of one rank alone leaves the others waiting, as is usual with MPI: end
+/// them (MPI_Abort).
 ///
-/// Threads: one thread at a time, which may call MPI (MPI_THREAD_SERIALIZED or more).
+/// Threads: one, that may call MPI.
 class VOROCL_API SharedSeeds : public SeedSource {
  public:
   /// Collective. The communicator is copied.
@@ -63,6 +66,9 @@ class VOROCL_API SharedSeeds : public SeedSource {
  private:
   std::unique_ptr<SharedSeedsState> state_;
 };
+
+/// Collective. Throws Error on all ranks if they run different versions of the library.
+VOROCL_API void check_versions(MPI_Comm communicator);
 
 struct TileCounterState;
 

@@ -57,7 +57,7 @@ class VOROCL_API Tiling {
   std::uint64_t columns_, rows_;
 };
 
-/// A side for tiles that a device holds with a quarter of its memory, and labels fast: 256 to 8192, a power
+/// A side for tiles that a device holds with a quarter of its memory, and labels fast: 256 to 4096, a power
 /// of two.
 VOROCL_API int default_tile_side(const Device& device);
 
@@ -78,7 +78,8 @@ class VOROCL_API SeedSource {
   virtual std::uint64_t ids() const = 0;
 
   /// Replaces what a list has by the seeds that own pixels of a rectangle of the plane, and few others. Of
-  /// seeds that share a pixel only the one that owns it.
+  /// seeds that share a pixel only the one that owns it. The rectangle has at most Grid::max_side pixels
+  /// along a side.
   virtual void find_near(const PlaneRectangle& rectangle, Metric metric,
                          std::vector<PlaneSeed>& seeds) const = 0;
 };
@@ -163,6 +164,8 @@ struct PlaneCellPair {
 /// The cells of a plane, summed over its tiles, on the host: 96 bytes per cell that has pixels, and 16 per
 /// pair, and while they are summed up to twice that. The sums are exact integers, of 128 bits where 64 can
 /// overflow, so they do not depend on the tiles.
+///
+/// Threads: one thread at a time, for questions too.
 class VOROCL_API PlaneCells {
  public:
   PlaneCells();
@@ -203,8 +206,9 @@ using NextTile = std::function<std::optional<std::uint64_t>()>;
 /// one tile, the function gets the one before. If it throws, nothing more is made.
 ///
 /// How: a host finds the seeds that may own a pixel of the tile (SeedSource), and an exact diagram is
-/// made of a window of the plane. Memory: 14 bytes of the device's per pixel of a tile and what its seeds
-/// need (Seeds), and nothing that grows with the plane. Throws Error as Diagram and exact_diagram().
+/// made of a window of the plane. Memory: 20 bytes of the device's per pixel of a tile, 14 where tiles have
+/// one size, and what its seeds need (Seeds), and nothing that grows with the plane. Throws Error as Diagram
+/// and exact_diagram().
 VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});

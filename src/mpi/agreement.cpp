@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "vorocl/mpi.hpp"
 #include "vorocl/version.hpp"
 
 namespace vorocl {

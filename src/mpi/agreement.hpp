@@ -47,7 +47,4 @@ void in_agreement(MPI_Comm communicator, Do what) {
   agree(communicator, wrong);
 }
 
-/// Throws Error if the ranks run different versions of the library.
-void check_versions(MPI_Comm communicator);
-
 }  // namespace vorocl

@@ -131,7 +131,8 @@ std::vector<PlaneSeed> exchanged(MPI_Comm communicator, std::vector<PlaneSeed>&&
   }
   MPI_Alltoall(counts.data(), 1, MPI_INT, received.data(), 1, MPI_INT, communicator);
   const std::vector<int> from = starts_of(counts), to = starts_of(received);
-  std::vector<PlaneSeed> part(static_cast<std::size_t>(to.back() + received.back()));
+  std::vector<PlaneSeed> part;
+  in_agreement(communicator, [&] { part.resize(static_cast<std::size_t>(to.back() + received.back())); });
   const ByteType type(sizeof(PlaneSeed));
   MPI_Alltoallv(sorted.data(), counts.data(), from.data(), type, part.data(), received.data(), to.data(),
                 type, communicator);
@@ -175,7 +176,7 @@ struct SharedSeedsState {
     std::uint64_t count = added.size();
     MPI_Allreduce(MPI_IN_PLACE, &ids, 1, MPI_UINT64_T, MPI_MAX, communicator);
     MPI_Allreduce(&count, &size, 1, MPI_UINT64_T, MPI_SUM, communicator);
-    put_in_order(added);
+    put_in_order(added);  // in place
     std::vector<PlaneSeed> part = exchanged(communicator, std::exchange(added, {}));
     put_in_order(part);
     std::vector<int> counts;

@@ -64,11 +64,11 @@ class BoxTree {
     return levels_.empty() || visit(levels_.size() - 1, 0, judge, use);
   }
 
-  /// Gives a function ranges of items: first of the boxes that are nearest, and none of those at a distance
-  /// above `limit()`.
-  template <typename Distance, typename Limit, typename Use>
-  void visit_nearest_first(Distance distance, Limit limit, Use use) const {
-    if (!levels_.empty()) visit_nearest_first(levels_.size() - 1, 0, distance, limit, use);
+  /// Gives a function ranges of items: those of boxes of which another function says, from the box and its
+  /// distance, that they count; the nearest ones first.
+  template <typename Distance, typename Counts, typename Use>
+  void visit_nearest_first(Distance distance, Counts counts, Use use) const {
+    if (!levels_.empty()) visit_nearest_first(levels_.size() - 1, 0, distance, counts, use);
   }
 
  private:
@@ -104,9 +104,9 @@ class BoxTree {
     return true;
   }
 
-  template <typename Distance, typename Limit, typename Use>
-  void visit_nearest_first(std::size_t level, std::size_t node, const Distance& distance, const Limit& limit,
-                           const Use& use) const {
+  template <typename Distance, typename Counts, typename Use>
+  void visit_nearest_first(std::size_t level, std::size_t node, const Distance& distance,
+                           const Counts& counts, const Use& use) const {
     if (level == 0) {
       use(first_item(level, node), end_item(level, node));
       return;
@@ -114,14 +114,18 @@ class BoxTree {
     std::array<std::pair<std::int64_t, std::size_t>, fan> order;
     std::size_t count = 0;
     for (std::size_t child = node * fan; child < end_child(level, node); ++child) {
-      const std::int64_t away = distance(levels_[level - 1][child]);
-      if (away > limit()) continue;
+      const Box& box = levels_[level - 1][child];
+      const std::int64_t away = distance(box);
+      if (!counts(box, away)) continue;
       std::size_t place = count++;
       for (; place > 0 && order[place - 1].first > away; --place) order[place] = order[place - 1];
       order[place] = {away, child};
     }
     for (std::size_t i = 0; i < count; ++i) {
-      if (order[i].first <= limit()) visit_nearest_first(level - 1, order[i].second, distance, limit, use);
+      const auto& [away, child] = order[i];
+      if (counts(levels_[level - 1][child], away)) {
+        visit_nearest_first(level - 1, child, distance, counts, use);
+      }
     }
   }
 

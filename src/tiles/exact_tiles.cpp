@@ -12,10 +12,10 @@ namespace vorocl {
 
 namespace {
 
-/// What tiles of one size are made with.
+/// What tiles of one size are made with. All have their labels in one buffer.
 struct TileMaker {
-  TileMaker(const Device& device, const Grid& grid)
-      : seeds(Internal::no_seeds(device, grid)), diagram(device, grid) {}
+  TileMaker(const Device& device, const Grid& grid, const cl::Buffer& labels)
+      : seeds(Internal::no_seeds(device, grid)), diagram(device, grid, labels) {}
 
   Seeds seeds;
   Diagram diagram;
@@ -31,7 +31,6 @@ class MappedLabels {
     labels_ = clEnqueueMapBuffer(device.queue()(), buffer(), CL_FALSE, CL_MAP_READ, 0,
                                  count * sizeof(cl_uint), 0, nullptr, &mapped_(), &status);
     check(status, "mapping the labels of a tile");
-    check(clFlush(device.queue()()), "starting the commands of a tile");
   }
   ~MappedLabels() {
     // If this fails, so does the next command that uses the buffer, which says so.
@@ -71,6 +70,7 @@ class TileEngine {
         of_seeds.periodic() != of_tiles.periodic()) {
       throw Error("the seeds are of another plane than the tiles; make both for the same one");
     }
+    labels_ = allocate(device, largest_bytes(), "the labels of a tile");
     if (options.cells) Internal::result(*options.cells).begin(seeds.ids(), tiling);
   }
 
@@ -79,7 +79,7 @@ class TileEngine {
     // While the device makes the tile before.
     seeds_.find_near({tile.x, tile.y, tile.width, tile.height}, options_.metric, near_);
     std::unique_ptr<TileMaker>& maker = makers_[{tile.width, tile.height}];
-    if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height));
+    if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height), labels_);
     place(tile, Internal::state(maker->seeds));
     upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
@@ -97,6 +97,9 @@ class TileEngine {
   }
 
  private:
+  /// Of the labels of the largest tile, which is the first one.
+  std::size_t largest_bytes() const { return pixels_of(tiling_.tile(0)) * sizeof(cl_uint); }
+
   /// Places seeds as they lie seen from a tile's first pixel.
   void place(const Tile& tile, SeedsState& seeds) const {
     const Plane& plane = seeds_.plane();
@@ -133,10 +136,7 @@ class TileEngine {
   cl::Buffer name_labels(const Diagram& diagram, std::size_t seeds) {
     cl::Buffer& named = named_[next_];
     next_ = 1 - next_;
-    if (named() == nullptr) {
-      const std::size_t largest = pixels_of(tiling_.tile(0));
-      named = allocate_mappable(device_, largest * sizeof(cl_uint), "the labels of a tile");
-    }
+    if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
     const Grid& grid = diagram.grid();
     kernels_.get(device_, "tiles.cl", "name_labels", grid)
         .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(seeds), grid.width(), grid.height(), named);
@@ -159,6 +159,7 @@ class TileEngine {
   KernelSet kernels_;
   cl::Buffer ids_;
   Upload<cl_uint> upload_;
+  cl::Buffer labels_;  // as the engine makes them
   cl::Buffer named_[2];
   int next_ = 0;
   CellSumsResult sums_;
@@ -197,6 +198,7 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
   while (const std::optional<std::uint64_t> number = next()) {
     MadeTile made = engine.enqueue(*number);
     auto mapped = std::unique_ptr<Waiting>(new Waiting{made, engine.map(made)});
+    check(clFlush(device.queue()()), "starting the commands of a tile");
     hand_over();
     waiting = std::move(mapped);
   }

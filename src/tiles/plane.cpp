@@ -57,7 +57,7 @@ Tile Tiling::tile(std::uint64_t number) const {
 }
 
 int default_tile_side(const Device& device) {
-  constexpr std::uint64_t bytes_per_pixel = 14;
+  constexpr std::uint64_t bytes_per_pixel = 20;
   constexpr int least = 256, most = 4096;
   const cl_device_id id = device.cl_device()();
   const auto memory = device_info<cl_ulong>(id, CL_DEVICE_GLOBAL_MEM_SIZE);

@@ -124,6 +124,11 @@ void PlaneSeeds::sort() const { state().sort(); }
 
 void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
                                 std::vector<PlaneSeed>& seeds) {
+  if (std::max(rectangle.width, rectangle.height) > Grid::max_side) {
+    throw Error("the rectangle has " + std::to_string(rectangle.width) + " x " +
+                std::to_string(rectangle.height) + " pixels; " + std::to_string(Grid::max_side) +
+                " along a side are possible");
+  }
   sort();
   seeds.clear();
   if (tree.size() == 0) return;

@@ -35,7 +35,7 @@ struct PlaneSeedsState {
     sorted = true;
   }
 
-  /// Replaces what a list has by the seeds near a rectangle: PlaneSeeds::near().
+  /// Replaces what a list has by the seeds near a rectangle: PlaneSeeds::find_near().
   void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds);
 
   Plane plane;

@@ -6,6 +6,19 @@
 
 namespace vorocl {
 
+namespace {
+
+/// What no seed of a box is before, in the order of winning: as near as the box, and first in it.
+SeedImage first_in(const Box& box, std::int64_t away) {
+  SeedImage image;
+  image.distance = away;
+  image.rank = static_cast<std::uint64_t>(static_cast<std::uint32_t>(box.top) ^ z_bias) << 32 |
+               (static_cast<std::uint32_t>(box.left) ^ z_bias);
+  return image;
+}
+
+}  // namespace
+
 void SeedTree::reserve(std::size_t count) {
   places_.reserve(count);
   ids_.reserve(count);
@@ -89,13 +102,13 @@ void SeedTree::find_nearest(const PlanePoint& point, const Plane& plane, Metric 
   each_image(plane, [&](const PlanePoint& offset) {
     const PlanePoint from = point - offset;
     const auto to_box = [&](const Box& box) { return distance(from, box); };
-    const auto limit = [&] { return std::min(best.distance, too_far - 1); };
-    boxes_.visit_nearest_first(to_box, limit, [&](std::size_t first, std::size_t end) {
+    const auto counts = [&](const Box& box, std::int64_t away) {
+      return away != too_far && first_in(box, away).wins(best);
+    };
+    boxes_.visit_nearest_first(to_box, counts, [&](std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) {
-        const std::int64_t away = distance(from, point_of(i));
-        if (away > limit()) continue;
-        const SeedImage image = {i, offset, away, rank_of(i)};
-        if (image.wins(best)) best = image;
+        const SeedImage image = {i, offset, distance(from, point_of(i)), rank_of(i)};
+        if (image.distance != too_far && image.wins(best)) best = image;
       }
     });
   });
@@ -122,8 +135,8 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
   each_image(plane, [&](const PlanePoint& offset) {
     const PlanePoint from_a = a - offset, from_b = b - offset;
     const auto judge = [&](const Box& box) {
-      const bool counts = !holds(rectangle, box) && distance(from_a, box) <= of_b_at_a.distance &&
-                          distance(from_b, box) <= of_a_at_b.distance;
+      const bool counts = !holds(rectangle, box) && !of_b_at_a.wins(first_in(box, distance(from_a, box))) &&
+                          !of_a_at_b.wins(first_in(box, distance(from_b, box)));
       return counts ? BoxTree::Verdict::enter : BoxTree::Verdict::pass;
     };
     all = all && boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {

@@ -64,11 +64,24 @@ for kill in $(seq "$kills"); do
   rm labels.npy cells.csv
 done
 
+# A process that stops for a while keeps no other from its end, however much it has to tell of its cells.
+cat >slow.sh <<'END'
+#!/usr/bin/env bash
+if [ "$OMPI_COMM_WORLD_RANK" = 1 ]; then (sleep 1; kill -STOP $$; sleep 4; kill -CONT $$) & fi
+exec "$@"
+END
+chmod +x slow.sh
+many=(--random 300000 --size 2048x2048 --tile 128 --cells cells.csv)
+"$commands/vorocl" tiles "${many[@]}" >/dev/null && mv cells.csv alone.csv
+timeout 100 "$ranks" 2 ./slow.sh "$commands/vorocl-mpi" tiles "${many[@]}" >log 2>&1 || fail "a slow process: $(cat log)"
+cmp cells.csv alone.csv || fail "a slow process: other cells"
+rm cells.csv alone.csv
+
 refused() { # MESSAGE COUNT ...: the options end the run with this message, once
   local message=$1 count=$2
   shift 2
   if "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" >log 2>&1; then fail "$*: was not refused"; fi
-  [ "$(grep -c '^vorocl: error: ' log)" = 1 ] || fail "$*: not one message: $(cat log)"
+  [ "$(grep -c '^vorocl[a-z-]*: error: ' log)" = 1 ] || fail "$*: not one message: $(cat log)"
   grep -qF "$message" log || fail "$*: no \"$message\" in: $(cat log)"
 }
 refused 'cannot read missing.csv' 3 --points missing.csv --size 100x100 --labels x.npy
@@ -81,6 +94,19 @@ echo mine >x.npy.journal
 refused 'x.npy.journal is no journal of a run' 2 --random 10 --size 100x100 --labels x.npy --resume
 rm x.npy.journal
 [ ! -e x.npy ] && [ ! -e x.npy.part ] || fail "a refused run left something"
+
+cat >other.sh <<'END'
+#!/usr/bin/env bash
+[ "$OMPI_COMM_WORLD_RANK" != 1 ] || set -- "$@" $OTHER
+exec "$@"
+END
+chmod +x other.sh
+for other in --bogus '--tile 64' --help; do
+  if OTHER=$other timeout 60 "$ranks" 2 ./other.sh "$commands/vorocl-mpi" tiles --random 9 --size 99x99 --labels x.npy >log 2>&1; then
+    fail "a process with $other was not refused"
+  fi
+  [ "$(grep -c '^vorocl[a-z-]*: error: ' log)" = 1 ] || fail "a process with $other: not one message: $(cat log)"
+done
 
 # Fewer seeds than ranks, and ranks without tiles, are no error.
 "$ranks" 4 "$commands/vorocl-mpi" tiles --random 2 --size 100x100 --labels x.npy >log 2>&1

@@ -44,9 +44,7 @@ void check_options(const TilesOptions& options) {
     throw UsageError("nothing to write: give at least one of --labels, -o, --cells and --adjacency");
   }
   check_plane_options(options.input);
-  const std::string extension = extension_of(output.labels);
-  const bool is_tiff = extension == ".tif" || extension == ".tiff";
-  if (options.crs && !(is_tiff && options.input.seeds.bounds)) {
+  if (options.crs && !(is_tiff_name(output.labels) && options.input.seeds.bounds)) {
     throw UsageError("--crs is for --labels FILE.tif, with --bounds in its coordinates");
   }
 }
@@ -104,10 +102,22 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   });
 }
 
+bool is_tiff_name(const std::string& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".tif" || extension == ".tiff";
+}
+
 Tiling tiling_of(const TilesOptions& options, const Device& device) {
   const Plane plane = options.input.plane();
   const int side = options.side > 0 ? options.side : default_tile_side(device);
-  return options.part ? Tiling(plane, side, *options.part) : Tiling(plane, side);
+  const Tiling tiling = options.part ? Tiling(plane, side, *options.part) : Tiling(plane, side);
+  constexpr std::uint64_t most = std::uint64_t{1} << 24;
+  if (tiling.count() > most) {
+    throw Error(
+        fmt::format("there are {} tiles of {} x {}, and one run can make {}; give --only, or a larger --tile",
+                    tiling.count(), side, side, most));
+  }
+  return tiling;
 }
 
 std::string run_of(const TilesOptions& options, const Tiling& tiling) {

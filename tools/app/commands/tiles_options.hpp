@@ -28,7 +28,10 @@ struct TilesOptions {
 /// Adds the subcommand, which checks its options and gives them to a function.
 void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>& run);
 
-/// The tiles that are asked for, on a device that is to make them.
+/// Whether labels of this name are written as a TIFF file.
+bool is_tiff_name(const std::string& path);
+
+/// The tiles that are asked for, on a device that is to make them. Throws Error if they are too many.
 Tiling tiling_of(const TilesOptions& options, const Device& device);
 
 /// Where the part lies in the coordinates of the bounds; none without bounds.

@@ -12,15 +12,6 @@ namespace {
 
 constexpr int written = 1, all_written = 2;  // tags of messages to rank 0
 
-/// Checkpoints are made so rarely that they take a tenth of the time, and rank 0 hears of tiles in time.
-constexpr double time_between_checkpoints = 10;
-
-int rank_of(MPI_Comm communicator) {
-  int rank = 0;
-  MPI_Comm_rank(communicator, &rank);
-  return rank;
-}
-
 void put(std::vector<char>& message, std::uint64_t number) {
   const char* const bytes = reinterpret_cast<const char*>(&number);
   message.insert(message.end(), bytes, bytes + sizeof number);
@@ -35,10 +26,11 @@ std::uint64_t get(const std::vector<char>& message, std::size_t& place) {
 
 }  // namespace
 
-SharedPlaneWriter::SharedPlaneWriter(MPI_Comm communicator, PlaneWriterOptions options, const Tiling& tiling,
+SharedPlaneWriter::SharedPlaneWriter(const Ranks& ranks, PlaneWriterOptions options, const Tiling& tiling,
                                      const std::optional<Georeference>& georeference, const std::string& run)
-    : communicator_(communicator),
-      rank_(rank_of(communicator)),
+    : communicator_(ranks.communicator),
+      rank_(ranks.rank),
+      ranks_(ranks.count),
       has_tables_(!options.cells.empty() || !options.adjacency.empty()) {
   if (rank_ == 0) {
     check_journal(options);
@@ -76,7 +68,7 @@ void SharedPlaneWriter::add(const TileLabels& tile) {
     for (;;) {
       int there = 0;
       MPI_Status status;
-      MPI_Iprobe(MPI_ANY_SOURCE, written, communicator_, &there, &status);
+      MPI_Iprobe(MPI_ANY_SOURCE, written, communicator_, &there, &status);  // ends are for end()
       if (there == 0) return;
       receive(status);
     }
@@ -85,7 +77,9 @@ void SharedPlaneWriter::add(const TileLabels& tile) {
   entry.number = tile.number;
   for (const auto& file : files_) entry.bytes.push_back(file->write(tile).bytes);
   entries_.push_back(std::move(entry));
-  if (stopwatch_.seconds() >= next_checkpoint_) checkpoint();
+  int is_sent = 0;  // the last message: a rank 0 that makes a tile takes none
+  MPI_Test(&sending_, &is_sent, MPI_STATUS_IGNORE);
+  if (is_sent != 0 && stopwatch_.seconds() >= next_checkpoint_) checkpoint();
 }
 
 void SharedPlaneWriter::checkpoint() {
@@ -144,22 +138,25 @@ std::string SharedPlaneWriter::kept() const {
                     : "with --resume the same command goes on with the tiles that are not complete";
 }
 
-void SharedPlaneWriter::finish(const Units& units) {
+// Before anything that ranks do together: the others' messages end when rank 0 takes them.
+void SharedPlaneWriter::end() {
   if (rank_ > 0) {
     send(all_written);
     MPI_Wait(&sending_, MPI_STATUS_IGNORE);
-  } else {
-    int ranks = 1;
-    MPI_Comm_size(communicator_, &ranks);
-    for (int ended = 1; ended < ranks;) {
-      MPI_Status status;
-      MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, communicator_, &status);
-      receive(status);
-      writer_->checkpoint();
-      ended += status.MPI_TAG == all_written ? 1 : 0;
-    }
-    writer_->finish(units);
+    return;
   }
+  writer_->checkpoint();
+  for (int ended = 1; ended < ranks_;) {
+    MPI_Status status;
+    MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, communicator_, &status);
+    receive(status);
+    writer_->checkpoint();
+    ended += status.MPI_TAG == all_written ? 1 : 0;
+  }
+}
+
+void SharedPlaneWriter::finish(const Units& units) {
+  if (rank_ == 0) writer_->finish(units);
   MPI_Barrier(communicator_);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/mpi/ranks.hpp"
 #include "app/outputs/plane_writer.hpp"
 #include "studies/stopwatch.hpp"
 
@@ -21,7 +22,7 @@ namespace vorocl::command {
 class SharedPlaneWriter {
  public:
   /// Throws Error as PlaneWriter.
-  SharedPlaneWriter(MPI_Comm communicator, PlaneWriterOptions options, const Tiling& tiling,
+  SharedPlaneWriter(const Ranks& ranks, PlaneWriterOptions options, const Tiling& tiling,
                     const std::optional<Georeference>& georeference, const std::string& run);
 
   /// Collective.
@@ -45,7 +46,10 @@ class SharedPlaneWriter {
   /// Of a run that ends before all tiles are made: what stays of it, for an error.
   std::string kept() const;
 
-  /// Collective: when each rank has written its tiles, gives the files their names.
+  /// When this rank has written its tiles. Rank 0 waits until all have, and the disk has them.
+  void end();
+
+  /// On all ranks, after end(): gives the files their names.
   void finish(const Units& units);
 
  private:
@@ -53,7 +57,7 @@ class SharedPlaneWriter {
   void receive(const MPI_Status& status);
 
   MPI_Comm communicator_;
-  int rank_;
+  int rank_, ranks_;
   bool has_tables_;
   std::unique_ptr<PlaneWriter> writer_;  // on rank 0
   std::set<std::uint64_t> made_before_;

@@ -4,10 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
+#include <limits>
 
 #include "app/commands/finish_at_end.hpp"
 #include "app/commands/tiles_options.hpp"
+#include "app/mpi/ranks.hpp"
 #include "app/mpi/shared_plane_writer.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/interruption.hpp"
@@ -19,24 +20,6 @@
 namespace vorocl::command {
 
 namespace {
-
-struct Ranks {
-  explicit Ranks(MPI_Comm of) : communicator(of) {
-    MPI_Comm_rank(of, &rank);
-    MPI_Comm_size(of, &count);
-  }
-
-  std::uint64_t sum(std::uint64_t number) const { return reduced(number, MPI_UINT64_T, MPI_SUM); }
-
-  template <typename T>
-  T reduced(T value, MPI_Datatype type, MPI_Op operation) const {
-    MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, communicator);
-    return value;
-  }
-
-  MPI_Comm communicator;
-  int rank = 0, count = 1;
-};
 
 /// One of the machine's devices of the kind that is asked for: the ranks of a machine take them in turn.
 Device device_of_rank(const Ranks& ranks, const std::string& request) {
@@ -64,8 +47,7 @@ TilesOptions with_one_side(TilesOptions options, const Ranks& ranks, const Devic
 }
 
 void check_files(const TilesOptions& options, const Ranks& ranks) {
-  const std::string extension = extension_of(options.output.labels);
-  if (ranks.count > 1 && (extension == ".tif" || extension == ".tiff")) {
+  if (ranks.count > 1 && is_tiff_name(options.output.labels)) {
     throw UsageError("--labels " + options.output.labels +
                      ": one process alone can write a TIFF file; take .zarr or .npy");
   }
@@ -116,25 +98,34 @@ TilesCourse make_tiles(const TilesOptions& options, const Ranks& ranks, const De
   std::optional<Progress> progress;
   if (ranks.rank == 0) progress.emplace(ProgressUnits{"tiles"});
   const Stopwatch stopwatch;
-  std::optional<std::uint64_t> present;
+  std::optional<std::uint64_t> last;  // tile that was begun: it or the one before is the present one
+  std::optional<std::uint64_t> writing_tile;
   std::uint64_t made = 0;
-  const auto next = [&] { return present = counter.next(); };
+  const auto next = [&] {
+    const std::optional<std::uint64_t> number = counter.next();
+    if (number) last = number;
+    return number;
+  };
   const auto write = [&](const TileLabels& tile) {
     const Stopwatch writing;
-    present = tile.number;
+    writing_tile = tile.number;
     writer.add(tile);
     course.writing += writing.milliseconds();
     course.pixels += pixels_of(tile.tile);
     ++made;
     if (progress) progress->show({writer.known(), share(writer.known()), share(course.made_before)});
+    writing_tile.reset();
     if (!interruption.came()) return;
     writer.checkpoint();
     throw Error("interrupted");
   };
   try {
     exact_tiles(device, seeds, tiling, next, write, {options.metric, writer.cells()});
+    writer.end();
   } catch (const std::exception& error) {  // ours, or out of memory
-    const std::string tile = present ? fmt::format(", tile {}", *present) : "";
+    const std::string tile = writing_tile ? fmt::format(", writing tile {}", *writing_tile)
+                             : last       ? fmt::format(", making tile {} or the one before", *last)
+                                          : "";
     throw Error(fmt::format("rank {}{}: {}; {}", ranks.rank, tile, message_of(error), writer.kept()));
   }
   MPI_Barrier(ranks.communicator);
@@ -162,7 +153,7 @@ void run(const TilesOptions& given) {
   const FinishAtEnd finish(device);
   const TilesOptions options = with_one_side(given, ranks, device);
   const Tiling tiling = tiling_of(options, device);
-  SharedPlaneWriter writer(ranks.communicator, options.output, tiling, georeference(options, tiling),
+  SharedPlaneWriter writer(ranks, options.output, tiling, georeference(options, tiling),
                            run_of(options, tiling));
   SharedSeeds seeds(ranks.communicator, tiling.plane());
   const PlaneFacts facts = read_slice(options, ranks, interruption, seeds);
@@ -175,6 +166,11 @@ void run(const TilesOptions& given) {
 
 }  // namespace
 
-void add_shared_tiles(CommandLine& line) { add_tiles(line, run); }
+void add_shared_tiles(CommandLine& line, const std::function<void()>& before) {
+  add_tiles(line, [before](const TilesOptions& options) {
+    before();
+    run(options);
+  });
+}
 
 }  // namespace vorocl::command

@@ -13,9 +13,6 @@ namespace vorocl::command {
 
 namespace {
 
-/// Checkpoints are made so rarely that they take a tenth of the time.
-constexpr double time_between_checkpoints = 10;
-
 /// Beside the first file that is asked for.
 std::string journal_of(const PlaneWriterOptions& options) {
   for (const RequestedFile& file : requested_files(options)) {

@@ -15,6 +15,9 @@
 
 namespace vorocl::command {
 
+/// Checkpoints are made so rarely that they take a tenth of the time.
+constexpr double time_between_checkpoints = 10;
+
 struct PlaneWriterOptions {
   std::string labels;  // empty names: none
   std::string picture;
