@@ -48,7 +48,7 @@ std::vector<T> gathered(MPI_Comm communicator, const std::vector<T>& values, std
   counts.resize(static_cast<std::size_t>(ranks_of(communicator)));
   MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, communicator);
   const std::vector<int> starts = starts_of(counts);
-  std::vector<T> all(static_cast<std::size_t>(starts.back() + counts.back()));
+  std::vector<T> all(static_cast<std::size_t>(starts.back()) + static_cast<std::size_t>(counts.back()));
   const ByteType type(sizeof(T));
   MPI_Allgatherv(values.data(), count, type, all.data(), counts.data(), starts.data(), type, communicator);
   return all;
@@ -132,7 +132,9 @@ std::vector<PlaneSeed> exchanged(MPI_Comm communicator, std::vector<PlaneSeed>&&
   MPI_Alltoall(counts.data(), 1, MPI_INT, received.data(), 1, MPI_INT, communicator);
   const std::vector<int> from = starts_of(counts), to = starts_of(received);
   std::vector<PlaneSeed> part;
-  in_agreement(communicator, [&] { part.resize(static_cast<std::size_t>(to.back() + received.back())); });
+  in_agreement(communicator, [&] {
+    part.resize(static_cast<std::size_t>(to.back()) + static_cast<std::size_t>(received.back()));
+  });
   const ByteType type(sizeof(PlaneSeed));
   MPI_Alltoallv(sorted.data(), counts.data(), from.data(), type, part.data(), received.data(), to.data(),
                 type, communicator);

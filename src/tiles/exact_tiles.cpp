@@ -185,6 +185,8 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   struct Waiting {
+    Waiting(const MadeTile& tile, const TileEngine& made_by) : made(tile), labels(made_by.map(tile)) {}
+
     MadeTile made;
     MappedLabels labels;
   };
@@ -196,11 +198,10 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
     use({waiting->made.number, waiting->made.tile, labels});
   };
   while (const std::optional<std::uint64_t> number = next()) {
-    MadeTile made = engine.enqueue(*number);
-    auto mapped = std::unique_ptr<Waiting>(new Waiting{made, engine.map(made)});
+    auto made = std::make_unique<Waiting>(engine.enqueue(*number), engine);
     check(clFlush(device.queue()()), "starting the commands of a tile");
     hand_over();
-    waiting = std::move(mapped);
+    waiting = std::move(made);
   }
   hand_over();
 }
