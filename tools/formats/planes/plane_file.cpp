@@ -43,9 +43,17 @@ std::uint64_t label_bytes(const Tiling& tiling) {
          sizeof no_label;
 }
 
-std::vector<std::uint32_t> padded(const TileLabels& tile, int side) {
-  const auto width = static_cast<std::size_t>(tile.tile.width), length = static_cast<std::size_t>(side);
-  std::vector<std::uint32_t> labels(length * length, no_label);
+TileShape tile_shape(const Tiling& tiling, int unit) {
+  const auto side_of = [&](std::int64_t pixels) {
+    return static_cast<int>(std::min<std::int64_t>(tiling.side(), (pixels + unit - 1) / unit * unit));
+  };
+  return {side_of(tiling.part().width), side_of(tiling.part().height)};
+}
+
+std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape) {
+  const auto width = static_cast<std::size_t>(tile.tile.width),
+             length = static_cast<std::size_t>(shape.width);
+  std::vector<std::uint32_t> labels(length * static_cast<std::size_t>(shape.height), no_label);
   for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height); ++row) {
     std::copy_n(tile.labels + row * width, width, labels.data() + row * length);
   }

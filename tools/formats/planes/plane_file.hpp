@@ -67,8 +67,17 @@ std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& til
 /// The bytes of the labels of a tiling's part.
 std::uint64_t label_bytes(const Tiling& tiling);
 
-/// The labels of a tile as `side` rows of as many, with no_label beyond its own.
-std::vector<std::uint32_t> padded(const TileLabels& tile, int side);
+/// The tiles of a file whose tiles are all of one shape.
+struct TileShape {
+  int width = 0, height = 0;
+};
+
+/// Their sides are those of the tiling. A part that is smaller has tiles of its own sides, rounded up to a
+/// multiple of `unit`.
+TileShape tile_shape(const Tiling& tiling, int unit = 1);
+
+/// The labels of a tile in this shape, with no_label beyond its own.
+std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape);
 
 /// Throws Error if the disk of the folder that holds the path has less space.
 void require_space(const std::string& path, std::uint64_t bytes);

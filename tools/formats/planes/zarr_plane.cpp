@@ -38,7 +38,7 @@ Error failed(const std::string& what, const std::string& path) {
 class ZarrPlane : public PlaneFile {
  public:
   ZarrPlane(const std::string& path, const Tiling& tiling)
-      : path_(path), part_path_(path + ".part"), tiling_(tiling) {
+      : path_(path), part_path_(path + ".part"), tiling_(tiling), chunk_shape_(tile_shape(tiling)) {
     if (!is_there(path_)) {
       OutputFile{path_};  // for its reasons where nothing can be made there
     } else if (!is_there(path_ + "/.zarray")) {
@@ -88,7 +88,7 @@ class ZarrPlane : public PlaneFile {
   WrittenTile write(const TileLabels& tile) override {
     // Compressing takes longer than making the tile.
     if (!workers_) workers_.emplace(most_workers);
-    workers_->add([labels = padded(tile, tiling_.side()), path = chunk(tile.number)] {
+    workers_->add([labels = padded(tile, chunk_shape_), path = chunk(tile.number)] {
       const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
       uLongf size = compressBound(bytes);
       std::vector<Bytef> compressed(size);
@@ -138,17 +138,18 @@ class ZarrPlane : public PlaneFile {
   void write_metadata() const {
     const std::string text = fmt::format(
         R"({{
-    "chunks": [{0}, {0}],
-    "compressor": {{"id": "zlib", "level": {1}}},
+    "chunks": [{}, {}],
+    "compressor": {{"id": "zlib", "level": {}}},
     "dtype": "<u4",
-    "fill_value": {2},
+    "fill_value": {},
     "filters": null,
     "order": "C",
-    "shape": [{3}, {4}],
+    "shape": [{}, {}],
     "zarr_format": 2
 }}
 )",
-        tiling_.side(), level, no_label, tiling_.part().height, tiling_.part().width);
+        chunk_shape_.height, chunk_shape_.width, level, no_label, tiling_.part().height,
+        tiling_.part().width);
     write_file(folder_ + "/.zarray", text.data(), text.size());
   }
 
@@ -167,6 +168,7 @@ class ZarrPlane : public PlaneFile {
 
   std::string path_, part_path_;
   Tiling tiling_;
+  TileShape chunk_shape_;
   std::string folder_;  // while it is written; empty: before, and afterwards
   std::optional<TemporaryName> name_;
   bool stays_ = false;
