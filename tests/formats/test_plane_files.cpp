@@ -230,6 +230,39 @@ BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(links_lead_to_what_is_replaced) {
+  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    for (const bool resumes : {false, true}) {
+      const TemporaryFolder folder;
+      fs::create_directory(folder / "disk");
+      write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
+      write_whole(folder / "disk/a" + end, other, numbers_of(other));
+      fs::create_symlink("disk/a" + end, folder / "link" + end);
+      const auto file = plane_file(folder / "link" + end, tiling);
+      resumes ? file->open_part(std::nullopt) : file->open();
+      for (const std::uint64_t number : numbers_of(tiling)) write_tile(*file, tiling, number);
+      file->finish();
+      BOOST_TEST(fs::is_symlink(folder / "link" + end), end);
+      BOOST_TEST((contents_of(folder / "disk/a" + end) == contents_of(folder / "whole" + end)), end);
+      BOOST_TEST(std::distance(fs::directory_iterator(folder / "disk"), fs::directory_iterator()) == 1);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(arrays_with_other_files_are_not_replaced) {
+  const Tiling tiling(Plane(100, 70), 32);
+  for (const std::string other : {".zattrs", "notes.txt", "1.x", "1"}) {
+    const TemporaryFolder folder;
+    write_whole(folder / "a.zarr", tiling, numbers_of(tiling));
+    folder.file("a.zarr/" + other, "mine");
+    BOOST_CHECK_EXCEPTION(plane_file(folder / "a.zarr", tiling), Error, [&](const Error& error) {
+      return std::string(error.what()).find("has " + other + " beside") != std::string::npos;
+    });
+    BOOST_TEST(content_of(folder / ("a.zarr/" + other)) == "mine");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
   const Tiling tiling(Plane(100, 70), 32);
   const TemporaryFolder folder;
@@ -262,6 +295,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
   }
   fs::create_directory(folder / "a.zarr");
   refuses("a.zarr", tiling, "remove it");
+  fs::create_directory_symlink(folder / "nowhere.zarr", folder / "link.zarr");
+  refuses("link.zarr", tiling, "a link that leads nowhere");
   fs::create_directory(folder / "a.npy");
   refuses("a.npy", tiling, "it is a folder");
   mkfifo((folder / "b.tif").c_str(), 0600);

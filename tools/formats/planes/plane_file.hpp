@@ -60,7 +60,7 @@ const std::vector<std::string>& plane_extensions();
 /// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
 /// these, for tiles that the format does not have, where no file can be made, where the disk has too little
 /// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
-/// something that is no such array.
+/// something that is no such array, or holds other files too. A link leads to what is replaced.
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference = std::nullopt);
 

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "formats/files.hpp"
+#include "formats/numbers.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
 #include "formats/planes/workers.hpp"
@@ -31,6 +32,37 @@ bool is_there(const std::string& path) {
   return fs::exists(fs::symlink_status(path, ignored));
 }
 
+/// Where a link leads, for it stays when what it leads to is replaced.
+std::string target_of(const std::string& path) {
+  std::error_code code;
+  if (!fs::is_symlink(path, code)) return path;
+  const fs::path target = fs::canonical(path, code);
+  if (code) throw Error("cannot write " + path + ": it is a link that leads nowhere");
+  return target.string();
+}
+
+/// Whether a file of an array has this name: ".zarray", or a chunk's "row.column".
+bool is_of_array(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  const auto is_number = [](const std::string& text) {
+    return parse_number<std::uint64_t>(text).has_value();
+  };
+  return name == ".zarray" ||
+         (dot != std::string::npos && is_number(name.substr(0, dot)) && is_number(name.substr(dot + 1)));
+}
+
+/// Throws Error unless all that is in the folder is of one array, which may be replaced.
+void require_array(const std::string& folder) {
+  const std::string refusal = "cannot write " + folder + ": it is there, and ";
+  if (!is_there(folder + "/.zarray")) throw Error(refusal + "is no Zarr array; remove it");
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_of_array(name)) throw Error(refusal + "has " + name + " beside a Zarr array's chunks; remove it");
+  }
+  if (code) throw Error("cannot read " + folder + ": " + code.message());
+}
+
 Error failed(const std::string& what, const std::string& path) {
   return Error(what + " " + path + " failed: " + reason(errno));
 }
@@ -38,11 +70,14 @@ Error failed(const std::string& what, const std::string& path) {
 class ZarrPlane : public PlaneFile {
  public:
   ZarrPlane(const std::string& path, const Tiling& tiling)
-      : path_(path), part_path_(path + ".part"), tiling_(tiling), chunk_shape_(tile_shape(tiling)) {
+      : path_(target_of(path)),
+        part_path_(path_ + ".part"),
+        tiling_(tiling),
+        chunk_shape_(tile_shape(tiling)) {
     if (!is_there(path_)) {
       OutputFile{path_};  // for its reasons where nothing can be made there
-    } else if (!is_there(path_ + "/.zarray")) {
-      throw Error("cannot write " + path_ + ": it is there, and is no Zarr array; remove it");
+    } else {
+      require_array(path_);
     }
     if (!is_there(part_path_)) require_space(path_, label_bytes(tiling_) / greatest_compression);
   }
