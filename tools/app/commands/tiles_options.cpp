@@ -99,6 +99,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   command.set_work([command, options, run] {
     options->run =
         "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json", "--tile"});
+    options->output.labels = plane_path(options->output.labels);
     check_options(*options);
     run(*options);
   });

@@ -29,6 +29,11 @@ const std::vector<std::string>& plane_extensions() {
   return all;
 }
 
+std::string plane_path(const std::string& name) {
+  const std::string path = name.substr(0, name.find_last_not_of('/') + 1);
+  return extension_of(path) == ".zarr" ? path : name;
+}
+
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference) {
   check_extension(path, plane_extensions());

@@ -57,6 +57,9 @@ class PlaneFile {
 /// The extensions of files that the labels of planes can be written to.
 const std::vector<std::string>& plane_extensions();
 
+/// The path that a name says: shells put a slash behind the names of folders, such as that of a .zarr.
+std::string plane_path(const std::string& name);
+
 /// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
 /// these, for tiles that the format does not have, where no file can be made, where the disk has too little
 /// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
