@@ -183,6 +183,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   const int status = interrupt(folder, large + "--resume", "a.npy.journal", SIGKILL);
   BOOST_REQUIRE(WIFSIGNALED(status));
   const auto before = contents_of(folder);
+  const std::string start_again = "remove a.npy.journal and the .part files of its outputs to start again\n";
   refuses(folder, large + "--resume --metric manhattan", failure,
           {"a.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
   refuses(folder, "tiles --random 3001 --size 700x500 --tile 64 --labels a.npy --cells c.csv --resume",
@@ -191,12 +192,14 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
           failure, {"there \"tiles of 64\", here \"tiles of 32\""});
   refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove a.npy.journal"});
   std::filesystem::rename(folder / "a.npy.part", folder / "other");
-  refuses(folder, large + "--resume", failure, {"a.npy.part: No such file"});
+  refuses(folder, large + "--resume", failure, {"a.npy.part: No such file or directory; " + start_again});
+  folder.file("a.npy.part", "short");
+  refuses(folder, large + "--resume", failure, {"a.npy.part: it is not the file of ", "; " + start_again});
   std::filesystem::rename(folder / "other", folder / "a.npy.part");
   std::filesystem::rename(folder / "c.csv.part", folder / "other");
-  refuses(folder, large + "--resume", failure, {"c.csv.part: No such file"});
+  refuses(folder, large + "--resume", failure, {"c.csv.part: No such file or directory; " + start_again});
   folder.file("c.csv.part", std::string(content_of(folder / "other").size(), 'x'));
-  refuses(folder, large + "--resume", failure, {"c.csv.part is damaged"});
+  refuses(folder, large + "--resume", failure, {"c.csv.part is damaged; " + start_again});
   std::filesystem::rename(folder / "other", folder / "c.csv.part");
   BOOST_TEST((contents_of(folder) == before));
   BOOST_TEST(run(folder, large + "--resume").exit_code == 0);

@@ -79,6 +79,15 @@ void Journal::begin(const std::vector<std::string>& outputs, const std::vector<s
 
 void Journal::append(const std::string& lines) { append_to_file(path_, lines); }
 
+void Journal::open(const std::function<void()>& output) const {
+  try {
+    output();
+  } catch (const Error& error) {
+    if (!is_there_) throw;  // nothing was left
+    throw Error(std::string(error.what()) + "; " + how_to_start_again(path_));
+  }
+}
+
 void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
 }

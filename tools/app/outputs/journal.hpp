@@ -1,6 +1,7 @@
 // The file beside the outputs of a run that says how far it has come, so that another run can go on.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace vorocl::command {
 class Journal {
  public:
   const std::string& path() const { return path_; }
+
+  /// Calls a function that opens an output. Its errors say how to start again, unless the run begins.
+  void open(const std::function<void()>& output) const;
 
   /// When the outputs have their names.
   void remove();

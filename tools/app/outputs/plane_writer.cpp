@@ -77,8 +77,13 @@ void PlaneWriter::begin(const std::string& seeds) {
   }
   const bool is_complete = journal_->is_complete();
   journal_->begin(part_paths(), seeds);
-  for (std::size_t i = 0; i < files_.size(); ++i) files_[i]->open_part(journal_->kept(i));
-  if (tables_.is_asked_for()) tables_.open_part(journal_->kept_sums(), is_complete);
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const std::optional<KeptTiles> kept = journal_->kept(i);
+    journal_->open([&] { files_[i]->open_part(kept); });
+  }
+  if (tables_.is_asked_for()) {
+    journal_->open([&] { tables_.open_part(journal_->kept_sums(), is_complete); });
+  }
   made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
   complete_ = made_before_.size();
 }

@@ -106,8 +106,7 @@ class ZarrPlane : public PlaneFile {
     if (!kept) return;
     for (const WrittenTile& tile : kept->tiles) {
       if (!is_there(chunk(tile.number))) {
-        throw Error(chunk(tile.number) + " is missing; remove " + folder_ +
-                    " and the journal to start again");
+        throw Error(chunk(tile.number) + " is missing");
       }
     }
     write_metadata();
