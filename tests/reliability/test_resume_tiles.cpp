@@ -38,18 +38,35 @@ void check_same(const TemporaryFolder& folder, const TemporaryFolder& whole) {
   for (const auto& [file, content] : there) BOOST_TEST(expected.count(file) == 1u, file << " is left");
 }
 
-/// Starts a run, and sends it a signal when the journal tells of a tile. Returns its status.
-int interrupt(const TemporaryFolder& folder, const std::string& subcommand, const std::string& journal,
-              int signal) {
+/// Starts a run, and sends it a signal when the journal tells of a tile that it has made. Returns its
+/// process.
+pid_t start_and_signal(const TemporaryFolder& folder, const std::string& subcommand,
+                       const std::string& journal, int signal) {
+  const auto last_tile = [&] {  // in the journal, with what stands before it; empty: none
+    const std::string text = content_of(folder / journal);
+    const std::size_t place = text.rfind("\ntile ");
+    return place == std::string::npos ? "" : text.substr(0, text.find('\n', place + 1));
+  };
+  const std::string before = last_tile();
   const pid_t process = start(folder, words_of(subcommand));
   for (int i = 0; i < 4000; ++i) {
-    if (content_of(folder / journal).find("tile ") != std::string::npos) break;
+    if (last_tile().size() > before.size()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   kill(process, signal);
+  return process;
+}
+
+int status_of(pid_t process) {
   int status = 0;
   waitpid(process, &status, 0);
   return status;
+}
+
+/// The same, until the run has ended. Returns its status.
+int interrupt(const TemporaryFolder& folder, const std::string& subcommand, const std::string& journal,
+              int signal) {
+  return status_of(start_and_signal(folder, subcommand, journal, signal));
 }
 
 }  // namespace
@@ -207,6 +224,20 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   folder.file("a.npy.part", "mine");
   refuses(folder, large + "--resume", failure, {"a.npy.part is there", "remove a.npy.part"});
   BOOST_TEST(content_of(folder / "a.npy.part") == "mine");
+}
+
+BOOST_AUTO_TEST_CASE(two_runs_at_once_are_refused) {
+  const TemporaryFolder folder, whole;
+  succeeds(whole, subcommands[0]);
+  const std::string subcommand = subcommands[0] + " --resume";
+  for (int i = 0; i < 2; ++i) {  // a run that begins, and one that goes on
+    const pid_t process = start_and_signal(folder, subcommand, "a.npy.journal", SIGSTOP);
+    refuses(folder, subcommand, failure, {"another run is writing a.npy.journal"});
+    kill(process, SIGKILL);
+    BOOST_TEST(WIFSIGNALED(status_of(process)));
+  }
+  BOOST_TEST(run(folder, subcommand).exit_code == 0);
+  check_same(folder, whole);
 }
 
 BOOST_AUTO_TEST_CASE(other_seeds_are_refused) {
