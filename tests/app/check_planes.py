@@ -56,6 +56,9 @@ with tempfile.TemporaryDirectory() as folder:
 
     with open("p.csv", "w", encoding="ascii") as file:
         file.write("x,y\n500010,5000010\n500090,5000060\n")
+    unknown = [command, "tiles", "--points", "p.csv", "--size", "9x9", "--bounds", "0,0,1,1", "--labels", "g.tif"]
+    result = subprocess.run([*unknown, "--crs", "EPSG:1025"], capture_output=True, text=True)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1, result.stderr  # PROJ prints nothing
     utm = ["--bounds", "500000,5000000,500100,5000070", "--size", "200x140"]
     check_place([*utm, "--y-up"], 32632, (500000, 0.5, 0, 5000070, 0, -0.5), 0)
     check_place(utm, 32632, (500000, 0.5, 0, 5000000, 0, 0.5), 0)
