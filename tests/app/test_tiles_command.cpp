@@ -168,6 +168,17 @@ BOOST_AUTO_TEST_CASE(pictures_are_those_of_render_and_of_larger_planes_samples) 
   BOOST_TEST(colors.size() > 100u);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_said_of_tiles_has_their_size) {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& options, const std::string& part) {
+    const std::string out = succeeds(folder, "tiles --random 9 --size 100x70 --labels a.npy " + options);
+    BOOST_TEST(out.find(part) != std::string::npos, out);
+  };
+  says("--tile 4096", ", 1 tile of 100 x 70, on ");
+  says("--tile 32", ", 12 tiles of 32 x 32, on ");
+  says("--tile 64 --only 0,0,90,10", ", 2 tiles of 64 x 10, on ");
+}
+
 BOOST_AUTO_TEST_CASE(names_of_arrays_may_end_in_a_slash) {
   const TemporaryFolder folder;
   const std::string random = "tiles --random 9 --size 40x30 --labels a.zarr";

@@ -120,9 +120,8 @@ void PlaneWriter::checkpoint() {
 
 std::string PlaneWriter::kept() const {
   if (!journal_) return "nothing stays of the tiles before that; with --resume a run can go on";
-  return fmt::format(
-      "tiles complete before that: {} of {}; the same command goes on with the others, with {} and {}",
-      complete_, tiling_.count(), journal_->path(), fmt::join(part_paths(), ", "));
+  return fmt::format("{} of {} tiles are complete and kept in {} and {}; run the same command again to go on",
+                     complete_, tiling_.count(), fmt::join(part_paths(), ", "), journal_->path());
 }
 
 void PlaneWriter::finish(const Units& units) {
