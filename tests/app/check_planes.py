@@ -26,12 +26,14 @@ def check_labels(size, tile):
         run("tiles", *seeds, "--tile", str(tile), "--labels", name)
     assert numpy.array_equal(numpy.load("a.npy"), whole)
     array = zarr.open(f"{size}.zarr", "r")
-    assert array.dtype == numpy.uint32 and array.chunks == (tile, tile) and array.fill_value == 2**32 - 1
+    assert array.dtype == numpy.uint32 and array.fill_value == 2**32 - 1
+    assert array.chunks == tuple(min(tile, side) for side in whole.shape)
     assert array.nchunks_initialized == array.nchunks
     assert numpy.array_equal(array[:], whole)
     image = gdal.Open("a.tif")
     band = image.GetRasterBand(1)
-    assert band.DataType == gdal.GDT_UInt32 and band.GetBlockSize() == [tile, tile]
+    assert band.DataType == gdal.GDT_UInt32
+    assert band.GetBlockSize() == [min(tile, (side + 15) // 16 * 16) for side in reversed(whole.shape)]
     assert image.GetMetadata("IMAGE_STRUCTURE")["COMPRESSION"] == "DEFLATE"
     assert numpy.array_equal(image.ReadAsArray(), whole)
 
@@ -50,9 +52,13 @@ with tempfile.TemporaryDirectory() as folder:
     check_labels("300x200", 64)
     check_labels("128x128", 64)
     check_labels("30x20", 64)
+    check_labels("400x1", 64)
 
     with open("p.csv", "w", encoding="ascii") as file:
         file.write("x,y\n500010,5000010\n500090,5000060\n")
+    unknown = [command, "tiles", "--points", "p.csv", "--size", "9x9", "--bounds", "0,0,1,1", "--labels", "g.tif"]
+    result = subprocess.run([*unknown, "--crs", "EPSG:1025"], capture_output=True, text=True)
+    assert result.returncode == 2 and len(result.stderr.splitlines()) == 1, result.stderr  # PROJ prints nothing
     utm = ["--bounds", "500000,5000000,500100,5000070", "--size", "200x140"]
     check_place([*utm, "--y-up"], 32632, (500000, 0.5, 0, 5000070, 0, -0.5), 0)
     check_place(utm, 32632, (500000, 0.5, 0, 5000000, 0, 0.5), 0)

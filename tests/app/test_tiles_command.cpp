@@ -168,6 +168,32 @@ BOOST_AUTO_TEST_CASE(pictures_are_those_of_render_and_of_larger_planes_samples) 
   BOOST_TEST(colors.size() > 100u);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_said_of_tiles_has_their_size) {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& options, const std::string& part) {
+    const std::string out = succeeds(folder, "tiles --random 9 --size 100x70 --labels a.npy " + options);
+    BOOST_TEST(out.find(part) != std::string::npos, out);
+  };
+  says("--tile 4096", ", 1 tile of 100 x 70, on ");
+  says("--tile 32", ", 12 tiles of 32 x 32, on ");
+  says("--tile 64 --only 0,0,90,10", ", 2 tiles of 64 x 10, on ");
+}
+
+BOOST_AUTO_TEST_CASE(names_of_arrays_may_end_in_a_slash) {
+  const TemporaryFolder folder;
+  const std::string random = "tiles --random 9 --size 40x30 --labels a.zarr";
+  succeeds(folder, random);
+  const std::string chunk = content_of(folder / "a.zarr/0.0");
+  std::filesystem::remove(folder / "a.zarr/0.0");
+  succeeds(folder, random + "/");
+  BOOST_TEST(content_of(folder / "a.zarr/0.0") == chunk);
+  std::filesystem::remove(folder / "a.zarr/0.0");
+  succeeds(folder, random + "// --resume");
+  BOOST_TEST(content_of(folder / "a.zarr/0.0") == chunk);
+  BOOST_TEST((folder.names() == std::set<std::string>{"a.zarr"}));
+  refuses(folder, "tiles --random 9 --size 40x30 --labels a.npy/", usage, {"a.npy/: the name must end"});
+}
+
 BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   const TemporaryFolder folder;
   write_points_file(folder);

@@ -79,8 +79,12 @@ void check_labels(const Tiling& tiling, const Reader& read) {
 
 const std::vector<Tiling>& tilings() {
   static const std::vector<Tiling> all = {
-      Tiling(Plane(100, 70), 32), Tiling(Plane(64, 64), 32), Tiling(Plane(5, 3), 16),
-      Tiling(Plane(1, 200), 16), Tiling(Plane(2147483647, 2147483647), 16, {2000000000, 2147483600, 50, 40})};
+      Tiling(Plane(100, 70), 32),
+      Tiling(Plane(64, 64), 32),
+      Tiling(Plane(5, 3), 16),
+      Tiling(Plane(1, 200), 16),
+      Tiling(Plane(400, 3), 64),
+      Tiling(Plane(2147483647, 2147483647), 16, {2000000000, 2147483600, 50, 40})};
   return all;
 }
 
@@ -106,24 +110,29 @@ BOOST_AUTO_TEST_CASE(zarr_folders_hold_every_label) {
     write_whole(folder / "a.zarr", tiling, numbers_of(tiling));
     const auto contents = contents_of(folder / "a.zarr");
     BOOST_TEST(contents.size() == tiling.count() + 1);
-    const auto side = static_cast<std::size_t>(tiling.side());
+    // No chunk is larger than the array.
+    const auto width = std::min<std::int64_t>(tiling.side(), tiling.part().width);
+    const auto height = std::min<std::int64_t>(tiling.side(), tiling.part().height);
+    const std::string shape = "\"chunks\": [" + std::to_string(height) + ", " + std::to_string(width) + "]";
+    BOOST_TEST(contents.at(".zarray").find(shape) != std::string::npos, contents.at(".zarray"));
+    const auto pixels = static_cast<std::size_t>(width * height);
     std::map<std::string, std::vector<std::uint32_t>> chunks;
     for (const auto& [name, content] : contents) {
       if (name == ".zarray") continue;
-      std::vector<std::uint32_t>& chunk = chunks[name] = std::vector<std::uint32_t>(side * side);
-      uLongf bytes = side * side * 4;
+      std::vector<std::uint32_t>& chunk = chunks[name] = std::vector<std::uint32_t>(pixels);
+      uLongf bytes = pixels * 4;
       BOOST_TEST(uncompress(reinterpret_cast<Bytef*>(chunk.data()), &bytes,
                             reinterpret_cast<const Bytef*>(content.data()), content.size()) == Z_OK);
-      BOOST_TEST(bytes == side * side * 4);
+      BOOST_TEST(bytes == pixels * 4);
     }
     check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
-      const int length = tiling.side();
-      const std::string name = std::to_string(y / length) + "." + std::to_string(x / length);
-      return chunks.at(name)[static_cast<std::size_t>(y % length * length + x % length)];
+      const std::string name = std::to_string(y / height) + "." + std::to_string(x / width);
+      return chunks.at(name)[static_cast<std::size_t>(y % height * width + x % width)];
     });
     // Beyond the plane there is the value that the array is filled with.
-    if (tiling.part().width % tiling.side() != 0) {
-      BOOST_TEST(chunks.at("0." + std::to_string(tiling.columns() - 1))[side - 1] == no_label);
+    if (tiling.part().width % width != 0) {
+      const auto& last = chunks.at("0." + std::to_string(tiling.columns() - 1));
+      BOOST_TEST(last[static_cast<std::size_t>(width - 1)] == no_label);
     }
   }
 }
@@ -135,28 +144,31 @@ BOOST_AUTO_TEST_CASE(tiff_files_hold_every_label) {
     BOOST_TEST(content_of(folder / "a.tif").substr(0, 3) == "II+");
     TIFF* const file = TIFFOpen((folder / "a.tif").c_str(), "r");
     BOOST_REQUIRE(file != nullptr);
-    std::uint32_t width = 0, height = 0, side = 0;
+    std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;
     std::uint16_t format = 0;
     TIFFGetField(file, TIFFTAG_IMAGEWIDTH, &width);
     TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height);
-    TIFFGetField(file, TIFFTAG_TILEWIDTH, &side);
+    TIFFGetField(file, TIFFTAG_TILEWIDTH, &tile_width);
+    TIFFGetField(file, TIFFTAG_TILELENGTH, &tile_height);
     TIFFGetField(file, TIFFTAG_SAMPLEFORMAT, &format);
     BOOST_TEST(width == tiling.part().width);
     BOOST_TEST(height == tiling.part().height);
-    BOOST_TEST(static_cast<int>(side) == tiling.side());
+    const auto side = static_cast<std::uint32_t>(tiling.side());
+    BOOST_TEST(tile_width == std::min(side, (width + 15) / 16 * 16));
+    BOOST_TEST(tile_height == std::min(side, (height + 15) / 16 * 16));
     BOOST_TEST(format == SAMPLEFORMAT_UINT);
     std::vector<std::vector<std::uint32_t>> tiles;
     for (std::uint32_t number = 0; number < tiling.count(); ++number) {
-      tiles.emplace_back(side * side);
+      tiles.emplace_back(tile_width * tile_height);
       BOOST_TEST(TIFFReadEncodedTile(file, number, tiles.back().data(), -1) ==
-                 static_cast<tmsize_t>(side * side * 4));
+                 static_cast<tmsize_t>(tile_width * tile_height * 4));
     }
     TIFFClose(file);
     check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
-      const int length = tiling.side();
+      const std::int64_t across = tile_width, down = tile_height;
       const auto number =
-          static_cast<std::uint64_t>(y / length) * tiling.columns() + static_cast<std::uint64_t>(x / length);
-      return tiles[number][static_cast<std::size_t>(y % length * length + x % length)];
+          static_cast<std::uint64_t>(y / down) * tiling.columns() + static_cast<std::uint64_t>(x / across);
+      return tiles[number][static_cast<std::size_t>(y % down * across + x % across)];
     });
   }
 }
@@ -218,6 +230,39 @@ BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(links_lead_to_what_is_replaced) {
+  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  for (const std::string end : {".npy", ".zarr", ".tif"}) {
+    for (const bool resumes : {false, true}) {
+      const TemporaryFolder folder;
+      fs::create_directory(folder / "disk");
+      write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
+      write_whole(folder / "disk/a" + end, other, numbers_of(other));
+      fs::create_symlink("disk/a" + end, folder / "link" + end);
+      const auto file = plane_file(folder / "link" + end, tiling);
+      resumes ? file->open_part(std::nullopt) : file->open();
+      for (const std::uint64_t number : numbers_of(tiling)) write_tile(*file, tiling, number);
+      file->finish();
+      BOOST_TEST(fs::is_symlink(folder / "link" + end), end);
+      BOOST_TEST((contents_of(folder / "disk/a" + end) == contents_of(folder / "whole" + end)), end);
+      BOOST_TEST(std::distance(fs::directory_iterator(folder / "disk"), fs::directory_iterator()) == 1);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(arrays_with_other_files_are_not_replaced) {
+  const Tiling tiling(Plane(100, 70), 32);
+  for (const std::string other : {".zattrs", "notes.txt", "1.x", "1"}) {
+    const TemporaryFolder folder;
+    write_whole(folder / "a.zarr", tiling, numbers_of(tiling));
+    folder.file("a.zarr/" + other, "mine");
+    BOOST_CHECK_EXCEPTION(plane_file(folder / "a.zarr", tiling), Error, [&](const Error& error) {
+      return std::string(error.what()).find("has " + other + " beside") != std::string::npos;
+    });
+    BOOST_TEST(content_of(folder / ("a.zarr/" + other)) == "mine");
+  }
+}
+
 BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
   const Tiling tiling(Plane(100, 70), 32);
   const TemporaryFolder folder;
@@ -250,6 +295,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
   }
   fs::create_directory(folder / "a.zarr");
   refuses("a.zarr", tiling, "remove it");
+  fs::create_directory_symlink(folder / "nowhere.zarr", folder / "link.zarr");
+  refuses("link.zarr", tiling, "a link that leads nowhere");
   fs::create_directory(folder / "a.npy");
   refuses("a.npy", tiling, "it is a folder");
   mkfifo((folder / "b.tif").c_str(), 0600);

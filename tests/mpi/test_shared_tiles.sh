@@ -57,7 +57,7 @@ for kill in $(seq "$kills"); do
   while pgrep -s "$leader" vorocl-mpi >/dev/null; do sleep 0.05; done
   if [ ! -e labels.npy ]; then
     "$ranks" $((kill % 2 + 1)) "$commands/vorocl-mpi" tiles "${options[@]}" --labels labels.npy --cells cells.csv \
-      --resume >log 2>&1 || fail "after kill $kill: $(grep vorocl: log)"
+      --resume >log 2>&1 || fail "after kill $kill: $(grep vorocl-mpi: log)"
   fi
   cmp labels.npy alone.npy || fail "after kill $kill: other labels"
   cmp cells.csv alone.csv || fail "after kill $kill: other cells"
@@ -81,12 +81,14 @@ refused() { # MESSAGE COUNT ...: the options end the run with this message, once
   local message=$1 count=$2
   shift 2
   if "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" >log 2>&1; then fail "$*: was not refused"; fi
-  [ "$(grep -c '^vorocl[a-z-]*: error: ' log)" = 1 ] || fail "$*: not one message: $(cat log)"
+  [ "$(grep -c '^vorocl-mpi: error: ' log)" = 1 ] || fail "$*: not one message: $(cat log)"
   grep -qF "$message" log || fail "$*: no \"$message\" in: $(cat log)"
 }
 refused 'cannot read missing.csv' 3 --points missing.csv --size 100x100 --labels x.npy
 refused 'take .zarr or .npy' 2 --random 10 --size 100x100 --labels x.tif
 refused 'nothing to write' 2 --random 10 --size 100x100
+if "$ranks" 1 "$commands/vorocl-mpi" >log 2>&1; then fail "no subcommand: was not refused"; fi
+grep -q '^vorocl-mpi: error: .*; see vorocl-mpi --help$' log || fail "no subcommand: $(cat log)"
 refused "the plane's width is 0" 2 --random 10 --size 0x100 --labels x.npy
 { cat blobs.csv blobs.csv blobs.csv; echo 'nan,1'; } | sed '2,$ { /x,y/d }' >bad.csv
 refused 'not finite' 3 --points bad.csv --size 100x100 --labels x.npy
@@ -105,7 +107,7 @@ for other in --bogus '--tile 64' --help; do
   if OTHER=$other timeout 60 "$ranks" 2 ./other.sh "$commands/vorocl-mpi" tiles --random 9 --size 99x99 --labels x.npy >log 2>&1; then
     fail "a process with $other was not refused"
   fi
-  [ "$(grep -c '^vorocl[a-z-]*: error: ' log)" = 1 ] || fail "a process with $other: not one message: $(cat log)"
+  [ "$(grep -c '^vorocl-mpi: error: ' log)" = 1 ] || fail "a process with $other: not one message: $(cat log)"
 done
 
 # Fewer seeds than ranks, and ranks without tiles, are no error.

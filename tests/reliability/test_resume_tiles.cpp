@@ -38,18 +38,35 @@ void check_same(const TemporaryFolder& folder, const TemporaryFolder& whole) {
   for (const auto& [file, content] : there) BOOST_TEST(expected.count(file) == 1u, file << " is left");
 }
 
-/// Starts a run, and sends it a signal when the journal tells of a tile. Returns its status.
-int interrupt(const TemporaryFolder& folder, const std::string& subcommand, const std::string& journal,
-              int signal) {
+/// Starts a run, and sends it a signal when the journal tells of a tile that it has made. Returns its
+/// process.
+pid_t start_and_signal(const TemporaryFolder& folder, const std::string& subcommand,
+                       const std::string& journal, int signal) {
+  const auto last_tile = [&] {  // in the journal, with what stands before it; empty: none
+    const std::string text = content_of(folder / journal);
+    const std::size_t place = text.rfind("\ntile ");
+    return place == std::string::npos ? "" : text.substr(0, text.find('\n', place + 1));
+  };
+  const std::string before = last_tile();
   const pid_t process = start(folder, words_of(subcommand));
   for (int i = 0; i < 4000; ++i) {
-    if (content_of(folder / journal).find("tile ") != std::string::npos) break;
+    if (last_tile().size() > before.size()) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   kill(process, signal);
+  return process;
+}
+
+int status_of(pid_t process) {
   int status = 0;
   waitpid(process, &status, 0);
   return status;
+}
+
+/// The same, until the run has ended. Returns its status.
+int interrupt(const TemporaryFolder& folder, const std::string& subcommand, const std::string& journal,
+              int signal) {
+  return status_of(start_and_signal(folder, subcommand, journal, signal));
 }
 
 }  // namespace
@@ -103,9 +120,9 @@ BOOST_AUTO_TEST_CASE(signals_keep_what_is_complete_and_name_it) {
     const std::string said = content_of(folder / "streams");
     BOOST_TEST_CONTEXT(said) {
       BOOST_TEST(WEXITSTATUS(status) == failure);
-      for (const char* const part :
-           {"interrupted; tiles complete before that: ", " of 88; the same command goes on", "a.npy.journal",
-            "a.npy.part", "c.csv.part"}) {
+      for (const char* const part : {"interrupted; ",
+                                     " of 88 tiles are complete and kept in a.npy.part, c.csv.part and "
+                                     "a.npy.journal; run the same command again to go on\n"}) {
         BOOST_TEST(said.find(part) != std::string::npos, part);
       }
       BOOST_TEST((files_of(folder) == std::set<std::string>{"a.npy.journal", "a.npy.part", "c.csv.part"}));
@@ -183,6 +200,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   const int status = interrupt(folder, large + "--resume", "a.npy.journal", SIGKILL);
   BOOST_REQUIRE(WIFSIGNALED(status));
   const auto before = contents_of(folder);
+  const std::string start_again = "remove a.npy.journal and the .part files of its outputs to start again\n";
   refuses(folder, large + "--resume --metric manhattan", failure,
           {"a.npy.journal is of another run: there nothing, here \"--metric manhattan\""});
   refuses(folder, "tiles --random 3001 --size 700x500 --tile 64 --labels a.npy --cells c.csv --resume",
@@ -191,12 +209,14 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
           failure, {"there \"tiles of 64\", here \"tiles of 32\""});
   refuses(folder, large, failure, {"a.npy.journal", "give --resume, or remove a.npy.journal"});
   std::filesystem::rename(folder / "a.npy.part", folder / "other");
-  refuses(folder, large + "--resume", failure, {"a.npy.part: No such file"});
+  refuses(folder, large + "--resume", failure, {"a.npy.part: No such file or directory; " + start_again});
+  folder.file("a.npy.part", "short");
+  refuses(folder, large + "--resume", failure, {"a.npy.part: it is not the file of ", "; " + start_again});
   std::filesystem::rename(folder / "other", folder / "a.npy.part");
   std::filesystem::rename(folder / "c.csv.part", folder / "other");
-  refuses(folder, large + "--resume", failure, {"c.csv.part: No such file"});
+  refuses(folder, large + "--resume", failure, {"c.csv.part: No such file or directory; " + start_again});
   folder.file("c.csv.part", std::string(content_of(folder / "other").size(), 'x'));
-  refuses(folder, large + "--resume", failure, {"c.csv.part is damaged"});
+  refuses(folder, large + "--resume", failure, {"c.csv.part is damaged; " + start_again});
   std::filesystem::rename(folder / "other", folder / "c.csv.part");
   BOOST_TEST((contents_of(folder) == before));
   BOOST_TEST(run(folder, large + "--resume").exit_code == 0);
@@ -204,6 +224,20 @@ BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
   folder.file("a.npy.part", "mine");
   refuses(folder, large + "--resume", failure, {"a.npy.part is there", "remove a.npy.part"});
   BOOST_TEST(content_of(folder / "a.npy.part") == "mine");
+}
+
+BOOST_AUTO_TEST_CASE(two_runs_at_once_are_refused) {
+  const TemporaryFolder folder, whole;
+  succeeds(whole, subcommands[0]);
+  const std::string subcommand = subcommands[0] + " --resume";
+  for (int i = 0; i < 2; ++i) {  // a run that begins, and one that goes on
+    const pid_t process = start_and_signal(folder, subcommand, "a.npy.journal", SIGSTOP);
+    refuses(folder, subcommand, failure, {"another run is writing a.npy.journal"});
+    kill(process, SIGKILL);
+    BOOST_TEST(WIFSIGNALED(status_of(process)));
+  }
+  BOOST_TEST(run(folder, subcommand).exit_code == 0);
+  check_same(folder, whole);
 }
 
 BOOST_AUTO_TEST_CASE(other_seeds_are_refused) {

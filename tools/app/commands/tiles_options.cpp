@@ -36,6 +36,10 @@ std::optional<PlaneRectangle> parse_part(const std::string& text) {
   return PlaneRectangle{values[0], values[1], values[2] - values[0], values[3] - values[1]};
 }
 
+std::string count_of_tiles(std::uint64_t count) {
+  return fmt::format("{} tile{}", count, count == 1 ? "" : "s");
+}
+
 void check_options(const TilesOptions& options) {
   const PlaneWriterOptions& output = options.output;
   const std::vector<RequestedFile> files = requested_files(output);
@@ -77,7 +81,8 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .value_name("EPSG:N");
   command
       .add("-o", options->output.picture,
-           "Picture of the whole to write, of 4096 pixels a side at most: .png, .jpg, .bmp or .tif")
+           "Picture of the plane to write, with --only of its part, of 4096 pixels a side at most: .png, "
+           ".jpg, .bmp or .tif")
       .value_name("PICTURE");
   command
       .add("--cells", options->output.cells,
@@ -90,13 +95,14 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .value_name("FILE");
   command.add(
       "--resume", options->output.resume,
-      "Go on where the same command, which was ended, has stopped: with the tiles that its outputs do "
-      "not have yet. It needs --resume too");
+      "Keep a journal, and go on from the one that an interrupted run with --resume left (vorocl-mpi keeps "
+      "one always)");
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options, run] {
     options->run =
         "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json", "--tile"});
+    options->output.labels = plane_path(options->output.labels);
     check_options(*options);
     run(*options);
   });
@@ -171,12 +177,13 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
     print_json(result);
     return;
   }
-  print("exact: {} seeds on {} x {} pixels, {} tiles of {} x {}, on {}\n", seeds.seeds, plane.width(),
-        plane.height(), course.tiles, tiling.side(), tiling.side(), device.name());
+  const TileShape tile = tile_shape(tiling);
+  print("exact: {} seeds on {} x {} pixels, {} of {} x {}, on {}\n", seeds.seeds, plane.width(),
+        plane.height(), count_of_tiles(course.tiles), tile.width, tile.height, device.name());
   if (options.part) {
     print("of these pixels {} x {}, from ({}, {}) on\n", part.width, part.height, part.x, part.y);
   }
-  if (course.made_before > 0) print("made before: {} tiles\n", course.made_before);
+  if (course.made_before > 0) print("made before: {}\n", count_of_tiles(course.made_before));
   if (course.processes > 1) print("processes: {}\n", course.processes);
   print("{:.1f} million pixels per second, {:.0f} % of the time for writing\n", rate / million,
         course.milliseconds > 0 ? 100 * course.writing / course.milliseconds : 0);

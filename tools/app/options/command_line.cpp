@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "app/terminal/console.hpp"
 #include "app/terminal/usage_error.hpp"
 
 namespace vorocl::command {
@@ -147,6 +148,7 @@ void Command::set_work(const std::function<void()>& work) { app_->callback(work)
 
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
+  name_program(name);
   app_->set_version_flag("--version", version);
   app_->require_subcommand(-1);  // at most one: where there is none, run() first names what else was given
 }
@@ -170,7 +172,9 @@ void CommandLine::run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
-  if (app_->get_subcommands().empty()) throw UsageError("no subcommand was given; see vorocl --help");
+  if (app_->get_subcommands().empty()) {
+    throw UsageError("no subcommand was given; see " + app_->get_name() + " --help");
+  }
 }
 
 }  // namespace vorocl::command

@@ -50,14 +50,10 @@ std::unique_ptr<GrowingFile> FrameJournal::open_table(const std::string& path) {
     if (tables_.size() >= last_->tables.size()) refuse_damage();
     kept = Kept{last_->tables[tables_.size()], last_->is_last};
   }
-  try {
-    auto table = std::make_unique<GrowingFile>(OutputFile(path), kept);
-    tables_.push_back(table.get());
-    return table;
-  } catch (const Error& error) {
-    if (!kept) throw;  // of a run that begins, nothing was left
-    throw Error(std::string(error.what()) + "; " + how_to_start_again(Journal::path()));
-  }
+  std::unique_ptr<GrowingFile> table;
+  open([&] { table = std::make_unique<GrowingFile>(OutputFile(path), kept); });
+  tables_.push_back(table.get());
+  return table;
 }
 
 void FrameJournal::complete(int frame, std::uint64_t seeds) {

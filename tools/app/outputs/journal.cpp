@@ -1,6 +1,9 @@
 #include "app/outputs/journal.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -42,10 +45,34 @@ std::string first_not_in(const std::vector<std::string>& others, const std::vect
 
 }  // namespace
 
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool FileLock::take(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) return errno != ENOENT;  // what reads or writes it says what is wrong
+  struct stat locked = {}, named = {};
+  const bool is_free = flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+  const bool is_named = fstat(file, &locked) == 0 && stat(path.c_str(), &named) == 0 &&
+                        locked.st_dev == named.st_dev && locked.st_ino == named.st_ino;
+  if (descriptor_ >= 0) close(descriptor_);
+  descriptor_ = file;
+  return is_free && is_named;
+}
+
 Journal::Journal(const std::string& path, const std::string& run)
     : path_(path), run_(run), is_there_(is_file(path)) {
-  if (is_there_) read();
+  if (!is_there_) return;
+  lock();
+  read();
 }
+
+void Journal::lock() {
+  if (!lock_.take(path_)) refuse_other();
+}
+
+void Journal::refuse_other() const { throw Error("another run is writing " + path_); }
 
 void Journal::read() {
   const std::vector<std::string> there = read_lines(path_, "journal").whole, head = head_of(run_);
@@ -65,6 +92,7 @@ void Journal::refuse_run(const std::string& there, const std::string& here) cons
 void Journal::refuse_damage() const { throw Error(path_ + " is damaged; " + how_to_start_again(path_)); }
 
 void Journal::begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps) {
+  if (!is_there_ && is_file(path_)) refuse_other();  // which has begun since
   for (const std::string& part : outputs) {
     if (!is_there_ && is_file(part)) {
       throw Error(fmt::format(
@@ -75,9 +103,19 @@ void Journal::begin(const std::vector<std::string>& outputs, const std::vector<s
   for (const std::string& line : head_of(run_)) journal << line << "\n";
   for (const std::string& line : steps) journal << line << "\n";
   journal.finish();
+  lock();
 }
 
 void Journal::append(const std::string& lines) { append_to_file(path_, lines); }
+
+void Journal::open(const std::function<void()>& output) const {
+  try {
+    output();
+  } catch (const Error& error) {
+    if (!is_there_) throw;  // nothing was left
+    throw Error(std::string(error.what()) + "; " + how_to_start_again(path_));
+  }
+}
 
 void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));

@@ -1,10 +1,27 @@
 // The file beside the outputs of a run that says how far it has come, so that another run can go on.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace vorocl::command {
+
+/// A lock on a file, which goes with the process.
+class FileLock {
+ public:
+  FileLock() = default;
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+  /// Locks the file that has this name, and lets go of the one before. False if another run has it. Where a
+  /// file system has no locks, there is none.
+  bool take(const std::string& path);
+
+ private:
+  int descriptor_ = -1;
+};
 
 /// What the run is, in lines, and behind them a line for each step that is complete. frame_journal.hpp and
 /// tile_journal.hpp say what such a line holds.
@@ -12,12 +29,15 @@ class Journal {
  public:
   const std::string& path() const { return path_; }
 
+  /// Calls a function that opens an output. Its errors say how to start again, unless the run begins.
+  void open(const std::function<void()>& output) const;
+
   /// When the outputs have their names.
   void remove();
 
  protected:
   /// `run` says what the run is. Reads the file, if there is one. Throws Error if it is of another run, or no
-  /// journal.
+  /// journal, or if a run that still goes on writes it.
   Journal(const std::string& path, const std::string& run);
   ~Journal() = default;
 
@@ -38,10 +58,13 @@ class Journal {
 
  private:
   void read();
+  void lock();
+  [[noreturn]] void refuse_other() const;
 
   std::string path_, run_;
   bool is_there_ = false;
   std::vector<std::string> steps_;
+  FileLock lock_;  // while the run goes on
 };
 
 /// For errors: what to remove of the run that a journal is of, which cannot go on.

@@ -90,7 +90,7 @@ void PlaneTables::open_part(const std::optional<Kept>& kept, bool is_complete) {
 
 void PlaneTables::read_sums(const std::string& path, std::size_t bytes) {
   std::ifstream file = open_to_read(path);
-  const Error damaged(path + " is damaged; remove it and the journal to start again");
+  const Error damaged(path + " is damaged");
   std::vector<char> piece;
   while (bytes > 0) {
     std::uint64_t size = 0;

@@ -74,8 +74,13 @@ void PlaneWriter::begin(const std::string& seeds) {
   }
   const bool is_complete = journal_->is_complete();
   journal_->begin(part_paths(), seeds);
-  for (std::size_t i = 0; i < files_.size(); ++i) files_[i]->open_part(journal_->kept(i));
-  if (tables_.is_asked_for()) tables_.open_part(journal_->kept_sums(), is_complete);
+  for (std::size_t i = 0; i < files_.size(); ++i) {
+    const std::optional<KeptTiles> kept = journal_->kept(i);
+    journal_->open([&] { files_[i]->open_part(kept); });
+  }
+  if (tables_.is_asked_for()) {
+    journal_->open([&] { tables_.open_part(journal_->kept_sums(), is_complete); });
+  }
   made_before_.insert(journal_->tiles().begin(), journal_->tiles().end());
   complete_ = made_before_.size();
 }
@@ -112,9 +117,8 @@ void PlaneWriter::checkpoint() {
 
 std::string PlaneWriter::kept() const {
   if (!journal_) return "nothing stays of the tiles before that; with --resume a run can go on";
-  return fmt::format(
-      "tiles complete before that: {} of {}; the same command goes on with the others, with {} and {}",
-      complete_, tiling_.count(), journal_->path(), fmt::join(part_paths(), ", "));
+  return fmt::format("{} of {} tiles are complete and kept in {} and {}; run the same command again to go on",
+                     complete_, tiling_.count(), fmt::join(part_paths(), ", "), journal_->path());
 }
 
 void PlaneWriter::finish(const Units& units) {

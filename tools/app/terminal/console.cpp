@@ -18,6 +18,7 @@ namespace vorocl::command {
 namespace {
 
 bool errors_alone = false;
+std::string program = "vorocl";
 
 /// How many bytes from here are one character of UTF-8 that a terminal prints; 0: none.
 std::size_t printable_bytes(std::string_view text) {
@@ -34,7 +35,7 @@ std::size_t printable_bytes(std::string_view text) {
 
 void print_line(const char* kind, const std::string& text) {
   const char* const start = isatty(STDERR_FILENO) != 0 ? erase_line : "";
-  print_on_standard_error(fmt::format("{}vorocl: {}: {}\n", start, kind, printable(text)));
+  print_on_standard_error(fmt::format("{}{}: {}: {}\n", start, program, kind, printable(text)));
 }
 
 /// Does what prints, if there is memory for it.
@@ -43,11 +44,14 @@ void if_possible(const Print& print) noexcept {
   try {
     print();
   } catch (const std::exception&) {
-    print_on_standard_error("vorocl: error: out of memory\n");
+    print_on_standard_error(program);
+    print_on_standard_error(": error: out of memory\n");
   }
 }
 
 }  // namespace
+
+void name_program(const std::string& name) { program = name; }
 
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {

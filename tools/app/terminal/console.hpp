@@ -10,6 +10,9 @@
 
 namespace vorocl::command {
 
+/// The name of the program that notes, warnings and errors begin with: "vorocl" before this is called.
+void name_program(const std::string& name);
+
 /// At the start of main(). Opens those of the three streams that are closed: else the first file to be
 /// written would become one of them, and what is printed would go into it. Where a stream is a pipe that
 /// nobody reads, or a file that would grow past its limit, printing and writing fail from here on; they do

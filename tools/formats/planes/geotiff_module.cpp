@@ -2,6 +2,7 @@
 #include <geo_normalize.h>
 #include <geotiff.h>
 #include <geovalues.h>
+#include <proj.h>
 #include <tiffio.h>
 
 #include <memory>
@@ -21,6 +22,9 @@ struct Free {
 
 class Module : public GeotiffModule {
  public:
+  // libgeotiff asks PROJ, which would print to stderr what it does not find.
+  Module() { proj_log_level(nullptr, PJ_LOG_NONE); }
+
   std::optional<Crs> find(int code) const override {
     if (code < lowest_code || code > highest_code) return std::nullopt;
     char* name = nullptr;

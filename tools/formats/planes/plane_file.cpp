@@ -29,6 +29,11 @@ const std::vector<std::string>& plane_extensions() {
   return all;
 }
 
+std::string plane_path(const std::string& name) {
+  const std::string path = name.substr(0, name.find_last_not_of('/') + 1);
+  return extension_of(path) == ".zarr" ? path : name;
+}
+
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference) {
   check_extension(path, plane_extensions());
@@ -43,9 +48,17 @@ std::uint64_t label_bytes(const Tiling& tiling) {
          sizeof no_label;
 }
 
-std::vector<std::uint32_t> padded(const TileLabels& tile, int side) {
-  const auto width = static_cast<std::size_t>(tile.tile.width), length = static_cast<std::size_t>(side);
-  std::vector<std::uint32_t> labels(length * length, no_label);
+TileShape tile_shape(const Tiling& tiling, int unit) {
+  const auto side_of = [&](std::int64_t pixels) {
+    return static_cast<int>(std::min<std::int64_t>(tiling.side(), (pixels + unit - 1) / unit * unit));
+  };
+  return {side_of(tiling.part().width), side_of(tiling.part().height)};
+}
+
+std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape) {
+  const auto width = static_cast<std::size_t>(tile.tile.width),
+             length = static_cast<std::size_t>(shape.width);
+  std::vector<std::uint32_t> labels(length * static_cast<std::size_t>(shape.height), no_label);
   for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height); ++row) {
     std::copy_n(tile.labels + row * width, width, labels.data() + row * length);
   }

@@ -57,18 +57,30 @@ class PlaneFile {
 /// The extensions of files that the labels of planes can be written to.
 const std::vector<std::string>& plane_extensions();
 
+/// The path that a name says: shells put a slash behind the names of folders, such as that of a .zarr.
+std::string plane_path(const std::string& name);
+
 /// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
 /// these, for tiles that the format does not have, where no file can be made, where the disk has too little
 /// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
-/// something that is no such array.
+/// something that is no such array, or holds other files too. A link leads to what is replaced.
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference = std::nullopt);
 
 /// The bytes of the labels of a tiling's part.
 std::uint64_t label_bytes(const Tiling& tiling);
 
-/// The labels of a tile as `side` rows of as many, with no_label beyond its own.
-std::vector<std::uint32_t> padded(const TileLabels& tile, int side);
+/// The tiles of a file whose tiles are all of one shape.
+struct TileShape {
+  int width = 0, height = 0;
+};
+
+/// Their sides are those of the tiling. A part that is smaller has tiles of its own sides, rounded up to a
+/// multiple of `unit`.
+TileShape tile_shape(const Tiling& tiling, int unit = 1);
+
+/// The labels of a tile in this shape, with no_label beyond its own.
+std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape);
 
 /// Throws Error if the disk of the folder that holds the path has less space.
 void require_space(const std::string& path, std::uint64_t bytes);

@@ -115,7 +115,7 @@ class TiffPlane : public PlaneFile {
   }
 
   WrittenTile write(const TileLabels& tile) override {
-    std::vector<std::uint32_t> labels = padded(tile, tiling_.side());
+    std::vector<std::uint32_t> labels = padded(tile, tile_shape(tiling_, side_unit));
     const std::uint64_t begin = content_.end;
     require(TIFFWriteEncodedTile(file_.get(), static_cast<std::uint32_t>(tile.number), labels.data(),
                                  static_cast<tmsize_t>(labels.size() * sizeof no_label)) >= 0);
@@ -148,8 +148,9 @@ class TiffPlane : public PlaneFile {
     TIFF* const file = file_.get();
     TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(tiling_.part().width));
     TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(tiling_.part().height));
-    TIFFSetField(file, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tiling_.side()));
-    TIFFSetField(file, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tiling_.side()));
+    const TileShape tile = tile_shape(tiling_, side_unit);
+    TIFFSetField(file, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile.width));
+    TIFFSetField(file, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile.height));
     TIFFSetField(file, TIFFTAG_BITSPERSAMPLE, 32);
     TIFFSetField(file, TIFFTAG_SAMPLESPERPIXEL, 1);
     TIFFSetField(file, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT);

@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "formats/files.hpp"
+#include "formats/numbers.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
 #include "formats/planes/workers.hpp"
@@ -31,6 +32,37 @@ bool is_there(const std::string& path) {
   return fs::exists(fs::symlink_status(path, ignored));
 }
 
+/// Where a link leads, for it stays when what it leads to is replaced.
+std::string target_of(const std::string& path) {
+  std::error_code code;
+  if (!fs::is_symlink(path, code)) return path;
+  const fs::path target = fs::canonical(path, code);
+  if (code) throw Error("cannot write " + path + ": it is a link that leads nowhere");
+  return target.string();
+}
+
+/// Whether a file of an array has this name: ".zarray", or a chunk's "row.column".
+bool is_of_array(const std::string& name) {
+  const std::size_t dot = name.find('.');
+  const auto is_number = [](const std::string& text) {
+    return parse_number<std::uint64_t>(text).has_value();
+  };
+  return name == ".zarray" ||
+         (dot != std::string::npos && is_number(name.substr(0, dot)) && is_number(name.substr(dot + 1)));
+}
+
+/// Throws Error unless all that is in the folder is of one array, which may be replaced.
+void require_array(const std::string& folder) {
+  const std::string refusal = "cannot write " + folder + ": it is there, and ";
+  if (!is_there(folder + "/.zarray")) throw Error(refusal + "is no Zarr array; remove it");
+  std::error_code code;
+  for (const auto& entry : fs::directory_iterator(folder, code)) {
+    const std::string name = entry.path().filename().string();
+    if (!is_of_array(name)) throw Error(refusal + "has " + name + " beside a Zarr array's chunks; remove it");
+  }
+  if (code) throw Error("cannot read " + folder + ": " + code.message());
+}
+
 Error failed(const std::string& what, const std::string& path) {
   return Error(what + " " + path + " failed: " + reason(errno));
 }
@@ -38,11 +70,14 @@ Error failed(const std::string& what, const std::string& path) {
 class ZarrPlane : public PlaneFile {
  public:
   ZarrPlane(const std::string& path, const Tiling& tiling)
-      : path_(path), part_path_(path + ".part"), tiling_(tiling) {
+      : path_(target_of(path)),
+        part_path_(path_ + ".part"),
+        tiling_(tiling),
+        chunk_shape_(tile_shape(tiling)) {
     if (!is_there(path_)) {
       OutputFile{path_};  // for its reasons where nothing can be made there
-    } else if (!is_there(path_ + "/.zarray")) {
-      throw Error("cannot write " + path_ + ": it is there, and is no Zarr array; remove it");
+    } else {
+      require_array(path_);
     }
     if (!is_there(part_path_)) require_space(path_, label_bytes(tiling_) / greatest_compression);
   }
@@ -71,8 +106,7 @@ class ZarrPlane : public PlaneFile {
     if (!kept) return;
     for (const WrittenTile& tile : kept->tiles) {
       if (!is_there(chunk(tile.number))) {
-        throw Error(chunk(tile.number) + " is missing; remove " + folder_ +
-                    " and the journal to start again");
+        throw Error(chunk(tile.number) + " is missing");
       }
     }
     write_metadata();
@@ -88,7 +122,7 @@ class ZarrPlane : public PlaneFile {
   WrittenTile write(const TileLabels& tile) override {
     // Compressing takes longer than making the tile.
     if (!workers_) workers_.emplace(most_workers);
-    workers_->add([labels = padded(tile, tiling_.side()), path = chunk(tile.number)] {
+    workers_->add([labels = padded(tile, chunk_shape_), path = chunk(tile.number)] {
       const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
       uLongf size = compressBound(bytes);
       std::vector<Bytef> compressed(size);
@@ -138,17 +172,18 @@ class ZarrPlane : public PlaneFile {
   void write_metadata() const {
     const std::string text = fmt::format(
         R"({{
-    "chunks": [{0}, {0}],
-    "compressor": {{"id": "zlib", "level": {1}}},
+    "chunks": [{}, {}],
+    "compressor": {{"id": "zlib", "level": {}}},
     "dtype": "<u4",
-    "fill_value": {2},
+    "fill_value": {},
     "filters": null,
     "order": "C",
-    "shape": [{3}, {4}],
+    "shape": [{}, {}],
     "zarr_format": 2
 }}
 )",
-        tiling_.side(), level, no_label, tiling_.part().height, tiling_.part().width);
+        chunk_shape_.height, chunk_shape_.width, level, no_label, tiling_.part().height,
+        tiling_.part().width);
     write_file(folder_ + "/.zarray", text.data(), text.size());
   }
 
@@ -167,6 +202,7 @@ class ZarrPlane : public PlaneFile {
 
   std::string path_, part_path_;
   Tiling tiling_;
+  TileShape chunk_shape_;
   std::string folder_;  // while it is written; empty: before, and afterwards
   std::optional<TemporaryName> name_;
   bool stays_ = false;
