@@ -221,7 +221,9 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, "tiles --random 9 --size 2147483648x30 --labels a.npy", usage, {"2147483647"});
   refuses(folder, "tiles --random 4294967295 --size 40x30 --labels a.npy", usage, {"--random", "4294967294"});
   refuses(folder, "tiles --random 9 --size 2000000000x2000000000 --labels a.npy", failure,
-          {"of disk space at least"});
+          {"238419311524 tiles", "--only", "--tile"});
+  refuses(folder, "tiles --random 9 --size 10000000x10000000 --labels a.npy", failure,
+          {"a.npy", "of disk space at least"});
   refuses(folder, points + "--labels a.tif --crs 32632 --bounds 0,0,60,40", usage, {"EPSG:n"});
   refuses(folder, points + "--labels a.tif --crs EPSG:9 --bounds 0,0,60,40", usage, {"--crs"});
   refuses(folder, points + "--labels a.npy --crs EPSG:4326 --bounds 0,0,60,40", usage, {"--crs is for"});

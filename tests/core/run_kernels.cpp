@@ -150,6 +150,12 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
   device.finish();
 }
 
+void make_tiles(const Device& device, Metric metric) {
+  const PlaneSeeds seeds(Plane(40, 25), {{3, 3}, {30, 20}, {17, 9}});
+  exact_tiles(device, seeds, Tiling(seeds.plane(), 16), [](const TileLabels&) {}, {metric});
+  device.finish();
+}
+
 }  // namespace
 
 int main() {
@@ -166,6 +172,7 @@ int main() {
       make_exact_diagrams(shaped, Grid(176, 90), metric);
       make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
       make_windows(shaped, Grid(40, 25), metric);
+      make_tiles(shaped, metric);
       for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
         measure(shaped, grid, metric);
     }
