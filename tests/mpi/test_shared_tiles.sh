@@ -17,13 +17,15 @@ fail() {
 awk 'BEGIN { srand(3); print "x,y"; for (i = 0; i < 60000; ++i) { a = 6.2831853 * rand(); r = sqrt(rand()) * (i % 3 ? 40 : 300);
   print 400 + 100 * (i % 3 == 0) + r * cos(a) "," 350 + r * sin(a) } }' >blobs.csv
 
-same() { # ...: these options make the same files on all numbers of ranks
+same() { # COUNTS ...: these options make the same files on these numbers of ranks
+  local counts=$1
+  shift
   local files=(labels.npy map.png cells.csv pairs.csv)
   "$commands/vorocl" tiles "$@" --labels labels.npy -o map.png --cells cells.csv --adjacency pairs.csv >/dev/null
   "$commands/vorocl" tiles "$@" --labels labels.zarr >/dev/null
   mkdir alone
   mv "${files[@]}" labels.zarr alone
-  for count in 1 2 3 4; do
+  for count in $counts; do
     "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.npy -o map.png --cells cells.csv \
       --adjacency pairs.csv >log || fail "$count ranks, $*: failed"
     "$ranks" "$count" "$commands/vorocl-mpi" tiles "$@" --labels labels.zarr >>log || fail "$count ranks, $*: failed"
@@ -35,9 +37,9 @@ same() { # ...: these options make the same files on all numbers of ranks
   done
   rm -r alone
 }
-same --points blobs.csv --size 1000x700 --bounds 0,0,1000,700 --tile 128
-same --random 50000 --size 1500x900 --periodic xy --tile 400 --metric manhattan
-same --random 3 --size 900x20 --tile 64 --only 100,3,801,19
+same "1 2 3 4" --points blobs.csv --size 1000x700 --bounds 0,0,1000,700 --tile 128
+same 3 --random 50000 --size 1500x900 --periodic xy --tile 400 --metric manhattan
+same 4 --random 3 --size 900x20 --tile 64 --only 100,3,801,19
 
 # Whatever is killed, and when: another run goes on, with another number of processes.
 options=(--points blobs.csv --size 4000x3000 --bounds 0,0,1000,700 --tile 250)
