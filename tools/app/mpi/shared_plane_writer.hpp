@@ -54,6 +54,7 @@ class SharedPlaneWriter {
 
  private:
   void send(int tag);
+  void wait_for_message();
   void receive(const MPI_Status& status);
 
   MPI_Comm communicator_;

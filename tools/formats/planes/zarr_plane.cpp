@@ -58,7 +58,9 @@ void require_array(const std::string& folder) {
   std::error_code code;
   for (const auto& entry : fs::directory_iterator(folder, code)) {
     const std::string name = entry.path().filename().string();
-    if (!is_of_array(name)) throw Error(refusal + "has " + name + " beside a Zarr array's chunks; remove it");
+    if (!is_of_array(name)) {
+      throw Error(fmt::format("{}has {} beside a Zarr array's chunks; remove it", refusal, name));
+    }
   }
   if (code) throw Error("cannot read " + folder + ": " + code.message());
 }
