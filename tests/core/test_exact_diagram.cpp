@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
 BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
   std::mt19937 rng(1);
   const auto below = [&](int n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); };
-  for (int i = 0; i < (long_tests ? 100000 : 500); ++i) {
+  for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
     // Some are large enough for rows across the border of a period.
     const int most_pixels = i % 32 == 0 ? 160 : 64;
     const bool periodic = rng() % 2 == 0;

@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(random_cases) {
   constexpr int sets_of_a_grid = 20;
   std::mt19937 rng(1);
   const std::vector<Engine> all = engines();
-  for (int i = 0; i < (long_tests ? 100000 : 1000) / sets_of_a_grid; ++i) {
+  for (int i = 0; i < (long_tests ? 100000 : 2000) / sets_of_a_grid; ++i) {
     const auto side = [&] { return std::max(32 * below(rng, 5) + below(rng, 5) - 2, 1 + below(rng, 32)); };
     const Grid plain(side(), side());
     const Grid grid(plain.width(), plain.height(), long_tests && i % 2 == 0 ? Periodic::xy : Periodic::none);
