@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "left_files.hpp"
+#include "killed_runs.hpp"
 
 using namespace vorocl;
 
@@ -30,32 +30,17 @@ const std::string subcommands[] = {
 
 constexpr int milliseconds_column = 6;  // of the statistics, counted from 0
 
-/// The contents of all files but hidden ones, which only SIGKILL leaves; of the statistics without the times.
-std::map<std::string, std::string> contents_of(const TemporaryFolder& folder) {
-  std::map<std::string, std::string> contents;
-  for (const std::string& file : files_of(folder)) {
-    if (is_temporary(file)) continue;
-    std::string& content = contents[file] = content_of(folder / file);
-    if (file != "statistics.csv") continue;
-    std::istringstream lines(content);
-    std::string kept;
-    for (std::string line; std::getline(lines, line);) {
-      std::size_t begin = 0;
-      for (int column = 0; column < milliseconds_column; ++column) begin = line.find(',', begin) + 1;
-      kept += line.erase(begin, line.find(',', begin) - begin) + "\n";
-    }
-    content = kept;
+/// The statistics without the times.
+std::string without_times(const std::string& file, const std::string& content) {
+  if (file != "statistics.csv") return content;
+  std::istringstream lines(content);
+  std::string kept;
+  for (std::string line; std::getline(lines, line);) {
+    std::size_t begin = 0;
+    for (int column = 0; column < milliseconds_column; ++column) begin = line.find(',', begin) + 1;
+    kept += line.erase(begin, line.find(',', begin) - begin) + "\n";
   }
-  return contents;
-}
-
-void check_same(const TemporaryFolder& folder, const TemporaryFolder& whole) {
-  const auto there = contents_of(folder), expected = contents_of(whole);
-  for (const auto& [file, content] : expected) {
-    BOOST_TEST(there.count(file) == 1u, file << " is missing");
-    if (there.count(file) == 1) BOOST_TEST((there.at(file) == content), file << " differs");
-  }
-  for (const auto& [file, content] : there) BOOST_TEST(expected.count(file) == 1u, file << " is left");
+  return kept;
 }
 
 /// Three frames of three particles, as extended XYZ; `third` is where one of them is in frame 2.
@@ -89,44 +74,13 @@ void begin_three(const TemporaryFolder& folder) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_time_is_completed) {
-  std::mt19937 numbers(1);
   const int times = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 30 : 1;
-  int kills = 0, went_on = 0;
-  for (const std::string& subcommand : subcommands) {
-    const TemporaryFolder whole;
-    succeeds(whole, subcommand);  // builds kernels, too
-    const auto begin = std::chrono::steady_clock::now();
-    succeeds(whole, subcommand);
-    const auto microseconds =
-        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
-    for (int i = 0; i < times; ++i) {
-      const TemporaryFolder folder;
-      bool is_done = false;
-      for (int attempt = 0; attempt < 100 && !is_done; ++attempt) {
-        const pid_t process = start(folder, words_of(subcommand + " --resume"));
-        // Longer and longer: to go on takes time, too.
-        const auto most = microseconds.count() * (10 + attempt) / 10;
-        std::this_thread::sleep_for(std::chrono::microseconds(numbers() % static_cast<unsigned>(most)));
-        kill(process, SIGKILL);
-        int status = 0;
-        waitpid(process, &status, 0);
-        is_done = WIFEXITED(status);
-        if (is_done) {
-          BOOST_TEST(WEXITSTATUS(status) == 0, subcommand << "\n" << content_of(folder / "streams"));
-          went_on += content_of(folder / "streams").find("made before: ") != std::string::npos;
-        } else {
-          ++kills;
-        }
-      }
-      BOOST_TEST_CONTEXT(subcommand) {
-        BOOST_TEST(is_done);
-        check_same(folder, whole);
-      }
-    }
-  }
-  BOOST_TEST_MESSAGE(kills << " kills");
-  BOOST_TEST(kills > times);
-  BOOST_TEST(went_on > 0);
+  const auto tells = [](const std::string& journal) {
+    const std::string end_of_run = "\nsteps\n";
+    const std::size_t end = journal.find(end_of_run);
+    return end != std::string::npos && journal.size() > end + end_of_run.size();
+  };
+  check_killed_runs({std::begin(subcommands), std::end(subcommands)}, times, tells, without_times);
 }
 
 BOOST_AUTO_TEST_CASE(so_is_one_that_is_interrupted) {
@@ -144,7 +98,7 @@ BOOST_AUTO_TEST_CASE(so_is_one_that_is_interrupted) {
   for (const std::string& file : files_of(folder)) BOOST_TEST(!is_temporary(file), file);
   const Result result = run(folder, subcommands[0] + " --resume");
   BOOST_TEST(result.exit_code == 0, result.error);
-  check_same(folder, whole);
+  check_same(folder, whole, without_times);
 }
 
 #ifdef VOROCL_FAULTS
@@ -173,7 +127,7 @@ BOOST_AUTO_TEST_CASE(so_is_one_whose_files_could_not_be_written) {
         BOOST_TEST(failed.exit_code == failure);
         const Result result = run(folder, subcommand);
         BOOST_TEST(result.exit_code == 0, result.error);
-        check_same(folder, whole);
+        check_same(folder, whole, without_times);
       }
     }
   }
@@ -187,7 +141,7 @@ BOOST_AUTO_TEST_CASE(a_trajectory_that_has_grown_whole_is_gone_on_with) {
   begin_three(folder);
   folder.file("t.xyz", trajectory("3"));
   BOOST_TEST(run(folder, three).exit_code == 0);
-  check_same(folder, whole);
+  check_same(folder, whole, without_times);
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
