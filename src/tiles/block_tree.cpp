@@ -1,7 +1,8 @@
 #include "tiles/block_tree.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "tiles/rim_walk.hpp"
 
 namespace vorocl {
 
@@ -19,18 +20,24 @@ void BlockTree::make(const std::vector<SeedBlock>& blocks) {
 std::vector<std::size_t> BlockTree::find_near(const PlaneRectangle& rectangle, Metric metric) const {
   std::vector<std::size_t> found;
   if (blocks_.empty()) return found;
-  using Verdict = BoxTree::Verdict;
-  const auto judge = [&](const Box& box) {
-    if (!meets(rectangle, box)) return Verdict::pass;
-    return holds(rectangle, box) ? Verdict::take : Verdict::enter;
-  };
-  tree_.visit(judge, [&](std::size_t first, std::size_t end, bool all) {
+  tree_.visit_inside(rectangle, [&](std::size_t first, std::size_t end, bool all) {
     for (std::size_t i = first; i < end; ++i) {
       if (all || meets(rectangle, blocks_[i].box)) found.push_back(i);
     }
-    return true;
   });
-  find_at_rim(rectangle, metric, found);
+  // As PlaneSeedsState::find_near() does, with the samples in place of the seeds that win: those are at least
+  // as near.
+  const auto nearest_sample = [&](const PlanePoint& point, const SeedImage&) {
+    SeedImage nearest;
+    samples_.find_nearest(point, plane_, metric, nearest);
+    return nearest;
+  };
+  const auto find_in_blocks = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
+                                  const SeedImage& at_b, std::size_t most,
+                                  std::vector<std::size_t>& between) {
+    return find_between(a, at_a, b, at_b, metric, most, between);
+  };
+  walk_rim(rectangle, 16, nearest_sample, find_in_blocks, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -55,43 +62,6 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
     return true;
   });
   return seeds;
-}
-
-// As PlaneSeeds::find_near() walks the rim, with the samples in place of the seeds that win: what wins is at
-// least as near.
-void BlockTree::find_at_rim(const PlaneRectangle& rectangle, Metric metric,
-                            std::vector<std::size_t>& found) const {
-  constexpr std::size_t few = 16;
-  const auto nearest_sample = [&](const PlanePoint& point) {
-    SeedImage nearest;
-    samples_.find_nearest(point, plane_, metric, nearest);
-    return nearest;
-  };
-  std::vector<std::size_t> between;
-  std::int64_t step = 64;
-  const std::array<PlanePoint, 4> corners = corners_of(rectangle);
-  for (std::size_t side = 0; side < corners.size(); ++side) {
-    PlanePoint a = corners[side];
-    const PlanePoint& end = corners[(side + 1) % corners.size()];
-    SeedImage at_a = nearest_sample(a);
-    for (bool done = false; !done;) {  // once where a side has no length
-      const std::int64_t left = length_of(a, end);
-      step = std::min(std::max<std::int64_t>(step, 1), left);
-      const PlanePoint b =
-          left == 0 ? end : PlanePoint{a.x + (end.x - a.x) / left * step, a.y + (end.y - a.y) / left * step};
-      const SeedImage at_b = nearest_sample(b);
-      between.clear();
-      if (!find_between(a, at_a, b, at_b, metric, step > 1 ? few : SIZE_MAX, between)) {
-        step /= 2;
-        continue;
-      }
-      found.insert(found.end(), between.begin(), between.end());
-      done = step == left;
-      a = b;
-      at_a = at_b;
-      if (between.size() < few / 4) step *= 2;
-    }
-  }
 }
 
 /// Appends the blocks that may hold a winner on the line from a to b, given the samples that are nearest to

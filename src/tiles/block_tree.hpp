@@ -32,7 +32,6 @@ class BlockTree {
   double expected(const PlaneRectangle& rectangle) const;
 
  private:
-  void find_at_rim(const PlaneRectangle& rectangle, Metric metric, std::vector<std::size_t>& found) const;
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
                     Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
 

@@ -64,6 +64,19 @@ class BoxTree {
     return levels_.empty() || visit(levels_.size() - 1, 0, judge, use);
   }
 
+  /// Gives a function ranges of items that may be in a rectangle, with whether all of them are.
+  template <typename Use>
+  void visit_inside(const PlaneRectangle& rectangle, Use use) const {
+    const auto judge = [&](const Box& box) {
+      if (!meets(rectangle, box)) return Verdict::pass;
+      return holds(rectangle, box) ? Verdict::take : Verdict::enter;
+    };
+    visit(judge, [&](std::size_t first, std::size_t end, bool all) {
+      use(first, end, all);
+      return true;
+    });
+  }
+
   /// Gives a function ranges of items: those of boxes of which another function says, from the box and its
   /// distance, that they count; the nearest ones first.
   template <typename Distance, typename Counts, typename Use>

@@ -83,7 +83,7 @@ class TileEngine {
     place(tile, Internal::state(maker->seeds));
     upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
-    MadeTile made = {number, tile, name_labels(maker->diagram, near_.size()), {}};
+    MadeTile made = {number, tile, name_labels(maker->diagram), {}};
     if (options_.cells) made.measures = measure(*maker);
     return made;
   }
@@ -133,13 +133,14 @@ class TileEngine {
     upload_.start(device_, ids_, std::move(ids));
   }
 
-  cl::Buffer name_labels(const Diagram& diagram, std::size_t seeds) {
+  cl::Buffer name_labels(const Diagram& diagram) {
     cl::Buffer& named = named_[next_];
     next_ = 1 - next_;
     if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
     const Grid& grid = diagram.grid();
     kernels_.get(device_, "tiles.cl", "name_labels", grid)
-        .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(seeds), grid.width(), grid.height(), named);
+        .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(near_.size()), grid.width(), grid.height(),
+                   named);
     return named;
   }
 
@@ -185,7 +186,7 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   struct Waiting {
-    Waiting(const MadeTile& tile, const TileEngine& made_by) : made(tile), labels(made_by.map(tile)) {}
+    Waiting(MadeTile&& tile, const TileEngine& made_by) : made(std::move(tile)), labels(made_by.map(made)) {}
 
     MadeTile made;
     MappedLabels labels;

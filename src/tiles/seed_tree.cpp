@@ -77,12 +77,7 @@ void SeedTree::sort() {
 }
 
 void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const {
-  using Verdict = BoxTree::Verdict;
-  const auto judge = [&](const Box& box) {
-    if (!meets(rectangle, box)) return Verdict::pass;
-    return holds(rectangle, box) ? Verdict::take : Verdict::enter;
-  };
-  boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool all) {
+  boxes_.visit_inside(rectangle, [&](std::size_t first, std::size_t end, bool all) {
     if (all) {
       const std::size_t before = found.size();
       found.resize(before + end - first);
@@ -92,7 +87,6 @@ void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSee
         if (holds(rectangle, x_of(i), y_of(i))) found.push_back(seed(i));
       }
     }
-    return true;
   });
 }
 
@@ -125,7 +119,7 @@ SeedImage SeedTree::seen_from(const PlanePoint& point, const Plane& plane, Metri
 bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
                             const SeedImage& at_b, const Plane& plane, Metric metric,
                             const PlaneRectangle& rectangle, std::size_t most,
-                            std::vector<SeedImage>& found) const {
+                            std::vector<std::size_t>& found) const {
   // What wins at a is nearer there than another image: if it wins against that one at b too, it does between
   // them. So only images count that are as near at b as what wins at a, and the other way round.
   const SeedImage of_b_at_a = seen_from(a, plane, metric, at_b),
@@ -147,7 +141,7 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
         image.distance = distance(from_b, point_of(i));
         if (of_a_at_b.wins(image)) continue;
         if (found.size() == most) return false;
-        found.push_back(image);
+        found.push_back(i);
       }
       return true;
     });

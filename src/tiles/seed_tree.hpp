@@ -53,11 +53,11 @@ class SeedTree {
   /// The image as it is seen from another point.
   SeedImage seen_from(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage image) const;
 
-  /// Appends images of seeds outside a rectangle: all that win somewhere on an axis-parallel line from a to
-  /// b, and some that do not, given those that win at both ends. Returns false if they are more than `most`.
+  /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some
+  /// that do not, given the images that win at both ends. Returns false if they are more than `most`.
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
                     const Plane& plane, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
-                    std::vector<SeedImage>& found) const;
+                    std::vector<std::size_t>& found) const;
 
  private:
   void sort_places();
