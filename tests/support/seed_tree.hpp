@@ -21,19 +21,22 @@ class SeedTree {
     std::stable_sort(ids.begin(), ids.end(), before);
     const auto same = [&](std::uint32_t a, std::uint32_t b) { return !before(a, b) && !before(b, a); };
     ids.erase(std::unique(ids.begin(), ids.end(), same), ids.end());
-    for (const std::uint32_t id : ids) nodes_.push_back({seeds[id], id, true});
+    for (const std::uint32_t id : ids) nodes_.push_back({seeds[id], id, true, {}, {}});
     build(0, nodes_.size());
   }
 
-  /// The seed nearest to some image of the pixel.
-  std::uint32_t nearest(const Grid& grid, const Pixel& pixel) const {
+  /// Of the seeds nearest to each pixel, or to an image of it: each is looked for from the last one on.
+  std::vector<std::uint32_t> labels(const Grid& grid) const {
+    std::vector<std::uint32_t> labels;
+    labels.reserve(grid.pixels());
     Nearest found;
-    for (int y = grid.periodic_y() ? -1 : 0; y <= (grid.periodic_y() ? 1 : 0); ++y) {
-      for (int x = grid.periodic_x() ? -1 : 0; x <= (grid.periodic_x() ? 1 : 0); ++x) {
-        search(0, nodes_.size(), {pixel.x + x * grid.width(), pixel.y + y * grid.height()}, found);
+    for (int y = 0; y < grid.height(); ++y) {
+      for (int x = 0; x < grid.width(); ++x) {
+        found = nearest(grid, {x, y}, found.node);
+        labels.push_back(found.node == nullptr ? no_label : found.node->id);
       }
     }
-    return found.node == nullptr ? no_label : found.node->id;
+    return labels;
   }
 
  private:
@@ -42,27 +45,51 @@ class SeedTree {
     Pixel seed;
     std::uint32_t id;
     bool splits_x;
+    Pixel low, high;  // of all in the range
   };
   struct Nearest {
     const Node* node = nullptr;
-    std::int64_t distance = 0;
+    std::int64_t distance = INT64_MAX;
+
+    void take_nearer(const Node& other, std::int64_t d) {
+      if (d < distance || (d == distance && other.seed < node->seed)) *this = {&other, d};
+    }
   };
 
+  Nearest nearest(const Grid& grid, const Pixel& pixel, const Node* guess) const {
+    std::vector<Pixel> images;
+    for (int y = grid.periodic_y() ? -1 : 0; y <= (grid.periodic_y() ? 1 : 0); ++y) {
+      for (int x = grid.periodic_x() ? -1 : 0; x <= (grid.periodic_x() ? 1 : 0); ++x) {
+        images.push_back({pixel.x + x * grid.width(), pixel.y + y * grid.height()});
+      }
+    }
+    Nearest found;
+    if (guess != nullptr) {
+      for (const Pixel& image : images) found.take_nearer(*guess, distance(image, guess->seed, metric_));
+    }
+    for (const Pixel& image : images) search(0, nodes_.size(), image, found);
+    return found;
+  }
+
   void build(std::size_t begin, std::size_t end) {
-    if (end - begin < 2) return;
+    if (begin == end) return;
     const auto at = [&](std::size_t i) { return nodes_.begin() + static_cast<std::ptrdiff_t>(i); };
     const auto by_x = [](const Node& a, const Node& b) { return a.seed.x < b.seed.x; };
     const auto by_y = [](const Node& a, const Node& b) { return a.seed.y < b.seed.y; };
     const auto [left, right] = std::minmax_element(at(begin), at(end), by_x);
     const auto [top, bottom] = std::minmax_element(at(begin), at(end), by_y);
-    const bool splits_x = right->seed.x - left->seed.x > bottom->seed.y - top->seed.y;
+    const Pixel low = {left->seed.x, top->seed.y}, high = {right->seed.x, bottom->seed.y};
+    const bool splits_x = high.x - low.x > high.y - low.y;
     const std::size_t middle = begin + (end - begin) / 2;
     if (splits_x) {
       std::nth_element(at(begin), at(middle), at(end), by_x);
     } else {
       std::nth_element(at(begin), at(middle), at(end), by_y);
     }
-    nodes_[middle].splits_x = splits_x;
+    Node& node = nodes_[middle];
+    node.splits_x = splits_x;
+    node.low = low;
+    node.high = high;
     build(begin, middle);
     build(middle + 1, end);
   }
@@ -71,17 +98,13 @@ class SeedTree {
     if (begin == end) return;
     const std::size_t middle = begin + (end - begin) / 2;
     const Node& node = nodes_[middle];
-    const std::int64_t d = distance(pixel, node.seed, metric_);
-    if (found.node == nullptr || d < found.distance ||
-        (d == found.distance && node.seed < found.node->seed)) {
-      found = {&node, d};
-    }
-    const std::int64_t offset = node.splits_x ? pixel.x - node.seed.x : pixel.y - node.seed.y;
-    const bool before = offset < 0;
+    const Pixel in_box = {std::clamp(pixel.x, node.low.x, node.high.x),
+                          std::clamp(pixel.y, node.low.y, node.high.y)};
+    if (distance(pixel, in_box, metric_) > found.distance) return;  // as far: a seed there can tie
+    found.take_nearer(node, distance(pixel, node.seed, metric_));
+    const bool before = node.splits_x ? pixel.x < node.seed.x : pixel.y < node.seed.y;
     search(before ? begin : middle + 1, before ? middle : end, pixel, found);
-    // Seeds behind the line can tie with the nearest one.
-    const std::int64_t to_line = metric_ == Metric::euclidean ? offset * offset : std::abs(offset);
-    if (to_line <= found.distance) search(before ? middle + 1 : begin, before ? end : middle, pixel, found);
+    search(before ? middle + 1 : begin, before ? end : middle, pixel, found);
   }
 
   std::vector<Node> nodes_;
@@ -91,13 +114,7 @@ class SeedTree {
 /// The labels of the exact diagram with the tie rule, as brute_force() gives them.
 inline std::vector<std::uint32_t> tree_labels(const Grid& grid, const std::vector<Pixel>& seeds,
                                               Metric metric) {
-  const SeedTree tree(seeds, metric);
-  std::vector<std::uint32_t> labels;
-  labels.reserve(grid.pixels());
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) labels.push_back(tree.nearest(grid, {x, y}));
-  }
-  return labels;
+  return SeedTree(seeds, metric).labels(grid);
 }
 
 }  // namespace vorocl
