@@ -2,12 +2,7 @@
 # Reads the labels of vorocl tiles with Zarr and GDAL: check_planes.sh COMMAND
 # Exits with 77 where no Python has them (Debian: python3-zarr, python3-gdal), or vorocl was built without libgeotiff.
 set -euo pipefail
-has_readers() { "$1" -c 'import numpy, zarr, osgeo.gdal' 2>/dev/null; }
-if has_readers python3; then
-  python=python3
-elif has_readers /usr/bin/python3; then
-  python=/usr/bin/python3
-else
+if ! python=$("$(dirname "$0")/find_python.sh" numpy zarr osgeo.gdal); then
   echo "Python's zarr (python3-zarr), GDAL (python3-gdal) or NumPy are not installed: skipped"
   exit 77
 fi

@@ -246,6 +246,14 @@ BOOST_AUTO_TEST_CASE(bench_judges_every_method) {
     BOOST_TEST(results[i].at("min_ms").get<double>() > 0);
     BOOST_TEST(results[i].at("median_ms").get<double>() >= results[i].at("min_ms").get<double>());
   }
+  const json tiles = json::parse(succeeds(folder, arguments + " --tile 70 --json")).at("results");
+  BOOST_REQUIRE(tiles.size() == 6u);
+  const char* const names_on_host[] = {"exact, host to host", "exact, tiles of 70"};
+  for (std::size_t i = 0; i < 2; ++i) {
+    BOOST_TEST(tiles[4 + i].at("method") == names_on_host[i]);
+    BOOST_TEST(tiles[4 + i].at("min_ms").get<double>() > 0);
+    BOOST_TEST(tiles[4 + i].at("wrong_pixels") == 0);
+  }
   // Against the labels that render writes, judged by brute force.
   succeeds(folder, "render --size 300x200 --random 500 --method jfa --labels a.npy");
   const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 500, 1));

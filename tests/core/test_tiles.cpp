@@ -1,4 +1,4 @@
-// Planes made tile by tile: labels, cells and the seeds that a tile needs, against the whole plane at once
+// Planes made tile by tile: labels and the seeds that a tile needs, against the whole plane at once
 // and against brute force.
 #define BOOST_TEST_MODULE tiles
 #include <algorithm>
@@ -9,61 +9,11 @@
 #include <set>
 
 #include "brute_force.hpp"
-#include "fixture.hpp"
-#include "vorocl/tiles.hpp"
+#include "plane_image.hpp"
 
 using namespace vorocl;
 
 namespace {
-
-using Labels = std::vector<std::uint32_t>;
-
-Plane plane_of(const Grid& grid) { return {grid.width(), grid.height(), grid.periodic()}; }
-
-/// The labels of all tiles, as one image of the tiling's part.
-class Image {
- public:
-  explicit Image(const Tiling& tiling)
-      : part_(tiling.part()),
-        labels(static_cast<std::size_t>(part_.width * part_.height), no_label - 1),
-        times_(static_cast<std::size_t>(tiling.count()), 0) {}
-
-  void add(const TileLabels& tile) {
-    ++times_[static_cast<std::size_t>(tile.number)];
-    for (int y = 0; y < tile.tile.height; ++y) {
-      const std::int64_t to = (tile.tile.y + y - part_.y) * part_.width + tile.tile.x - part_.x;
-      std::copy_n(tile.labels + std::ptrdiff_t{y} * tile.tile.width, tile.tile.width, labels.begin() + to);
-    }
-  }
-
-  bool each_tile_once() const {
-    return std::all_of(times_.begin(), times_.end(), [](int times) { return times == 1; });
-  }
-
- private:
-  PlaneRectangle part_;
-
- public:
-  Labels labels;
-
- private:
-  std::vector<int> times_;
-};
-
-Labels labels_of(const PlaneSeeds& seeds, const Tiling& tiling, const TileOptions& options = {}) {
-  Image image(tiling);
-  exact_tiles(
-      test_device(), seeds, tiling, [&](const TileLabels& tile) { image.add(tile); }, options);
-  BOOST_TEST(image.each_tile_once());
-  return image.labels;
-}
-
-std::size_t count_differences(const Labels& a, const Labels& b) {
-  BOOST_REQUIRE(a.size() == b.size());
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differences += a[i] != b[i] ? 1 : 0;
-  return differences;
-}
 
 /// Seeds in a disc.
 std::vector<Point> disc(Point middle, double radius, std::size_t count, unsigned rng_seed) {
@@ -128,11 +78,11 @@ BOOST_AUTO_TEST_CASE(a_plane_is_cut_into_tiles) {
 BOOST_AUTO_TEST_CASE(labels_are_those_of_the_whole_plane) {
   std::size_t number = 0;
   for (const Case& c : all_edge_cases()) {
-    const PlaneSeeds seeds(plane_of(c.grid), centres(c.seeds));
+    const PlaneSeeds seeds(c.grid, centres(c.seeds));
     constexpr int sides[] = {64, 33, 16, 50, 40};
     const int side = sides[number++ % std::size(sides)];
     for (const Metric metric : both_metrics) {
-      const Labels labels = labels_of(seeds, Tiling(plane_of(c.grid), side), {metric});
+      const Labels labels = labels_of(seeds, Tiling(c.grid, side), {metric});
       const std::size_t wrong = count_differences(labels, vorocl::brute_force(c.grid, c.seeds, metric));
       BOOST_TEST(wrong == 0u, c.name << ", tiles of " << side << ", " << name_of(metric) << ": " << wrong);
     }
@@ -143,13 +93,13 @@ BOOST_AUTO_TEST_CASE(tiles_and_their_order_do_not_matter) {
   for (const Periodic axes : {Periodic::none, Periodic::xy}) {
     const Grid grid(700, 500, axes);
     const std::vector<Pixel> pixels = random_pixels(grid, 900, 5);
-    const PlaneSeeds seeds(plane_of(grid), centres(pixels));
+    const PlaneSeeds seeds(grid, centres(pixels));
     Diagram diagram(test_device(), grid);
     for (const Metric metric : both_metrics) {
       exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram, {metric});
       const Labels expected = diagram.read();
       for (const int side : {100, 256, 700}) {
-        const Tiling tiling(plane_of(grid), side);
+        const Tiling tiling(grid, side);
         BOOST_TEST(count_differences(labels_of(seeds, tiling, {metric}), expected) == 0u);
         Image backwards(tiling);
         std::uint64_t left = tiling.count();
@@ -218,131 +168,6 @@ BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
       }
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
-    for (const std::size_t count : {1, 3, 40, 3000}) {
-      const Grid grid(231, 190, axes);
-      const std::vector<Point> points = centres(random_pixels(grid, count, 4));
-      const Seeds seeds(test_device(), grid, points);
-      Diagram diagram(test_device(), grid);
-      exact_diagram(seeds, diagram);
-      CellSumsResult sums;
-      CellShapesResult shapes;
-      AdjacencyResult pairs;
-      cell_sums(seeds, diagram, sums);
-      cell_shapes(seeds, diagram, shapes);
-      adjacency(seeds, diagram, pairs);
-      const auto expected = sums.read();
-      const auto expected_shapes = shapes.read();
-      const auto expected_pairs = pairs.read_pairs();
-      for (const int side : {64, 100, 231}) {
-        PlaneCells cells;
-        TileOptions options;
-        options.cells = &cells;
-        labels_of(PlaneSeeds(plane_of(grid), points), Tiling(plane_of(grid), side), options);
-        BOOST_TEST(cells.size() == count);
-        for (std::size_t id = 0; id < count; ++id) {
-          const PlaneCell cell = cells.cell(id);
-          const CellShape& shape = expected_shapes[id];
-          BOOST_TEST_CONTEXT(count << " seeds, tiles of " << side << ", axes " << static_cast<int>(axes)
-                                   << ", cell " << id) {
-            BOOST_TEST(cell.area == expected[id].area);
-            if (cell.area == 0) continue;
-            BOOST_TEST(cell.centroid.x == expected[id].centroid().x);
-            BOOST_TEST(cell.centroid.y == expected[id].centroid().y);
-            BOOST_TEST((cell.left == shape.left && cell.top == shape.top && cell.right == shape.right &&
-                        cell.bottom == shape.bottom));
-            BOOST_TEST(cell.touches_border == shape.touches_border);
-          }
-        }
-        const std::vector<PlaneCellPair> found = cells.pairs();
-        BOOST_TEST(found.size() == expected_pairs.size());
-        for (std::size_t i = 0; i < std::min(found.size(), expected_pairs.size()); ++i) {
-          BOOST_TEST((found[i].a == expected_pairs[i].a && found[i].b == expected_pairs[i].b &&
-                      found[i].length == expected_pairs[i].length));
-        }
-      }
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
-    const Plane plane(231, 190, axes);
-    const std::vector<Point> points = centres(random_pixels(Grid(231, 190), 300, 4));
-    const PlaneSeeds seeds(plane, points);
-    const Tiling tiling(plane, 50);
-    PlaneCells whole;
-    TileOptions options;
-    options.cells = &whole;
-    labels_of(seeds, tiling, options);
-
-    // By two who have every other tile, and give away what they have after every third.
-    PlaneCells sums;
-    for (const std::uint64_t first : {1, 0}) {
-      PlaneCells some;
-      options.cells = &some;
-      std::uint64_t number = first;
-      const NextTile next = [&]() -> std::optional<std::uint64_t> {
-        number += 2;
-        return number - 2 < tiling.count() ? std::optional(number - 2) : std::nullopt;
-      };
-      int made = 0;
-      exact_tiles(
-          test_device(), seeds, tiling, next,
-          [&](const TileLabels&) {
-            if (++made % 3 == 0) sums.add(some.take());
-          },
-          options);
-      sums.add(some.take());
-      sums.add(some.take());  // nothing is left
-    }
-    BOOST_TEST(sums.size() == whole.size());
-    for (std::size_t id = 0; id < points.size(); ++id) {
-      const PlaneCell cell = sums.cell(id), expected = whole.cell(id);
-      BOOST_TEST(cell.area == expected.area);
-      if (cell.area == 0) continue;
-      BOOST_TEST((cell.centroid.x == expected.centroid.x && cell.centroid.y == expected.centroid.y));
-      BOOST_TEST((cell.left == expected.left && cell.bottom == expected.bottom));
-      BOOST_TEST(cell.touches_border == expected.touches_border);
-    }
-    const auto pairs = sums.pairs(), expected = whole.pairs();
-    BOOST_REQUIRE(pairs.size() == expected.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i) {
-      BOOST_TEST((pairs[i].a == expected[i].a && pairs[i].b == expected[i].b &&
-                  pairs[i].length == expected[i].length));
-    }
-
-    std::vector<char> taken = sums.take();
-    PlaneCells of_other_tiles;
-    options.cells = &of_other_tiles;
-    labels_of(seeds, Tiling(plane, 64), options);
-    check_error([&] { of_other_tiles.add(taken); }, {"of other tiles"});
-    taken.pop_back();
-    check_error([&] { PlaneCells().add(taken); }, {"these are not the sums"});
-    PlaneCells none;
-    none.add(PlaneCells().take());
-    BOOST_TEST(none.size() == 0u);
-  }
-}
-
-// One cell of 2^62 pixels is more than can be made; some tiles of it are enough for sums past 64 bits.
-BOOST_AUTO_TEST_CASE(sums_may_pass_64_bits) {
-  const std::int64_t side = Plane::max_side;
-  const Plane plane(side, side);
-  const Tiling tiling(plane, 4096, {side - 8192, side - 4096, 8192, 4096});
-  PlaneCells cells;
-  TileOptions options;
-  options.cells = &cells;
-  exact_tiles(
-      test_device(), PlaneSeeds(plane, {{0.5, 0.5}}), tiling, [](const TileLabels&) {}, options);
-  const PlaneCell cell = cells.cell(0);
-  BOOST_TEST(cell.area == 8192u * 4096u);
-  BOOST_TEST(cell.centroid.x == static_cast<double>(side) - 4096);
-  BOOST_TEST(cell.centroid.y == static_cast<double>(side) - 2048);
-  BOOST_TEST(cell.touches_border);
 }
 
 BOOST_AUTO_TEST_CASE(labels_can_stay_on_the_device) {

@@ -21,8 +21,7 @@ namespace {
 struct BenchOptions {
   SeedOptions seeds;
   std::vector<Method> methods;
-  MethodOptions method_options;
-  int repeat = 9;
+  BenchmarkOptions benchmark = {{}, 9, 0};
   std::string device;
   bool json = false;
 };
@@ -37,18 +36,18 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                                    {"min_ms", result.milliseconds.least()},
                                    {"wrong_pixels", result.wrong_pixels}});
     }
-    print_json({{"metric", to_string(options.method_options.metric)},
+    print_json({{"metric", to_string(options.benchmark.method.metric)},
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
                 {"periodic", to_string(seeds.periodic())},
                 {"seeds", seeds.alive()},
-                {"repeat", options.repeat},
+                {"repeat", options.benchmark.rounds},
                 {"results", list}});
     return;
   }
   print("{} seeds on {} x {} pixels, {}, {} rounds, on {}\n", seeds.alive(), seeds.grid().width(),
-        seeds.grid().height(), to_string(options.method_options.metric), options.repeat,
+        seeds.grid().height(), to_string(options.benchmark.method.metric), options.benchmark.rounds,
         seeds.device().name());
   print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
   const double first_median = results.front().milliseconds.median();
@@ -65,7 +64,7 @@ void run(const BenchOptions& options) {
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  print_result(options, seeds, benchmark(options.methods, options.method_options, seeds, options.repeat));
+  print_result(options, seeds, benchmark(options.methods, options.benchmark, seeds));
 }
 
 void add_methods_option(Command& command, std::vector<Method>& methods) {
@@ -85,15 +84,22 @@ void add_bench(CommandLine& line) {
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
   add_methods_option(command, options->methods);
-  add_method_options(command, options->method_options);
-  command.add("--repeat", options->repeat, "Rounds after the warm-up")
+  add_method_options(command, options->benchmark.method);
+  command
+      .add("--tile", options->benchmark.tile,
+           "Time exact from seeds to labels on the host too, in one grid and in tiles of N x N pixels, whose "
+           "seeds were "
+           "sorted before")
+      .value_name("N")
+      .in_range(1, Grid::max_side);
+  command.add("--repeat", options->benchmark.rounds, "Rounds after the warm-up")
       .value_name("R")
       .in_range(1, 1000000)
       .default_is_value();
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
-    check_method_options(command, options->methods, options->method_options);
+    check_method_options(command, options->methods, options->benchmark.method);
     run(*options);
   });
 }

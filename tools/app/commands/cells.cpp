@@ -9,10 +9,10 @@
 #include "app/options/method_options.hpp"
 #include "app/options/output_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/outputs/results.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
-#include "studies/metric_name.hpp"
 
 namespace vorocl::command {
 
@@ -58,23 +58,17 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   const CellStatistics statistics = measures.statistics();
   const View& view = measures.view();
   if (options.json) {
-    print_json({{"method", options.method.name},
-                {"metric", to_string(options.method_options.metric)},
-                {"device", seeds.device().name()},
-                {"width", view.picture.grid.width()},
-                {"height", view.picture.grid.height()},
-                {"periodic", to_string(seeds.periodic())},
-                {"area_unit", view.units.of_area()},
-                {"length_unit", view.units.of_length()},
-                {"cells", statistics.cells},
-                {"empty_cells", statistics.empty_cells},
-                {"mean_area", statistics.mean_area},
-                {"area_deviation", statistics.area_deviation},
-                {"vertices", measures.vertices()},
-                {"pairs", measures.pair_count()},
-                {"waves", report.waves()},
-                {"milliseconds", report.milliseconds()},
-                {"host_milliseconds", report.host_milliseconds()}});
+    Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
+    result.insert(result.end(), {{"cells", statistics.cells},
+                                 {"empty_cells", statistics.empty_cells},
+                                 {"mean_area", statistics.mean_area},
+                                 {"area_deviation", statistics.area_deviation},
+                                 {"vertices", measures.vertices()},
+                                 {"pairs", measures.pair_count()},
+                                 {"waves", report.waves()},
+                                 {"milliseconds", report.milliseconds()},
+                                 {"host_milliseconds", report.host_milliseconds()}});
+    print_json(result);
     return;
   }
   print("{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",

@@ -11,12 +11,12 @@
 #include "app/options/output_options.hpp"
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
+#include "app/outputs/results.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/usage_error.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
-#include "studies/metric_name.hpp"
 #include "vorocl/jump_flooding.hpp"
 
 namespace vorocl::command {
@@ -70,20 +70,14 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   const View& view = measures.view();
   const CellStatistics statistics = measures.statistics();
   if (options.json) {
-    print_json({{"method", options.method.name},
-                {"metric", to_string(options.method_options.metric)},
-                {"device", seeds.device().name()},
-                {"width", view.picture.grid.width()},
-                {"height", view.picture.grid.height()},
-                {"periodic", to_string(seeds.periodic())},
-                {"area_unit", view.units.of_area()},
-                {"length_unit", view.units.of_length()},
-                {"seeds", seeds.alive()},
-                {"empty_cells", statistics.empty_cells},
-                {"frames", 1},
-                {"waves", report.waves()},
-                {"milliseconds", report.milliseconds()},
-                {"host_milliseconds", report.host_milliseconds()}});
+    Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
+    result.insert(result.end(), {{"seeds", seeds.alive()},
+                                 {"empty_cells", statistics.empty_cells},
+                                 {"frames", 1},
+                                 {"waves", report.waves()},
+                                 {"milliseconds", report.milliseconds()},
+                                 {"host_milliseconds", report.host_milliseconds()}});
+    print_json(result);
     return;
   }
   print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",

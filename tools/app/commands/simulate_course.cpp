@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/outputs/output_files.hpp"
+#include "app/outputs/results.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
@@ -31,21 +32,13 @@ CellStatistics statistics(const Simulation& simulation) {
 Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                       const Course& course) {
   const Seeds& seeds = simulation.seeds();
-  const View& view = source.view();
-  Json::Members result = {{"method", options.method.name},
-                          {"metric", to_string(options.method_options.metric)},
-                          {"device", seeds.device().name()},
-                          {"width", view.picture.grid.width()},
-                          {"height", view.picture.grid.height()},
-                          {"periodic", to_string(seeds.periodic())},
-                          {"area_unit", view.units.of_area()},
-                          {"length_unit", view.units.of_length()},
-                          {"seeds", seeds.alive()},
-                          {"empty_cells", statistics(simulation).empty_cells},
-                          {"frames", simulation.frame()},
-                          {"waves", simulation.report(main_engine).waves()},
-                          {"milliseconds", simulation.milliseconds(main_engine)},
-                          {"host_milliseconds", simulation.host_milliseconds(main_engine)}};
+  Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
+  result.insert(result.end(), {{"seeds", seeds.alive()},
+                               {"empty_cells", statistics(simulation).empty_cells},
+                               {"frames", simulation.frame()},
+                               {"waves", simulation.report(main_engine).waves()},
+                               {"milliseconds", simulation.milliseconds(main_engine)},
+                               {"host_milliseconds", simulation.host_milliseconds(main_engine)}});
   if (options.output.resume) result.emplace_back("made_before", course.made_before);
   if (options.method.continues) {
     const PlanSamples& plans = course.plans;

@@ -1,0 +1,134 @@
+// Cells of a plane that is made tile by tile, against those of the whole plane at once.
+#define BOOST_TEST_MODULE plane_cells
+#include <algorithm>
+#include <optional>
+
+#include "brute_force.hpp"
+#include "plane_image.hpp"
+
+using namespace vorocl;
+
+BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
+  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
+    for (const std::size_t count : {1, 3, 40, 3000}) {
+      const Grid grid(231, 190, axes);
+      const std::vector<Point> points = centres(random_pixels(grid, count, 4));
+      const Seeds seeds(test_device(), grid, points);
+      Diagram diagram(test_device(), grid);
+      exact_diagram(seeds, diagram);
+      CellSumsResult sums;
+      CellShapesResult shapes;
+      AdjacencyResult pairs;
+      cell_sums(seeds, diagram, sums);
+      cell_shapes(seeds, diagram, shapes);
+      adjacency(seeds, diagram, pairs);
+      const auto expected = sums.read();
+      const auto expected_shapes = shapes.read();
+      const auto expected_pairs = pairs.read_pairs();
+      for (const int side : {64, 100, 231}) {
+        PlaneCells cells;
+        TileOptions options;
+        options.cells = &cells;
+        labels_of(PlaneSeeds(grid, points), Tiling(grid, side), options);
+        BOOST_TEST(cells.size() == count);
+        for (std::size_t id = 0; id < count; ++id) {
+          const PlaneCell cell = cells.cell(id);
+          const CellShape& shape = expected_shapes[id];
+          BOOST_TEST_CONTEXT(count << " seeds, tiles of " << side << ", axes " << static_cast<int>(axes)
+                                   << ", cell " << id) {
+            BOOST_TEST(cell.area == expected[id].area);
+            if (cell.area == 0) continue;
+            BOOST_TEST(cell.centroid.x == expected[id].centroid().x);
+            BOOST_TEST(cell.centroid.y == expected[id].centroid().y);
+            BOOST_TEST((cell.left == shape.left && cell.top == shape.top && cell.right == shape.right &&
+                        cell.bottom == shape.bottom));
+            BOOST_TEST(cell.touches_border == shape.touches_border);
+          }
+        }
+        const std::vector<PlaneCellPair> found = cells.pairs();
+        BOOST_TEST(found.size() == expected_pairs.size());
+        for (std::size_t i = 0; i < std::min(found.size(), expected_pairs.size()); ++i) {
+          BOOST_TEST((found[i].a == expected_pairs[i].a && found[i].b == expected_pairs[i].b &&
+                      found[i].length == expected_pairs[i].length));
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
+  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+    const Plane plane(231, 190, axes);
+    const std::vector<Point> points = centres(random_pixels(Grid(231, 190), 300, 4));
+    const PlaneSeeds seeds(plane, points);
+    const Tiling tiling(plane, 50);
+    PlaneCells whole;
+    TileOptions options;
+    options.cells = &whole;
+    labels_of(seeds, tiling, options);
+
+    // By two who have every other tile, and give away what they have after every third.
+    PlaneCells sums;
+    for (const std::uint64_t first : {1, 0}) {
+      PlaneCells some;
+      options.cells = &some;
+      std::uint64_t number = first;
+      const NextTile next = [&]() -> std::optional<std::uint64_t> {
+        number += 2;
+        return number - 2 < tiling.count() ? std::optional(number - 2) : std::nullopt;
+      };
+      int made = 0;
+      exact_tiles(
+          test_device(), seeds, tiling, next,
+          [&](const TileLabels&) {
+            if (++made % 3 == 0) sums.add(some.take());
+          },
+          options);
+      sums.add(some.take());
+      sums.add(some.take());  // nothing is left
+    }
+    BOOST_TEST(sums.size() == whole.size());
+    for (std::size_t id = 0; id < points.size(); ++id) {
+      const PlaneCell cell = sums.cell(id), expected = whole.cell(id);
+      BOOST_TEST(cell.area == expected.area);
+      if (cell.area == 0) continue;
+      BOOST_TEST((cell.centroid.x == expected.centroid.x && cell.centroid.y == expected.centroid.y));
+      BOOST_TEST((cell.left == expected.left && cell.bottom == expected.bottom));
+      BOOST_TEST(cell.touches_border == expected.touches_border);
+    }
+    const auto pairs = sums.pairs(), expected = whole.pairs();
+    BOOST_REQUIRE(pairs.size() == expected.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      BOOST_TEST((pairs[i].a == expected[i].a && pairs[i].b == expected[i].b &&
+                  pairs[i].length == expected[i].length));
+    }
+
+    std::vector<char> taken = sums.take();
+    PlaneCells of_other_tiles;
+    options.cells = &of_other_tiles;
+    labels_of(seeds, Tiling(plane, 64), options);
+    check_error([&] { of_other_tiles.add(taken); }, {"of other tiles"});
+    taken.pop_back();
+    check_error([&] { PlaneCells().add(taken); }, {"these are not the sums"});
+    PlaneCells none;
+    none.add(PlaneCells().take());
+    BOOST_TEST(none.size() == 0u);
+  }
+}
+
+// One cell of 2^62 pixels is more than can be made; some tiles of it are enough for sums past 64 bits.
+BOOST_AUTO_TEST_CASE(sums_may_pass_64_bits) {
+  const std::int64_t side = Plane::max_side;
+  const Plane plane(side, side);
+  const Tiling tiling(plane, 4096, {side - 8192, side - 4096, 8192, 4096});
+  PlaneCells cells;
+  TileOptions options;
+  options.cells = &cells;
+  exact_tiles(
+      test_device(), PlaneSeeds(plane, {{0.5, 0.5}}), tiling, [](const TileLabels&) {}, options);
+  const PlaneCell cell = cells.cell(0);
+  BOOST_TEST(cell.area == 8192u * 4096u);
+  BOOST_TEST(cell.centroid.x == static_cast<double>(side) - 4096);
+  BOOST_TEST(cell.centroid.y == static_cast<double>(side) - 2048);
+  BOOST_TEST(cell.touches_border);
+}
