@@ -94,10 +94,11 @@ SteadyFile::State SteadyFile::now() const {
 
 Lines read_lines(const std::string& path, const std::string& kind) {
   constexpr std::size_t longest_line = 1 << 16;
+  const Error other(path + " is no " + kind + "; give another file");
   std::ifstream file = open_to_read(path);
   Lines lines;
   for (std::string line; std::getline(file, line);) {
-    if (line.size() > longest_line) throw Error(path + " is no " + kind + "; give another file");
+    if (line.size() > longest_line) throw other;
     if (file.eof()) {
       lines.cut_off = line;
     } else {

@@ -30,6 +30,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                   const std::vector<BenchmarkResult>& results) {
   if (options.json) {
     std::vector<Json> list;
+    list.reserve(results.size());
     for (const BenchmarkResult& result : results) {
       list.push_back(Json::Members{{"method", result.method},
                                    {"median_ms", result.milliseconds.median()},
