@@ -10,7 +10,7 @@ using namespace vorocl;
 
 BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
   for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
-    for (const std::size_t count : {1, 3, 40, 3000}) {
+    for (const std::size_t count : {1u, 3u, 40u, 3000u}) {
       const Grid grid(231, 190, axes);
       const std::vector<Point> points = centres(random_pixels(grid, count, 4));
       const Seeds seeds(test_device(), grid, points);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
 
     // By two who have every other tile, and give away what they have after every third.
     PlaneCells sums;
-    for (const std::uint64_t first : {1, 0}) {
+    for (const std::uint64_t first : {1u, 0u}) {
       PlaneCells some;
       options.cells = &some;
       std::uint64_t number = first;
