@@ -144,9 +144,9 @@ BOOST_AUTO_TEST_CASE(measures_in_a_part_of_the_picture_are_those_of_its_pixels) 
     check_adjacency_table(folder / "a1.csv", box);
     std::vector<TableRow> rows = cells_on_host(box, seeds, Metric::euclidean);
     for (TableRow& row : rows) {
-      for (const std::size_t x : {1, 4, 6, 8})
+      for (const std::size_t x : {1u, 4u, 6u, 8u})
         if (row[x]) *row[x] += 8;
-      for (const std::size_t y : {2, 5, 7, 9})
+      for (const std::size_t y : {2u, 5u, 7u, 9u})
         if (row[y]) *row[y] += 6;
     }
     check_rows(folder / "c1.csv", rows);
@@ -174,8 +174,8 @@ BOOST_AUTO_TEST_CASE(measures_are_in_data_units) {
       const TableRow &row = cells.rows.at(i), &pixels = in_pixels.rows.at(i);
       area += *row[3];
       BOOST_TEST(*row[3] == *pixels[3] * unit * unit, close);
-      for (const std::size_t length : {10, 12}) BOOST_TEST(*row[length] == *pixels[length] * unit, close);
-      for (const std::size_t same : {0, 1, 2, 4, 5, 6, 7, 8, 9, 11, 13})
+      for (const std::size_t length : {10u, 12u}) BOOST_TEST(*row[length] == *pixels[length] * unit, close);
+      for (const std::size_t same : {0u, 1u, 2u, 4u, 5u, 6u, 7u, 8u, 9u, 11u, 13u})
         BOOST_TEST(*row[same] == *pixels[same]);
     }
     BOOST_TEST(area == 100, boost::test_tools::tolerance(1e-12));  // every box has this area

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(small_files_take_little_memory) {
   refuses_mask("a.jpg",
                "\xff\xd8\xff\xc0" + std::string("\0\x0b\x08\x75\x30\x75\x30\x01\x01\x11\0", 11) + "pixels",
                {"a.jpg", "cannot hold 30000 x 30000"});
-  for (const std::uint32_t compression : {1, 5, 8}) {
+  for (const std::uint32_t compression : {1u, 5u, 8u}) {
     refuses_mask("a.tif", tiff(30000, 8, compression), {"a.tif", "cannot hold 30000 x 30000"});
     folder.file("l.tif", tiff(32768, 32, compression));
     refuses(folder, "compare l.tif l.tif", failure, {"l.tif", "cannot hold 32768 x 32768"});

@@ -43,9 +43,9 @@ TableRow statistics_on_host(int frame, const LabelImage& image, const std::optio
 
 void check_statistics(const TableRow& row, const TableRow& expected) {
   BOOST_TEST_REQUIRE(row.size() == 11u);
-  for (const std::size_t exact : {0, 1, 2, 5})
+  for (const std::size_t exact : {0u, 1u, 2u, 5u})
     BOOST_TEST((row[exact] == expected[exact]), "column " << exact);
-  for (const std::size_t near : {3, 4}) {
+  for (const std::size_t near : {3u, 4u}) {
     BOOST_TEST(row[near].value() == expected[near].value(), boost::test_tools::tolerance(1e-9));
   }
   BOOST_TEST(row[6].value() > 0);

@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(of_frames_that_do_not_fit_on_the_disk_the_whole_ones_stay,
 BOOST_AUTO_TEST_CASE(a_file_that_is_replaced_keeps_its_mode) {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.npy", "f.mp4"}) {
-    for (const mode_t mode : {0600, 0664}) {
+    for (const mode_t mode : {0600u, 0664u}) {
       chmod(folder.file(name, "old").c_str(), mode);
       succeeds(folder, name == std::string("f.mp4")
                            ? "simulate --random 5 --size 64x64 --frames 2 --step-length 1 "

@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(long_periods) {
 // The same plane said in two ways: the other one is a method of its own inside the engine.
 BOOST_AUTO_TEST_CASE(a_domain_of_the_grids_size_is_a_periodic_grid) {
   for (const Periodic axes : {Periodic::x, Periodic::y, Periodic::xy}) {
-    for (const std::size_t count : {1, 5, 100, 3000}) {
+    for (const std::size_t count : {1u, 5u, 100u, 3000u}) {
       const Grid grid(211, 130), periodic(211, 130, axes);
       const std::vector<Point> points = centres(random_pixels(grid, count, 9));
       Diagram expected(test_device(), periodic);

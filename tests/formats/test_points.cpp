@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(files_are_read_in_blocks_that_are_the_whole) {
   }
   for (const char* const name : {"p.csv", "p.npy"}) {
     write_points(folder / name, points, {});
-    for (const std::uint64_t parts : {1, 2, 5}) {
+    for (const std::uint64_t parts : {1u, 2u, 5u}) {
       std::vector<Point> read(points.size());
       std::size_t blocks = 0;
       for (std::uint64_t part = 0; part < parts; ++part) {

@@ -129,6 +129,7 @@ std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const
                                        const Seeds& seeds) {
   Diagram diagram(seeds.device(), seeds.grid());
   std::vector<Contender> contenders;
+  contenders.reserve(methods.size() + 2);
   for (const Method& method : methods)
     contenders.push_back(contender(method, seeds, diagram, options.method));
   const Metric metric = options.method.metric;
