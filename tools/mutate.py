@@ -60,7 +60,7 @@ KERNEL_TESTS = [
 # By source: names of tests.
 HOST_TESTS = [
     ("src/plan.cpp", ["plan"]), ("src/bounds.cpp", ["bounds"]), ("src/grid.cpp", ["grid", "plan"]),
-    ("src/palette.cpp", ["picture", "color_bar", "painter"]), ("src/picture.cpp", ["picture"]),
+    ("src/palette.cpp", ["colors", "color_bar", "painter"]), ("src/picture.cpp", ["colors", "picture"]),
     ("src/color_bar.cpp", ["color_bar"]), ("src/outer_seeds.cpp", ["window", "window_measures"]),
     ("tools/formats/csv.cpp", ["points"]), ("tools/formats/npy.cpp", ["points", "label_files"]),
     ("tools/formats/tiff.cpp", ["label_files", "large_claims"]), ("tools/formats/vtk.cpp", ["vtk"]),

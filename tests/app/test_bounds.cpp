@@ -16,9 +16,7 @@ namespace {
 using Pairs = std::vector<std::pair<double, double>>;
 
 Pairs pairs_of(const std::vector<Point>& points) {
-  Pairs pairs;
-  for (const Point& point : points) pairs.emplace_back(point.x, point.y);
-  return pairs;
+  return transformed(points, [](const Point& point) { return std::pair(point.x, point.y); });
 }
 
 /// Bounds outside which no point may be.
@@ -63,7 +61,8 @@ BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
   mapping.bounds = {0, 0, 20, 1};
   mapping.periodic = Periodic::x;
   mapping.domain = Bounds{3.3, 0, 10.7, 1};
-  for (double x = 3.3; x < 10.7; x += 0.01) {
+  for (int i = 0; i < 740; ++i) {
+    const double x = 3.3 + 0.01 * i;
     const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Grid(20, 1));
     BOOST_TEST((mapped.view.grid == Grid(7, 1, Periodic::x)));
     BOOST_TEST(mapped.view.x == 3);

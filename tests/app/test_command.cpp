@@ -22,13 +22,6 @@ std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::s
   return command::read_labels(folder / name).labels;
 }
 
-std::vector<Pixel> pixels_of(const Seeds& seeds) {
-  std::vector<Pixel> pixels;
-  for (const Point& seed : points_of(seeds))
-    pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
-  return pixels;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_level_has_help) {
@@ -95,11 +88,10 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
   folder.file("p.csv", text);
   // Windows of 4 pixels per unit, whose labels are those of the host's brute force.
   const auto check = [&](int x0, int y0, int x1, int y1, const std::string& options, const Domain& domain) {
-    const Grid grid(4 * (x1 - x0), 4 * (y1 - y0));
-    std::vector<PlanePixel> seeds;
-    for (const Point& point : points) {
-      seeds.push_back({std::llround(4 * (point.x - x0)), std::llround(4 * (point.y - y0))});
-    }
+    const Grid grid(std::int64_t{4} * (x1 - x0), std::int64_t{4} * (y1 - y0));
+    const auto seeds = transformed(points, [&](const Point& point) {
+      return PlanePixel{std::llround(4 * (point.x - x0)), std::llround(4 * (point.y - y0))};
+    });
     const std::string line =
         fmt::format("render --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}", grid.width(),
                     grid.height(), x0, y0, x1, y1, options);
@@ -111,7 +103,7 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
   const std::string around = " --periodic x --domain -180,-90,180,90";
   check(20, -30, 60, 10, "", {});
   check(400, 100, 420, 110, "", {});
-  check(20, -30, 60, 10, around, {-4 * 200, 0, 1440, 1, Periodic::x});
+  check(20, -30, 60, 10, around, {-800, 0, 1440, 1, Periodic::x});
   check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});    // the period begins with the window
   check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});   // a whole period, but in y a window
   check(-200, -20, 200, 0, around, {80, 0, 1440, 1, Periodic::x});  // beyond it there are no labels
@@ -135,7 +127,7 @@ BOOST_AUTO_TEST_CASE(render_reads_masks_and_makes_its_own_points) {
   BOOST_TEST(labels_of(folder, "a.npy") == brute_force(grid, {{40, 2}, {5, 30}}, Metric::manhattan));
 
   succeeds(folder, "render --random 9 --rng-seed 4 --size 50x40 --method 1+jfa --labels b.npy");
-  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 9, 4));
+  const std::vector<Pixel> seeds = pixels_of(points_of(Seeds::random(test_device(), grid, 9, 4)));
   const auto exact = brute_force(grid, seeds, Metric::euclidean);
   const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels_of(folder, "b.npy"), exact);
   BOOST_TEST(verdict.invalid + verdict.unlabelled == 0u);
@@ -167,7 +159,7 @@ BOOST_AUTO_TEST_CASE(diagrams_are_exact_unless_a_method_is_named) {
   BOOST_TEST(result.at("method") == "exact");
   BOOST_TEST(result.at("periodic") == "y");
   const Grid grid(70, 50, Periodic::y);
-  const std::vector<Pixel> pixels = pixels_of(Seeds::random(test_device(), grid, 40, 1));
+  const std::vector<Pixel> pixels = pixels_of(points_of(Seeds::random(test_device(), grid, 40, 1)));
   BOOST_TEST(labels_of(folder, "a.npy") == brute_force(grid, pixels, Metric::euclidean));
   succeeds(folder, "simulate --frames 1 --step-length 0" + seeds + "s%d.npy");
   BOOST_TEST(labels_of(folder, "s1.npy") == labels_of(folder, "a.npy"));
@@ -202,7 +194,7 @@ BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
 BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {
   const TemporaryFolder folder;
   const Grid grid(70, 50);
-  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 90, 4));
+  const std::vector<Pixel> seeds = pixels_of(points_of(Seeds::random(test_device(), grid, 90, 4)));
   for (const Metric metric : both_metrics) {
     const std::string arguments =
         fmt::format("--random 90 --rng-seed 4 --size 70x50 --metric {} ", name_of(metric));
@@ -256,7 +248,7 @@ BOOST_AUTO_TEST_CASE(bench_judges_every_method) {
   }
   // Against the labels that render writes, judged by brute force.
   succeeds(folder, "render --size 300x200 --random 500 --method jfa --labels a.npy");
-  const std::vector<Pixel> seeds = pixels_of(Seeds::random(test_device(), grid, 500, 1));
+  const std::vector<Pixel> seeds = pixels_of(points_of(Seeds::random(test_device(), grid, 500, 1)));
   const auto exact = brute_force(grid, seeds, Metric::euclidean);
   const Verdict verdict = judge(grid, seeds, Metric::euclidean, labels_of(folder, "a.npy"), exact);
   BOOST_TEST(results[0].at("wrong_pixels") == verdict.wrong);

@@ -20,14 +20,6 @@ namespace {
 
 using Labels = std::vector<std::uint32_t>;
 
-std::vector<Pixel> pixels_of(const std::vector<Point>& points) {
-  std::vector<Pixel> pixels;
-  for (const Point& point : points) {
-    pixels.push_back({static_cast<int>(point.x - 0.5), static_cast<int>(point.y - 0.5)});
-  }
-  return pixels;
-}
-
 Plan plan_of(const std::string& method, const Grid& grid) {
   if (method == "standard-flooding") return Plan(static_cast<std::size_t>(grid.longest_side()));  // enough
   const std::map<std::string, JumpFloodingVariant> variants = {{"jfa", JumpFloodingVariant::jfa},

@@ -87,9 +87,7 @@ std::vector<double> counted_neighbours(const std::vector<std::uint32_t>& labels,
       sets[labels[other]].insert(labels[i]);
     }
   }
-  std::vector<double> counts;
-  for (const auto& set : sets) counts.push_back(static_cast<double>(set.size()));
-  return counts;
+  return transformed(sets, [](const auto& set) { return static_cast<double>(set.size()); });
 }
 
 std::vector<float> counted_distances(const std::vector<Pixel>& seeds,
@@ -165,7 +163,7 @@ BOOST_AUTO_TEST_CASE(columns_colour_the_cells_of_their_seeds) {
   const cv::Mat picture = drawn.with(options_for(Quantity::column, "c"));
   const std::uint8_t levels[] = {0, 96, 0, 255, 191};  // of viridis, from -1 to 3
   for (std::size_t id = 0; id < pixels.size(); ++id) {
-    const cv::Vec3b color = picture.at<cv::Vec3b>(pixels[id].y, pixels[id].x);
+    const auto& color = picture.at<cv::Vec3b>(pixels[id].y, pixels[id].x);
     if (id == 2) {
       BOOST_TEST((color[0] == color[1] && color[1] == color[2] && color[0] > 180));
     } else {

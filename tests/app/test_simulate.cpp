@@ -33,14 +33,6 @@ std::vector<Row> rows_of(const std::string& path) {
   return rows;
 }
 
-std::vector<Pixel> pixels_of(const Seeds& seeds) {
-  std::vector<Pixel> pixels;
-  for (const Point& seed : points_of(seeds)) {
-    pixels.push_back({static_cast<int>(seed.x), static_cast<int>(seed.y)});
-  }
-  return pixels;
-}
-
 std::string number(int frame) { return fmt::format("{:05}", frame); }
 
 }  // namespace
@@ -147,7 +139,7 @@ BOOST_AUTO_TEST_CASE(errors_are_told_where_the_other_method_is_the_truth) {
   double wrong_sum = 0, wrong_greatest = 0, largest = 0, mean_sum = 0;
   for (int frame = 1; frame <= 6; ++frame) {
     random_step(seeds, 5, Border::reflect, 1, static_cast<std::uint32_t>(frame));
-    const std::vector<Pixel> pixels = pixels_of(seeds);
+    const std::vector<Pixel> pixels = pixels_of(points_of(seeds));
     const Verdict verdict =
         judge(grid, pixels, Metric::euclidean, labels_of(folder / fmt::format("l{}.npy", frame)),
               brute_force(grid, pixels, Metric::euclidean));
@@ -191,7 +183,7 @@ BOOST_AUTO_TEST_CASE(the_exact_method_is_the_truth) {
   Seeds seeds = Seeds::random(test_device(), grid, 90, 1);
   for (int frame = 0; frame <= 3; ++frame) {
     if (frame > 0) random_step(seeds, 6, Border::reflect, 1, static_cast<std::uint32_t>(frame));
-    const auto expected = brute_force(grid, pixels_of(seeds), Metric::euclidean);
+    const auto expected = brute_force(grid, pixels_of(points_of(seeds)), Metric::euclidean);
     BOOST_TEST((labels_of(folder / fmt::format("l{}.npy", frame)) == expected), "frame " << frame);
   }
 }
@@ -206,9 +198,8 @@ BOOST_AUTO_TEST_CASE(bench_starts_djfa_one_step_before) {
   BOOST_TEST(djfa.at("method") == "djfa");
   BOOST_TEST(djfa.at("min_ms").get<double>() > 0);
   Seeds seeds = Seeds::random(test_device(), grid, 1500, 1);
-  const std::vector<Pixel> now = pixels_of(seeds);
-  std::vector<std::optional<Point>> points;
-  for (const Pixel& pixel : now) points.emplace_back(centre(pixel));
+  const std::vector<Pixel> now = pixels_of(points_of(seeds));
+  const auto points = transformed(now, [](const Pixel& pixel) { return std::optional(centre(pixel)); });
   random_step(seeds, 5, Border::reflect, 1, 0);
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);

@@ -1,5 +1,6 @@
 // How the command writes files: whole or not at all, whatever is there, and whatever is in the way.
 #define BOOST_TEST_MODULE written_files
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -143,8 +144,9 @@ BOOST_AUTO_TEST_CASE(pipes_and_devices_are_written_into) {
   succeeds(folder, render + "--labels whole.npy -o whole.png");
   for (const std::string name : {"pipe.npy", "pipe.png"}) {
     BOOST_REQUIRE(mkfifo((folder / name).c_str(), 0600) == 0);
-    const Result result = run(folder, render + (name == "pipe.npy" ? "--labels " : "-o ") + name,
-                              "{ cat " + name + " > read & } ;");
+    const Result result =
+        run(folder, fmt::format("{}{} {}", render, name == "pipe.npy" ? "--labels" : "-o", name),
+            fmt::format("{{ cat {} > read & }} ;", name));
     BOOST_TEST(result.exit_code == 0, result.error);
     for (int i = 0; i < 100 && content_of(folder / "read").size() !=
                                    content_of(folder / ("whole" + name.substr(4))).size();

@@ -80,8 +80,11 @@ std::function<Points(Random&)> lattice(int seeds_of_a_cluster) {
 /// Horizontal lines of seeds, one in every second pixel.
 std::function<Points(Random&)> lines(int apart) {
   return [=](Random&) {
-    return make(side / 2 * (side / apart),
-                [&](int i) { return inside(2 * (i % (side / 2)), apart * (i / (side / 2)) + apart / 2); });
+    constexpr int in_line = side / 2;
+    return make(in_line * (side / apart), [&](int i) {
+      const int x = 2 * (i % in_line), y = apart * (i / in_line) + apart / 2;
+      return inside(x, y);
+    });
   };
 }
 
@@ -107,7 +110,7 @@ const std::vector<Motion>& motions() {
          });
        },
        walk(5)},
-      {"a line", [](Random&) { return make(side, [](int i) { return inside(i, side / 2); }); }, walk(2)},
+      {"a line", [](Random&) { return make(side, [](int i) { return inside(i, 128); }); }, walk(2)},
       {"a blob that sweeps",
        [](Random& r) {
          return make(400, [&](int) { return inside(64 + 8 * r.normal(), 128 + 8 * r.normal()); });
@@ -147,7 +150,7 @@ const std::vector<Motion>& motions() {
          return points;
        },
        [](Points& points, int frame, Random& r) {
-         points[static_cast<std::size_t>(299 + frame)] = anywhere(r);
+         points[299 + static_cast<std::size_t>(frame)] = anywhere(r);
        }},
       {"discs that are cleared and refilled", [](Random& r) { return evenly(655, r); },
        [](Points& points, int frame, Random& r) {

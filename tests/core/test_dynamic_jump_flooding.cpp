@@ -2,6 +2,7 @@
 #define BOOST_TEST_MODULE dynamic_jump_flooding
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <map>
 
@@ -14,16 +15,7 @@ using namespace vorocl;
 namespace {
 
 std::vector<std::optional<Point>> present(const std::vector<Pixel>& pixels) {
-  std::vector<std::optional<Point>> points;
-  for (const Pixel& pixel : pixels) points.push_back(centre(pixel));
-  return points;
-}
-
-std::vector<Pixel> pixels_of(const Seeds& seeds) {
-  std::vector<Pixel> pixels;
-  for (const Point& point : points_of(seeds))
-    pixels.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
-  return pixels;
+  return transformed(pixels, [](const Pixel& pixel) { return std::optional(centre(pixel)); });
 }
 
 /// Labels after motion: of seeds that have come to share a pixel, the lowest id has the cell.
@@ -83,7 +75,7 @@ BOOST_AUTO_TEST_CASE(every_frame_equals_a_reference) {
           auto expected = simulation.diagram().read();
           for (int frame = 1; frame <= 5; ++frame) {
             simulation.step();
-            const auto seeds = pixels_of(simulation.seeds());
+            const auto seeds = pixels_of(points_of(simulation.seeds()));
             const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), 3, plan);
             expected = reference_flood(grid, seeds, waves, metric, owners(expected, seeds));
             BOOST_TEST((simulation.diagram().read() == expected),
@@ -187,7 +179,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   // Out of nothing, and only in a corner: again farther than the first wave reaches.
   std::vector<std::optional<Point>> corner(pixels.size());
   for (std::size_t id = 0; id < 100; ++id)
-    corner[id] = Point{static_cast<double>(id % 10), static_cast<double>(id / 10)};
+    corner[id] = Point{static_cast<double>(id % 10), std::floor(static_cast<double>(id) / 10)};
   seeds.move_to(corner);
   dynamic_jump_flooding(seeds, diagram, 0);
   const auto from_corner = diagram.read();

@@ -203,8 +203,7 @@ BOOST_AUTO_TEST_CASE(order_of_the_seeds_does_not_matter) {
   std::iota(old_id.begin(), old_id.end(), 0u);
   const Labels labels = exact_labels(test_device(), grid, seeds);
   std::shuffle(old_id.begin(), old_id.end(), rng);
-  std::vector<Pixel> shuffled;
-  for (const std::uint32_t id : old_id) shuffled.push_back(seeds[id]);
+  const auto shuffled = transformed(old_id, [&](std::uint32_t id) { return seeds[id]; });
   Labels again = exact_labels(test_device(), grid, shuffled);
   for (std::uint32_t& label : again) label = old_id[label];
   BOOST_TEST(count_differences(labels, again) == 0);

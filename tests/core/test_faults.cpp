@@ -6,12 +6,36 @@
 #include <functional>
 #include <thread>
 
-#include "failing_opencl.hpp"
+#include "faulty_calls.hpp"
 #include "fixture.hpp"
 
 using namespace vorocl;
 
 namespace {
+
+/// Which call fails. Calls are counted from 1 once it is set; 0: none. And how many were kernels to launch or
+/// buffers to fill.
+struct Fault {
+  std::atomic<int> fails_at{0};
+  std::atomic<int> calls{0};
+  std::atomic<int> enqueued{0};
+
+  void set(int call) {
+    calls = enqueued = 0;
+    fails_at = call;
+  }
+
+  bool comes(const char* name) {
+    const std::string call(name);
+    enqueued += call == "clEnqueueNDRangeKernel" || call == "clEnqueueFillBuffer" ? 1 : 0;
+    return ++calls == fails_at;
+  }
+};
+
+Fault& fault() {
+  static Fault only;
+  return only;
+}
 
 const Grid grid(70, 50);
 
@@ -50,6 +74,12 @@ std::vector<std::uint32_t> fresh_labels(const Seeds& seeds) {
 
 }  // namespace
 
+bool vorocl::call_fails(const char* name) { return fault().comes(name); }
+
+VOROCL_FAULTY_CALL(clGetEventInfo,
+                   (cl_event event, cl_event_info name, size_t size, void* value, size_t* used),
+                   (event, name, size, value, used))
+
 // With working memory still to be made, and with all of it there from earlier frames.
 BOOST_AUTO_TEST_CASE(methods_that_fail_leave_a_diagram_as_never_filled) {
   const Seeds before = Seeds::random(test_device(), grid, 40, 1),
@@ -83,9 +113,9 @@ BOOST_AUTO_TEST_CASE(methods_that_fail_leave_a_diagram_as_never_filled) {
 
 BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
   const auto before = some_points(20), after = some_points(30);
-  std::vector<cl_float2> values;
-  for (const std::optional<Point>& point : after)
-    values.push_back({{static_cast<float>(point->x), static_cast<float>(point->y)}});
+  const auto values = transformed(after, [](const std::optional<Point>& point) {
+    return cl_float2{{static_cast<float>(point->x), static_cast<float>(point->y)}};
+  });
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
   std::optional<Seeds> seeds;
   bool moved = false;

@@ -133,8 +133,7 @@ BOOST_AUTO_TEST_CASE(the_same_cells_for_a_permuted_list) {
   std::vector<std::uint32_t> order(seeds.size());
   std::iota(order.begin(), order.end(), 0u);
   std::shuffle(order.begin(), order.end(), rng);
-  std::vector<Pixel> permuted;
-  for (const std::uint32_t id : order) permuted.push_back(seeds[id]);
+  const auto permuted = transformed(order, [&](std::uint32_t id) { return seeds[id]; });
 
   auto labels = labels_of(test_device(), grid, permuted);
   for (std::uint32_t& label : labels) label = order[label];

@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(dynamic_plans_follow_the_formula_of_the_paper) {
   BOOST_TEST(plan(Grid(1024, 1024), 16384) == "16v 8v 4 2 1");
   // At most the first step of JFA, and at least 1.
   BOOST_TEST(plan(Grid(8, 8), 1) == "4v 2v 1");
-  BOOST_TEST(plan(Grid(64, 64), 4 * 64 * 64) == "1");
+  BOOST_TEST(plan(Grid(64, 64), 16384) == "1");
   // d_max takes over where it is longer than 2 L.
   BOOST_TEST(plan(Grid(1000, 1000), 10000, 33) == "64v 32v 16 8 4 2 1");
   BOOST_TEST(plan(Grid(1000, 1000), 10000, 32) == "32v 16v 8 4 2 1");

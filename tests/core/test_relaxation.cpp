@@ -19,13 +19,6 @@ std::uint64_t energy_on_host(const Grid& grid, const std::vector<std::uint32_t>&
   return sum;
 }
 
-std::vector<Pixel> pixels_of(const Seeds& seeds) {
-  std::vector<Pixel> pixels;
-  for (const Point& point : points_of(seeds))
-    pixels.push_back({static_cast<int>(point.x), static_cast<int>(point.y)});
-  return pixels;
-}
-
 /// A round as its definition says it: of all pixels the one nearest to the centroid, the seed's own first.
 std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
                                  std::vector<Pixel> seeds) {
@@ -77,7 +70,8 @@ BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
         const Relaxation relaxation = relax(seeds, diagram, exactly, 1);
         BOOST_TEST(relaxation.energies.front() == expected, test.name);
         BOOST_TEST(relaxation.converged == same(next, pixels), test.name);
-        BOOST_TEST(same(pixels_of(seeds), next), test.name << ": seeds moved elsewhere than on the host");
+        BOOST_TEST(same(pixels_of(points_of(seeds)), next),
+                   test.name << ": seeds moved elsewhere than on the host");
         pixels = next;
       }
     }
@@ -102,7 +96,7 @@ BOOST_AUTO_TEST_CASE(with_the_exact_engine_the_energy_falls_until_no_seed_moves)
       BOOST_TEST(relaxation.energies[round] < relaxation.energies[round - 1],
                  test.name << ", round " << round);
     }
-    const std::vector<Pixel> pixels = pixels_of(seeds);
+    const std::vector<Pixel> pixels = pixels_of(points_of(seeds));
     BOOST_TEST(relaxation.energies.back() == energy_on_host(grid, diagram.read(), pixels), test.name);
     BOOST_TEST(same(round_on_host(grid, diagram.read(), pixels), pixels), test.name << ": not centroidal");
     Diagram fresh(test_device(), grid);
@@ -115,10 +109,10 @@ BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_hears_how_far_seeds_moved) {
   const Grid grid(300, 200);
   Seeds seeds(test_device(), grid, centres(random_pixels(grid, 200, 1)));
   Diagram diagram(test_device(), grid);
-  std::vector<Pixel> before = pixels_of(seeds);
+  std::vector<Pixel> before = pixels_of(points_of(seeds));
   int calls = 0;
   const auto engine = [&](const Seeds& moved, Diagram& filled, double max_displacement) {
-    const std::vector<Pixel> now = pixels_of(moved);
+    const std::vector<Pixel> now = pixels_of(points_of(moved));
     int longest = 0;
     for (std::size_t id = 0; id < now.size(); ++id) {
       longest = std::max({longest, std::abs(now[id].x - before[id].x), std::abs(now[id].y - before[id].y)});
@@ -153,7 +147,7 @@ BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
   std::vector<Pixel> before;
   int calls = 0;
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
-    const std::vector<Pixel> now = pixels_of(at);
+    const std::vector<Pixel> now = pixels_of(points_of(at));
     BOOST_TEST(so_far.rounds() == calls++);
     BOOST_TEST(so_far.energies.back() == energy_on_host(grid, filled.read(), now));
     BOOST_TEST_REQUIRE(so_far.moved.size() == static_cast<std::size_t>(so_far.rounds()));
@@ -169,7 +163,7 @@ BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
   BOOST_TEST(relaxation.rounds() == 3);
   BOOST_TEST(calls == 4);
   BOOST_TEST(!relaxation.converged);
-  BOOST_TEST(same(pixels_of(seeds), before));
+  BOOST_TEST(same(pixels_of(points_of(seeds)), before));
 }
 
 BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {

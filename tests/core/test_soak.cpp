@@ -60,9 +60,9 @@ void make_frames(unsigned number, int frames, std::atomic<int>& wrong, std::atom
   Diagram diagram(test_device(), grid);
   for (int frame = 0; frame < frames; ++frame) {
     const auto pixels = some_seeds(grid, random);
-    std::vector<std::optional<Point>> points;
-    for (const auto& pixel : pixels) points.push_back(pixel ? std::optional(centre(*pixel)) : std::nullopt);
-    seeds.move_to(points);
+    seeds.move_to(transformed(pixels, [](const std::optional<Pixel>& pixel) {
+      return pixel ? std::optional(centre(*pixel)) : std::nullopt;
+    }));
     if (frame % 2 == 1) {
       dynamic_jump_flooding(seeds, diagram, grid.longest_side(), {metric});
       continue;

@@ -109,11 +109,12 @@ BOOST_AUTO_TEST_CASE(windows_are_cut_out_of_the_plane) {
       const int top = static_cast<int>(rng() % static_cast<unsigned>(plane.height()));
       const Grid window(1 + static_cast<int>(rng() % static_cast<unsigned>(plane.width() - left)),
                         1 + static_cast<int>(rng() % static_cast<unsigned>(plane.height() - top)));
-      std::vector<Point> points;
-      for (const Pixel& seed : seeds) points.push_back(centre({seed.x - left, seed.y - top}));
+      const std::vector<Point> points = transformed(seeds, [&](const Pixel& seed) {
+        return centre({seed.x - left, seed.y - top});
+      });
       Labels cut;
       for (int y = 0; y < window.height(); ++y) {
-        const auto row = all.begin() + (top + y) * plane.width() + left;
+        const auto row = all.begin() + std::ptrdiff_t{top + y} * plane.width() + left;
         cut.insert(cut.end(), row, row + window.width());
       }
       const Engine& engine = engine_for(window, rng());

@@ -23,9 +23,7 @@ namespace {
 using Pairs = std::vector<std::pair<double, double>>;
 
 Pairs pairs_of(const std::vector<Point>& points) {
-  Pairs pairs;
-  for (const Point& point : points) pairs.emplace_back(point.x, point.y);
-  return pairs;
+  return transformed(points, [](const Point& point) { return std::pair(point.x, point.y); });
 }
 
 Pairs csv(const std::string& content, const std::optional<Columns>& columns = std::nullopt) {

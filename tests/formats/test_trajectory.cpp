@@ -78,10 +78,9 @@ std::string coordinates(const std::string& dialect, const Parallelogram& cell, c
 std::string write(const std::string& dialect, const std::string& kind, const Parallelogram& cell,
                   std::vector<Particle> particles) {
   std::shuffle(particles.begin(), particles.end(), random_bits);
-  std::vector<std::string> rows;
-  for (const Particle& p : particles) {
-    rows.push_back(fmt::format("  Ar {}   0.25 {} ", coordinates(dialect, cell, p), p.id));
-  }
+  const auto rows = transformed(particles, [&](const Particle& p) {
+    return fmt::format("  Ar {}   0.25 {} ", coordinates(dialect, cell, p), p.id);
+  });
   const std::string y_name = "y" + dialect.substr(1);
   return dump(cell.title(kind, "pp pp pp"), "element " + dialect + " " + y_name + " vx id", rows);
 }

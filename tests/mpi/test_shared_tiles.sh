@@ -77,7 +77,8 @@ END
 chmod +x slow.sh
 many=(--random 300000 --size 2048x2048 --tile 128 --cells cells.csv)
 "$commands/vorocl" tiles "${many[@]}" >/dev/null && mv cells.csv alone.csv
-timeout 100 "$ranks" 2 ./slow.sh "$commands/vorocl-mpi" tiles "${many[@]}" >log 2>&1 || fail "a slow process: $(cat log)"
+timeout 100 "$ranks" 2 ./slow.sh "$commands/vorocl-mpi" tiles "${many[@]}" >log 2>&1 ||
+  fail "a slow process: $(cat log)"
 cmp cells.csv alone.csv || fail "a slow process: other cells"
 rm cells.csv alone.csv
 
@@ -108,7 +109,8 @@ exec "$@"
 END
 chmod +x other.sh
 for other in --bogus '--tile 64' --help; do
-  if OTHER=$other timeout 60 "$ranks" 2 ./other.sh "$commands/vorocl-mpi" tiles --random 9 --size 99x99 --labels x.npy >log 2>&1; then
+  if OTHER=$other timeout 60 "$ranks" 2 \
+    ./other.sh "$commands/vorocl-mpi" tiles --random 9 --size 99x99 --labels x.npy >log 2>&1; then
     fail "a process with $other was not refused"
   fi
   [ "$(grep -c '^vorocl-mpi: error: ' log)" = 1 ] || fail "a process with $other: not one message: $(cat log)"

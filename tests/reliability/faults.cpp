@@ -18,6 +18,8 @@
 #include <new>
 #include <utility>
 
+#include "faulty_calls.hpp"
+
 namespace {
 
 /// The fault that the environment asks for, and how many calls of each kind came.
@@ -110,13 +112,9 @@ bool is_ours(const void* address) {
 
 }  // namespace
 
-namespace vorocl {
-static bool call_fails(const char* name) { return request().comes(name); }
-}  // namespace vorocl
+bool vorocl::call_fails(const char* name) { return request().comes(name); }
 
-#include "faulty_calls.hpp"
-
-// --- OpenCL calls besides those ---
+// --- OpenCL calls besides those of faulty_calls.cpp ---
 
 VOROCL_FAULTY_CALL(clGetPlatformIDs, (cl_uint room, cl_platform_id* platforms, cl_uint* count),
                    (room, platforms, count))

@@ -66,11 +66,7 @@ inline void check_killed_runs(const std::vector<std::string>& subcommands, int t
   int kills = 0, went_on = 0;
   for (const std::string& subcommand : subcommands) {
     const TemporaryFolder whole;
-    succeeds(whole, subcommand);  // builds kernels, too
-    const auto begin = std::chrono::steady_clock::now();
-    succeeds(whole, subcommand);
-    const auto microseconds =
-        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+    const std::chrono::microseconds time = time_of_whole_run(whole, subcommand);
     for (int i = 0; i < times; ++i) {
       const TemporaryFolder folder;
       bool is_done = false;
@@ -80,7 +76,7 @@ inline void check_killed_runs(const std::vector<std::string>& subcommands, int t
           wait_for_progress(folder, process, tells);
         } else {
           // Longer and longer: to go on takes time, too.
-          const auto most = microseconds.count() * (10 + attempt) / 10;
+          const auto most = time.count() * (10 + attempt) / 10;
           std::this_thread::sleep_for(std::chrono::microseconds(numbers() % static_cast<unsigned>(most)));
         }
         kill(process, SIGKILL);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 
 #include "formats/images/modules.hpp"
@@ -44,6 +45,15 @@ inline bool is_whole(const std::string& path, const std::string& expected) {
     return std::count(content.begin(), content.end(), '\n') ==
            std::count(expected.begin(), expected.end(), '\n');
   return content.size() == expected.size();  // of the last round before the end
+}
+
+/// Makes a subcommand's files in the folder; returns how long that took.
+inline std::chrono::microseconds time_of_whole_run(const TemporaryFolder& folder,
+                                                   const std::string& subcommand) {
+  succeeds(folder, subcommand);  // builds kernels, too
+  const auto begin = std::chrono::steady_clock::now();
+  succeeds(folder, subcommand);
+  return std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
 }
 
 /// Checks what a run that was ended has left, against a run that was not.

@@ -13,13 +13,13 @@ namespace {
 const std::string subcommands[] = {
     "render --random 9 --size 40x30 --method djfa -o a.png --labels a.npy",
     "render --random 9 --size 40x30 --method standard-flooding --waves w/%d.bmp --labels a.tif",
-    "simulate --random 9 --size 40x30 --frames 4 --step-length 1 --method djfa -o f.mp4 --labels l/%05d.vti "
-    "--cells c%d.csv --compare-with exact --similarity s.csv",
-    "simulate --trajectory '" VOROCL_SAMPLES
-    "/lj-melt.lammpstrj' --width 40 --frames 2 --method exact -o p/%d.jpg "
-    "--distance d%d.npy --adjacency a%d.csv",
-    "cells --random 9 --size 40x30 --cells c.csv --adjacency a.csv --distance d.tif --border b.png --labels "
-    "l.npy",
+    ("simulate --random 9 --size 40x30 --frames 4 --step-length 1 --method djfa -o f.mp4 --labels l/%05d.vti "
+     "--cells c%d.csv --compare-with exact --similarity s.csv"),
+    ("simulate --trajectory '" VOROCL_SAMPLES
+     "/lj-melt.lammpstrj' --width 40 --frames 2 --method exact -o p/%d.jpg "
+     "--distance d%d.npy --adjacency a%d.csv"),
+    ("cells --random 9 --size 40x30 --cells c.csv --adjacency a.csv --distance d.tif --border b.png --labels "
+     "l.npy"),
     "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
     "tiles --random 9 --size 40x30 --tile 16 --labels l.tif -o p.png --cells c.csv --adjacency a.csv",
     "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",

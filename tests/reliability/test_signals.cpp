@@ -20,13 +20,13 @@ namespace {
 const std::string subcommands[] = {
     "render --random 500 --size 700x600 --method jfa -o a.png --labels a.npy",
     "render --random 500 --size 300x200 --method jfa --waves w/%d.bmp",
-    "simulate --random 500 --size 300x200 --frames 20 --step-length 1 --method djfa -o f.mp4 --labels "
-    "l/%05d.tif "
-    "--cells c%d.csv --compare-with jfa --similarity s.csv",
-    "simulate --random 500 --size 300x200 --frames 20 --step-length 1 --method exact -o p/%d.jpg --distance "
-    "d%d.vti",
-    "cells --random 500 --size 700x600 --cells c.csv --adjacency a.csv --distance d.tif --border b.png "
-    "--labels l.npy",
+    ("simulate --random 500 --size 300x200 --frames 20 --step-length 1 --method djfa -o f.mp4 --labels "
+     "l/%05d.tif "
+     "--cells c%d.csv --compare-with jfa --similarity s.csv"),
+    ("simulate --random 500 --size 300x200 --frames 20 --step-length 1 --method exact -o p/%d.jpg --distance "
+     "d%d.vti"),
+    ("cells --random 500 --size 700x600 --cells c.csv --adjacency a.csv --distance d.tif --border b.png "
+     "--labels l.npy"),
     "relax --random 500 --size 300x200 --rounds 20 -o r.mp4 --relaxed-points p.csv --energy e.csv",
     "relax --random 500 --size 300x200 --rounds 20 -o r/%d.png --labels l.npy",
     "tiles --random 500 --size 300x200 --tile 32 --labels l.tif -o p.png --cells c.csv"};
@@ -51,14 +51,10 @@ BOOST_AUTO_TEST_CASE(random_times_leave_whole_files) {
   int ended = 0;
   for (const std::string& subcommand : subcommands) {
     const TemporaryFolder whole;
-    succeeds(whole, subcommand);  // builds kernels, too
-    const auto begin = std::chrono::steady_clock::now();
-    succeeds(whole, subcommand);
-    const auto microseconds =
-        std::chrono::duration_cast<std::chrono::microseconds>(std::chrono::steady_clock::now() - begin);
+    const std::chrono::microseconds time = time_of_whole_run(whole, subcommand);
     for (int i = 0; i < times / static_cast<int>(std::size(subcommands)) + 1; ++i) {
       const int signal = std::array{SIGINT, SIGTERM, SIGHUP, SIGKILL}[random() % 4];
-      const auto delay = std::chrono::microseconds(random() % static_cast<unsigned>(microseconds.count()));
+      const auto delay = std::chrono::microseconds(random() % static_cast<unsigned>(time.count()));
       const TemporaryFolder folder;
       const pid_t process = start(folder, words_of(subcommand));
       std::this_thread::sleep_for(delay);

@@ -2,6 +2,7 @@
 // host.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "transformed.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
@@ -21,10 +23,13 @@ struct Pixel {
 inline Point centre(const Pixel& pixel) { return {pixel.x + 0.5, pixel.y + 0.5}; }
 
 inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
-  std::vector<Point> points;
-  points.reserve(pixels.size());
-  for (const Pixel& pixel : pixels) points.push_back(centre(pixel));
-  return points;
+  return transformed(pixels, [](const Pixel& pixel) { return centre(pixel); });
+}
+
+inline std::vector<Pixel> pixels_of(const std::vector<Point>& points) {
+  return transformed(points, [](const Point& point) {
+    return Pixel{static_cast<int>(std::floor(point.x)), static_cast<int>(std::floor(point.y))};
+  });
 }
 
 inline std::int64_t distance(const Pixel& a, const Pixel& b, Metric metric) {

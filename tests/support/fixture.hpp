@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "transformed.hpp"
 #include "vorocl/vorocl.hpp"
 
 namespace vorocl {
@@ -44,9 +45,7 @@ BOOST_TEST_GLOBAL_FIXTURE(FinishAtEnd);
 
 /// The points of seeds that are all present.
 inline std::vector<Point> points_of(const Seeds& seeds) {
-  std::vector<Point> points;
-  for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
-  return points;
+  return transformed(seeds.read(), [](const std::optional<Point>& point) { return point.value(); });
 }
 
 /// Checks that an Error is thrown whose text holds all of these parts.

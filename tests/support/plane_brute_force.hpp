@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "transformed.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
@@ -17,11 +18,9 @@ struct PlanePixel {
 };
 
 inline std::vector<Point> centres(const std::vector<PlanePixel>& pixels) {
-  std::vector<Point> points;
-  for (const PlanePixel& pixel : pixels) {
-    points.push_back({static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5});
-  }
-  return points;
+  return transformed(pixels, [](const PlanePixel& pixel) {
+    return Point{static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5};
+  });
 }
 
 inline std::int64_t brought_into(std::int64_t at, std::int64_t first, std::int64_t period) {

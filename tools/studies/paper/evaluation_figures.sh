@@ -68,7 +68,7 @@ if wants evaluation; then
   mv "$work/evaluation.csv" "$out/"
 fi
 if wants large; then
-  "$vorocl" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 1 -o "$work/evaluation-10000.csv"
+  "$vorocl" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 5 -o "$work/evaluation-10000.csv"
   mv "$work/evaluation-10000.csv" "$out/"
 fi
 if wants similarities; then
