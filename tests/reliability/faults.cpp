@@ -1,7 +1,8 @@
 // A library to preload into the command (LD_PRELOAD), in which calls fail on request. VOROCL_FAULT is "KIND
 // N", or "KIND N on" where all later calls of the kind fail as well. KIND is an OpenCL call, "event" (an
 // event that ends with an error), "new" (in the command's own code, while it works), or "open", "write",
-// "pwrite", "fallocate", "fsync" (or of a whole disk) and "rename" of files that are not complete.
+// "pwrite", "fallocate", "fsync" (or of a whole disk) and "rename" of files that are not complete. With
+// "compiler 1" SIGINT comes whenever the driver's compiler completes a file, which is gone then.
 // VOROCL_FAULT_COUNTS names a file for a line "KIND CALLS" of each kind at the end.
 #include <fcntl.h>
 #include <link.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdarg>
 #include <cstdint>
 #include <cstdio>
@@ -209,5 +211,10 @@ VOROCL_FAULTY int fsync(int file) {
 }
 VOROCL_FAULTY int rename(const char* from, const char* to) noexcept {
   static const auto next = vorocl::loaders<int(const char*, const char*)>("rename");
+  if (std::strcmp(request().kind, "compiler") == 0 && std::strstr(from, ".cl.tmp") != nullptr) {
+    std::raise(SIGINT);
+    errno = ENOENT;
+    return -1;
+  }
   return fails("rename", is_temporary(from)) ? -1 : next(from, to);
 }

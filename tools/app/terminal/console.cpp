@@ -10,6 +10,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 
+#include "app/terminal/interruption.hpp"
 #include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
@@ -110,6 +111,11 @@ std::string message_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return out_of_memory;
   if (const auto* const of_opencv = dynamic_cast<const cv::Exception*>(&error)) {
     return of_opencv->code == cv::Error::StsNoMem ? out_of_memory : "OpenCV failed: " + of_opencv->err;
+  }
+  // The driver's compiler removes its files when a signal comes, and then misses them.
+  const auto* const of_vorocl = dynamic_cast<const Error*>(&error);
+  if (of_vorocl != nullptr && of_vorocl->kind() == ErrorKind::kernel_build && Interruption::came()) {
+    return "interrupted";
   }
   return error.what();
 }

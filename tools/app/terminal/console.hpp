@@ -47,7 +47,8 @@ void print_on_standard_error(std::string_view text) noexcept;
 /// texts may hold what a file holds. Line feeds and tabs stay.
 std::string printable(const std::string& text);
 
-/// What an exception says, in our words where it is memory that is missing or OpenCV that failed.
+/// What an exception says, in our words where memory is missing, OpenCV failed, or a signal stopped a
+/// compiler.
 std::string message_of(const std::exception& error);
 
 }  // namespace vorocl::command

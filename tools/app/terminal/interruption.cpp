@@ -42,6 +42,6 @@ Interruption::Interruption() {
 
 Interruption::~Interruption() { is_deferred = false; }
 
-bool Interruption::came() const { return signal_came; }
+bool Interruption::came() { return signal_came; }
 
 }  // namespace vorocl::command

@@ -16,7 +16,8 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  bool came() const;
+  /// Whether one came since the last scope began.
+  static bool came();
 };
 
 }  // namespace vorocl::command
