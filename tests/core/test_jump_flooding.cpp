@@ -100,8 +100,8 @@ BOOST_AUTO_TEST_CASE(von_neumann_waves_alone_go_wrong) {
 BOOST_AUTO_TEST_CASE(the_same_labels_for_every_kernel_shape) {
   const Grid grid(143, 61);
   const auto seeds = random_pixels(grid, 300, 6);
-  const Tuning shapes[] = {{1, 32, 8}, {1, 7, 3},  {2, 64, 1}, {4, 1, 16},
-                           {8, 64, 1}, {16, 5, 2}, {16, 64, 1}};
+  const std::vector<Tuning> shapes = {{1, 32, 8}, {1, 7, 3},  {2, 64, 1}, {4, 1, 16},
+                                      {8, 64, 1}, {16, 5, 2}, {16, 64, 1}};
   for (const Metric metric : both_metrics) {
     const auto expected = labels_of(test_device(), grid, seeds, {metric});
     for (const Tuning& shape : shapes) {
