@@ -15,11 +15,11 @@ inline std::vector<std::string> words_of(const std::string& arguments) {
   return {std::istream_iterator<std::string>(text), {}};
 }
 
-/// All files in the folder and the folders in it, by their paths from there.
+/// All files in the folder and the folders in it, by their paths from there. Files may come and go meanwhile.
 inline std::set<std::string> files_of(const TemporaryFolder& folder) {
   std::set<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder / "")) {
-    if (entry.is_regular_file()) files.insert(std::filesystem::relative(entry.path(), folder / "").string());
+    if (entry.is_regular_file()) files.insert(entry.path().lexically_relative(folder / "").string());
   }
   files.erase("streams");
   return files;
