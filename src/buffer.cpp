@@ -85,4 +85,16 @@ void check_foreign_buffer(const Device& device, const cl::Buffer& buffer, std::s
   }
 }
 
+bool overlap(const cl::Buffer& one, const cl::Buffer& other, std::size_t bytes) {
+  const auto memory_of = [](const cl::Buffer& buffer) {
+    const auto whole = info<cl_mem>(clGetMemObjectInfo, buffer(), CL_MEM_ASSOCIATED_MEMOBJECT);
+    return whole != nullptr ? whole : buffer();
+  };
+  const auto start_of = [](const cl::Buffer& buffer) {
+    return info<std::size_t>(clGetMemObjectInfo, buffer(), CL_MEM_OFFSET);
+  };
+  const std::size_t start = start_of(one), other_start = start_of(other);
+  return memory_of(one) == memory_of(other) && start < other_start + bytes && other_start < start + bytes;
+}
+
 }  // namespace vorocl

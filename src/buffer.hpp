@@ -39,6 +39,10 @@ std::size_t size_of(const cl::Buffer& buffer);
 void check_foreign_buffer(const Device& device, const cl::Buffer& buffer, std::size_t bytes,
                           const std::string& name, Access access);
 
+/// Whether the first `bytes` of two buffers, which may be parts of one buffer, have some in common. (Not
+/// every driver refuses to copy such parts.)
+bool overlap(const cl::Buffer& one, const cl::Buffer& other, std::size_t bytes);
+
 /// Fills `count` values; returns the command's event.
 template <typename T>
 cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::size_t count) {

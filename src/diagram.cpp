@@ -127,6 +127,9 @@ void Diagram::write(const cl::Buffer& labels) {
   check_foreign_buffer(device(), labels, bytes_of(grid()), "the buffer of labels to write", Access::read);
   if (labels() == this->labels()())
     throw Error("the buffer of labels to write is the diagram's own, which holds them already");
+  if (overlap(labels, this->labels(), bytes_of(grid()))) {
+    throw Error("the buffer of labels to write overlaps with the diagram's own; write them from another one");
+  }
   state().contents.reset();
   const cl::Event copied = copy(device(), labels, this->labels(), bytes_of(grid()));
   state().contents = DiagramContents{nullptr, 0, copied};

@@ -32,8 +32,6 @@ std::string error_name(cl_int code) {
       return "invalid buffer size";
     case CL_INVALID_KERNEL_NAME:
       return "no such kernel";
-    case CL_MEM_COPY_OVERLAP:
-      return "the buffers overlap";
     case CL_INVALID_BUILD_OPTIONS:
       return "invalid build options";
     case CL_INVALID_WORK_ITEM_SIZE:
@@ -54,8 +52,6 @@ ErrorKind kind_of(cl_int code) {
       return ErrorKind::host_memory;
     case CL_INVALID_BUILD_OPTIONS:
       return ErrorKind::kernel_build;
-    case CL_MEM_COPY_OVERLAP:  // only the caller's buffers can
-      return ErrorKind::bad_argument;
     default:
       return ErrorKind::device;
   }
