@@ -59,8 +59,9 @@ template <typename Content>
 void dump(const std::string& name, Content content) {
   const std::string folder = environment("VOROCL_DUMP_DIR");
   if (folder.empty()) return;
+  const std::string text = content();  // first: a driver's compiler sets errno, too
   std::ofstream stream(folder + '/' + name, std::ios::binary);
-  if (!(stream << content()).flush()) {
+  if (!(stream << text).flush()) {
     throw Error(
         "cannot write " + folder + '/' + name + " (the folder is VOROCL_DUMP_DIR): " + std::strerror(errno),
         ErrorKind::file);
