@@ -6,8 +6,8 @@
 // are duplicates, which get NO_BIT and queue up.
 #define NO_BIT 0xffffffffu
 kernel void set_bits(global const uint* restrict positions, uint count, global uint* restrict bits,
-                     global uint* restrict bit_of_seed, global uint* restrict duplicates,
-                     global uint* restrict duplicate_count, int width, int height) {
+                     global uint* restrict bit_of_seed, global uint* restrict duplicates, int counters, int width,
+                     int height) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   bit_of_seed[id] = NO_BIT;
@@ -16,7 +16,7 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
   const uint in_frame = positions[id] + pack(margin_x(width), margin_y(height));
   const uint index = BIT_INDEX(in_frame, columns), bit = 1u << index % 32;
   if (atomic_or(bits + index / 32, bit) & bit) {
-    duplicates[atomic_inc(duplicate_count)] = id;
+    duplicates[atomic_inc(bits + counters + DUPLICATE_COUNT)] = id;
     return;
   }
   bit_of_seed[id] = index;
@@ -73,13 +73,14 @@ kernel void find_representatives_above(global uint* pyramid, int width, int heig
 }
 
 // Gives each row of bins its part of the list, in the order in which the rows come, and each bin its start.
-kernel void share_out_list(global uint* restrict starts, global uint* restrict end, int width, int height) {
+kernel void share_out_list(global uint* restrict bits, global uint* restrict starts, int counters, int width,
+                           int height) {
   const int y = (int)get_global_id(0), columns = columns_of(width, 0);
   if (y >= rows_of(height, 0)) return;
   global uint* const row = starts + start_of(0, y, columns);
   uint seeds = 0;
   for (int x = 0; x < columns; ++x) seeds += row[x];
-  uint start = atomic_add(end, seeds);
+  uint start = atomic_add(bits + counters + LIST_END, seeds);
   for (int x = 0; x < columns; ++x) {
     const uint count = row[x];
     row[x] = start;
@@ -108,19 +109,26 @@ kernel void list_seeds(global const uint* restrict positions, global const uint*
                        global uint* restrict list, global uint* restrict ids, int width, int height) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || bit_of_seed[id] == NO_BIT) return;
+#ifdef VOROCL_PERIODIC
   FOR_EACH_IMAGE(x, y, positions[id], width, height) {
     const uint at = list_index(bits, word_starts, BIT_INDEX(pack(x, y), columns_of(width, 0)));
     list[at] = pack(x, y);
     ids[at] = id;
   }
+#else
+  (void)width, (void)height;
+  const uint at = list_index(bits, word_starts, bit_of_seed[id]);
+  list[at] = positions[id];
+  ids[at] = id;
+#endif
 }
 
 // ... of which one with a lower id takes the seed's place.
 kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict duplicates,
-                            global const uint* restrict duplicate_count, global const uint* restrict bits,
-                            global const uint* restrict word_starts, global uint* restrict ids, int width,
-                            int height) {
-  for (uint i = (uint)get_global_id(0); i < *duplicate_count; i += (uint)get_global_size(0)) {
+                            global const uint* restrict bits, global const uint* restrict word_starts,
+                            global uint* restrict ids, int counters, int width, int height) {
+  const uint count = bits[counters + DUPLICATE_COUNT];
+  for (uint i = (uint)get_global_id(0); i < count; i += (uint)get_global_size(0)) {
     const uint id = duplicates[i];
     FOR_EACH_IMAGE(x, y, positions[id], width, height) {
       atomic_min(ids + list_index(bits, word_starts, BIT_INDEX(pack(x, y), columns_of(width, 0))), id);

@@ -30,6 +30,9 @@
 #define MARGIN_OF_VECTORS (MOST_AWAY << BIN_BITS)
 #define MARGIN_OF_GROUPS(period) ((((period) / 2 >> BIN_BITS) + 1) << BIN_BITS)
 
+// The index counts in so many words behind its bits.
+#define COUNTERS 2
+
 // How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
 #ifndef MOST_PARENTS
 #define MOST_PARENTS 64

@@ -57,8 +57,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
     return state.kernel(file, name, {options.metric}).in_groups_of(std::min(group, most));
   };
   const cl::Event first = make_index(state, device, seeds, memory.index, Shape::vector, file, options.metric);
-  const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
-               pyramid] = memory.index;
+  const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory.index;
   const auto& [index, labelled, lists, counts] = memory;
   const int top = top_level(frame);
   heavy("label_near", 64)

@@ -1,7 +1,10 @@
 #include "exact/group_shape.hpp"
 
+#include <algorithm>
+
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
+#include "opencl_info.hpp"
 // Last: it defines macros.
 #include "exact/group/sizes.cl"
 
@@ -26,6 +29,22 @@ Device without_vectors(const Device& device) {
   return device.with_tuning(tuning);
 }
 
+/// A work-group of the search has more items than others: it may have all seeds as candidates of one patch
+/// while most of the device has nothing to do.
+std::size_t items_of_search(const Device& device) {
+  const std::size_t most = std::min<std::size_t>(
+      device_info<std::size_t>(device.cl_device()(), CL_DEVICE_MAX_WORK_GROUP_SIZE), MOST_ITEMS);
+  std::size_t items = device.tuning().patch_items;
+  while (items * 2 <= most) items *= 2;
+  return items;
+}
+
+/// More work-groups than a device runs at a time, but few, as mostly there is nothing for them to do.
+std::size_t groups_of_search(const Device& device, std::size_t patches) {
+  const std::size_t units = device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+  return std::min(patches, 8 * units);
+}
+
 }  // namespace
 
 bool fits_in_groups(const Grid& grid) {
@@ -46,23 +65,23 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   const char* const file =
       length == ListLength::full ? "exact/group/diagram.cl" : "exact/group/short_lists.cl";
   const Device device = without_vectors(state.device);
-  const std::size_t items = device.tuning().patch_items;
-  const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernels.get(device, file, name, state.grid, {options.metric}).in_groups_of(items);
+  const std::size_t items = device.tuning().patch_items, of_search = items_of_search(device);
+  const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
+    return state.kernels.get(device, file, name, state.grid, {options.metric}).in_groups_of(items_of_group);
   };
   const cl::Event first = make_index(state, device, seeds, memory.index, Shape::group, file, options.metric);
-  const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
-               pyramid] = memory.index;
+  const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory.index;
   const int top = top_level(IndexFrame(state.grid, Shape::group));
-  kernel("label_dense_patches")
+  kernel("label_dense_patches", items)
       .over_items(patches * items, bits, starts, word_starts, list, ids, width, height, state.labels,
                   memory.pending, memory.queue);
-  kernel("label_patches")
+  kernel("label_patches", items)
       .over_items(patches * items, bits, starts, word_starts, list, ids, width, height, pyramid, top,
                   memory.pending, state.labels, memory.queue);
-  const cl::Event last = kernel("search_patches")
-                             .over_items(patches * items, bits, starts, word_starts, list, ids, width, height,
-                                         pyramid, top, memory.queue, state.labels);
+  const cl::Event last =
+      kernel("search_patches", of_search)
+          .over_items(groups_of_search(device, patches) * of_search, bits, starts, word_starts, list, ids,
+                      width, height, pyramid, top, memory.queue, state.labels);
   return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, length, last));
 }
 

@@ -67,31 +67,26 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   const int width = grid.width(), height = grid.height();
   const auto count = static_cast<cl_uint>(seeds.size());
   const std::size_t down = bins_down(frame, 0), bit_words = bins(frame, 0) * pixels_of_bin / 32;
-  state.reserve(memory.bits, bit_words * word);
+  state.reserve(memory.bits, (bit_words + COUNTERS) * word);
   state.reserve(memory.word_starts, bit_words * word);
   state.reserve(memory.starts, (bins(frame, 0) + down) * word);
   const std::size_t list_room = most_listed(grid, frame, seeds.size()) + behind_list;
   state.reserve(memory.list, list_room * word);
   state.reserve(memory.ids, list_room * word);
-  state.reserve(memory.list_end, word);
   state.reserve(memory.bit_of_seed, seeds.size() * word);
   state.reserve(memory.duplicates, seeds.size() * word);
-  state.reserve(memory.duplicate_count, word);
   state.reserve(memory.pyramid, bins_of_all_levels(frame) * word);
 
+  const auto counters = static_cast<cl_int>(bit_words);
   const Tuning& tuning = device.tuning();
   const auto kernel = [&](const char* name) -> Kernel& {
     return state.kernels.get(device, file, name, grid, {metric})
         .in_groups_of(tuning.group_width * tuning.group_height);
   };
-  const auto& [bits, word_starts, starts, list, ids, list_end, bit_of_seed, duplicates, duplicate_count,
-               pyramid] = memory;
-  cl::Event first = fill(device, bits, cl_uint{0}, bit_words);
-  fill(device, duplicate_count, cl_uint{0}, 1);
-  fill(device, list_end, cl_uint{0}, 1);
+  const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory;
+  cl::Event first = fill(device, bits, cl_uint{0}, bit_words + COUNTERS);
   kernel("set_bits")
-      .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, duplicate_count, width,
-                  height);
+      .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, counters, width, height);
   kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top_level(frame); ++level) {
     kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
@@ -99,16 +94,16 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   if (shape == Shape::group) {
     kernel("share_out_list_in_groups")
         .in_groups_of(tuning.patch_items)
-        .over_items(down * tuning.patch_items, starts, list_end, width);
+        .over_items(down * tuning.patch_items, bits, starts, counters, width);
   } else {
-    kernel("share_out_list").over_items(down, starts, list_end, width, height);
+    kernel("share_out_list").over_items(down, bits, starts, counters, width, height);
   }
   kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
   kernel("list_seeds")
       .over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")
-      .over_items(std::min(seeds.size(), most_items_for_duplicates), seeds.positions(), duplicates,
-                  duplicate_count, bits, word_starts, ids, width, height);
+      .over_items(std::min(seeds.size(), most_items_for_duplicates), seeds.positions(), duplicates, bits,
+                  word_starts, ids, counters, width, height);
   return first;
 }
 

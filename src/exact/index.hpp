@@ -8,8 +8,8 @@
 namespace vorocl {
 
 struct IndexMemory {
-  cl::Buffer bits, word_starts, starts, list, ids, list_end;
-  cl::Buffer bit_of_seed, duplicates, duplicate_count;  // while the index is made
+  cl::Buffer bits, word_starts, starts, list, ids;
+  cl::Buffer bit_of_seed, duplicates;  // while the index is made
   cl::Buffer pyramid;
 };
 

@@ -12,64 +12,60 @@
 // WINNERS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the four
 // corners. What one of them wins against at all corners is no candidate (dominance.cl).
 typedef struct {
+  uint place[DOMINATORS];              // the centre and the corners, packed
   uint seed[DOMINATORS];
   uint least[DOMINATORS];              // from each seed to its place
   uint distance[DOMINATORS][CORNERS];  // from each seed to each corner
 } Winners;
 
-static inline int place_x(Box box, int place) {
-  if (place == 0) return (box.left + box.right) / 2;
-  return place % 2 == 1 ? box.left : box.right;
+static inline uint distance_to(uint place, uint seed) {
+  return distance_of_offset(packed_x(seed) - packed_x(place), packed_y(seed) - packed_y(place));
 }
-static inline int place_y(Box box, int place) {
-  if (place == 0) return (box.top + box.bottom) / 2;
-  return place <= 2 ? box.top : box.bottom;
-}
-static inline uint distance_to_place(Box box, int place, uint seed) {
-  return distance_of_offset(packed_x(seed) - place_x(box, place), packed_y(seed) - place_y(box, place));
+
+static inline uint centre_of(Box box) { return pack((box.left + box.right) / 2, (box.top + box.bottom) / 2); }
+static inline uint place_of(Box box, int number) {
+  if (number == 0) return centre_of(box);
+  return pack(number % 2 == 1 ? box.left : box.right, number <= 2 ? box.top : box.bottom);
 }
 
 // Begins with the only seed known.
 static inline void begin_winners(local Winners* winners, Box box, uint seed) {
-  const int place = (int)get_local_id(0);
-  if (place < DOMINATORS) {
-    const uint distance = distance_to_place(box, place, seed);
-    winners->seed[place] = seed;
-    winners->least[place] = distance;
-    if (place > 0) {
+  const int item = (int)get_local_id(0);
+  if (item < DOMINATORS) {
+    const uint place = place_of(box, item), distance = distance_to(place, seed);
+    winners->place[item] = place;
+    winners->seed[item] = seed;
+    winners->least[item] = distance;
+    if (item > 0) {
 #pragma unroll
-      for (int i = 0; i < DOMINATORS; ++i) winners->distance[i][place - 1] = distance;
+      for (int i = 0; i < DOMINATORS; ++i) winners->distance[i][item - 1] = distance;
     }
   }
   SYNC();
 }
 
-// Takes the seeds of a list that win at a place.
-static inline void improve_winners(local Winners* winners, Box box, local const uint* seeds, int count) {
+// Takes the seeds of a list that win at a place. The items share out the pairs of a seed and a place, as there may be a
+// few seeds only.
+static inline void improve_winners(local Winners* winners, local const uint* seeds, int count) {
   const int item = (int)get_local_id(0), items = (int)get_local_size(0);
-  for (int i = item; i < count; i += items) {
-#pragma unroll
-    for (int place = 0; place < DOMINATORS; ++place) {
-      atomic_min(winners->least + place, distance_to_place(box, place, seeds[i]));
-    }
+  for (int i = item; i < count * DOMINATORS; i += items) {
+    const int place = i % DOMINATORS;
+    atomic_min(winners->least + place, distance_to(winners->place[place], seeds[i / DOMINATORS]));
   }
   SYNC();
-  if (item < DOMINATORS && winners->least[item] < distance_to_place(box, item, winners->seed[item])) {
+  if (item < DOMINATORS && winners->least[item] < distance_to(winners->place[item], winners->seed[item])) {
     winners->seed[item] = EMPTY;
   }
   SYNC();
-  for (int i = item; i < count; i += items) {
-#pragma unroll
-    for (int place = 0; place < DOMINATORS; ++place) {
-      if (distance_to_place(box, place, seeds[i]) == winners->least[place]) {
-        atomic_min(winners->seed + place, seeds[i]);
-      }
-    }
+  for (int i = item; i < count * DOMINATORS; i += items) {
+    const int place = i % DOMINATORS;
+    const uint seed = seeds[i / DOMINATORS];
+    if (distance_to(winners->place[place], seed) == winners->least[place]) atomic_min(winners->seed + place, seed);
   }
   SYNC();
   for (int i = item; i < DOMINATORS * CORNERS; i += items) {
     winners->distance[i / CORNERS][i % CORNERS] =
-        distance_to_place(box, 1 + i % CORNERS, winners->seed[i / CORNERS]);
+        distance_to(winners->place[1 + i % CORNERS], winners->seed[i / CORNERS]);
   }
   SYNC();
 }
@@ -103,8 +99,8 @@ static inline bool is_dominated(local const Winners* winners, int count, Box pat
   return dominated;
 }
 
-static inline Box box_of_seed(uint seed) {
-  const Box box = {packed_x(seed), packed_y(seed), packed_x(seed), packed_y(seed)};
+static inline Box box_of_pixel(uint pixel) {
+  const Box box = {packed_x(pixel), packed_y(pixel), packed_x(pixel), packed_y(pixel)};
   return box;
 }
 
@@ -112,7 +108,7 @@ static inline Box box_of_seed(uint seed) {
 static inline void keep_candidates(local uint* kept, local uint* kept_count, int room, local const Winners* winners,
                                    Box patch, local const uint* seeds, int count) {
   for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
-    if (!is_dominated(winners, DOMINATORS, patch, box_of_seed(seeds[i]))) {
+    if (!is_dominated(winners, DOMINATORS, patch, box_of_pixel(seeds[i]))) {
       const uint at = atomic_inc(kept_count);
       if (at < (uint)room) kept[at] = seeds[i];
     }
@@ -220,12 +216,21 @@ static inline void rank_candidates(local Ranked* ranked, const SeedIndex* index,
   SYNC();
 }
 
-// The least keys of PIXELS pixels of an item, one below the other.
+// The least keys of PIXELS pixels of an item, one below the other ...
 #define PIXELS 8
 static inline int8 find_least_keys_below(local const Ranked* ranked, int count, int column, int row) {
   const uint rank_bits = bits_of_rank(count);
   int8 least = (int8)INT_MAX;
   for (int i = 0; i < count; ++i) least = min(least, keys_of(ranked->term[i], column, row, rank_bits));
+  return least;
+}
+
+// ... and of FEW_PIXELS.
+#define FEW_PIXELS 4
+static inline int4 find_few_least_keys_below(local const Ranked* ranked, int count, int column, int row) {
+  const uint rank_bits = bits_of_rank(count);
+  int4 least = (int4)INT_MAX;
+  for (int i = 0; i < count; ++i) least = min(least, keys_of(ranked->term[i], column, row, rank_bits).lo);
   return least;
 }
 

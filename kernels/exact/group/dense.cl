@@ -9,28 +9,42 @@
 // The rows of a patch and those up to REACH above and below it.
 #define PATCH_ROWS (PATCH + 2 * REACH)
 
-// A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that
-// of rows at equal distances the one with the least number has the least key. A row without a seed near counts as one
-// REACH + 1 away, which is too far for a label.
-#define ROW_BITS 6
-#if (1 << PATCH_BITS) + 2 * REACH > 1 << ROW_BITS
+// ROWS: the seeds of the rows of pixels in and around a patch, a bit each, from the bin at the left of the patch to the
+// one at its right, and the same bits in reverse; and for each bin where its seeds of the row begin in the list of
+// seeds, less the number of seeds in the row before them.
+#define BINS_OF_ROW 4
+#define ROW_BITS 6  // of a bit's number
+typedef struct {
+  ulong mask[PATCH_ROWS], reversed[PATCH_ROWS];
+  uint start[PATCH_ROWS * BINS_OF_ROW];
+} Rows;
+#if BINS_OF_ROW << BIN_BITS != 1 << ROW_BITS
+#error "A row is not a ulong"
+#endif
+
+// A pixel's ROW KEY of a row: the distance to the row's nearest seed, the row's number, so that of rows at equal
+// distances the one with the least number has the least key, and the number of the seed's bit. A row without a seed
+// near has a key that is too great for a label.
+#define NUMBER_BITS 6
+#define KEY_BITS (NUMBER_BITS + ROW_BITS)  // below the distance
+#if (1 << PATCH_BITS) + 2 * REACH > 1 << NUMBER_BITS
 #error "A row does not fit in the bits of a row key"
 #endif
 
 // Pixels of an item, one below the other, that look at the same rows.
 #define RUN 4
-#if (((REACH + 1) * (REACH + 1)) << ROW_BITS) + (1 << ROW_BITS) > 0xffff
-#error "The part of a row key along x does not fit in a ushort"
-#endif
 
-// ROWS: the seeds of the rows of pixels in and around a patch, a bit each, from the bin at the left of the patch to the
-// one at its right; and for each bin where its seeds of the row begin in the list of seeds, less the number of seeds in
-// the row before them.
-#define BINS_OF_ROW 4
-typedef struct {
-  ulong mask[PATCH_ROWS];
-  uint start[PATCH_ROWS * BINS_OF_ROW];
-} Rows;
+static inline ulong swapped(ulong bits, uint width, ulong lower) {
+  return (bits >> width & lower) | (bits & lower) << width;
+}
+static inline ulong reversed_bits(ulong bits) {
+  bits = swapped(bits, 1, 0x5555555555555555ul);
+  bits = swapped(bits, 2, 0x3333333333333333ul);
+  bits = swapped(bits, 4, 0x0f0f0f0f0f0f0f0ful);
+  bits = swapped(bits, 8, 0x00ff00ff00ff00fful);
+  bits = swapped(bits, 16, 0x0000ffff0000fffful);
+  return rotate(bits, 32ul);
+}
 
 // Where a period begins again among the rows and among their bits; 0 if it does not.
 typedef struct {
@@ -46,14 +60,10 @@ static inline Border border_around(const SeedIndex* index, Box patch) {
 
 // The rows are numbered in the order of the tie rule: from above to below, but those behind a border come first.
 static inline int number_of_row(Border border, int row) {
-  return row - border.row + (row < border.row ? PATCH_ROWS : 0);
-}
-static inline int row_of_number(Border border, int number) {
-  const int row = number + border.row;
-  return row - (row < PATCH_ROWS ? 0 : PATCH_ROWS);
+  return row - border.row + (PERIODIC_Y && row < border.row ? PATCH_ROWS : 0);
 }
 
-static inline void read_row(local Rows* rows, int row, const SeedIndex* index, int first_bin, int y) {
+static inline void read_row(local Rows* rows, int number, const SeedIndex* index, int first_bin, int y) {
   ulong mask = 0;
   if (y >= 0 && y < frame_height(index->height)) {
     const int of_rows = (y >> BIN_BITS) * index->columns * WORDS + y % BIN / ROWS_OF_WORD;
@@ -63,63 +73,62 @@ static inline void read_row(local Rows* rows, int row, const SeedIndex* index, i
       const int bin = first_bin + i;
       if (bin >= 0 && bin < index->columns) {
         const uint bits = index->bits[of_rows + bin * WORDS];
-        rows->start[row * BINS_OF_ROW + i] =
+        rows->start[number * BINS_OF_ROW + i] =
             index->word_starts[of_rows + bin * WORDS] + popcount(bits & before) - (uint)popcount(mask);
         mask |= (ulong)row_bits(bits, y) << i * BIN;
       }
     }
   }
-  rows->mask[row] = mask;
+  rows->mask[number] = mask;
+  rows->reversed[number] = reversed_bits(mask);
 }
 
-// The part of a row from REACH pixels left of a column to REACH + 1 right of it, and how far the nearest seeds on both
-// sides are in it; REACH + 1 or more stands for none. The macros take numbers and vectors.
-static inline ulong window_of_row(ulong mask, int column) { return mask >> (column + BIN - REACH); }
-#define WAY_TO_LEFT(window) (clz((window) & ALL_BITS) - (31 - REACH))
-#define BEHIND(window) ((window) >> (REACH + 1))
-#define WAY_TO_RIGHT(window) (popcount((BEHIND(window) & -BEHIND(window)) - 1) + 1)
-
-// The row keys' parts along x of a quad, four pixels of a row one beside the other.
+// The row keys without the distance along y of a quad: four pixels of a row, one beside the other. What is to the left
+// of a pixel, and what is to the right, are taken as words whose highest bit is the pixel's. Of two seeds as near the
+// left one is the nearest, unless a border lies in between: so says the tie rule.
 #define QUADS_OF_ROW (PATCH / 4)
-static inline ushort4 keys_along_x(local const Rows* rows, Border border, int row, int column) {
-  const ulong first = window_of_row(rows->mask[row], column);
-  const uint4 window = (uint4)((uint)first, (uint)(first >> 1), (uint)(first >> 2), (uint)(first >> 3));
-  const int4 way = as_int4(min(WAY_TO_LEFT(window), WAY_TO_RIGHT(window)));
-  return convert_ushort4((ALONG(way) << ROW_BITS) + number_of_row(border, row));
+#if REACH + 3 > 31 || BIN + PATCH + REACH > 1 << ROW_BITS
+#error "A quad's seeds do not fit in their words"
+#endif
+static inline int4 keys_along_x(local const Rows* rows, Border border, int number, int column) {
+  const int first = BIN + column, row_start = number << ROW_BITS;
+  const uint4 left = (uint4)(uint)(rows->mask[number] << (60 - first) >> 32) << (uint4)(3, 2, 1, 0);
+  const uint4 right = (uint4)(uint)(rows->reversed[number] << first >> 32) << (uint4)(0, 1, 2, 3);
+  const int4 way = as_int4(clz(left | right)), pixel = row_start + first + (int4)(0, 1, 2, 3);
+  const int4 at_left = pixel - way, at_right = pixel + way;
+  int4 is_left = as_int4(left << as_uint4(way));  // below 0 if it is
+  if (PERIODIC_X) {
+    const int4 border_between = at_left < row_start + border.bit && row_start + border.bit <= at_right;
+    is_left = select(is_left, ~as_int4(right << as_uint4(way)), border_between);
+  }
+  return (ALONG(way) << KEY_BITS) + select(at_right, at_left, is_left);
 }
 
-// The id of a row's seed that is nearest to a pixel; of two the left one, unless a border lies in between: so says the
-// tie rule.
-static inline uint nearest_in_row(local const Rows* rows, Border border, int row, int column,
-                                  const SeedIndex* index) {
-  const ulong mask = rows->mask[row];
-  const uint window = (uint)window_of_row(mask, column);
-  const int left = (int)WAY_TO_LEFT(window), right = (int)WAY_TO_RIGHT(window);
-  const int pixel = BIN + column;
-  const bool right_first = pixel - left < border.bit && border.bit <= pixel + right;
-  const uint bit = (uint)(pixel + (right < left + (right_first ? 1 : 0) ? right : -left));
-  const uint before = (uint)popcount(mask & ((1ul << bit) - 1));
-  return index->ids[rows->start[(uint)row * BINS_OF_ROW + bit / BIN] + before];
+// The id of the seed of a row key.
+static inline uint id_of_key(local const Rows* rows, int key, const SeedIndex* index) {
+  const uint place = (uint)key & ((1 << KEY_BITS) - 1), bit = place & ((1 << ROW_BITS) - 1);
+  const uint before = (uint)popcount(rows->mask[place >> ROW_BITS] & ((1ul << bit) - 1));
+  return index->ids[rows->start[place >> BIN_BITS] + before];
 }
 
 static inline int greatest(int4 values) { return max(max(values.s0, values.s1), max(values.s2, values.s3)); }
 
 // The least row keys of RUN pixels, the first one in `row`: goes up and down from them, at most `reach` rows, until
 // no row farther away can have a nearer seed.
-static inline int4 find_least_row_keys_below(local const ushort* along_x, int row, int column, int reach) {
-  local const ushort* above = along_x + row * PATCH + column;
-  local const ushort* below = above + (RUN - 1) * PATCH;
-  int4 along_y = ALONG((int4)(0, 1, 2, 3)) << ROW_BITS;  // from the row above to the pixels
+static inline int4 find_least_row_keys_below(local const int* along_x, int row, int column, int reach) {
+  local const int* above = along_x + row * PATCH + column;
+  local const int* below = above + (RUN - 1) * PATCH;
+  int4 along_y = ALONG((int4)(0, 1, 2, 3)) << KEY_BITS;  // from the row above to the pixels
   int4 least = *above + along_y;
 #pragma unroll
   for (int i = 1; i < RUN; ++i) {
     const int4 offset = (int4)(0, 1, 2, 3) - i;
-    least = min(least, above[i * PATCH] + (ALONG(offset) << ROW_BITS));
+    least = min(least, above[i * PATCH] + (ALONG(offset) << KEY_BITS));
   }
   for (int away = 1; away <= reach && greatest(least) >= along_y.s1; ++away) {
     above -= PATCH;
     below += PATCH;
-    along_y = (int4)(along_y.s123, ALONG(away + RUN - 1) << ROW_BITS);
+    along_y = (int4)(along_y.s123, ALONG(away + RUN - 1) << KEY_BITS);
     least = min(least, min(*above + along_y, *below + along_y.s3210));
   }
   return least;
@@ -132,17 +141,17 @@ static inline int count_seeds_around(const SeedIndex* index, Box patch) {
   return (int)(count_seeds(index, bin_x - 1, bin_x + 2, bin_y) + count_seeds(index, bin_x - 1, bin_x + 2, bin_y + 1));
 }
 
-// How many rows above and below are looked at first: twice the side of the square that a seed has on average. At
-// random, one patch in 300 has a pixel whose seed is farther away.
+// How many rows above and below are looked at first: those at less than twice the side of the square that a seed has on
+// average. At random, one patch in 300 has a pixel whose seed is farther away.
 static inline int first_reach(int seeds_around) {
-  return min((int)(2 * sqrt((float)PIXELS_AROUND / (float)seeds_around)) + 1, REACH);
+  return min((int)ceil(2 * sqrt((float)PIXELS_AROUND / (float)seeds_around)) - 1, REACH);
 }
 
 // Labels dense patches, and says of each patch whether it is pending: not dense, or a pixel has no seed within reach.
 kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict labels, global uint* restrict pending,
                                 global uint* restrict queue) {
   local Rows rows;
-  local ushort along_x[PATCH_ROWS * PATCH];
+  local int along_x[PATCH_ROWS * PATCH];
   local uint missing;
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
@@ -156,7 +165,7 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
     return;
   }
   for (int row = item; row < PATCH_ROWS; row += items) {
-    read_row(&rows, row, &index, (box.left >> BIN_BITS) - 1, box.top - REACH + row);
+    read_row(&rows, number_of_row(border, row), &index, (box.left >> BIN_BITS) - 1, box.top - REACH + row);
   }
   int reach = first_reach(seeds_around);
   while (reach > 0) {
@@ -164,7 +173,8 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
     barrier(CLK_LOCAL_MEM_FENCE);
     const int quad = item & (QUADS_OF_ROW - 1);
     for (int row = REACH - reach + item / QUADS_OF_ROW; row < REACH + PATCH + reach; row += items / QUADS_OF_ROW) {
-      vstore4(keys_along_x(&rows, border, row, 4 * quad), (size_t)(row * QUADS_OF_ROW + quad), along_x);
+      vstore4(keys_along_x(&rows, border, number_of_row(border, row), 4 * quad),
+              (size_t)(row * QUADS_OF_ROW + quad), along_x);
     }
     barrier(CLK_LOCAL_MEM_FENCE);
     for (int first = item_row() * RUN; first < PATCH; first += item_rows() * RUN) {
@@ -174,9 +184,8 @@ kernel void label_dense_patches(SEED_INDEX_PARAMETERS, global uint* restrict lab
 #pragma unroll
       for (int i = 0; i < RUN; ++i, least = least.s1230) {
         if (i < pixels) {
-          if (least.s0 < ALONG(reach + 1) << ROW_BITS) {
-            const int row = row_of_number(border, least.s0 & ((1 << ROW_BITS) - 1));
-            label[i * width] = nearest_in_row(&rows, border, row, column, &index);
+          if (least.s0 < ALONG(reach + 1) << KEY_BITS) {
+            label[i * width] = id_of_key(&rows, least.s0, &index);
           } else {
             missing = 1;
           }

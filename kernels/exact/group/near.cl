@@ -33,8 +33,8 @@ typedef struct {
 static inline uint find_seed_near(local Descent* descent, const SeedIndex* index, global const uint* pyramid, int top,
                                   Box patch) {
   const int item = (int)get_local_id(0), items = (int)get_local_size(0);
-  const int x = place_x(patch, 0), y = place_y(patch, 0);
-  const Box centre = {x, y, x, y};
+  const uint centre = centre_of(patch);
+  const Box pixel = box_of_pixel(centre);
   uint own_least = NO_DISTANCE, own_seed = EMPTY;
   if (item == 0) {
     descent->least = NO_DISTANCE;
@@ -42,7 +42,7 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
     descent->finer = 0;
   }
   SYNC();
-  Box bins = bins_around(index, centre, LAST_COORDINATE, top);
+  Box bins = bins_around(index, pixel, LAST_COORDINATE, top);
   int level = top;
   while (level >= 0) {
     const int columns = bins.right - bins.left + 1, count = columns * (bins.bottom - bins.top + 1);
@@ -53,7 +53,7 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
     for (int i = item; i < count; i += items) {
       const uint representative = representatives[i / columns * across + i % columns];
       if (representative != EMPTY) {
-        const uint seed = representative & ~MORE, distance = distance_to_place(patch, 0, seed);
+        const uint seed = representative & ~MORE, distance = distance_to(centre, seed);
         own_seed = WINS(seed, distance, own_seed, own_least) ? seed : own_seed;
         own_least = min(own_least, distance);
         more |= (representative & MORE) != 0;
@@ -66,7 +66,7 @@ static inline uint find_seed_near(local Descent* descent, const SeedIndex* index
       level = -1;
     } else {
       --level;
-      bins = bins_around(index, centre, most_along(descent->least), level);
+      bins = bins_around(index, pixel, most_along(descent->least), level);
       if ((bins.right - bins.left + 1) * (bins.bottom - bins.top + 1) > MOST_LOOKED_AT) level = -1;
     }
     SYNC();
@@ -96,7 +96,7 @@ static inline void gather(local uint* seeds, local uint* count, const SeedIndex*
     for (uint i = index->starts[start_of(bins.left, y, index->columns)] + (uint)(item % ITEMS_OF_ROW); i < end;
          i += ITEMS_OF_ROW) {
       const uint seed = index->list[i];
-      if (!is_dominated(winners, 1, patch, box_of_seed(seed))) {
+      if (!is_dominated(winners, 1, patch, box_of_pixel(seed))) {
         const uint at = atomic_inc(count);
         if (at < MOST_GATHERED) seeds[at] = seed;
       }
@@ -114,9 +114,9 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   local uint gathered[MOST_GATHERED], candidates[MOST_RANKED];
   local Descent descent;
   local uint scanned[1], gathered_count[1], candidate_count[1];
-  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), patch = (int)get_group_id(0);
   if (!pending[patch]) return;
+  const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const Box box = box_of_patch(&index, patch);
   if (item == 0) *scanned = *gathered_count = *candidate_count = 0;
   const uint near = find_seed_near(&descent, &index, pyramid, top_level, box);
@@ -137,7 +137,7 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   } else {
     // From here on lists that are too long count as empty.
     const int seeds = *gathered_count <= MOST_GATHERED ? (int)*gathered_count : 0;
-    improve_winners(&winners, box, gathered, seeds);
+    improve_winners(&winners, gathered, seeds);
     keep_candidates(candidates, candidate_count, MOST_RANKED, &winners, box, gathered, seeds);
     const int count = *candidate_count <= MOST_RANKED ? (int)*candidate_count : 0;
     rank_candidates(&ranked, &index, box, winners.seed[0], candidates, count);

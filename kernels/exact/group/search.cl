@@ -24,6 +24,9 @@ static inline int entry_level(uint entry) { return (packed_x(entry) >> LEVEL_SHI
 
 // A list is full from MOST_GATHERED seeds on, and then there is one more from each item at most.
 #define MOST_LISTED (MOST_GATHERED + MOST_ITEMS)
+#if MOST_LISTED < 1 << 2 * BIN_BITS
+#error "A list does not hold the seeds of a bin"
+#endif
 typedef struct {
   uint stack[STACK];
   uint stack_count;
@@ -67,10 +70,41 @@ static inline void part_of_bin(Part* part, const SeedIndex* index, global const 
   part->box.bottom = only ? packed_y(representative) : ((y + 1) << bits) - 1;
 }
 
+// The seeds of a row of pixels in a bin; none outside the frame.
+static inline uint seeds_of_row(const SeedIndex* index, int bin_x, int y) {
+  const bool inside = bin_x >= 0 && bin_x < index->columns && y >= 0 && y < frame_height(index->height);
+  return inside ? row_bits(index->bits[((y >> BIN_BITS) * index->columns + bin_x) * WORDS + y % BIN / ROWS_OF_WORD], y)
+                : 0;
+}
+
+// The same without seeds that another one hides from a patch beside them: it is between them and all of the patch along
+// one axis, where they are alike along the other one, and so it is nearer everywhere. Of the row the seed next to the
+// patch hides all others, and where seeds are dense those in front hide whole bins. Of a column the seeds in a few rows
+// are looked at.
+#define HIDING_ROWS 4
+static inline uint open_seeds_of_row(const SeedIndex* index, Box patch, int bin_x, int y) {
+  const int left = bin_x * BIN, right = left + BIN - 1;
+  uint seeds = seeds_of_row(index, bin_x, y);
+  if (right < patch.left && seeds != 0) {
+    const uint hiding = right + BIN < patch.left ? ALL_BITS : 1;
+    seeds = seeds_of_row(index, bin_x + 1, y) & hiding ? 0 : 1u << (31 - clz(seeds));
+  }
+  if (left > patch.right && seeds != 0) {
+    const uint hiding = left - BIN > patch.right ? ALL_BITS : 1u << (BIN - 1);
+    seeds = seeds_of_row(index, bin_x - 1, y) & hiding ? 0 : seeds & -seeds;
+  }
+  for (int below = y + 1; below <= min(y + HIDING_ROWS, patch.top); ++below) {
+    seeds &= ~seeds_of_row(index, bin_x, below);
+  }
+  for (int above = y - 1; above >= max(y - HIDING_ROWS, patch.bottom); --above) {
+    seeds &= ~seeds_of_row(index, bin_x, above);
+  }
+  return seeds;
+}
+
 // Of a row: all of it, or one pixel.
-static inline void part_of_row(Part* part, const SeedIndex* index, int bin_x, int y, int first, int last) {
-  const int word = ((y >> BIN_BITS) * index->columns + bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
-  const uint seeds = y < frame_height(index->height) ? row_bits(index->bits[word], y) : 0;
+static inline void part_of_row(Part* part, const SeedIndex* index, Box patch, int bin_x, int y, int first, int last) {
+  const uint seeds = open_seeds_of_row(index, patch, bin_x, y);
   part->empty = (seeds >> first & ALL_BITS >> (BIN - 1 - last + first)) == 0;
   part->entry = entry_of(bin_x, y, -1);
   part->seed = first == last ? pack(bin_x * BIN + first, y) : EMPTY;
@@ -79,12 +113,13 @@ static inline void part_of_row(Part* part, const SeedIndex* index, int bin_x, in
   part->box.top = part->box.bottom = y;
 }
 
-static inline void part_of(Part* part, const SeedIndex* index, global const uint* pyramid, uint entry, int number) {
+static inline void part_of(Part* part, const SeedIndex* index, global const uint* pyramid, Box patch, uint entry,
+                           int number) {
   const int level = entry_level(entry), x = entry_x(entry), y = packed_y(entry);
   if (level > 0) {
     part_of_bin(part, index, pyramid, x * FAN + number % FAN, y * FAN + number / FAN, level - 1);
   } else {
-    part_of_row(part, index, x, level == 0 ? y * BIN + number : y, level == 0 ? 0 : number,
+    part_of_row(part, index, patch, x, level == 0 ? y * BIN + number : y, level == 0 ? 0 : number,
                 level == 0 ? BIN - 1 : number);
   }
 }
@@ -111,7 +146,7 @@ static inline void open_entries(local Search* search, local const Winners* winne
   SYNC();
   if (entry != NO_ENTRY) {
     Part part;
-    part_of(&part, index, pyramid, entry, item % PARTS);
+    part_of(&part, index, pyramid, patch, entry, item % PARTS);
     take_part(search, winners, patch, &part);
   }
   SYNC();
@@ -127,12 +162,12 @@ static inline void take_best(local const uint* seeds, int seed_count, local Rank
     const int count = min(seed_count - begin, MOST_RANKED);
     rank_candidates(ranked, index, patch, base, seeds + begin, count);
     const uint mask = (1u << bits_of_rank(count)) - 1;
-    for (int row = item_row() * PIXELS; row < PATCH; row += item_rows() * PIXELS) {
-      int8 least = find_least_keys_below(ranked, count, column, row);
+    for (int row = item_row() * FEW_PIXELS; row < PATCH; row += item_rows() * FEW_PIXELS) {
+      int4 least = find_few_least_keys_below(ranked, count, column, row);
       global uint* const labels_below = label_in_patch(index, labels, patch, column, row);
       const int pixels = pixels_in_patch(patch, column, row);
 #pragma unroll
-      for (int k = 0; k < PIXELS; ++k, least = least.s12345670) {
+      for (int k = 0; k < FEW_PIXELS; ++k, least = least.s1230) {
         if (k < pixels) {
           global uint* const label = labels_below + k * index->width;
           const int y = patch.top + row + k;
@@ -151,7 +186,57 @@ static inline void take_best(local const uint* seeds, int seed_count, local Rank
   }
 }
 
-// Labels a patch of the queue for each work-group.
+// Begins with the best seeds of a bin: where seeds are dense, one alone leaves too much in question.
+static inline void begin_with_bin_of(local Search* search, local Winners* winners, const SeedIndex* index, Box patch,
+                                     uint seed) {
+  begin_winners(winners, patch, seed);
+  const int bin = start_of(packed_x(seed) >> BIN_BITS, packed_y(seed) >> BIN_BITS, index->columns);
+  const int start = (int)index->starts[bin], count = (int)index->starts[bin + 1] - start;
+  for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) search->seeds[i] = index->list[start + i];
+  SYNC();
+  improve_winners(winners, search->seeds, count);
+}
+
+// Labels a patch of the queue, given a seed near it.
+static inline void search_patch(local Search* search, local Winners* winners, local Ranked* ranked,
+                                const SeedIndex* index, global const uint* pyramid, int top_level, Box patch, uint near,
+                                global uint* labels) {
+  const int item = (int)get_local_id(0), items = (int)get_local_size(0), column = item_column();
+  begin_with_bin_of(search, winners, index, patch, near);
+  fill_patch(index, patch, near, labels);
+  SYNC_LABELS();
+
+  // The top of the pyramid is put on the stack as a whole.
+  if (item == 0) search->stack_count = search->count = 0;
+  SYNC();
+  const int top_across = columns_of(index->width, top_level);
+  const int top_bins = top_across * rows_of(index->height, top_level);
+  for (int bin = item; bin < top_bins; bin += items) {
+    search->stack[atomic_inc(&search->stack_count)] = entry_of(bin % top_across, bin / top_across, top_level);
+  }
+  SYNC();
+  while (search->stack_count > 0) {
+    open_entries(search, winners, index, pyramid, patch);
+    const bool take = search->stack_count == 0 || search->count > MOST_GATHERED;
+    const int count = (int)search->count;
+    SYNC();
+    if (take) {
+      improve_winners(winners, search->seeds, count);
+      if (item == 0) search->count = search->kept_count = 0;
+      SYNC();
+      keep_candidates(search->kept, &search->kept_count, MOST_LISTED, winners, patch, search->seeds, count);
+      take_best(search->kept, (int)search->kept_count, ranked, index, winners->seed[0], patch, labels);
+    }
+    SYNC();
+  }
+  SYNC_LABELS();
+  for (int row = item_row(); row < PATCH; row += item_rows()) {
+    global uint* const label = label_in_patch(index, labels, patch, column, row);
+    if (pixels_in_patch(patch, column, row) > 0) *label = id_of(index, *label);
+  }
+}
+
+// Labels the patches of the queue: how many, and each with a seed near it. They are shared out among the work-groups.
 kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyramid, int top_level,
                            global const uint* restrict queue, global uint* labels) {
   local Search search;
@@ -159,39 +244,11 @@ kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict py
   local Ranked ranked;
   if (get_group_id(0) >= queue[0]) return;
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
-  const int item = (int)get_local_id(0), items = (int)get_local_size(0), column = item_column();
-  const Box patch = box_of_patch(&index, (int)queue[1 + 2 * get_group_id(0)]);
-  const uint near = queue[2 + 2 * get_group_id(0)];
-  begin_winners(&winners, patch, near);
-  fill_patch(&index, patch, near, labels);
-  SYNC_LABELS();
-
-  // The top of the pyramid is put on the stack as a whole.
-  if (item == 0) search.stack_count = search.count = 0;
-  SYNC();
-  const int top_across = columns_of(width, top_level), top_bins = top_across * rows_of(height, top_level);
-  for (int bin = item; bin < top_bins; bin += items) {
-    search.stack[atomic_inc(&search.stack_count)] = entry_of(bin % top_across, bin / top_across, top_level);
-  }
-  SYNC();
-  while (search.stack_count > 0) {
-    open_entries(&search, &winners, &index, pyramid, patch);
-    const bool take = search.stack_count == 0 || search.count > MOST_GATHERED;
-    const int count = (int)search.count;
+  const uint end = 1 + 2 * queue[0];
+  for (uint at = 1 + 2 * (uint)get_group_id(0); at < end; at += 2 * (uint)get_num_groups(0)) {
+    const Box patch = box_of_patch(&index, (int)queue[at]);
+    search_patch(&search, &winners, &ranked, &index, pyramid, top_level, patch, queue[at + 1], labels);
     SYNC();
-    if (take) {
-      improve_winners(&winners, patch, search.seeds, count);
-      if (item == 0) search.count = search.kept_count = 0;
-      SYNC();
-      keep_candidates(search.kept, &search.kept_count, MOST_LISTED, &winners, patch, search.seeds, count);
-      take_best(search.kept, (int)search.kept_count, &ranked, &index, winners.seed[0], patch, labels);
-    }
-    SYNC();
-  }
-  SYNC_LABELS();
-  for (int row = item_row(); row < PATCH; row += item_rows()) {
-    global uint* const label = label_in_patch(&index, labels, patch, column, row);
-    if (pixels_in_patch(patch, column, row) > 0) *label = id_of(&index, *label);
   }
 }
 

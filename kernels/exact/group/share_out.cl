@@ -5,7 +5,8 @@
 
 // As share_out_list() of make_index.cl, with a work-group for each row of bins. An item has some bins, one beside the
 // other; their sums are scanned in local memory.
-kernel void share_out_list_in_groups(global uint* restrict starts, global uint* restrict end, int width) {
+kernel void share_out_list_in_groups(global uint* restrict bits, global uint* restrict starts, int counters,
+                                     int width) {
   local uint sums[MOST_ITEMS];
   local uint start_of_row[1];
   const int item = (int)get_local_id(0), items = (int)get_local_size(0), columns = columns_of(width, 0);
@@ -22,7 +23,7 @@ kernel void share_out_list_in_groups(global uint* restrict starts, global uint* 
     sums[item] += before;
     barrier(CLK_LOCAL_MEM_FENCE);
   }
-  if (item == items - 1) *start_of_row = atomic_add(end, sums[item]);
+  if (item == items - 1) *start_of_row = atomic_add(bits + counters + LIST_END, sums[item]);
   barrier(CLK_LOCAL_MEM_FENCE);
   uint start = *start_of_row + sums[item] - own;
   for (int x = first; x < last; ++x) {
