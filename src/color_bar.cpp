@@ -101,23 +101,20 @@ class Bar {
   }
 
   void draw(cv::Mat& picture) const {
-    const int top = place_.y + point_, bottom = place_.br().y - point_;
-    for (int y = top; y < bottom; ++y) {
-      const double part = (bottom - y - 0.5) / (bottom - top);
-      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(value_at(part, ends_)));
-    }
-    const int left = place_.x, right = place_.br().x - 1, middle = place_.x + place_.width / 2;
-    const cv::Point upper_tip(middle, place_.y), lower_tip(middle, place_.br().y - 1);
+    // The outline is around the colours, so that the ends of all palettes stand out from the white.
+    const int left = place_.x - 1, right = place_.br().x, middle = place_.x + place_.width / 2;
+    const int top = place_.y + point_ - 1, bottom = place_.br().y - point_;
+    const cv::Point upper_tip(middle, place_.y - 1), lower_tip(middle, place_.br().y);
+    std::vector<cv::Point> outline = {{right, top}, {right, bottom}, {left, bottom}, {left, top}};
     if (point_ > 0) {
       fill(picture, {{left, top}, {right, top}, upper_tip}, colors_(ends_.high));
-      fill(picture, {{left, bottom - 1}, {right, bottom - 1}, lower_tip}, colors_(ends_.low));
+      fill(picture, {{left, bottom}, {right, bottom}, lower_tip}, colors_(ends_.low));
+      outline.insert(outline.begin() + 2, lower_tip);
+      outline.push_back(upper_tip);
     }
-    // Around it, so that the ends of all palettes stand out from the white.
-    std::vector<cv::Point> outline = {
-        {right + 1, top - 1}, {right + 1, bottom}, {left - 1, bottom}, {left - 1, top - 1}};
-    if (point_ > 0) {
-      outline.insert(outline.begin() + 2, lower_tip + cv::Point(0, 1));
-      outline.push_back(upper_tip - cv::Point(0, 1));
+    for (int y = top + 1; y < bottom; ++y) {
+      const double part = (bottom - y - 0.5) / (bottom - top - 1);
+      picture(cv::Rect(place_.x, y, place_.width, 1)).setTo(colors_(value_at(part, ends_)));
     }
     cv::polylines(picture, outline, true, dark);
   }

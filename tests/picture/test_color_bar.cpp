@@ -180,6 +180,55 @@ BOOST_AUTO_TEST_CASE(open_ends_are_pointed) {
   BOOST_TEST(found.ticks.back() < found.bottom - 5);
 }
 
+BOOST_AUTO_TEST_CASE(the_outline_encloses_the_colours_to_the_pixel) {
+  for (const int height : {96, 480, 1003}) {
+    for (const bool open_ended : {false, true}) {
+      const ColorBar bar = {{0, 100}, Palette::viridis, "v", false, open_ended};
+      const cv::Mat result = with_color_bar(grey_picture(50, height), bar);
+      const Found found = find(result, 50);
+      const int middle = (found.left + found.right + 1) / 2, width = found.right - found.left + 1;
+      const cv::Vec3b outline = result.at<cv::Vec3b>(result.rows / 2, found.left - 1);
+      std::vector<std::pair<int, int>> runs;  // of the colours, by row
+      for (int y = found.top; y <= found.bottom; ++y) {
+        int left = middle, right = middle;
+        while (result.at<cv::Vec3b>(y, left - 1) != outline) --left;
+        while (result.at<cv::Vec3b>(y, right + 1) != outline) ++right;
+        for (int x = left; x <= right; ++x) BOOST_TEST((result.at<cv::Vec3b>(y, x) != white));
+        // A pointed end has a slope of one half of the width to as many rows.
+        const int to_tip = std::min(y - found.top, found.bottom - y);
+        const int half = open_ended ? std::min(to_tip, width / 2) : width;
+        BOOST_TEST(std::abs(left - std::max(found.left, middle - half)) <= 2);
+        BOOST_TEST(std::abs(right - std::min(found.right, middle + half)) <= 2);
+        runs.emplace_back(left, right);
+      }
+      BOOST_TEST(std::equal(runs.begin(), runs.end(), runs.rbegin()));  // upside down the same
+      for (const int x : {middle - 1, middle, middle + 1}) {
+        BOOST_TEST((result.at<cv::Vec3b>(found.top - 3, x) == white));
+        BOOST_TEST((result.at<cv::Vec3b>(found.bottom + 3, x) == white));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(marks_are_bars_around_their_rows) {
+  for (const int height : {96, 480, 2000}) {
+    const ColorBar bar = {{0, 1}, Palette::viridis, "v", true, false};
+    const cv::Mat result = with_color_bar(grey_picture(50, height), bar);
+    const Found found = find(result, 50);
+    const cv::Vec3b outline = result.at<cv::Vec3b>(result.rows / 2, found.left - 1);
+    const auto is_dark = [&](int y, int x) { return result.at<cv::Vec3b>(y, x) == outline; };
+    int end = found.right + 2;  // of the mark at the upper end
+    while (is_dark(found.top, end)) ++end;
+    for (const int row : {found.top, found.bottom}) {
+      int first = row, last = row;
+      while (is_dark(first - 1, end - 1)) --first;
+      while (is_dark(last + 1, end - 1)) ++last;
+      BOOST_TEST((last - row == row - first || last - row == row - first + 1), "height " << height);
+      for (int y = first; y <= last; ++y) BOOST_TEST((is_dark(y, found.right + 2) && !is_dark(y, end)));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(titles_are_shown_and_long_ones_shortened) {
   const auto bar_with = [](const std::string& title) {
     return with_color_bar(grey_picture(50, 480), {{0, 1}, Palette::viridis, title, false, false});
