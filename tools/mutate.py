@@ -52,7 +52,7 @@ KERNEL_TESTS = [
     ("position.cl", FLOODING + ["test_window"] + MEASURES),
     ("vector.cl", FLOODING + MEASURES), ("seeds.cl", FLOODING + ["test_seeds", "test_method"]),
     ("philox.cl", ["test_seeds", "test_motion"]), ("motion.cl", ["test_motion", "test_seeds"]),
-    ("plane*", ["test_window", "test_window_measures"]),
+    ("plane*", ["test_window", "test_window_measures"]), ("tiles.cl", ["test_tiles"]),
     ("adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("runs.cl", MEASURES),
     ("vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
 ]

@@ -194,6 +194,7 @@ BOOST_AUTO_TEST_CASE(the_outline_encloses_the_colours_to_the_pixel) {
         while (result.at<cv::Vec3b>(y, left - 1) != outline) --left;
         while (result.at<cv::Vec3b>(y, right + 1) != outline) ++right;
         for (int x = left; x <= right; ++x) BOOST_TEST((result.at<cv::Vec3b>(y, x) != white));
+        for (int x = found.left - 2; x < left - 2; ++x) BOOST_TEST((result.at<cv::Vec3b>(y, x) == white));
         // A pointed end has a slope of one half of the width to as many rows.
         const int to_tip = std::min(y - found.top, found.bottom - y);
         const int half = open_ended ? std::min(to_tip, width / 2) : width;
@@ -203,8 +204,9 @@ BOOST_AUTO_TEST_CASE(the_outline_encloses_the_colours_to_the_pixel) {
       }
       BOOST_TEST(std::equal(runs.begin(), runs.end(), runs.rbegin()));  // upside down the same
       for (const int x : {middle - 1, middle, middle + 1}) {
-        BOOST_TEST((result.at<cv::Vec3b>(found.top - 3, x) == white));
-        BOOST_TEST((result.at<cv::Vec3b>(found.bottom + 3, x) == white));
+        const int beyond = open_ended ? 3 : 2;
+        BOOST_TEST((result.at<cv::Vec3b>(found.top - beyond, x) == white));
+        BOOST_TEST((result.at<cv::Vec3b>(found.bottom + beyond, x) == white));
       }
     }
   }
@@ -238,6 +240,7 @@ BOOST_AUTO_TEST_CASE(titles_are_shown_and_long_ones_shortened) {
   BOOST_TEST(cv::norm(untitled(head), cv::Mat(head.size(), CV_8UC3, cv::Scalar::all(255)), cv::NORM_INF) ==
              0);
   BOOST_TEST(cv::norm(untitled(head), titled(head), cv::NORM_INF) > 100);
+  BOOST_TEST(bar_with(std::string(31, 'w')).cols < bar_with(std::string(30, 'w')).cols);
   BOOST_TEST(bar_with(std::string(1000, 'w')).cols < 800);
 }
 
