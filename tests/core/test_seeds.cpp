@@ -54,7 +54,8 @@ BOOST_AUTO_TEST_CASE(bad_points_are_named) {
 
 BOOST_AUTO_TEST_CASE(points_in_the_callers_buffer) {
   const Grid grid(300, 200);
-  std::vector<cl_float2> values;
+  std::vector<cl_float2> values = {
+      {{0, 0}}, {{-0.f, 5}}, {{std::nextafter(300.f, 0.f), std::nextafter(200.f, 0.f)}}};
   for (const Pixel& pixel : random_pixels(grid, 1000, 3)) {
     values.push_back({{static_cast<float>(pixel.x) + 0.75f, static_cast<float>(pixel.y) + 0.25f}});
   }
@@ -77,6 +78,10 @@ BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_w
   jump_flooding(seeds, diagram);
   check_error([&] { diagram.read(); }, {"point 41", "nan"});
   check_error([&] { seeds.read(); }, {"point 41", "nan"});
+  const float next_to_none = std::nextafter(0.f, -1.f);
+  for (const cl_float2 beside : {cl_float2{{30, 1}}, {{1, 20}}, {{next_to_none, 1}}, {{1, next_to_none}}}) {
+    check_error([&] { Seeds(test_device(), grid, buffer_of({beside}), 1).read(); }, {"point 0"});
+  }
 }
 
 // Whatever was made from the bad frame throws, and nothing that was made from a good one.

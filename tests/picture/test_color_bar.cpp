@@ -176,8 +176,9 @@ BOOST_AUTO_TEST_CASE(open_ends_are_pointed) {
     BOOST_TEST((result.at<cv::Vec3b>(y, found.right) == white));
   }
   BOOST_REQUIRE(found.ticks.size() == 6u);
-  BOOST_TEST(found.ticks.front() > found.top + 5);  // of 100, below the point
-  BOOST_TEST(found.ticks.back() < found.bottom - 5);
+  const int point = (found.right - found.left + 1) / 2;  // of 100 and 0, next to the points
+  BOOST_TEST(std::abs(found.ticks.front() - (found.top + point)) <= 1);
+  BOOST_TEST(std::abs(found.ticks.back() - (found.bottom - point)) <= 1);
 }
 
 BOOST_AUTO_TEST_CASE(the_outline_encloses_the_colours_to_the_pixel) {
@@ -227,6 +228,35 @@ BOOST_AUTO_TEST_CASE(marks_are_bars_around_their_rows) {
       while (is_dark(last + 1, end - 1)) ++last;
       BOOST_TEST((last - row == row - first || last - row == row - first + 1), "height " << height);
       for (int y = first; y <= last; ++y) BOOST_TEST((is_dark(y, found.right + 2) && !is_dark(y, end)));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_number_stands_beside_each_tick) {
+  for (const int height : {96, 200, 480, 2000}) {
+    const ColorBar bar = {{0, 100}, Palette::viridis, "", false, false};
+    const cv::Mat result = with_color_bar(grey_picture(50, height), bar);
+    const Found found = find(result, 50);
+    const int unit = (found.right - found.left + 1) / 2;
+    const cv::Range columns(found.right + 2 + unit / 2, result.cols);
+    std::vector<int> numbers;  // their middle rows
+    const auto is_white = [&](int y) {
+      const cv::Mat row = result(cv::Range(y, y + 1), columns);
+      return cv::norm(row, cv::Mat(row.size(), row.type(), cv::Scalar::all(255)), cv::NORM_INF) == 0;
+    };
+    for (int y = 0, first = 0; y < result.rows; ++y) {
+      if (is_white(y)) continue;
+      for (first = y; !is_white(y); ++y) continue;
+      numbers.push_back((first + y) / 2);
+    }
+    std::vector<int> ticks;  // the first rows of their marks
+    for (const int row : found.ticks) {
+      if (ticks.empty() || row > ticks.back() + unit / 2) ticks.push_back(row);
+    }
+    BOOST_TEST_REQUIRE(numbers.size() == ticks.size(), "height " << height);
+    BOOST_TEST(ticks.size() >= 2u);
+    for (std::size_t i = 0; i < ticks.size(); ++i) {
+      BOOST_TEST(std::abs(numbers[i] - ticks[i]) <= 2 + unit / 8, "height " << height);
     }
   }
 }
