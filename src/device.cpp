@@ -148,25 +148,6 @@ std::string list_of(const std::vector<Candidate>& candidates) {
   return text;
 }
 
-/// How large a device lets a work-group be.
-struct GroupLimits {
-  std::size_t items, rows;
-
-  bool allow(std::size_t width, std::size_t height) const {
-    return width >= 1 && height >= 1 && height <= rows && width <= items / height;
-  }
-};
-
-/// A group over a list of items has all of them in the first dimension.
-GroupLimits group_limits(cl_device_id device) {
-  std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
-  check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
-                        sizes.data(), nullptr),
-        "asking for the sizes of work-groups");
-  return {std::min(device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE), sizes.at(0)),
-          sizes.at(1)};
-}
-
 Tuning default_tuning(cl_device_id device) {
   Tuning tuning;
   if ((device_info<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0) {
@@ -188,6 +169,15 @@ Tuning default_tuning(cl_device_id device) {
 }
 
 }  // namespace
+
+GroupLimits group_limits(cl_device_id device) {
+  std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
+  check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
+                        sizes.data(), nullptr),
+        "asking for the sizes of work-groups");
+  return {std::min(device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE), sizes.at(0)),
+          sizes.at(1)};
+}
 
 void DeviceState::enqueued(const cl::Event& command) {
   cl::Event older;

@@ -32,4 +32,15 @@ struct DeviceState {
   cl::Event end_of_batch_;  // the last command of the batch before it
 };
 
+/// How large a device lets a work-group be. A group over a list of items has all of them in the first
+/// dimension.
+struct GroupLimits {
+  std::size_t items, rows;
+
+  bool allow(std::size_t width, std::size_t height) const {
+    return width >= 1 && height >= 1 && height <= rows && width <= items / height;
+  }
+};
+GroupLimits group_limits(cl_device_id device);
+
 }  // namespace vorocl

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers and the command line with libFuzzer, under the address and undefined behaviour sanitizers, for so
-# many seconds of processor time in all:
+# many seconds in all, each target for its part of them:
 #   fuzz.sh SECONDS [TARGET]...     TARGET: csv, mask, npy, tiff, trajectory, command_line; without any, all
 # Says how many inputs each has read. What it finds lies in build-fuzz/findings/, and the exit code is not 0 then; inputs
 # that reach something new are kept in build-fuzz/corpus/ for the next time. The corpus and the dictionaries that it

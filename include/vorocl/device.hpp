@@ -25,7 +25,7 @@ struct Tuning {
   std::size_t group_width = 32;  ///< work-items of a work-group along a row ...
   std::size_t group_height = 8;  ///< ... and across rows
   Shape shape = Shape::vector;   ///< of exact diagrams
-  std::size_t patch_items = 64;  ///< work-items of a work-group of Shape::group: 32, 64, 128 or 256
+  std::size_t patch_items = 64;  ///< fewest work-items of a work-group of Shape::group: 32, 64, 128 or 256
 };
 
 /// One OpenCL device of this machine, as `vorocl devices` lists it.

@@ -157,7 +157,7 @@ typedef struct vorocl_tuning {
   size_t group_width;   ///< work-items of a work-group along a row ...
   size_t group_height;  ///< ... and across rows
   vorocl_shape shape;   ///< of exact diagrams
-  size_t patch_items;   ///< work-items of a work-group of VOROCL_GROUP: 32, 64, 128 or 256
+  size_t patch_items;   ///< fewest work-items of a work-group of VOROCL_GROUP: 32, 64, 128 or 256
 } vorocl_tuning;
 
 /// To begin with, the default of the device's class.

@@ -49,10 +49,6 @@ static inline int rows_of(int height, int level) { return bins_along(frame_heigh
 #error "The bits of a bin are not whole rows in whole words"
 #endif
 
-// While the index is made, two counters stand behind the bits, from the word `counters` on, and are cleared with them.
-#define DUPLICATE_COUNT 0  // of seeds on a pixel that has one
-#define LIST_END 1         // of those parts of the list that are given away
-
 // The seeds in a row of a bin, given the word that holds it: a bit each, the lowest bit at the left.
 #define ALL_BITS ((1u << BIN) - 1)
 static inline uint row_bits(uint word, int y) { return word >> y % ROWS_OF_WORD * BIN & ALL_BITS; }

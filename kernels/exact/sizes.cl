@@ -30,8 +30,10 @@
 #define MARGIN_OF_VECTORS (MOST_AWAY << BIN_BITS)
 #define MARGIN_OF_GROUPS(period) ((((period) / 2 >> BIN_BITS) + 1) << BIN_BITS)
 
-// The index counts in so many words behind its bits.
+// While the index is made, counters stand behind its bits and are cleared with them.
 #define COUNTERS 2
+#define DUPLICATE_COUNT 0  // of seeds on a pixel that has one
+#define LIST_END 1         // of those parts of the list that are given away
 
 // How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
 #ifndef MOST_PARENTS

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "device_state.hpp"
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
 #include "opencl_info.hpp"
@@ -32,8 +33,7 @@ Device without_vectors(const Device& device) {
 /// A work-group of the search has more items than others: it may have all seeds as candidates of one patch
 /// while most of the device has nothing to do.
 std::size_t items_of_search(const Device& device) {
-  const std::size_t most = std::min<std::size_t>(
-      device_info<std::size_t>(device.cl_device()(), CL_DEVICE_MAX_WORK_GROUP_SIZE), MOST_ITEMS);
+  const std::size_t most = std::min<std::size_t>(group_limits(device.cl_device()()).items, MOST_ITEMS);
   std::size_t items = device.tuning().patch_items;
   while (items * 2 <= most) items *= 2;
   return items;
@@ -65,7 +65,9 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   const char* const file =
       length == ListLength::full ? "exact/group/diagram.cl" : "exact/group/short_lists.cl";
   const Device device = without_vectors(state.device);
-  const std::size_t items = device.tuning().patch_items, of_search = items_of_search(device);
+  const std::size_t items = device.tuning().patch_items;
+  // The tests' short lists are for groups of all sizes.
+  const std::size_t of_search = length == ListLength::full ? items_of_search(device) : items;
   const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels.get(device, file, name, state.grid, {options.metric}).in_groups_of(items_of_group);
   };

@@ -150,6 +150,15 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
   device.finish();
 }
 
+/// Three parts of the list of cells, where a work-group has two items: one item is past the last part.
+void measure_many_cells(const Device& device, const Grid& grid) {
+  const Device in_twos = device.with_tuning({1, 2, 1, Shape::vector, 32});
+  const Seeds seeds = Seeds::random(in_twos, grid, 2100, 1);
+  Diagram diagram(in_twos, grid);
+  jump_flooding(seeds, diagram);
+  cell_statistics(seeds, diagram);
+}
+
 void make_tiles(const Device& device, Metric metric) {
   const PlaneSeeds seeds(Plane(40, 25), {{3, 3}, {30, 20}, {17, 9}});
   exact_tiles(device, seeds, Tiling(seeds.plane(), 16), [](const TileLabels&) {}, {metric});
@@ -177,6 +186,7 @@ int main() {
         measure(shaped, grid, metric);
     }
   }
+  measure_many_cells(device, Grid(13, 9));
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;
   for (const std::string& name : kernels) {

@@ -72,13 +72,20 @@ BOOST_AUTO_TEST_CASE(a_diagrams_own_labels_cannot_be_written_into_it) {
     return whole.createSubBuffer(CL_MEM_READ_WRITE, CL_BUFFER_CREATE_TYPE_REGION, &region);
   };
   Diagram over_a_part(test_device(), grid, part(0));
-  try {
-    over_a_part.write(part(4096));
-    BOOST_ERROR("nothing was thrown");
-  } catch (const Error& error) {
-    BOOST_TEST((error.kind() == ErrorKind::bad_argument), error.what());
-    BOOST_TEST(std::string(error.what()).find("overlap") != std::string::npos);
+  for (const cl::Buffer& overlapping : {part(4096), whole}) {
+    try {
+      over_a_part.write(overlapping);
+      BOOST_ERROR("nothing was thrown");
+    } catch (const Error& error) {
+      BOOST_TEST((error.kind() == ErrorKind::bad_argument), error.what());
+      BOOST_TEST(std::string(error.what()).find("overlap") != std::string::npos);
+    }
   }
+  const std::vector<std::uint32_t> labels(grid.pixels(), 7);
+  const cl::Buffer beside = part(8192);
+  test_device().queue().enqueueWriteBuffer(beside, CL_TRUE, 0, bytes, labels.data());
+  over_a_part.write(beside);
+  BOOST_TEST(over_a_part.read() == labels);
 }
 
 BOOST_AUTO_TEST_CASE(an_image_is_no_buffer) {

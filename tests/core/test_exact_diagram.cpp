@@ -144,6 +144,7 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   check_against_tree({32768, 40}, {{0, 0}, {32767, 39}});
   // The longest periods, and seeds half of one away.
   check_against_tree({32000, 40, Periodic::xy}, {{31999, 39}});
+  check_against_tree({40, 32000, Periodic::xy}, {{39, 31999}});
   check_against_tree({32000, 64, Periodic::x}, random_pixels({32000, 64}, 30, 26));
   check_against_tree({40, 31999, Periodic::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
   const Grid torus(2048, 2048, Periodic::xy);

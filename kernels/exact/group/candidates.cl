@@ -47,8 +47,8 @@ static inline void begin_winners(local Winners* winners, Box box, uint seed) {
 // Takes the seeds of a list that win at a place. The items share out the pairs of a seed and a place, as there may be a
 // few seeds only.
 static inline void improve_winners(local Winners* winners, local const uint* seeds, int count) {
-  const int item = (int)get_local_id(0), items = (int)get_local_size(0);
-  for (int i = item; i < count * DOMINATORS; i += items) {
+  const int item = (int)get_local_id(0);
+  for (int i = item; i < count * DOMINATORS; i += (int)get_local_size(0)) {
     const int place = i % DOMINATORS;
     atomic_min(winners->least + place, distance_to(winners->place[place], seeds[i / DOMINATORS]));
   }
@@ -57,13 +57,13 @@ static inline void improve_winners(local Winners* winners, local const uint* see
     winners->seed[item] = EMPTY;
   }
   SYNC();
-  for (int i = item; i < count * DOMINATORS; i += items) {
+  for (int i = (int)get_local_id(0); i < count * DOMINATORS; i += (int)get_local_size(0)) {
     const int place = i % DOMINATORS;
     const uint seed = seeds[i / DOMINATORS];
     if (distance_to(winners->place[place], seed) == winners->least[place]) atomic_min(winners->seed + place, seed);
   }
   SYNC();
-  for (int i = item; i < DOMINATORS * CORNERS; i += items) {
+  for (int i = (int)get_local_id(0); i < DOMINATORS * CORNERS; i += (int)get_local_size(0)) {
     winners->distance[i / CORNERS][i % CORNERS] =
         distance_to(winners->place[1 + i % CORNERS], winners->seed[i / CORNERS]);
   }

@@ -22,6 +22,13 @@ static inline uint entry_of(int x, int y, int level) { return pack(x, y) | (uint
 static inline int entry_x(uint entry) { return packed_x(entry) & ((1 << LEVEL_SHIFT) - 1); }
 static inline int entry_level(uint entry) { return (packed_x(entry) >> LEVEL_SHIFT) - 1; }
 
+// Rows, and the levels of the pyramid.
+#define MOST_LEVELS (1 + 8)
+#define SHORTEST_STACK (TOP_BINS + PARTS * MOST_LEVELS)
+#if STACK < SHORTEST_STACK
+#error "The stack may overflow"
+#endif
+
 // A list is full from MOST_GATHERED seeds on, and then there is one more from each item at most.
 #define MOST_LISTED (MOST_GATHERED + MOST_ITEMS)
 #if MOST_LISTED < 1 << 2 * BIN_BITS
@@ -36,11 +43,6 @@ typedef struct {
 
 // How many entries are opened at once: of each level below so many parts less one stay on the stack, and one entry can
 // always be opened.
-#define MOST_LEVELS (LEVELS_OF_PYRAMID + 1)
-#define LEVELS_OF_PYRAMID 8
-#if STACK < TOP_BINS + 2 * FAN * FAN * MOST_LEVELS
-#error "The stack may overflow"
-#endif
 static inline int entries_to_open(int stack_count, int items) {
   const int room = STACK - stack_count - (PARTS - 1) * MOST_LEVELS;
   return max(min(min(items / PARTS, stack_count), room / (PARTS - 1)), 1);
@@ -201,7 +203,7 @@ static inline void begin_with_bin_of(local Search* search, local Winners* winner
 static inline void search_patch(local Search* search, local Winners* winners, local Ranked* ranked,
                                 const SeedIndex* index, global const uint* pyramid, int top_level, Box patch, uint near,
                                 global uint* labels) {
-  const int item = (int)get_local_id(0), items = (int)get_local_size(0), column = item_column();
+  const int item = (int)get_local_id(0), column = item_column();
   begin_with_bin_of(search, winners, index, patch, near);
   fill_patch(index, patch, near, labels);
   SYNC_LABELS();
@@ -211,16 +213,15 @@ static inline void search_patch(local Search* search, local Winners* winners, lo
   SYNC();
   const int top_across = columns_of(index->width, top_level);
   const int top_bins = top_across * rows_of(index->height, top_level);
-  for (int bin = item; bin < top_bins; bin += items) {
+  for (int bin = (int)get_local_id(0); bin < top_bins; bin += (int)get_local_size(0)) {
     search->stack[atomic_inc(&search->stack_count)] = entry_of(bin % top_across, bin / top_across, top_level);
   }
   SYNC();
   while (search->stack_count > 0) {
     open_entries(search, winners, index, pyramid, patch);
-    const bool take = search->stack_count == 0 || search->count > MOST_GATHERED;
-    const int count = (int)search->count;
+    const int left = (int)search->stack_count, count = (int)search->count;
     SYNC();
-    if (take) {
+    if (left == 0 || count > MOST_GATHERED) {
       improve_winners(winners, search->seeds, count);
       if (item == 0) search->count = search->kept_count = 0;
       SYNC();

@@ -41,6 +41,8 @@
 #define MOST_LOOKED_AT 256
 
 // Bins and rows of bins that the search has yet to open.
+#ifndef STACK
 #define STACK 512
+#endif
 
 #endif
