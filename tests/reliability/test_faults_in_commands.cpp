@@ -2,11 +2,13 @@
 // whole files alone, or it makes the right ones. Of each kind of call that a subcommand makes, one fails;
 // with VOROCL_LONG_TESTS, 100.
 #define BOOST_TEST_MODULE faults_in_commands
+#include <boost/test/data/test_case.hpp>
 #include <random>
 
 #include "left_files.hpp"
 
 using namespace vorocl;
+namespace data = boost::unit_test::data;
 
 namespace {
 
@@ -80,18 +82,15 @@ void check_with(const Fault& fault, const TemporaryFolder& whole) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files) {
+BOOST_DATA_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files, data::make(subcommands),
+                     subcommand) {
   std::mt19937 random(1);
   const std::size_t of_each_kind = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 100 : 1;
-  std::size_t all = 0;
-  for (const std::string& subcommand : subcommands) {
-    const TemporaryFolder whole;
-    run(whole, subcommand);
-    const std::vector<Fault> faults = faults_of(subcommand, of_each_kind, random);
-    for (const Fault& fault : faults) check_with(fault, whole);
-    all += faults.size();
-  }
-  BOOST_TEST_MESSAGE(all << " calls failed");
+  const TemporaryFolder whole;
+  run(whole, subcommand);
+  const std::vector<Fault> faults = faults_of(subcommand, of_each_kind, random);
+  for (const Fault& fault : faults) check_with(fault, whole);
+  BOOST_TEST_MESSAGE(faults.size() << " calls failed");
 }
 
 BOOST_AUTO_TEST_CASE(a_signal_while_kernels_are_compiled_is_an_interruption) {
