@@ -72,8 +72,9 @@ class Upload {
  public:
   Upload() = default;
   ~Upload() {
-    // If the device fails, it says so where somebody waits for what it makes of the values.
-    if (copied_() != nullptr) clWaitForEvents(1, &copied_());
+    // If the device fails, it says so where somebody waits for what it makes of the values. But where the wait
+    // alone fails, it may still read them.
+    if (copied_() != nullptr && clWaitForEvents(1, &copied_()) != CL_SUCCESS) clFinish(queue_());
   }
   Upload(const Upload&) = delete;
   Upload& operator=(const Upload&) = delete;
@@ -84,7 +85,8 @@ class Upload {
     copied_ = cl::Event();
     values_ = std::move(values);
     if (values_.empty()) return;
-    check(clEnqueueWriteBuffer(device.queue()(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T),
+    queue_ = device.queue();
+    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T),
                                values_.data(), 0, nullptr, &copied_()),
           "writing a buffer");
     Internal::state(device).enqueued(copied_);
@@ -92,6 +94,7 @@ class Upload {
 
  private:
   std::vector<T> values_;
+  cl::CommandQueue queue_;
   cl::Event copied_;
 };
 

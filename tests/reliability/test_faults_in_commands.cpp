@@ -93,6 +93,15 @@ BOOST_DATA_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files, data:
   BOOST_TEST_MESSAGE(faults.size() << " calls failed");
 }
 
+// With positions that are freed too early the device writes anywhere.
+BOOST_AUTO_TEST_CASE(what_the_device_still_reads_is_kept_where_waiting_for_it_fails) {
+  const std::string& ablation = subcommands[9];
+  const TemporaryFolder whole;
+  run(whole, ablation);
+  for (int number = 30; number < 40; ++number)
+    check_with({ablation, "clWaitForEvents " + std::to_string(number) + " on"}, whole);
+}
+
 BOOST_AUTO_TEST_CASE(a_signal_while_kernels_are_compiled_is_an_interruption) {
   for (const std::string subcommand :
        {"tiles --random 9 --size 40x30 --tile 16 --labels l.npy",
