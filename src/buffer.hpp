@@ -72,8 +72,8 @@ class Upload {
  public:
   Upload() = default;
   ~Upload() {
-    // If the device fails, it says so where somebody waits for what it makes of the values. But where the wait
-    // alone fails, it may still read them.
+    // If the device fails, it says so where somebody waits for what it makes of the values. But where the
+    // wait alone fails, it may still read them.
     if (copied_() != nullptr && clWaitForEvents(1, &copied_()) != CL_SUCCESS) clFinish(queue_());
   }
   Upload(const Upload&) = delete;
@@ -86,8 +86,8 @@ class Upload {
     values_ = std::move(values);
     if (values_.empty()) return;
     queue_ = device.queue();
-    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T),
-                               values_.data(), 0, nullptr, &copied_()),
+    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T), values_.data(), 0,
+                               nullptr, &copied_()),
           "writing a buffer");
     Internal::state(device).enqueued(copied_);
   }
