@@ -18,7 +18,7 @@ command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit
 
 # A GPU gets all programs but those of the exact engine's vector shape; short lists and references are for tests.
 kernel_files() {
-  grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/*.cl
+  grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
 }

@@ -47,21 +47,21 @@ MEASURES = ["test_c_api_measures", "test_similarity", "test_window_measures", "t
             "test_relaxation", "test_adjacency", "test_distance_errors"]
 KERNEL_TESTS = [
     ("exact/group/*", GROUP), ("exact/*", EXACT),
-    ("jump_flooding.cl", FLOODING), ("wave.cl", FLOODING), ("standard_flooding.cl", FLOODING),
-    ("dynamic_jump_flooding.cl", FLOODING + ["test_any_motion"]),
-    ("position.cl", FLOODING + ["test_window"] + MEASURES),
-    ("vector.cl", FLOODING + MEASURES), ("seeds.cl", FLOODING + ["test_seeds", "test_method"]),
-    ("philox.cl", ["test_seeds", "test_motion"]), ("motion.cl", ["test_motion", "test_seeds"]),
-    ("plane*", ["test_window", "test_window_measures"]), ("tiles.cl", ["test_tiles"]),
-    ("adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("runs.cl", MEASURES),
-    ("vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
+    ("flooding/dynamic_jump_flooding.cl", FLOODING + ["test_any_motion"]), ("flooding/*", FLOODING),
+    ("core/position.cl", FLOODING + ["test_window"] + MEASURES),
+    ("core/vector.cl", FLOODING + MEASURES), ("core/seeds.cl", FLOODING + ["test_seeds", "test_method"]),
+    ("core/philox.cl", ["test_seeds", "test_motion"]), ("motion/motion.cl", ["test_motion", "test_seeds"]),
+    ("core/plane.cl", ["test_window", "test_window_measures"]), ("measures/plane*", ["test_window_measures"]),
+    ("core/tiles.cl", ["test_tiles"]),
+    ("measures/adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("measures/runs.cl", MEASURES),
+    ("measures/vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
 ]
 
 # By source: names of tests.
 HOST_TESTS = [
-    ("src/plan.cpp", ["plan"]), ("src/bounds.cpp", ["bounds"]), ("src/grid.cpp", ["grid", "plan"]),
-    ("src/palette.cpp", ["colors", "color_bar", "painter"]), ("src/picture.cpp", ["colors", "picture"]),
-    ("src/color_bar.cpp", ["color_bar"]), ("src/outer_seeds.cpp", ["window", "window_measures"]),
+    ("src/flooding/plan.cpp", ["plan"]), ("src/core/bounds.cpp", ["bounds"]), ("src/core/grid.cpp", ["grid", "plan"]),
+    ("src/picture/palette.cpp", ["colors", "color_bar", "painter"]), ("src/picture/picture.cpp", ["colors", "picture"]),
+    ("src/picture/color_bar.cpp", ["color_bar"]), ("src/core/outer_seeds.cpp", ["window", "window_measures"]),
     ("tools/formats/csv.cpp", ["points"]), ("tools/formats/npy.cpp", ["points", "label_files"]),
     ("tools/formats/tiff.cpp", ["label_files", "large_claims"]), ("tools/formats/vtk.cpp", ["vtk"]),
     ("tools/formats/numbered_files.cpp", ["output_files", "simulate_files"]),

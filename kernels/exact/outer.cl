@@ -7,7 +7,7 @@
 // get labels: it lies in one period. No outer seed is in the region.
 
 #include "exact/sizes.cl"
-#include "plane.cl"
+#include "core/plane.cl"
 
 typedef JOIN(LENGTH, 4) length4;
 

@@ -1,6 +1,6 @@
 // The exact diagram in plain words: every pixel against every seed. The engines of the library are judged by it.
 
-#include "position.cl"
+#include "core/position.cl"
 
 // One work-item per pixel. A seed that is not there has an empty position. Of the seeds on one pixel, which have equal
 // distances and positions, the first in the list stays: it has the lowest id.

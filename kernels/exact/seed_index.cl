@@ -5,7 +5,7 @@
 #define VOROCL_EXACT_SEED_INDEX
 
 #include "exact/sizes.cl"
-#include "position.cl"
+#include "core/position.cl"
 
 // THE FRAME. Along a periodic axis the index covers a margin more at both ends, where the seeds of the other end stand
 // once more: their images. (In a period shorter than the margin there are more of a seed.) So what looks no farther

@@ -9,8 +9,8 @@
 #include <limits>
 #include <tuple>
 
+#include "core/seeds_state.hpp"
 #include "module.hpp"
-#include "seeds_state.hpp"
 
 namespace vorocl::python {
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "buffer.hpp"
-#include "diagram_state.hpp"
+#include "core/diagram_state.hpp"
 #include "exact/group_shape.hpp"
 #include "exact/index.hpp"
 #include "exact/lists.hpp"
 #include "exact/outer.hpp"
+#include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "device_state.hpp"
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
-#include "opencl_info.hpp"
+#include "runtime/device_state.hpp"
+#include "runtime/opencl_info.hpp"
 // Last: it defines macros.
 #include "exact/group/sizes.cl"
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "buffer.hpp"
 #include "exact/sizes.cl"
+#include "runtime/buffer.hpp"
 
 namespace vorocl {
 

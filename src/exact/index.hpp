@@ -2,7 +2,7 @@
 // launches that make it.
 #pragma once
 
-#include "diagram_state.hpp"
+#include "core/diagram_state.hpp"
 #include "vorocl/diagram.hpp"
 
 namespace vorocl {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "seeds_state.hpp"
+#include "core/seeds_state.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 

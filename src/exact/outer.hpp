@@ -1,7 +1,7 @@
 // The pass after the exact engine where seeds lie outside its pixels (kernels/exact/outer.cl).
 #pragma once
 
-#include "diagram_state.hpp"
+#include "core/diagram_state.hpp"
 #include "exact/lists.hpp"
 
 namespace vorocl {

@@ -1,7 +1,7 @@
 #include "exact/reference.hpp"
 
-#include "diagram_state.hpp"
-#include "seeds_state.hpp"
+#include "core/diagram_state.hpp"
+#include "core/seeds_state.hpp"
 
 namespace vorocl {
 

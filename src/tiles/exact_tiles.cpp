@@ -1,9 +1,9 @@
 #include <map>
 #include <utility>
 
-#include "buffer.hpp"
-#include "diagram_state.hpp"
-#include "seeds_state.hpp"
+#include "core/diagram_state.hpp"
+#include "core/seeds_state.hpp"
+#include "runtime/buffer.hpp"
 #include "tiles/plane_cells.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/tiles.hpp"
@@ -138,7 +138,7 @@ class TileEngine {
     next_ = 1 - next_;
     if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
     const Grid& grid = diagram.grid();
-    kernels_.get(device_, "tiles.cl", "name_labels", grid)
+    kernels_.get(device_, "core/tiles.cl", "name_labels", grid)
         .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(near_.size()), grid.width(), grid.height(),
                    named);
     return named;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <string>
 
-#include "opencl_info.hpp"
+#include "runtime/opencl_info.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/tiles.hpp"
 

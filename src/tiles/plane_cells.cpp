@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "internal.hpp"
+#include "runtime/internal.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl {

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/z_order.hpp"
 #include "tiles/box_tree.hpp"
 #include "tiles/plane_distance.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/tiles.hpp"
-#include "z_order.hpp"
 
 namespace vorocl {
 

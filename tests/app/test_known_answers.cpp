@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(all_devices_are_checked_unless_one_is_asked_for) {
 
 BOOST_AUTO_TEST_CASE(a_kernel_that_errs_is_named) {
   const TemporaryFolder folder;
-  copy_kernels(folder, "jump_flooding.cl", "height, step), out", "height, 1), out");
+  copy_kernels(folder, "flooding/jump_flooding.cl", "height, step), out", "height, 1), out");
   const Result result = run(folder, "devices --check", "VOROCL_KERNEL_DIR=kernels");
   BOOST_TEST(result.exit_code == failure);
   BOOST_TEST(result.out.find("wrong: jfa, euclidean\n") != std::string::npos, result.out);
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_kernel_that_errs_is_named) {
 
 BOOST_AUTO_TEST_CASE(a_kernel_that_cannot_be_built_is_named) {
   const TemporaryFolder folder;
-  copy_kernels(folder, "jump_flooding.cl", "height, step), out", "no such word");
+  copy_kernels(folder, "flooding/jump_flooding.cl", "height, step), out", "no such word");
   const Result result = run(folder, "devices --check --json", "VOROCL_KERNEL_DIR=kernels");
   BOOST_TEST(result.exit_code == failure);
   const json wrong = json::parse(result.out).at("devices")[0]["wrong"];

@@ -9,9 +9,9 @@
 #include "brute_force.hpp"
 #include "exact/lists.hpp"
 #include "exact/reference.hpp"
-#include "kernel_sources.hpp"
-#include "opencl_info.hpp"
-#include "program.hpp"
+#include "runtime/kernel_sources.hpp"
+#include "runtime/opencl_info.hpp"
+#include "runtime/program.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;

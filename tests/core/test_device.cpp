@@ -8,7 +8,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "program.hpp"
+#include "runtime/program.hpp"
 
 using namespace vorocl;
 
@@ -124,8 +124,9 @@ BOOST_AUTO_TEST_CASE(a_diagram_larger_than_the_device_is_refused) {
 
 BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
   // A vector width that does not exist makes the kernel's types unknown.
-  check_error([] { program_for(test_device(), "jump_flooding.cl", "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16"); },
-              {"jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
+  check_error(
+      [] { program_for(test_device(), "flooding/jump_flooding.cl", "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16"); },
+      {"flooding/jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
 }
 
 BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {

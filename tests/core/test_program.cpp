@@ -6,8 +6,8 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "kernel_sources.hpp"
-#include "program.hpp"
+#include "runtime/kernel_sources.hpp"
+#include "runtime/program.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;
@@ -68,18 +68,18 @@ BOOST_AUTO_TEST_CASE(kernels_of_a_folder_replace_the_embedded_ones) {
   write_kernels(folder);
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
   BOOST_TEST((labels() == true_labels()));
-  folder.file("position.cl", "#error position.cl of the folder\n");
+  folder.file("core/position.cl", "#error position.cl of the folder\n");
   check_error([] { labels(); }, {"position.cl of the folder", "exact/diagram.cl"});
 }
 
 BOOST_AUTO_TEST_CASE(a_kernel_that_is_not_in_the_folder_is_an_error) {
   const TemporaryFolder folder;
   write_kernels(folder);
-  std::filesystem::remove(folder / "position.cl");
+  std::filesystem::remove(folder / "core/position.cl");
   const Variable variable("VOROCL_KERNEL_DIR", folder / "");
-  check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "No such file"});
-  std::filesystem::create_directory(folder / "position.cl");
-  check_error([] { labels(); }, {"position.cl", "VOROCL_KERNEL_DIR", "Is a directory"});
+  check_error([] { labels(); }, {"core/position.cl", "VOROCL_KERNEL_DIR", "No such file"});
+  std::filesystem::create_directory(folder / "core/position.cl");
+  check_error([] { labels(); }, {"core/position.cl", "VOROCL_KERNEL_DIR", "Is a directory"});
   const Variable missing("VOROCL_KERNEL_DIR", "/no/such/folder");
   check_error([] { labels(); }, {"/no/such/folder/", "VOROCL_KERNEL_DIR", "No such file"});
 }
@@ -95,8 +95,8 @@ BOOST_AUTO_TEST_CASE(an_empty_kernel_file_is_read_like_any_other) {
 BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
   const TemporaryFolder folder;
   write_kernels(folder);
-  folder.file("position.cl",
-              "#ifdef BROKEN\n#error BROKEN is defined\n#endif\n" + kernel_sources().at("position.cl"));
+  folder.file("core/position.cl",
+              "#ifdef BROKEN\n#error BROKEN is defined\n#endif\n" + kernel_sources().at("core/position.cl"));
   const Variable kernels("VOROCL_KERNEL_DIR", folder / "");
   BOOST_TEST((labels() == true_labels()));
   const Variable options("VOROCL_BUILD_OPTIONS", "-DBROKEN");

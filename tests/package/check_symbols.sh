@@ -2,7 +2,7 @@
 # Checks the symbols of the library. Exits with 77 where nm is not installed.
 #   check_symbols.sh exported FILE.so   a shared library exports its API and nothing else
 #   check_symbols.sh bindings FILE.a    an unoptimised static library calls no function of OpenCL's C++ bindings whose code
-#                                       depends on its user's settings (see src/opencl_error.hpp)
+#                                       depends on its user's settings (see src/runtime/opencl_error.hpp)
 set -euo pipefail
 command -v nm >/dev/null || { echo "nm is not installed: skipped"; exit 77; }
 

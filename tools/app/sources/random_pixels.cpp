@@ -9,7 +9,7 @@ namespace {
 std::uint32_t low(std::uint64_t product) { return static_cast<std::uint32_t>(product); }
 std::uint32_t high(std::uint64_t product) { return static_cast<std::uint32_t>(product >> 32); }
 
-/// Philox-4x32-10 of a counter whose other words are 0, as in kernels/philox.cl: its first two words.
+/// Philox-4x32-10 of a counter whose other words are 0, as in kernels/core/philox.cl: its first two words.
 std::array<std::uint32_t, 2> philox(std::uint32_t counter, std::uint64_t key) {
   std::array<std::uint32_t, 4> words = {counter, 0, 0, 0};
   std::uint32_t key_0 = low(key), key_1 = high(key);

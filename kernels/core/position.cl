@@ -1,0 +1,187 @@
+// Seed positions, distances and the tie rule: what every engine must agree on, to the bit.
+//
+// A seed's position is packed as y << 16 | x. The sign bit says that there is no seed (EMPTY); real coordinates
+// are at most 0x7fff.
+
+#ifndef VOROCL_POSITION
+#define VOROCL_POSITION
+
+#include "core/vector.cl"
+
+#define NO_LABEL 0xffffffffu
+#define EMPTY_BIT 0x80000000u
+#define EMPTY 0x80008000u
+#define LAST_COORDINATE 0x7fff
+#define NO_DISTANCE 0x7fffffffu  // what results say where there is no seed: more than any distance
+
+static inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
+static inline int packed_x(uint position) { return (int)(position & 0xffffu); }
+static inline int packed_y(uint position) { return (int)(position >> 16); }
+
+// Where a seed's pixel is in a row-major image.
+static inline uint_v pixel_index(uint_v position, int width) {
+  return (position >> 16) * (uint)width + (position & 0xffffu);
+}
+
+// The list of seed positions has one value more than there are seeds: EMPTY. A label that is no seed's id is clamped to
+// it when its position is looked up.
+
+static inline uint_v look_up_positions(global const uint* labels, global const uint* positions, uint count) {
+  uint lane[VOROCL_WIDTH];
+  STORE_VECTOR(min(LOAD_VECTOR(labels), (uint_v)count), lane);
+  for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = positions[lane[i]];
+  return LOAD_VECTOR(lane);
+}
+
+// An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
+#define FIRST_ID 1
+
+// Packed positions of a vector's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
+static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES; }
+
+// DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, else the
+// Manhattan distance, both integers. ALONG(offset) is offset * FACTOR(offset). Both macros take numbers and vectors,
+// FACTOR those of 16 bits.
+#ifdef VOROCL_EUCLIDEAN
+#define ALONG(offset) ((offset) * (offset))
+#define FACTOR(offset) (offset)
+#else
+#define ALONG(offset) max(offset, -(offset))
+#define FACTOR(offset) (((offset) >> (short)15) | (short)1)  // the sign: -1 or 1
+#endif
+
+#if 2 * LAST_COORDINATE * LAST_COORDINATE >= 0x80000000
+#error "A distance uses the bit that makes an empty position farther than any seed"
+#endif
+
+// The distance of two pixels that are (dx, dy) apart.
+static inline uint distance_of_offset(int dx, int dy) { return (uint)(ALONG(dx) + ALONG(dy)); }
+
+// PERIODIC AXES. The build options VOROCL_PERIODIC_X and VOROCL_PERIODIC_Y say which axes are periodic: their period is
+// the grid's side, and distances go the shorter way round.
+#if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y)
+#define VOROCL_PERIODIC
+#endif
+#ifdef VOROCL_PERIODIC_X
+#define PERIODIC_X 1
+#else
+#define PERIODIC_X 0
+#endif
+#ifdef VOROCL_PERIODIC_Y
+#define PERIODIC_Y 1
+#else
+#define PERIODIC_Y 0
+#endif
+
+// The periods of both axes, packed; on an axis that is not periodic it is too long for a way round.
+#define NO_PERIOD 0xffffu
+static inline uint periods(int width, int height) {
+  return (PERIODIC_X ? (uint)width : NO_PERIOD) | (PERIODIC_Y ? (uint)height : NO_PERIOD) << 16;
+}
+
+// The way between two coordinates of an axis, given the way inside the grid: the shorter one if the axis is periodic,
+// and of two halves of the period the positive one.
+static inline int shorter_way(int inside, int size, int periodic) {
+  if (!periodic) return inside;
+  if (2 * inside > size) return inside - size;
+  return 2 * inside <= -size ? inside + size : inside;
+}
+static inline int shorter_way_x(int inside, int width) { return shorter_way(inside, width, PERIODIC_X); }
+static inline int shorter_way_y(int inside, int height) { return shorter_way(inside, height, PERIODIC_Y); }
+
+// A coordinate that is less than a period outside the grid, brought back into it if the axis is periodic.
+static inline int wrapped(int at, int size, int periodic) {
+  if (!periodic) return at;
+  return at < 0 ? at + size : at >= size ? at - size : at;
+}
+static inline int wrapped_x(int x, int width) { return wrapped(x, width, PERIODIC_X); }
+static inline int wrapped_y(int y, int height) { return wrapped(y, height, PERIODIC_Y); }
+
+// The packed positions of the pixels that a vector has whose first pixel is at (x, y), less than a period outside the
+// grid.
+static inline uint_v positions_in_grid(int x, int y, int width, int height) {
+  x = wrapped_x(x, width);
+  const uint_v position = pack(0, wrapped_y(y, height)) + ((uint)x + LANES);  // x may be below 0
+  if (!PERIODIC_X || x + VOROCL_WIDTH <= width) return position;
+  return select(position - (uint)width, position, (uint)x + LANES < (uint_v)(uint)width);
+}
+
+// The distance between two packed positions, vectors of them. The coordinates are subtracted as 16-bit numbers, which
+// cannot overflow for real positions. The distance is then the sum of two products of 16-bit numbers, a form that
+// compilers turn into one multiply-add instruction (pmaddwd on x86).
+#define DEFINE_DISTANCE_BETWEEN(name, uint_n, short_2n, as_uint_n, as_short_2n, convert_int_n)        \
+  static inline uint_n name##_by_offset(short_2n offset) {                                            \
+    const short_2n factor = FACTOR(offset);                                                           \
+    return as_uint_n(convert_int_n(offset.even) * convert_int_n(factor.even) +                        \
+                     convert_int_n(offset.odd) * convert_int_n(factor.odd));                          \
+  }                                                                                                   \
+  static inline uint_n name(uint_n a, uint_n b) { return name##_by_offset(as_short_2n(a) - as_short_2n(b)); }
+
+// Two 16-bit numbers per lane: the coordinates of a vector of positions.
+#if VOROCL_WIDTH == 16
+// The vectors of OpenCL C end at 16 values. Those of clang do not, and the drivers of CPUs are built on clang. Two
+// halves of 8 pixels that are joined afterwards become 17 instructions instead of 2 from LLVM 18 on, because it joins
+// them before it looks for the multiply-add.
+typedef short short_2v __attribute__((ext_vector_type(32)));
+typedef ushort ushort_2v __attribute__((ext_vector_type(32)));
+#define AS_SHORT_2V(values) __builtin_astype(values, short_2v)
+#define AS_USHORT_2V(values) __builtin_astype(values, ushort_2v)
+#else
+#if VOROCL_WIDTH == 8
+#define COORDINATES 16
+#elif VOROCL_WIDTH == 4
+#define COORDINATES 8
+#elif VOROCL_WIDTH == 2
+#define COORDINATES 4
+#else
+#define COORDINATES 2
+#endif
+typedef JOIN(short, COORDINATES) short_2v;
+typedef JOIN(ushort, COORDINATES) ushort_2v;
+#define AS_SHORT_2V JOIN(as_short, COORDINATES)
+#define AS_USHORT_2V JOIN(as_ushort, COORDINATES)
+#endif
+DEFINE_DISTANCE_BETWEEN(distance_between, uint_v, short_2v, AS_UINT_V, AS_SHORT_2V, CONVERT_INT_V)
+
+// The distance between two packed positions of the grid, the shorter way round along periodic axes; `period` is that of
+// periods().
+static inline uint_v distance_in_grid(uint_v a, uint_v b, uint period) {
+#ifdef VOROCL_PERIODIC
+  const short_2v offset = AS_SHORT_2V(a) - AS_SHORT_2V(b), whole = AS_SHORT_2V((uint_v)period);
+  const short_2v half_of_it = AS_SHORT_2V(AS_USHORT_2V(whole) >> (ushort)1);
+  return distance_between_by_offset(offset - (whole & (offset > half_of_it)) + (whole & (offset < -half_of_it)));
+#else
+  (void)period;
+  return distance_between(a, b);
+#endif
+}
+
+// As distance_in_grid(), where the position may be empty: that is farther than any seed. The subtraction makes a
+// meaningless number of an empty position, but the sign bit alone puts it past every real distance.
+static inline uint_v distance_to_label_in_grid(uint_v position, uint_v pixel, uint period) {
+  return distance_in_grid(position, pixel, period) | (position & EMPTY_BIT);
+}
+
+// The same where no way goes round: between positions that stand for images of the seeds too.
+static inline uint_v distance_to_label(uint_v position, uint_v pixel) {
+  return distance_between(position, pixel) | (position & EMPTY_BIT);
+}
+
+// THE TIE RULE: of the seeds at the least distance, the one that comes first in row-major order of position wins. That
+// is the unsigned order of packed positions. The macros take numbers and vectors.
+#define COMES_FIRST(seed, other) ((seed) < (other))
+#define WINS(seed, distance, other, other_distance) \
+  (((distance) < (other_distance)) | (((distance) == (other_distance)) & COMES_FIRST(seed, other)))
+
+// One step of a search for the first of the nearest seeds where the least distance is known: takes a candidate that has
+// it, if it comes first.
+static inline uint_v first_of_nearest(uint_v best, uint_v candidate, uint_v distance, uint_v least) {
+  return select(best, min(best, candidate), distance == least);
+}
+
+// The seed that wins among the lanes of a vector.
+static inline uint winning_lane(uint_v seeds, uint_v distances) {
+  return lane_min(select((uint_v)0xffffffffu, seeds, distances == lane_min(distances)));
+}
+
+#endif

@@ -1,0 +1,58 @@
+// Lloyd relaxation: the energy of a diagram, and the move of its seeds to their cells' centroids.
+
+#include "measures/runs.cl"
+
+// The energy of each block's pixels: their squared distances to their seeds, run by run.
+kernel void add_energy(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
+                       int height, int wide, int high, global ulong* restrict energies) {
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  ulong energy = 0;
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
+      if (label >= count) continue;
+      const int seed_x = packed_x(positions[label]);
+      const long dy = shorter_way_y(y - packed_y(positions[label]), height);
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        to = piece_end(from, walk.to, seed_x, width);
+        const long n = to - from, x = shorter_way_x(from - seed_x, width);
+        energy += (ulong)(n * (x * x + dy * dy) + x * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6);
+      }
+    }
+  }
+  energies[block.index] = energy;
+}
+
+// The coordinate nearest to the mean; of two, the present one.
+static inline int nearest_to_mean(long sum, uint area, int present) {
+  const long quotient = sum / (long)area, low = quotient * (long)area > sum ? quotient - 1 : quotient;
+  const long twice_the_rest = 2 * (sum - low * (long)area);
+  if (twice_the_rest == (long)area) return present == (int)low + 1 ? present : (int)low;
+  return twice_the_rest < (long)area ? (int)low : (int)low + 1;
+}
+
+// Counts the seeds that moved, and finds the greatest displacement along an axis; each work-item for a chunk of the
+// seeds, so that few meet there.
+kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
+                              global const long* restrict sum_x, global const long* restrict sum_y, int width,
+                              int height, global uint* restrict moved_and_displacement) {
+  const uint begin = (uint)get_global_id(0) * chunk;
+  if (begin >= count) return;
+  const uint end = min(begin + chunk, count);
+  uint moved = 0, max_displacement = 0;
+  for (uint id = begin; id < end; ++id) {
+    if (area[id] == 0) continue;
+    const int x = packed_x(positions[id]), y = packed_y(positions[id]);
+    const int new_x = nearest_to_mean(sum_x[id], area[id], x), new_y = nearest_to_mean(sum_y[id], area[id], y);
+    const uint displacement = max(abs(new_x - x), abs(new_y - y));
+    moved += displacement > 0 ? 1u : 0u;
+    max_displacement = max(max_displacement, displacement);
+    positions[id] = pack(wrapped_x(new_x, width), wrapped_y(new_y, height));
+  }
+  if (moved == 0) return;
+  atomic_add(moved_and_displacement, moved);
+  atomic_max(moved_and_displacement + 1, max_displacement);
+}

@@ -1,0 +1,92 @@
+// What a Diagram holds besides its labels, and how an engine fills it.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <typeindex>
+#include <vector>
+
+#include "core/seeds_frame.hpp"
+#include "runtime/internal.hpp"
+#include "runtime/kernel.hpp"
+#include "runtime/stopwatch.hpp"
+#include "vorocl/report.hpp"
+
+namespace vorocl {
+
+/// What the labels of a diagram are, once something has filled it.
+struct DiagramContents {
+  std::shared_ptr<const SeedsFrame> seeds;  // that an engine made them from; null: the caller wrote them
+  int age = 0;                              // frames since they were last made from nothing
+  cl::Event last;                           // the command that finished them
+  bool far_counted = false;                 // the flood that made them counted pixels far from their seeds
+};
+
+struct DiagramState {
+  DiagramState(const Device& device, const Grid& grid, const cl::Buffer& labels);
+
+  Device device;
+  Grid grid;
+  cl::Buffer labels;
+  std::optional<DiagramContents> contents;  // none: it counts as never filled
+  KernelSet kernels;
+
+  Kernel& kernel(const char* file, const char* name, const KernelOptions& options = {}) {
+    return kernels.get(device, file, name, grid, options);
+  }
+
+  /// An engine's working memory, a struct of buffers, made empty at its first use and kept.
+  template <typename Workspace>
+  Workspace& workspace() {
+    std::shared_ptr<void>& workspace = workspaces_[typeid(Workspace)];
+    if (!workspace) workspace = std::make_shared<Workspace>();
+    return *static_cast<Workspace*>(workspace.get());
+  }
+
+  /// Makes a workspace's buffer have at least so many bytes. Throws Error, saying how much is needed and
+  /// there is, if the device cannot hold it besides what the diagram has.
+  void reserve(cl::Buffer& buffer, std::size_t bytes);
+
+  /// Throws Error unless the seeds have this device and this grid.
+  void check_fits(const Seeds& seeds) const;
+
+  /// Waits for the queue. If the device fails, the diagram counts as never filled. Throws BadPoint if the
+  /// frame that the labels are of had one.
+  void wait();
+
+  /// As wait(), and copies the labels to the host.
+  void read(std::uint32_t* to);
+
+ private:
+  template <typename Then>
+  void wait_and(Then then);
+
+  std::size_t held_;  // bytes of the labels and of all workspaces
+  std::map<std::type_index, std::shared_ptr<void>> workspaces_;
+};
+
+/// One run of an engine, as a transaction. It starts by taking away what the diagram holds; an engine then
+/// checks its arguments, allocates and enqueues, and commits at the end. If it throws before, the diagram
+/// counts as never filled.
+class Filling {
+ public:
+  /// Throws Error unless seeds and diagram fit together.
+  Filling(const Seeds& seeds, Diagram& diagram);
+
+  /// What the diagram held before; none if it counted as never filled.
+  const std::optional<DiagramContents>& previous() const { return previous_; }
+
+  /// Says that the diagram holds the labels of the seeds, `age` frames after they were last made from
+  /// nothing. Starts what was enqueued, and reports it.
+  Report commit(int waves, const cl::Event& first, const cl::Event& last, int age = 0,
+                bool far_counted = false, const FloodStart& start = {});
+
+ private:
+  Stopwatch stopwatch_;
+  DiagramState& diagram_;
+  std::optional<DiagramContents> previous_;
+  std::shared_ptr<const SeedsFrame> seeds_;
+};
+
+}  // namespace vorocl

@@ -1,0 +1,83 @@
+// The waves of one diagram, enqueued one after the other: what all flooding engines are made of.
+#pragma once
+
+#include <optional>
+
+#include "core/diagram_state.hpp"
+#include "vorocl/plan.hpp"
+
+namespace vorocl {
+
+/// The working memory of flooding: 9 bytes per pixel, and 1 per row.
+struct FloodWorkspace {
+  cl::Buffer front, back;           // images of packed positions, which change places with every wave
+  cl::Buffer seeded;                // a byte per pixel: whether it holds a seed
+  cl::Buffer flag;                  // one word, for kernels that report
+  cl::Buffer greatest, far_pixels;  // by measured row: see measure_labels()
+};
+
+/// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
+/// the back one, then they change places.
+class Flood {
+ public:
+  /// Checks that seeds and diagram fit together and makes the working memory. Enqueues nothing.
+  Flood(const Seeds& seeds, Diagram& diagram, Metric metric);
+
+  /// What the diagram held before.
+  const std::optional<DiagramContents>& previous() const { return filling_.previous(); }
+
+  /// A wave that keeps each pixel's own label.
+  static constexpr Wave none = {0, Neighbourhood::von_neumann};
+
+  /// Stamps the seeds on an empty image, and runs a first wave over it.
+  void first_wave(const Wave& wave);
+
+  /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
+  void advance_labels();
+
+  /// How far the labels that the diagram holds are from their seeds. If none is farther than `enough` pixels,
+  /// that counts as the greatest distance. Waits.
+  LabelDistances label_distances(int enough);
+
+  /// Behind the last wave: counts the pixels that are far from their seeds (see LabelDistances), for the next
+  /// frame. Every eighth row is enough to tell how evenly the seeds are spread. Needs a seed that is there.
+  void count_far_pixels();
+
+  void wave(const Wave& wave);
+
+  /// Clears the number of the last wave that changed a label; a wave of step 1 that stores its number there
+  /// if it changes one; the number. The last one waits.
+  void clear_last_change();
+  void reporting_wave(Neighbourhood neighbourhood, int number);
+  int last_change();
+
+  /// Runs a last wave and writes the ids of its labels into the diagram.
+  void last_wave(const Wave& wave);
+
+  /// Whether a pixel was left without a label. Waits.
+  bool some_unlabelled();
+
+  /// All waves of a plan, from the seeds alone; or from the diagram's labels.
+  void run(const Plan& plan);
+  void run_from_labels(const Plan& plan);
+
+  /// Says that the diagram is filled: see Filling::commit().
+  Report commit(std::size_t waves, int age = 0);
+
+ private:
+  void begins_with(const cl::Event& event);
+
+  /// Enqueues measure_labels(), for a squared distance, or in the Manhattan metric a distance.
+  cl::Event measure_labels(std::uint32_t near);
+
+  const Seeds& seeds_;
+  DiagramState& diagram_;
+  Filling filling_;
+  Metric metric_;
+  FloodWorkspace& memory_;
+  cl::Event first_event_, last_event_;
+  FloodStart start_;
+  bool far_counted_ = false;
+};
+
+}  // namespace vorocl

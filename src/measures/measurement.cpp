@@ -1,0 +1,81 @@
+#include "measures/measurement.hpp"
+
+#include <cstdint>
+
+#include "core/seeds_state.hpp"
+#include "runtime/buffer.hpp"
+#include "runtime/opencl_info.hpp"
+
+namespace vorocl {
+
+namespace {
+
+bool works_in_vectors(const Device& device) { return device.tuning().vector_width > 1; }
+
+/// A CPU, which works in vectors, gets large blocks: few cells then lie in several. Each is a work-group, for
+/// a group runs on one core. A GPU gets small blocks, for it needs thousands of work-items.
+Device with_groups_for_blocks(const Device& device) {
+  return works_in_vectors(device) ? device.with_tuning({device.tuning().vector_width, 1, 1}) : device;
+}
+
+/// A block has 2^wide columns and 2^high rows.
+struct BlockShape {
+  int wide, high;
+};
+constexpr BlockShape on_a_cpu = {8, 7}, on_a_gpu = {5, 3};
+BlockShape shape_of_blocks(const Device& device) { return works_in_vectors(device) ? on_a_cpu : on_a_gpu; }
+
+/// Whether a block's home sums fit (see cells.cl): the pixels in 16 bits, their columns and their rows in 24.
+constexpr bool fits_home_sums(const BlockShape& shape) {
+  const auto pixels = std::uint64_t{1} << (shape.wide + shape.high);
+  const auto most_columns = pixels * ((std::uint64_t{1} << shape.wide) - 1);
+  const auto most_rows = pixels * ((std::uint64_t{1} << shape.high) - 1);
+  return pixels < 1u << 16 && most_columns < 1u << 24 && most_rows < 1u << 24;
+}
+static_assert(fits_home_sums(on_a_cpu) && fits_home_sums(on_a_gpu));
+
+std::size_t blocks_along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+
+}  // namespace
+
+void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
+  if (buffer() != nullptr &&
+      info<cl_context>(clGetMemObjectInfo, buffer(), CL_MEM_CONTEXT) == device.context()() &&
+      size_of(buffer) >= bytes) {
+    return;
+  }
+  buffer = cl::Buffer();
+  buffer = allocate(device, bytes, "the measures of a diagram");
+}
+
+void MeasuredFrames::check() const {
+  if (seeds) seeds->check();
+  if (labels) labels->check();
+}
+
+MeasuredFrames frames_of(const Diagram& diagram) {
+  const std::optional<DiagramContents>& contents = Internal::state(diagram).contents;
+  return {nullptr, contents ? contents->seeds : nullptr};
+}
+
+MeasuredFrames frames_of(const Seeds& seeds, const Diagram& diagram) {
+  Internal::state(diagram).check_fits(seeds);
+  MeasuredFrames frames = frames_of(diagram);
+  frames.seeds = Internal::state(seeds).frame();
+  return frames;
+}
+
+Blocks::Blocks(const Device& device, const Grid& grid)
+    : device_(with_groups_for_blocks(device)),
+      grid_(grid),
+      wide_(shape_of_blocks(device).wide),
+      high_(shape_of_blocks(device).high),
+      count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
+
+Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
+                 const cl::Event& last) {
+  check(clFlush(device.queue()()), "starting a measurement");
+  return {0, first, last, stopwatch.milliseconds()};
+}
+
+}  // namespace vorocl

@@ -1,0 +1,42 @@
+#include "picture/lettering.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "picture/palette.hpp"
+
+namespace vorocl {
+
+namespace {
+
+constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
+constexpr int least_height = 8;
+
+}  // namespace
+
+int text_height(int rows) { return std::max(least_height, rows / 50); }
+
+Lettering::Lettering(int height)
+    : height_(height),
+      thickness_(std::max(1, height / 10)),
+      scale_(cv::getFontScaleFromHeight(font, height, thickness_)) {}
+
+int Lettering::width(const std::string& text) const {
+  return cv::getTextSize(text, font, scale_, thickness_, nullptr).width;
+}
+
+void Lettering::draw(cv::Mat& picture, const std::string& text, const cv::Point& bottom_left) const {
+  cv::putText(picture, text, bottom_left, font, scale_, dark, thickness_, cv::LINE_AA);
+}
+
+void draw_text(cv::Mat& picture, const std::string& text) {
+  check_picture(picture);
+  const Lettering letters(text_height(picture.rows));
+  const int margin = letters.height() / 2;
+  const cv::Size ground(letters.width(text) + 2 * margin, letters.height() + 2 * margin);
+  const cv::Rect whole({0, 0}, picture.size());
+  picture(cv::Rect({0, picture.rows - ground.height}, ground) & whole).setTo(light);
+  letters.draw(picture, text, {margin, picture.rows - margin});
+}
+
+}  // namespace vorocl

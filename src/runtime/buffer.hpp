@@ -1,0 +1,116 @@
+// Device memory: allocation that says how much is needed and there is, and typed transfers.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "runtime/device_state.hpp"
+#include "runtime/opencl_error.hpp"
+#include "vorocl/device.hpp"
+
+namespace vorocl {
+
+/// A buffer of at least `bytes` (and at least 4, for OpenCL has no empty buffers). `held` counts the bytes
+/// that the caller holds already. Throws Error that names the purpose if the device cannot hold it.
+cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,
+                    std::size_t held = 0);
+
+/// As above, with these bytes, or values, in it. Waits for no command. Throws Error too if there are none.
+cl::Buffer allocate_with(const Device& device, const void* bytes, std::size_t count,
+                         const std::string& purpose);
+template <typename T>
+cl::Buffer allocate_with(const Device& device, const std::vector<T>& values, const std::string& purpose) {
+  return allocate_with(device, values.data(), values.size() * sizeof(T), purpose);
+}
+
+/// As above, where the host can map it without a copy.
+cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose);
+
+/// What the caller's buffer is for.
+enum class Access { read, read_and_write };
+
+/// The bytes of a buffer.
+std::size_t size_of(const cl::Buffer& buffer);
+
+/// Throws Error, naming the buffer ("the buffer of points"), if the device's kernels cannot use `bytes` of
+/// it: it is null, no buffer, of another context, too small or made for another access.
+void check_foreign_buffer(const Device& device, const cl::Buffer& buffer, std::size_t bytes,
+                          const std::string& name, Access access);
+
+/// Whether the first `bytes` of two buffers, which may be parts of one buffer, have some in common. (Not
+/// every driver refuses to copy such parts.)
+bool overlap(const cl::Buffer& one, const cl::Buffer& other, std::size_t bytes);
+
+/// Fills `count` values; returns the command's event.
+template <typename T>
+cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::size_t count) {
+  cl::Event event;
+  check(clEnqueueFillBuffer(device.queue()(), buffer(), &value, sizeof(T), 0, count * sizeof(T), 0, nullptr,
+                            &event()),
+        "filling a buffer");
+  Internal::state(device).enqueued(event);
+  return event;
+}
+
+/// Copies the first `bytes` of a buffer to another one; returns the command's event.
+cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes);
+
+/// Copies to the device. Waits, so that the caller may reuse the values.
+template <typename T>
+void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>& values) {
+  if (values.empty()) return;
+  check(clEnqueueWriteBuffer(device.queue()(), buffer(), CL_TRUE, 0, values.size() * sizeof(T), values.data(),
+                             0, nullptr, nullptr),
+        "writing a buffer");
+}
+
+/// Values on their way to the device: they stay here until they are there, so that the host need not wait.
+template <typename T>
+class Upload {
+ public:
+  Upload() = default;
+  ~Upload() {
+    // If the device fails, it says so where somebody waits for what it makes of the values. But where the
+    // wait alone fails, it may still read them.
+    if (copied_() != nullptr && clWaitForEvents(1, &copied_()) != CL_SUCCESS) clFinish(queue_());
+  }
+  Upload(const Upload&) = delete;
+  Upload& operator=(const Upload&) = delete;
+
+  /// Enqueues that the values are copied to the start of a buffer. Waits for the last ones.
+  void start(const Device& device, const cl::Buffer& buffer, std::vector<T>&& values) {
+    if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
+    copied_ = cl::Event();
+    values_ = std::move(values);
+    if (values_.empty()) return;
+    queue_ = device.queue();
+    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T), values_.data(), 0,
+                               nullptr, &copied_()),
+          "writing a buffer");
+    Internal::state(device).enqueued(copied_);
+  }
+
+ private:
+  std::vector<T> values_;
+  cl::CommandQueue queue_;
+  cl::Event copied_;
+};
+
+/// Copies `count` values from the device to where they fit, or to a vector. Waits.
+template <typename T>
+void download(const Device& device, const cl::Buffer& buffer, std::size_t count, T* values) {
+  if (count == 0) return;
+  check(clEnqueueReadBuffer(device.queue()(), buffer(), CL_TRUE, 0, count * sizeof(T), values, 0, nullptr,
+                            nullptr),
+        "reading a buffer");
+}
+template <typename T>
+std::vector<T> download(const Device& device, const cl::Buffer& buffer, std::size_t count) {
+  std::vector<T> values(count);
+  download(device, buffer, count, values.data());
+  return values;
+}
+
+}  // namespace vorocl

@@ -1,0 +1,88 @@
+#include "vorocl/error.hpp"
+
+#include <cmath>
+
+#include "runtime/opencl_error.hpp"
+
+namespace vorocl {
+
+namespace {
+
+std::string error_name(cl_int code) {
+  switch (code) {
+    case CL_DEVICE_NOT_AVAILABLE:
+      return "device not available";
+    case CL_COMPILER_NOT_AVAILABLE:
+      return "no compiler for this device";
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+      return "out of device memory";
+    case CL_OUT_OF_RESOURCES:
+      return "out of device resources (often: out of device memory)";
+    case CL_OUT_OF_HOST_MEMORY:
+      return "out of host memory";
+    case CL_INVALID_VALUE:
+      return "invalid value";
+    case CL_INVALID_CONTEXT:
+      return "invalid context";
+    case CL_INVALID_COMMAND_QUEUE:
+      return "invalid command queue";
+    case CL_INVALID_MEM_OBJECT:
+      return "invalid buffer";
+    case CL_INVALID_BUFFER_SIZE:
+      return "invalid buffer size";
+    case CL_INVALID_KERNEL_NAME:
+      return "no such kernel";
+    case CL_INVALID_BUILD_OPTIONS:
+      return "invalid build options";
+    case CL_INVALID_WORK_ITEM_SIZE:
+      return "invalid size of a work-group's dimension";
+    case CL_INVALID_WORK_GROUP_SIZE:
+      return "invalid work-group size";
+    default:
+      return "OpenCL error";
+  }
+}
+
+ErrorKind kind_of(cl_int code) {
+  switch (code) {
+    case CL_MEM_OBJECT_ALLOCATION_FAILURE:
+    case CL_OUT_OF_RESOURCES:
+      return ErrorKind::device_memory;
+    case CL_OUT_OF_HOST_MEMORY:
+      return ErrorKind::host_memory;
+    case CL_INVALID_BUILD_OPTIONS:
+      return ErrorKind::kernel_build;
+    default:
+      return ErrorKind::device;
+  }
+}
+
+/// What is bad about a point that is not finite, or else.
+std::string complaint(const Point& point, const char* otherwise) {
+  return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
+}
+
+}  // namespace
+
+void fail(cl_int code, const std::string& what) {
+  throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
+}
+
+BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)
+    : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
+                std::to_string(point.y) + ") " + what,
+            ErrorKind::bad_point),
+      index_(index),
+      point_(point) {}
+
+BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
+    : BadPoint(index, point,
+               complaint(point, "outside the grid") + "; x must be in [0, " + std::to_string(grid.width()) +
+                   ") and y in [0, " + std::to_string(grid.height()) + ")") {}
+
+BadPoint::BadPoint(std::size_t index, const Point& point)
+    : BadPoint(index, point,
+               complaint(point, "too far away") +
+                   "; x and y must be less than 2^31 pixels from all pixels of the grid") {}
+
+}  // namespace vorocl

@@ -1,0 +1,128 @@
+#include "runtime/program.hpp"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <set>
+#include <sstream>
+
+#include "runtime/device_state.hpp"
+#include "runtime/kernel_sources.hpp"
+#include "runtime/opencl_info.hpp"
+
+namespace vorocl {
+
+namespace {
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// The text of a kernel file: the embedded one, or that in the folder that VOROCL_KERNEL_DIR names.
+std::string source_of(const std::string& file) {
+  const std::string folder = environment("VOROCL_KERNEL_DIR");
+  if (folder.empty()) return kernel_sources().at(file);
+  std::ifstream stream(folder + '/' + file, std::ios::binary);
+  std::string text;
+  if (!std::getline(stream, text, '\0') && !stream.eof()) {  // an empty file ends at once
+    throw Error("cannot read the kernel " + folder + '/' + file +
+                    " (the folder is VOROCL_KERNEL_DIR): " + std::strerror(errno),
+                ErrorKind::file);
+  }
+  return text;
+}
+
+/// Appends a file with its #include "..." lines resolved, each file once. #line keeps the compiler's messages
+/// true.
+void append_source(const std::string& file, std::set<std::string>& included, std::string& text) {
+  if (!included.insert(file).second) return;
+  const std::string include = "#include \"";
+  std::istringstream lines(source_of(file));
+  std::string line;
+  text += "#line 1 \"" + file + "\"\n";
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (line.compare(0, include.size(), include) == 0) {
+      append_source(line.substr(include.size(), line.rfind('"') - include.size()), included, text);
+      text += "#line " + std::to_string(number + 1) + " \"" + file + "\"\n";
+    } else {
+      text += line + '\n';
+    }
+  }
+}
+
+/// Writes a file into the folder that VOROCL_DUMP_DIR names, if it names one: what `content` returns, which
+/// is asked only then. (PoCL builds every kernel once more to answer for a binary.)
+template <typename Content>
+void dump(const std::string& name, Content content) {
+  const std::string folder = environment("VOROCL_DUMP_DIR");
+  if (folder.empty()) return;
+  const std::string text = content();  // first: a driver's compiler sets errno, too
+  std::ofstream stream(folder + '/' + name, std::ios::binary);
+  if (!(stream << text).flush()) {
+    throw Error(
+        "cannot write " + folder + '/' + name + " (the folder is VOROCL_DUMP_DIR): " + std::strerror(errno),
+        ErrorKind::file);
+  }
+}
+
+/// "exact-diagram-1a2b...": the same in every process, another for every device and set of options.
+std::string dump_name(const Device& device, const std::string& file, const std::string& options) {
+  std::ostringstream name;
+  for (const char c : file.substr(0, file.rfind('.'))) name << (c == '/' ? '-' : c);
+  name << '-' << std::hex
+       << std::hash<std::string>()(device.name() + ' ' + device.driver_version() + ' ' + options);
+  return name.str();
+}
+
+/// The binary of the program's only device.
+std::string binary_of(const cl::Program& program) {
+  std::string binary(info<std::size_t>(clGetProgramInfo, program(), CL_PROGRAM_BINARY_SIZES), '\0');
+  auto* bytes = reinterpret_cast<unsigned char*>(binary.data());
+  check(clGetProgramInfo(program(), CL_PROGRAM_BINARIES, sizeof(bytes), &bytes, nullptr),
+        "asking for a program's binary");
+  return binary;
+}
+
+cl::Program build(const Device& device, const std::string& file, const std::string& options) {
+  std::string source;
+  std::set<std::string> included;
+  append_source(file, included, source);
+  const std::string name = dump_name(device, file, options);
+  dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
+  const char* text = source.c_str();
+  const cl_device_id id = device.cl_device()();
+  cl_int code = CL_SUCCESS;
+  cl::Program program(clCreateProgramWithSource(device.context()(), 1, &text, nullptr, &code));
+  check(code, [&] { return "making the program " + file; });
+  const std::string what = "building " + file + " for " + device.name() + " with \"" + options + '"';
+  code = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
+  if (code == CL_BUILD_PROGRAM_FAILURE) {
+    const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
+                          std::size_t* used) {
+      return clGetProgramBuildInfo(of(), id, wanted, size, value, used);
+    };
+    throw Error(what + " failed:\n" + info<std::string>(ask, program, CL_PROGRAM_BUILD_LOG),
+                ErrorKind::kernel_build);
+  }
+  check(code, what.c_str());
+  dump(name + ".bin", [&] { return binary_of(program); });
+  return program;
+}
+
+}  // namespace
+
+cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
+  DeviceState& state = Internal::state(device);
+  const std::lock_guard<std::mutex> lock(state.programs_mutex);
+  const std::string key = file + ' ' + options;
+  const auto found = state.programs.find(key);
+  if (found != state.programs.end()) return found->second;
+  const std::string more = environment("VOROCL_BUILD_OPTIONS");
+  cl::Program program = build(device, file, more.empty() ? options : options + ' ' + more);
+  return state.programs.emplace(key, program).first->second;
+}
+
+}  // namespace vorocl

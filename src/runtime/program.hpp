@@ -1,0 +1,21 @@
+// Builds OpenCL programs from the embedded kernels, once per device and options.
+#pragma once
+
+#include <string>
+
+#include "vorocl/device.hpp"
+#include "vorocl/opencl.hpp"
+
+namespace vorocl {
+
+/// The program of a kernel file ("flooding/jump_flooding.cl") and all that it includes, from the device's
+/// cache or built now. Safe from several threads. Throws Error with device, options and log if the build
+/// fails; the log's lines are those of the .cl files.
+///
+/// For who debugs a kernel, three variables of the environment are read at each build: VOROCL_KERNEL_DIR, a
+/// folder whose files replace the embedded kernels; VOROCL_BUILD_OPTIONS, which go behind the library's own;
+/// VOROCL_DUMP_DIR, a folder where each program is written, as its source (.cl) and as the driver's binary
+/// (.bin).
+cl::Program program_for(const Device& device, const std::string& file, const std::string& options);
+
+}  // namespace vorocl
