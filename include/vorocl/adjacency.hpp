@@ -8,11 +8,12 @@
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
-#include "vorocl/seeds.hpp"
+#include "vorocl/report.hpp"
 
 namespace vorocl {
 
 struct AdjacencyState;
+struct VerticesState;
 
 /// Two cells that share a pixel edge.
 struct CellPair {
@@ -39,10 +40,11 @@ class VOROCL_API AdjacencyResult {
   AdjacencyResult(AdjacencyResult&& other) noexcept;
   AdjacencyResult& operator=(AdjacencyResult&& other) noexcept;
 
-  /// How many pairs of cells share a pixel edge.
+  /// How many pairs of cells share a pixel edge. Waits.
   std::size_t pairs() const;
 
-  /// uint32 a, b, length of each pair, sorted by a and then b; each pair once, a < b.
+  /// uint32 a, b, length of each pair, sorted by a and then b; each pair once, a < b. Waits, as the size of
+  /// the list is the device's.
   const cl::Buffer& pair_list() const;
 
   const cl::Buffer& neighbours() const;  ///< uint32 per cell: the cells it shares an edge with
@@ -58,17 +60,38 @@ class VOROCL_API AdjacencyResult {
 };
 
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
-/// label belong to no cell, and the grid's edge is no border.
+/// label belong to no cell, and the window's edge is no border.
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
-/// table on the device, and sorting the pairs; about 100 bytes of device memory per seed. Waits. Throws Error
-/// if seeds and diagram do not fit together or the device has too little memory, BadPoint if the seeds had
-/// one.
-VOROCL_API void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result);
+/// table on the device, and sorting the pairs; about 200 bytes of device memory per seed. Enqueues and
+/// returns. Where cells in many pieces have more neighbours than the table holds, reading the result finds
+/// them again in a larger one; it throws Error if the diagram has been filled or written since. Throws Error
+/// if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 
-/// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the grid's edge
-/// do not count. Waits. Throws as Diagram::wait().
-VOROCL_API std::size_t count_vertices(const Diagram& diagram);
+/// What vertices() found, on the device; as AdjacencyResult.
+class VOROCL_API VerticesResult {
+ public:
+  VerticesResult();
+  ~VerticesResult();
+  VerticesResult(VerticesResult&& other) noexcept;
+  VerticesResult& operator=(VerticesResult&& other) noexcept;
+
+  /// How many there are; 0 while the result is empty. Waits.
+  std::size_t count() const;
+
+  /// Their positions, in pixels from the window's first one, in row-major order. Waits.
+  std::vector<Point> read() const;
+
+ private:
+  friend struct Internal;
+  std::unique_ptr<VerticesState> state_;
+};
+
+/// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the window's
+/// edge do not count, unless it shows a whole period. Enqueues and returns. Throws Error if the device has
+/// too little memory.
+VOROCL_API Report vertices(const Diagram& diagram, VerticesResult& result);
 
 }  // namespace vorocl

@@ -15,18 +15,19 @@ namespace vorocl {
 
 struct CellSumsState;
 struct CellShapesState;
+struct CellStatisticsState;
 
-/// What cell_sums() knows of a cell: exact integers, the same on every device. Along a periodic axis of the
-/// grid each pixel counts where it lies the shorter way round from the seed (half a period away: behind it),
-/// which may be outside the grid. In a window of a plane, which may repeat (Domain), the pixels count where
-/// the grid shows them.
+/// What cell_sums() knows of a cell: exact integers, the same on every device. Along an axis of which the
+/// diagram's window shows one whole period (Window::periodic()) each pixel counts where it lies the shorter
+/// way round from the seed (half a period away: behind it), which may be outside the window. Along other axes
+/// it counts where the window shows it.
 struct CellSums {
   std::uint32_t area = 0;  ///< pixels
-  std::int64_t sum_x = 0;  ///< of the pixels' columns ...
+  std::int64_t sum_x = 0;  ///< of the pixels' columns, from the window's first one on ...
   std::int64_t sum_y = 0;  ///< ... and rows
 
-  /// The mean of the centres of the pixels, in pixel units; (NaN, NaN) of an empty cell. It may be outside a
-  /// periodic grid, near the seed.
+  /// The mean of the centres of the pixels, in pixels from the window's first one; (NaN, NaN) of an empty
+  /// cell.
   VOROCL_API Point centroid() const;
 };
 
@@ -44,7 +45,7 @@ struct CellShape {
 ///
 /// Threads: one thread at a time.
 ///
-/// Lifetime: a result keeps its device, and remembers the frames of seeds that it was made from; seeds and
+/// Lifetime: a result keeps its device, and remembers the frame of seeds that it was made from; seeds and
 /// diagram may change at once after the call. Its buffers are valid until the next measurement into it.
 ///
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
@@ -60,7 +61,7 @@ class VOROCL_API CellSumsResult {
   const cl::Buffer& sum_x() const;  ///< int64 per cell
   const cl::Buffer& sum_y() const;  ///< int64 per cell
 
-  /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
+  /// Waits. Throws BadPoint if the frame of the seeds had one.
   std::vector<CellSums> read() const;
 
  private:
@@ -79,10 +80,11 @@ class VOROCL_API CellShapesResult {
   std::size_t size() const;
   const cl::Buffer& boxes() const;  ///< int32 left, top, right, bottom per cell
 
-  /// int32 per cell. Null where a seed lies so far outside the grid that they may not fit: read() tells them.
+  /// int32 per cell. Null where a seed lies so far outside the window that they may not fit: read() tells
+  /// them.
   const cl::Buffer& largest_distances() const;
 
-  /// Waits. Throws BadPoint if the frame of the seeds, or that which the diagram was made from, had one.
+  /// Waits. Throws BadPoint if the frame of the seeds had one.
   std::vector<CellShape> read() const;
 
  private:
@@ -90,34 +92,62 @@ class VOROCL_API CellShapesResult {
   std::unique_ptr<CellShapesState> state_;
 };
 
-/// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
-/// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
-/// with few seeds as with many; 30 bytes of device memory per seed. Enqueues and returns. Throws Error if
-/// seeds and diagram do not fit together or the device has too little memory.
-VOROCL_API Report cell_sums(const Seeds& seeds, const Diagram& diagram, CellSumsResult& result);
-
-/// Finds the extent of every cell: its bounding box, whether it touches the grid's border, and how far its
-/// farthest pixel is from its seed. Enqueues and returns. Throws as cell_sums().
-VOROCL_API Report cell_shapes(const Seeds& seeds, const Diagram& diagram, CellShapesResult& result,
-                              Metric metric = Metric::euclidean);
-
 /// The cells of a diagram as a whole. Absent seeds do not count.
 struct CellStatistics {
-  std::size_t cells = 0;        ///< seeds that are there; of those outside the grid the ones that own pixels
+  std::size_t cells = 0;  ///< seeds that are there; of those outside the window the ones that own pixels
   std::size_t empty_cells = 0;  ///< seeds without a pixel: another seed is on theirs
   std::uint64_t pixels = 0;     ///< with a label
   double mean_area = 0;         ///< 0 if there are no cells
   double area_deviation = 0;    ///< the standard deviation (of all cells, not of a sample)
 };
 
-/// Counts the cells and the spread of their areas, on the device. Waits. Throws as cell_sums().
-VOROCL_API CellStatistics cell_statistics(const Seeds& seeds, const Diagram& diagram);
+/// What cell_statistics() found, on the device; as CellSumsResult.
+class VOROCL_API CellStatisticsResult {
+ public:
+  CellStatisticsResult();
+  ~CellStatisticsResult();
+  CellStatisticsResult(CellStatisticsResult&& other) noexcept;
+  CellStatisticsResult& operator=(CellStatisticsResult&& other) noexcept;
 
-/// As above, of sums that have been made. Allocates nothing if it did for as many seeds before. Nothing but
-/// zeros if nothing has been summed.
-VOROCL_API CellStatistics cell_statistics(CellSumsResult& sums);
+  /// Waits. Nothing but zeros while the result is empty. Throws BadPoint if the frame of the seeds had one.
+  CellStatistics read() const;
 
-/// The pixels whose labels differ between two diagrams. Waits. Throws as similarity().
-VOROCL_API std::size_t changed_pixels(const Diagram& a, const Diagram& b);
+ private:
+  friend struct Internal;
+  std::unique_ptr<CellStatisticsState> state_;
+};
+
+/// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
+/// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
+/// with few seeds as with many; 30 bytes of device memory per seed. Enqueues and returns. Throws Error if the
+/// diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+VOROCL_API Report cell_sums(const Diagram& diagram, CellSumsResult& result);
+
+/// Finds the extent of every cell: its bounding box, whether it touches the window's border, and how far its
+/// farthest pixel is from its seed, in the diagram's metric. Enqueues and returns. Throws as cell_sums().
+VOROCL_API Report cell_shapes(const Diagram& diagram, CellShapesResult& result);
+
+/// Counts the cells and the spread of their areas, on the device. Enqueues and returns. Throws as
+/// cell_sums().
+VOROCL_API Report cell_statistics(const Diagram& diagram, CellStatisticsResult& result);
+
+/// As above, of sums that have been made. Allocates nothing if it did for as many seeds before. Empties the
+/// result if nothing has been summed.
+VOROCL_API Report cell_statistics(const CellSumsResult& sums, CellStatisticsResult& result);
+
+/// One row of a table of cells, in the units of the data.
+struct CellRow {
+  std::uint32_t id = 0;
+  Point seed;                    ///< as it was given
+  std::uint32_t pixels = 0;      ///< of the cell
+  double area = 0;               ///< pixels times the area of one
+  Point centroid;                ///< (NaN, NaN) of an empty cell; across a period's end it may lie outside
+  bool touches_border = false;   ///< of the window
+  std::uint32_t neighbours = 0;  ///< cells that it shares an edge with
+};
+
+/// All cells of the seeds that are there, by id. Takes cell_sums(), cell_shapes() and adjacency(), and waits.
+/// Throws as they do.
+VOROCL_API std::vector<CellRow> cell_table(const Diagram& diagram);
 
 }  // namespace vorocl

@@ -3,20 +3,23 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "vorocl/device.hpp"
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/seeds.hpp"
 
 namespace vorocl {
 
 struct DiagramState;
 
-/// A label image of width * height uint32, row-major, which engines fill. Engines make their working memory
-/// and their kernels at their first use of a diagram and keep them there: later frames of a moving run
-/// allocate nothing.
+/// A label image of width * height uint32, row-major, which engines fill: the labels of a window of a grid.
+/// It remembers the seeds, the metric and the method that it was made from, and measures ask it for them.
+/// Engines make their working memory and their kernels at their first use of a diagram and keep them there:
+/// later frames of a moving run allocate nothing.
 ///
 /// An engine either fills a diagram or throws. After an exception the labels are undefined, and the diagram
 /// counts as never filled: a method that goes on from the last labels starts anew.
@@ -29,33 +32,46 @@ struct DiagramState;
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API Diagram {
  public:
-  /// All labels are no_label. Throws Error if the device cannot hold the label image.
-  Diagram(const Device& device, const Grid& grid);
+  /// All labels are no_label. A grid is the window that shows all of it. Throws Error if a side is more than
+  /// Window::max_side, there are more than Window::max_pixels, or the device cannot hold the label image.
+  Diagram(const Device& device, const Window& window);
 
   /// The labels go to the caller's buffer, which may be a sub-buffer, is retained, and keeps what it holds
   /// until an engine runs. Throws Error if it is null, too small, of another context or not both readable and
   /// writable by kernels.
-  Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels);
+  Diagram(const Device& device, const Window& window, const cl::Buffer& labels);
 
   ~Diagram();
   Diagram(Diagram&& other) noexcept;
   Diagram& operator=(Diagram&& other) noexcept;
 
   const Device& device() const;
-  const Grid& grid() const;
+  const Window& window() const;
 
   /// The labels, for use in OpenCL without a copy: row-major uint32, valid for commands that are enqueued
   /// behind the engine's, or once its Report::event() is complete.
   const cl::Buffer& labels() const;
 
+  /// The metric that the labels were made by. Throws Error if the diagram counts as never filled, or its
+  /// labels were written without one.
+  Metric metric() const;
+
+  /// The name of the method that made the labels (see methods()), "flood" for a plan of the caller's, empty
+  /// if the caller wrote them or the diagram counts as never filled.
+  const std::string& method() const;
+
   /// Writes labels of the caller's: width * height, row-major. An engine that goes on from the last labels
-  /// goes on from these; a label that is no seed's id counts as none. Waits until they are copied. Throws
-  /// Error if the size is another.
+  /// goes on from these; a label that is no seed's id counts as none. Measures that need seeds throw Error.
+  /// Waits until they are copied. Throws Error if the size is another.
   void write(const std::vector<std::uint32_t>& labels);
 
-  /// As above, from a buffer of the same context (which may be a sub-buffer). Enqueues and returns. Throws
-  /// Error if it is the diagram's own or overlaps with it.
+  /// As above, labels that name these seeds by this metric: measures know them then.
+  void write(const std::vector<std::uint32_t>& labels, const Seeds& seeds, Metric metric);
+
+  /// As above, from a buffer of the same context (which may be a sub-buffer). Enqueue and return. Throw Error
+  /// if it is the diagram's own or overlaps with it.
   void write(const cl::Buffer& labels);
+  void write(const cl::Buffer& labels, const Seeds& seeds, Metric metric);
 
   /// The labels on the host, size width * height. Waits. Throws as wait().
   std::vector<std::uint32_t> read() const;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
-#include "vorocl/seeds.hpp"
+#include "vorocl/report.hpp"
 
 namespace vorocl {
+
+struct DistanceErrorsState;
 
 /// What distance_errors() finds. A pixel's excess distance is how much farther the seed of its label is than
 /// its nearest seed, in pixels: 0 where the label is right.
@@ -23,14 +26,30 @@ struct DistanceErrors {
   }
 };
 
-/// Judges a diagram of the seeds by their exact diagram (see exact_diagram()) in the same metric. A pixel
-/// that is as near to the seed of its label as to that of the exact one is right: a tie may be given to any
-/// seed.
+/// What distance_errors() found, on the device.
+///
+/// Threads, lifetime, ordering: as SimilarityResult.
+class VOROCL_API DistanceErrorsResult {
+ public:
+  DistanceErrorsResult();
+  ~DistanceErrorsResult();
+  DistanceErrorsResult(DistanceErrorsResult&& other) noexcept;
+  DistanceErrorsResult& operator=(DistanceErrorsResult&& other) noexcept;
+
+  /// Nothing but zeros while the result is empty. Waits. Throws BadPoint if the seeds had one.
+  DistanceErrors read() const;
+
+ private:
+  friend struct Internal;
+  std::unique_ptr<DistanceErrorsState> state_;
+};
+
+/// Judges a diagram by the exact one of the same seeds and metric (see exact_diagram()). A pixel that is as
+/// near to the seed of its label as to that of the exact one is right: a tie may be given to any seed.
 ///
 /// The counts are exact, the excess distances within 1e-4 of their value. Cost: one pass over the two label
-/// images, with a look-up of the seeds where they differ. Waits. Throws Error if seeds and diagrams do not
-/// fit together or the seeds had a bad point.
-VOROCL_API DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const Diagram& exact,
-                                          Metric metric = Metric::euclidean);
+/// images, with a look-up of the seeds where they differ. Enqueues and returns. Throws Error if the diagrams
+/// do not fit together, or are not of one frame of seeds and one metric.
+VOROCL_API Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErrorsResult& result);
 
 }  // namespace vorocl

@@ -1,6 +1,8 @@
 // Dynamic jump flooding (dJFA): the diagram of seeds that moved, from the one they had before.
 #pragma once
 
+#include <optional>
+
 #include "vorocl/diagram.hpp"
 #include "vorocl/export.h"
 #include "vorocl/plan.hpp"
@@ -14,13 +16,15 @@ struct DynamicJumpFloodingOptions {
   DynamicPlanOptions plan = {};       ///< the waves
   int refresh_interval = 0;           ///< every how many frames a full JFA runs instead; 0: only for frame 0
   Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is the paper's
+
+  /// No seed has moved farther along an axis since the diagram was last filled, in pixels: the paper's d_max.
+  /// None: what the seeds know of it (Seeds::displacement(), over all frames since then).
+  std::optional<double> max_displacement = {};
 };
 
 /// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
 /// seed is looked up at its new position, the seeds are stamped at their new pixels, and waves from a step
-/// that covers a cell and the motion mend the rest. `max_displacement` is the paper's d_max: no seed may have
-/// moved farther along an axis since the diagram was last filled, in pixels. A diagram that counts as never
-/// filled gets a JFA.
+/// that covers a cell and the motion mend the rest. A diagram that counts as never filled gets a JFA.
 ///
 /// Reach::paper: close to JFA where seeds are spread evenly and move little (the paper's assumption), worse,
 /// without a word, where they are not. A label of a vanished seed counts as none, and if a pixel is left
@@ -34,13 +38,13 @@ struct DynamicJumpFloodingOptions {
 ///
 /// Reach::measured: as close to the exact diagram as JFA for any seeds and any motion. The pass over the
 /// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on, JFA's
-/// waves run from a step that covers that distance (see reaching_plan()). `max_displacement` may be less than
-/// what was: the distance shows it. Evenly spread seeds get the paper's plan, and its labels. Cost: as above,
-/// at most JFA's waves and a pass over the labels. Waits, once the labels are measured: each frame is
-/// enqueued when the device has come to it.
+/// waves run from a step that covers that distance. `max_displacement` may be less than what was: the
+/// distance shows it. Evenly spread seeds get the paper's plan, and its labels. Cost: as above, at most JFA's
+/// waves and a pass over the labels. Waits, once the labels are measured: each frame is enqueued when the
+/// device has come to it.
 ///
 /// 13 bytes of device memory per pixel. Throws as jump_flooding(), and if an option is out of its range.
-VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
+VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
                                         const DynamicJumpFloodingOptions& options = {});
 
 }  // namespace vorocl

@@ -24,8 +24,10 @@ struct ExactOptions {
 /// of device memory per pixel, the labels included, and 16 per seed besides its position. Throws Error if
 /// seeds and diagram do not fit together or the device has too little memory.
 ///
-/// Seeds outside the grid, and a Domain, are taken into account in 64-bit integers where they need be. They
-/// cost 0.5 bytes per pixel and a search near the grid's rim, farther in where seeds are few.
+/// Any window of any grid: seeds outside it, and images across its periods, are taken into account, in 64-bit
+/// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
+/// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds
+/// are few.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

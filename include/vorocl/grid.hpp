@@ -1,4 +1,4 @@
-// The words that every part of the library uses: point, grid, label, metric, neighbourhood.
+// Where points lie: axes, the grid of pixels that they span, and the window of it that a diagram covers.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@ namespace vorocl {
 /// The label of a pixel that has no nearest seed (there are no seeds, or no wave reached it).
 constexpr std::uint32_t no_label = 0xffffffffu;
 
-/// A position in pixel units: pixel i of an axis covers [i, i + 1), its centre is i + 0.5; y points down.
-/// A seed is snapped to the pixel that contains it, which limits its accuracy to half a pixel.
+/// A position in the plane. In the units of the data where it is a seed's point, in pixels where a measure
+/// says so: pixel i of an axis covers [i, i + 1), its centre is i + 0.5.
 struct Point {
   double x = 0;
   double y = 0;
@@ -30,78 +30,156 @@ enum class Neighbourhood {
   von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it
 };
 
-/// Which axes of a grid are periodic. The grid is then one period of a plane that repeats along them:
-/// distances go the shorter way round, and cells reach across the border.
+/// Which axes of a grid are periodic.
 enum class Periodic { none, x, y, xy };
 
 /// Whether x, or y, is among the periodic axes.
 constexpr bool has_x(Periodic axes) { return axes == Periodic::x || axes == Periodic::xy; }
 constexpr bool has_y(Periodic axes) { return axes == Periodic::y || axes == Periodic::xy; }
 
-/// The size of a diagram in pixels, row-major, (0, 0) at the top left, and which of its axes are periodic.
+/// The axes that are periodic, from what is said of each.
+constexpr Periodic periodic_along(bool x, bool y) {
+  return x ? (y ? Periodic::xy : Periodic::x) : (y ? Periodic::y : Periodic::none);
+}
+
+/// One axis of a grid: how many pixels there are, and which stretch of the data they cover. The one place
+/// where a coordinate becomes a pixel.
+///
+/// An axis is open, ends at its last pixel and counts pixels along the coordinate, unless it is said
+/// otherwise: `Axis(1024, -1, 1).reversed().closed()`.
+class VOROCL_API Axis {
+ public:
+  static constexpr std::int64_t max_pixels = 2147483647;  ///< past it a squared distance leaves 63 bits
+
+  /// An axis whose unit is the pixel: it covers [0, pixels). Throws Error unless `pixels` is in
+  /// [1, max_pixels].
+  explicit Axis(std::int64_t pixels);
+
+  /// An axis that covers [from, to) of the data. If both are equal, this one coordinate has the middle pixel.
+  /// Throws Error too unless both are finite, from <= to, and they are neither so far apart nor so near that
+  /// double has no scale for them.
+  Axis(std::int64_t pixels, double from, double to);
+
+  /// The same axis, which repeats: coordinates wrap into [from, to), distances go the shorter way round, and
+  /// cells reach across the ends. Throws Error if from == to.
+  Axis periodic() const;
+
+  /// The same axis with its first pixel at `to`: such as rows of an image whose coordinate points up.
+  Axis reversed() const;
+
+  /// The same axis, where the coordinate `to` falls in the last pixel and not behind it. A periodic axis
+  /// stays as it is: `to` is `from` there.
+  Axis closed() const;
+
+  std::int64_t pixels() const { return pixels_; }
+  double from() const { return from_; }
+  double to() const { return to_; }
+  bool is_periodic() const { return periodic_; }
+  bool is_reversed() const { return reversed_; }
+
+  /// Whether a coordinate is in [from, to], or the axis is periodic and it is finite.
+  bool covers(double coordinate) const;
+
+  /// The pixel of a coordinate, as a whole number: floor((coordinate - from) * pixels / (to - from)), in this
+  /// order of operations, so that rounding is the same everywhere; floor(coordinate) where the unit is the
+  /// pixel. Counted from the other end if reversed, brought into [0, pixels) if periodic; else it may lie
+  /// outside. NaN or infinite if the coordinate is.
+  double pixel(double coordinate) const;
+
+  /// The coordinate of a position in pixels, of pixel(i) + 0.5 for the centre of pixel i.
+  double coordinate(double position) const;
+
+  friend bool operator==(const Axis& a, const Axis& b) {
+    return a.pixels_ == b.pixels_ && a.from_ == b.from_ && a.to_ == b.to_ && a.in_pixels_ == b.in_pixels_ &&
+           a.periodic_ == b.periodic_ && a.reversed_ == b.reversed_ && a.closed_ == b.closed_;
+  }
+  friend bool operator!=(const Axis& a, const Axis& b) { return !(a == b); }
+
+ private:
+  double unreversed_pixel(double coordinate) const;
+
+  std::int64_t pixels_;
+  double from_, to_;
+  bool in_pixels_;  // the unit is the pixel
+  bool periodic_ = false, reversed_ = false, closed_ = false;
+};
+
+/// The pixels that there are: two axes, x to the right and y down, pixel (0, 0) at the top left. It may be
+/// far larger than what a diagram can hold, which covers a Window of it.
 class VOROCL_API Grid {
  public:
-  static constexpr int max_side = 32768;    ///< past it a squared distance leaves 31 bits
-  static constexpr int max_period = 32000;  ///< the longest side along a periodic axis
-  static constexpr std::size_t max_pixels = 1u << 30;
+  Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
 
-  /// Throws Error unless both sides are in [1, max_side], those along periodic axes in [1, max_period], and
-  /// width * height is at most max_pixels.
+  /// A grid whose unit is the pixel. Throws as Axis.
   Grid(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
 
-  int width() const { return width_; }
-  int height() const { return height_; }
-  Periodic periodic() const { return periodic_; }
-  bool periodic_x() const { return has_x(periodic_); }
-  bool periodic_y() const { return has_y(periodic_); }
-  int longest_side() const { return width_ > height_ ? width_ : height_; }
-  bool holds(const Point& point) const {
-    return point.x >= 0 && point.x < width_ && point.y >= 0 && point.y < height_;
+  const Axis& x() const { return x_; }
+  const Axis& y() const { return y_; }
+  std::int64_t width() const { return x_.pixels(); }
+  std::int64_t height() const { return y_.pixels(); }
+  Periodic periodic() const { return periodic_along(x_.is_periodic(), y_.is_periodic()); }
+  std::uint64_t pixels() const {
+    return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
   }
-  std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
 
-  friend bool operator==(const Grid& a, const Grid& b) {
-    return a.width_ == b.width_ && a.height_ == b.height_ && a.periodic_ == b.periodic_;
-  }
+  /// The point, in the units of the data, of a position in pixels from the grid's first one.
+  Point point(const Point& position) const { return {x_.coordinate(position.x), y_.coordinate(position.y)}; }
+
+  friend bool operator==(const Grid& a, const Grid& b) { return a.x_ == b.x_ && a.y_ == b.y_; }
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
-  int width_;
-  int height_;
-  Periodic periodic_;
+  Axis x_, y_;
 };
 
-/// The size of a plane in pixels, (0, 0) at the top left, and which of its axes are periodic. It may be far
-/// larger than a Grid, for nothing ever holds all of it.
-class VOROCL_API Plane {
+/// A rectangle of a grid's pixels: what a diagram covers, or a tile of it.
+///
+/// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
+/// than the period shows each pixel once, where the grid has it, and no labels beside it.
+class VOROCL_API Window {
  public:
-  static constexpr std::int64_t max_side = 2147483647;  ///< past it a squared distance leaves 63 bits
+  static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
+  static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
-  /// Throws Error unless both sides are in [1, max_side].
-  Plane(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
+  /// All pixels of a grid.
+  Window(const Grid& grid);
 
-  /// That of a grid.
-  Plane(const Grid& grid) : width_(grid.width()), height_(grid.height()), periodic_(grid.periodic()) {}
+  /// The pixels from column x and row y of a grid on. Throws Error unless the sides are from 1 to
+  /// Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere).
+  Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height);
+
+  const Grid& grid() const { return grid_; }
+
+  /// The first column and row; along a periodic axis in [0, pixels) unless the window is longer than the
+  /// period.
+  std::int64_t x() const { return x_; }
+  std::int64_t y() const { return y_; }
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
-  Periodic periodic() const { return periodic_; }
+  std::int64_t longest_side() const { return width_ > height_ ? width_ : height_; }
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
   }
 
- private:
-  std::int64_t width_, height_;
-  Periodic periodic_;
-};
+  /// Whether it is all of its grid.
+  bool is_whole() const { return x_ == 0 && y_ == 0 && width_ == grid_.width() && height_ == grid_.height(); }
 
-/// The rectangle in which the plane repeats along its periodic axes, where the grid is not one period itself:
-/// the box of a simulation of which the grid is a part, or that lies in a larger grid. In whole pixels from
-/// the grid's first one; x and y may be negative. An axis that is not periodic has no end.
-struct Domain {
-  std::int64_t x = 0, y = 0;           ///< the first pixel
-  std::int64_t width = 1, height = 1;  ///< the periods, 1 to 2^31
-  Periodic periodic = Periodic::none;
+  /// The axes along which it shows exactly one period: its cells reach across its border.
+  Periodic periodic() const {
+    return periodic_along(grid_.x().is_periodic() && width_ == grid_.width(),
+                          grid_.y().is_periodic() && height_ == grid_.height());
+  }
+
+  friend bool operator==(const Window& a, const Window& b) {
+    return a.grid_ == b.grid_ && a.x_ == b.x_ && a.y_ == b.y_ && a.width_ == b.width_ &&
+           a.height_ == b.height_;
+  }
+  friend bool operator!=(const Window& a, const Window& b) { return !(a == b); }
+
+ private:
+  Grid grid_;
+  std::int64_t x_ = 0, y_ = 0, width_, height_;
 };
 
 }  // namespace vorocl

@@ -20,8 +20,8 @@ struct JumpFloodingOptions {
 /// Approximate: with Moore waves every pixel gets a seed, nearly always its nearest; von Neumann waves alone
 /// give wrong regions (the paper's Fig. 5) and may leave pixels without a label. Cost: log2(N) waves,
 /// whatever the number of seeds; 13 bytes of device memory per pixel, the labels included. Throws Error if
-/// seeds and diagram do not fit together, seeds lie outside the grid (exact diagrams take them) or the device
-/// has too little memory.
+/// seeds and diagram do not fit together, the diagram's window is a part of its grid or seeds lie outside it
+/// (exact diagrams take both) or the device has too little memory.
 VOROCL_API Report jump_flooding(const Seeds& seeds, Diagram& diagram,
                                 const JumpFloodingOptions& options = {});
 

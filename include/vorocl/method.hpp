@@ -25,6 +25,7 @@ struct MethodOptions {
   int extra_waves = 0;                                 ///< of djfa: see DynamicPlanOptions
   int refresh_interval = 0;                            ///< of djfa: see DynamicJumpFloodingOptions
   Reach reach = Reach::measured;                       ///< of djfa: see dynamic_jump_flooding()
+  std::optional<double> max_displacement = {};         ///< of djfa: see DynamicJumpFloodingOptions
 };
 
 /// A way to make a diagram from seeds.
@@ -32,15 +33,14 @@ struct Method {
   std::string name;  ///< such as "jfa+1"
   bool exact;        ///< every pixel gets its nearest seed: other methods are judged by it
   bool continues;    ///< it goes on from the labels that the diagram holds, so frames must come in order
-  bool outer_seeds;  ///< it takes seeds that lie outside the grid, and periodic domains: others refuse them
+  bool windows;      ///< it takes any window of a grid and seeds outside it: others refuse them
 
-  /// Fills the diagram. `max_displacement`: see dynamic_jump_flooding(); only a method that continues looks
-  /// at it.
-  Report (*run)(const Seeds& seeds, Diagram& diagram, double max_displacement, const MethodOptions& options);
+  /// Fills the diagram.
+  Report (*run)(const Seeds& seeds, Diagram& diagram, const MethodOptions& options);
 
   /// The waves that it runs from seeds alone, of which its report has said the number; null if it has none.
   /// Throws Error if that number is negative.
-  Plan (*plan)(const Grid& grid, int waves, const MethodOptions& options);
+  Plan (*plan)(const Window& window, int waves, const MethodOptions& options);
 };
 
 /// All methods.
@@ -55,10 +55,11 @@ VOROCL_API void check_options(const Method& method, const MethodOptions& options
 /// The method with its options as an engine of a simulation.
 VOROCL_API Simulation::Engine engine(const Method& method, const MethodOptions& options = {});
 
-/// Builds all kernels that the method needs for a number of seeds on a grid, so that the first diagram takes
-/// no longer than the next. Drivers finish a kernel when it is first launched: so this runs the method on
-/// random seeds and a diagram of its own, of this size, which it gives back. Waits. Throws as the method.
-VOROCL_API void prepare(const Method& method, const Device& device, const Grid& grid, std::size_t seeds,
+/// Builds all kernels that the method needs for a number of seeds on the window's grid, so that the first
+/// diagram takes no longer than the next. Drivers finish a kernel when it is first launched: so this runs the
+/// method on random seeds and a diagram of its own, of this size, which it gives back. Waits. Throws as the
+/// method.
+VOROCL_API void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
                         const MethodOptions& options = {});
 
 }  // namespace vorocl

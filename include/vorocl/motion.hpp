@@ -17,8 +17,8 @@ enum class Border {
 
 /// Moves each seed by (dx, dy) pixels, each uniform in [-max_displacement, max_displacement], on the device.
 /// The numbers come from Philox-4x32-10 keyed by the rng seed, the seed's id and the frame: the same on every
-/// device. Enqueues and returns. Throws Error unless `max_displacement` is in [0, Grid::max_side] and all
-/// seeds lie in the grid.
+/// device. Enqueues and returns. Throws Error unless `max_displacement` is in [0, Window::max_side], the grid
+/// is no larger than a diagram can be and all seeds lie in it.
 VOROCL_API void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_t rng_seed,
                             std::uint32_t frame);
 

@@ -31,7 +31,7 @@ struct SharedSeedsState;
 class VOROCL_API SharedSeeds : public SeedSource {
  public:
   /// Collective. The communicator is copied.
-  SharedSeeds(MPI_Comm communicator, const Plane& plane);
+  SharedSeeds(MPI_Comm communicator, const Grid& grid);
 
   /// Collective, for it frees what the ranks share.
   ~SharedSeeds() override;
@@ -49,19 +49,18 @@ class VOROCL_API SharedSeeds : public SeedSource {
   /// Collective: sorts the seeds and shares them out.
   void share();
 
-  const Plane& plane() const override;
-  std::uint64_t ids() const override;
+  const Grid& grid() const override;
+  std::uint64_t id_end() const override;
 
   /// The seeds of all ranks, and those that this one holds. After share().
   std::uint64_t size() const;
   std::uint64_t held() const;
 
   /// About how many seeds lie in a rectangle, as the boxes say. After share().
-  double expected(const PlaneRectangle& rectangle) const;
+  double expected(const Window& window) const;
 
   /// Fetches seeds. Not collective. Throws Error before share().
-  void find_near(const PlaneRectangle& rectangle, Metric metric,
-                 std::vector<PlaneSeed>& seeds) const override;
+  void find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const override;
 
  private:
   std::unique_ptr<SharedSeedsState> state_;

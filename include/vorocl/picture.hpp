@@ -47,21 +47,22 @@ VOROCL_API std::optional<Scale> range_of(const std::vector<float>& distances);
 /// Colours each pixel by its label's id. An id has one colour, the same in every picture and frame; ids that
 /// are near each other get colours that are easily told apart. no_label is black, which is no id's colour.
 /// Throws Error unless there is one label per pixel.
-VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid);
+VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window);
 
 /// As above, with the few colours of a categorical palette: neighbours may share one. Throws Error for
 /// another palette.
-VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid, Palette palette);
+VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window,
+                               Palette palette);
 
 /// Colours each pixel by the value of its label's seed. `values` holds one per seed, by id; an absent value
 /// (NaN) is light grey and no_label is black. With a categorical palette values are rounded to whole numbers.
 /// Throws Error unless there is one label per pixel and a value for every label, and for a bad scale.
-VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
+VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Window& window,
                                   const std::vector<double>& values, const Scale& scale, Palette palette);
 
 /// Colours each pixel by its distance, as distance_field() gives it; a pixel without a label (infinity) is
 /// black. Throws Error unless there is one distance per pixel, for a bad scale and for a categorical palette.
-VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid,
+VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Window& window,
                                      const Scale& scale, Palette palette);
 
 /// The widest borders that draw_edges() draws, in pixels.

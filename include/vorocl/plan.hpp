@@ -33,12 +33,14 @@ enum class JumpFloodingVariant {
 };
 
 /// k1 = 2^(ceil(log2 N) - 1), the first step of JFA, with N the longest side (the paper's k_1). 0 for N = 1,
-/// which needs no wave.
-VOROCL_API int first_step(const Grid& grid);
+/// which needs no wave. A grid is the window that shows all of it. Throws Error if the window is larger than
+/// a diagram can be.
+VOROCL_API int first_step(const Window& window);
 
-/// The waves of jump flooding on a grid: steps first_step(grid), half of it, ..., 1, and the variant's extra
-/// waves. A grid of one pixel has an empty plan.
-VOROCL_API Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant = JumpFloodingVariant::jfa,
+/// The waves of jump flooding: steps first_step(window), half of it, ..., 1, and the variant's extra waves. A
+/// window of one pixel has an empty plan. Throws as first_step().
+VOROCL_API Plan jump_flooding_plan(const Window& window,
+                                   JumpFloodingVariant variant = JumpFloodingVariant::jfa,
                                    Neighbourhood neighbourhood = Neighbourhood::moore);
 
 /// Which neighbourhoods the waves of dynamic jump flooding have.
@@ -57,8 +59,8 @@ struct DynamicPlanOptions {
 /// The waves of dynamic jump flooding for a number of seeds that are alive and have moved by at most
 /// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
 /// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
-/// seeds), from 1 to first_step(grid). Throws Error if the displacement or an option is out of its range.
-VOROCL_API Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, double max_displacement,
+/// seeds), from 1 to first_step(window). Throws Error if the displacement or an option is out of its range.
+VOROCL_API Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
                                            const DynamicPlanOptions& options = {});
 
 /// Where the waves of dynamic jump flooding get their reach from.
@@ -94,7 +96,7 @@ struct DynamicPlan {
 /// first step. Else JFA's waves from the least step whose plan covers that distance, and the extra waves: as
 /// good as JFA, and never longer. docs/moving_seeds.md says why old labels are no start there. Throws as
 /// dynamic_jump_flooding_plan().
-VOROCL_API DynamicPlan reaching_plan(const Grid& grid, std::size_t seeds, double max_displacement,
+VOROCL_API DynamicPlan reaching_plan(const Window& window, std::size_t seeds, double max_displacement,
                                      const LabelDistances& distances, Metric metric,
                                      const DynamicPlanOptions& options = {});
 

@@ -29,9 +29,9 @@ using RelaxationObserver =
     std::function<bool(const Seeds& seeds, const Diagram& diagram, const Relaxation& so_far)>;
 
 /// The sum of the squared Euclidean distances of all pixels with a label to their seeds, in 64-bit integers.
-/// Waits. Throws Error if seeds and diagram do not fit together, the seeds had a bad point or lie outside the
-/// grid.
-VOROCL_API std::uint64_t energy(const Seeds& seeds, const Diagram& diagram);
+/// Waits. Throws Error if the diagram knows no seeds, or some lie outside its window, and BadPoint if they
+/// had a bad point.
+VOROCL_API std::uint64_t energy(const Diagram& diagram);
 
 /// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").
 /// A round moves every seed to the pixel nearest to its cell's centroid (if two are, and the seed is on one
@@ -39,8 +39,7 @@ VOROCL_API std::uint64_t energy(const Seeds& seeds, const Diagram& diagram);
 /// many rounds, when no seed moves, or when the observer says so. In the end the diagram is that of the
 /// seeds.
 ///
-/// The diagram may hold anything at the start: the engine is told first that a seed may have moved by the
-/// grid's longest side, and in each round how far seeds moved at most.
+/// The diagram may hold anything at the start.
 ///
 /// With an exact Euclidean engine the energy falls with every round, so the end is sure to come; an
 /// approximate engine may make it rise now and then. Seeds that come to share a pixel leave the higher id

@@ -17,9 +17,6 @@ struct FloodStart {
 class VOROCL_API Report {
  public:
   Report() = default;
-  Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
-         const FloodStart& start = {})
-      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds), start_(start) {}
 
   /// The waves that ran, 0 for an engine without waves.
   int waves() const { return waves_; }
@@ -39,12 +36,12 @@ class VOROCL_API Report {
   /// says when), that counts.
   double host_milliseconds() const { return host_milliseconds_; }
 
-  /// One report of two engines that ran one after the other for one diagram.
-  friend Report operator+(const Report& a, const Report& b) {
-    return {a.waves_ + b.waves_, a.first_, b.last_, a.host_milliseconds_ + b.host_milliseconds_, b.start_};
-  }
-
  private:
+  friend struct Internal;
+  Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
+         const FloodStart& start)
+      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds), start_(start) {}
+
   int waves_ = 0;
   cl::Event first_;
   cl::Event last_;

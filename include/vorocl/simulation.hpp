@@ -17,7 +17,7 @@ namespace vorocl {
 /// waits unless an engine, the motion or the caller reads, or the queue is full (see Device).
 ///
 /// After step() has thrown, the next one goes on: with the same frame if the motion threw, with the next
-/// frame if an engine did; engines that had not run by then are told the displacement of both frames.
+/// frame if an engine did.
 ///
 /// Threads: one thread at a time.
 ///
@@ -27,16 +27,18 @@ namespace vorocl {
 /// Ordering: all work goes to the device's in-order queue, in the order of the calls.
 class VOROCL_API Simulation {
  public:
-  /// Moves the seeds on to a frame (from 1 on) and returns the greatest displacement of a seed along an axis,
-  /// in pixels (the paper's d_max). It may replace the seeds by others on another grid, of the same device:
-  /// then the diagrams have that grid too, and engines start from nothing.
-  using Motion = std::function<double(Seeds& seeds, int frame)>;
+  /// Moves the seeds on to a frame (from 1 on). It may move them to another grid or replace them by others of
+  /// the same device, and change the window that the diagrams cover, which must be of the seeds' grid: then
+  /// the diagrams are made anew, and engines start from nothing.
+  using Motion = std::function<void(Seeds& seeds, Window& window, int frame)>;
 
-  /// Fills the diagram of a frame. max_displacement is what the motion returned, 0 for frame 0.
-  using Engine = std::function<Report(const Seeds& seeds, Diagram& diagram, double max_displacement)>;
+  /// Fills the diagram of a frame.
+  using Engine = std::function<Report(const Seeds& seeds, Diagram& diagram)>;
 
-  /// Throws Error if the motion is empty.
+  /// Diagrams of the window, or of the seeds' whole grid, whichever that is in a frame. Throws Error if the
+  /// motion is empty.
   Simulation(Seeds seeds, Motion motion);
+  Simulation(Seeds seeds, const Window& window, Motion motion);
 
   /// Adds an engine, before the first step; returns its number. Throws Error if it is empty or too late.
   std::size_t add_engine(Engine engine);
@@ -44,9 +46,8 @@ class VOROCL_API Simulation {
   /// Makes the next frame's diagrams: frame 0 of the seeds as they are, then one motion per frame.
   void step();
 
-  /// Moves the seeds on to the next frame without its diagrams: these stay those of an earlier frame. The
-  /// engines are told the displacement since then when they run again. Throws what the motion throws, and
-  /// then nothing has changed.
+  /// Moves the seeds on to the next frame without its diagrams: these stay those of an earlier frame. Throws
+  /// what the motion throws, and then nothing has changed.
   void skip();
 
   /// The frame that the last step() made or skip() passed, -1 before the first.
@@ -72,13 +73,13 @@ class VOROCL_API Simulation {
     std::vector<Report> untimed;  // frames whose device time has not been asked for
     double milliseconds = 0;
     double host_milliseconds = 0;
-    double max_displacement = 0;  // since the diagram was last filled
   };
 
   /// Throws Error if there is no engine of this number.
   const Track& track(std::size_t engine) const;
 
   Seeds seeds_;
+  Window window_;
   Motion motion_;
   std::vector<Track> tracks_;
   int frame_ = -1;

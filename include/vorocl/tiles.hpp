@@ -1,4 +1,4 @@
-// Exact diagrams of planes that are larger than a device, tile by tile.
+// Exact diagrams of grids that are larger than a device, tile by tile.
 #pragma once
 
 #include <cstddef>
@@ -12,47 +12,30 @@
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
+#include "vorocl/points.hpp"
+#include "vorocl/seeds.hpp"
 
 namespace vorocl {
 
-/// A rectangle of a plane's pixels.
-struct PlaneRectangle {
-  std::int64_t x = 0, y = 0;  ///< the first pixel
-  std::int64_t width = 1, height = 1;
-};
-
-/// A part of a plane that a device labels at once: no larger than a Grid.
-struct Tile {
-  std::int64_t x = 0, y = 0;  ///< its first pixel in the plane
-  int width = 1, height = 1;
-};
-
-inline std::uint64_t pixels_of(const Tile& tile) {
-  return static_cast<std::uint64_t>(tile.width) * static_cast<std::uint64_t>(tile.height);
-}
-
-/// How a plane, or a rectangle of it, is cut into tiles: squares, from its first pixel on, numbered
-/// row-major. Those at the right and at the bottom may be smaller.
+/// How a window of a grid is cut into tiles: squares, from its first pixel on, numbered row-major. Those at
+/// the right and at the bottom may be smaller. A tile is a window of the same grid.
 class VOROCL_API Tiling {
  public:
-  /// Throws Error unless the side is in [1, Grid::max_side] and side * side at most Grid::max_pixels, and the
-  /// part lies in the plane and has pixels.
-  Tiling(const Plane& plane, std::int64_t side);
-  Tiling(const Plane& plane, std::int64_t side, const PlaneRectangle& part);
+  /// A grid is the window that shows all of it. Throws Error unless the side is in [1, Window::max_side] and
+  /// side * side at most Window::max_pixels, or if the window is longer than a period.
+  Tiling(const Window& window, std::int64_t side);
 
-  const Plane& plane() const { return plane_; }
-  const PlaneRectangle& part() const { return part_; }
+  const Window& window() const { return window_; }
   int side() const { return side_; }
   std::uint64_t columns() const { return columns_; }
   std::uint64_t rows() const { return rows_; }
   std::uint64_t count() const { return columns_ * rows_; }
 
   /// Throws Error unless number < count().
-  Tile tile(std::uint64_t number) const;
+  Window tile(std::uint64_t number) const;
 
  private:
-  Plane plane_;
-  PlaneRectangle part_;
+  Window window_;
   int side_;
   std::uint64_t columns_, rows_;
 };
@@ -61,39 +44,39 @@ class VOROCL_API Tiling {
 /// of two.
 VOROCL_API int default_tile_side(const Device& device);
 
-/// A seed of a plane: its pixel, which may be outside the plane, and its id.
+/// A seed of a grid: its pixel, which may be outside the grid, and its id.
 struct PlaneSeed {
   std::int32_t x = 0, y = 0;
   std::uint32_t id = 0;
 };
 
-/// Where tiles get the seeds of a plane from.
+/// Where tiles get the seeds of a grid from.
 class VOROCL_API SeedSource {
  public:
   virtual ~SeedSource();
 
-  virtual const Plane& plane() const = 0;
+  virtual const Grid& grid() const = 0;
 
   /// One more than the greatest id of a seed.
-  virtual std::uint64_t ids() const = 0;
+  virtual std::uint64_t id_end() const = 0;
 
-  /// Replaces what a list has by the seeds that own pixels of a rectangle of the plane, and few others. Of
-  /// seeds that share a pixel only the one that owns it. The rectangle has at most Grid::max_side pixels
-  /// along a side.
-  virtual void find_near(const PlaneRectangle& rectangle, Metric metric,
-                         std::vector<PlaneSeed>& seeds) const = 0;
+  /// Replaces what a list has by the seeds that own pixels of a window of the grid, and few others. Of seeds
+  /// that share a pixel only the one that owns it. The window has at most Window::max_side pixels along a
+  /// side.
+  virtual void find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const = 0;
 };
 
 struct PlaneSeedsState;
 
-/// The seeds of a plane, on the host: 13 bytes each, 24 while they are sorted, which happens at the first
-/// question. Ids are less than 2^32 - 1. Of seeds that share a pixel the lowest id owns the cell.
+/// The seeds of a grid of any size, on the host: 13 bytes each, 24 while they are sorted, which happens at
+/// the first question. Ids are less than 2^32 - 1. Of seeds that share a pixel the lowest id owns the cell.
 ///
 /// Threads: one thread at a time until the first question, which sort() can be; any number from then on.
 class VOROCL_API PlaneSeeds : public SeedSource {
  public:
-  explicit PlaneSeeds(const Plane& plane);
-  PlaneSeeds(const Plane& plane, const std::vector<Point>& points);
+  /// What becomes of points outside the grid is as for Seeds.
+  explicit PlaneSeeds(const Grid& grid, Outside outside = Outside::count);
+  PlaneSeeds(const Grid& grid, const Points& points, Outside outside = Outside::count);
   ~PlaneSeeds() override;
   PlaneSeeds(PlaneSeeds&& other) noexcept;
   PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;
@@ -101,29 +84,31 @@ class VOROCL_API PlaneSeeds : public SeedSource {
   /// Makes room for so many seeds in all, so that add() need not copy those that are there.
   void reserve(std::size_t count);
 
-  /// Adds the seeds of points in pixel units; their ids go on from the last id. Along a periodic axis points
-  /// wrap; along another one they may lie outside the plane. Throws BadPoint naming the first point that is
-  /// NaN, infinite or 2^31 pixels or more away from a pixel of the plane along an axis, and Error if ids run
-  /// out or the seeds were sorted already; nothing is added then.
-  void add(const Point* points, std::size_t count);
+  /// Adds the seeds of points in the units of the data; their ids go on from the last id, and an absent point
+  /// takes one too. Along a periodic axis points wrap. Throws BadPoint naming the first point that is NaN,
+  /// infinite, 2^31 pixels or more away from a pixel of the grid along an axis, or refused, and Error if ids
+  /// run out or the seeds were sorted already; nothing is added then.
+  void add(const Points& points);
 
-  /// Adds seeds with ids of their own, in any order, each id once: a part of the seeds of a plane that
+  /// Adds seeds with ids of their own, in any order, each id once: a part of the seeds of a grid that
   /// several machines share. Throws Error for a pixel that is too far away, as above, or outside the period.
   void add(const PlaneSeed* seeds, std::size_t count);
 
-  const Plane& plane() const override;
-  std::uint64_t ids() const override;
+  const Grid& grid() const override;
+  std::uint64_t id_end() const override;
 
-  /// The seeds that were added.
-  std::size_t size() const;
+  /// The seeds that were added and are there.
+  std::size_t alive() const;
+
+  /// How many of them lie outside the grid.
+  std::size_t outside() const;
 
   /// Sorts them along a Z-curve and makes the index.
   void sort() const;
 
-  /// Those inside the rectangle, and those that own points of its rim. Cost: in proportion to what is found,
-  /// and some microseconds for each cell on the rim.
-  void find_near(const PlaneRectangle& rectangle, Metric metric,
-                 std::vector<PlaneSeed>& seeds) const override;
+  /// Those inside the window, and those that own points of its rim. Cost: in proportion to what is found, and
+  /// some microseconds for each cell on the rim.
+  void find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const override;
 
  private:
   PlaneSeedsState& state() const;
@@ -133,20 +118,13 @@ class VOROCL_API PlaneSeeds : public SeedSource {
 /// A tile with its labels, which are ids of seeds or no_label, row-major.
 struct TileLabels {
   std::uint64_t number = 0;  ///< in its Tiling
-  Tile tile;
+  Window tile;
   const std::uint32_t* labels = nullptr;  ///< on the host, until the function that is given them returns
-};
-
-/// As above, on the device: for commands on its queue that are enqueued before the function returns.
-struct TileBuffer {
-  std::uint64_t number = 0;
-  Tile tile;
-  cl::Buffer labels;
 };
 
 struct PlaneCellsState;
 
-/// A cell of a plane. Along a periodic axis a pixel counts where it lies the shorter way round from the seed
+/// A cell of a grid. Along a periodic axis a pixel counts where it lies the shorter way round from the seed
 /// (half a period away: behind it), as in CellSums.
 struct PlaneCell {
   std::uint64_t area = 0;                                   ///< pixels
@@ -217,10 +195,5 @@ VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const
 VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const NextTile& next, const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});
-
-/// As above, for functions that use the labels on the device: nothing is copied to the host.
-VOROCL_API void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
-                                      const std::function<void(const TileBuffer&)>& use,
-                                      const TileOptions& options = {});
 
 }  // namespace vorocl

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "vorocl/analysis.hpp"
-#include "vorocl/bounds.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
@@ -14,6 +13,7 @@
 #include "vorocl/method.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/plan.hpp"
+#include "vorocl/points.hpp"
 #include "vorocl/relaxation.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"

@@ -1,0 +1,90 @@
+// Points of the caller's, on the host or on the device.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "vorocl/export.h"
+#include "vorocl/grid.hpp"
+#include "vorocl/opencl.hpp"
+
+namespace vorocl {
+
+/// A view of points on the host, in the units of the data: nothing is copied until seeds are made of them.
+/// A point may be absent: then its seed has an id and no cell.
+///
+/// Lifetime: what it views must live until the call that takes it returns.
+class VOROCL_API Points {
+ public:
+  Points(const std::vector<Point>& points) : Points(points.data(), points.size()) {}
+  Points(std::initializer_list<Point> points) : Points(points.begin(), points.size()) {}
+  Points(const Point* points, std::size_t count);
+
+  /// A seed without a point is absent.
+  Points(const std::vector<std::optional<Point>>& points)
+      : first_(points.data()), size_(points.size()), kind_(Kind::optional) {}
+
+  /// From memory where the coordinates of one point lie `stride` bytes behind those of the one before:
+  /// columns of a table, or members of a struct. The stride may be negative.
+  Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride = sizeof(double));
+
+  /// The same points, of which those are absent whose byte is 0; the others count as present. `present` has
+  /// size() bytes.
+  Points marked(const std::uint8_t* present) const;
+
+  std::size_t size() const { return size_; }
+  bool is_present(std::size_t i) const {
+    return (present_ == nullptr || present_[i] != 0) &&
+           (kind_ != Kind::optional || static_cast<const std::optional<Point>*>(first_)[i].has_value());
+  }
+
+  /// The point of a seed that is present.
+  Point operator[](std::size_t i) const {
+    if (kind_ == Kind::optional) return *static_cast<const std::optional<Point>*>(first_)[i];
+    const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(i) * stride_;
+    return {coordinate(first_, offset), coordinate(y_, offset)};
+  }
+
+ private:
+  enum class Kind { strided, optional };
+
+  static double coordinate(const void* first, std::ptrdiff_t offset) {
+    return *reinterpret_cast<const double*>(static_cast<const char*>(first) + offset);
+  }
+
+  const void* first_;  // the first x, or the first optional point
+  const void* y_ = nullptr;
+  std::size_t size_;
+  std::ptrdiff_t stride_ = sizeof(Point);
+  Kind kind_;
+  const std::uint8_t* present_ = nullptr;
+};
+
+/// What a buffer of points holds.
+enum class PointFormat {
+  float2,   ///< two floats per point
+  double2,  ///< two doubles per point; the device must know double
+};
+
+/// Points in the caller's buffer on the device, in the units of the data.
+struct PointBuffer {
+  /// `present` says which seeds there are: one byte per seed, 0 for a seed that is absent, whose point is not
+  /// looked at; a null buffer says that all are there.
+  PointBuffer(cl::Buffer points_of_seeds, std::size_t count_of_seeds,
+              PointFormat format_of_points = PointFormat::float2, cl::Buffer marks = cl::Buffer())
+      : points(std::move(points_of_seeds)),
+        count(count_of_seeds),
+        format(format_of_points),
+        present(std::move(marks)) {}
+
+  cl::Buffer points;
+  std::size_t count;
+  PointFormat format;
+  cl::Buffer present;
+};
+
+}  // namespace vorocl
