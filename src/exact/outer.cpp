@@ -42,7 +42,8 @@ cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric
     kernel("list_outer_seeds")
         .in_groups_of(std::min<std::size_t>(group, 64))
         .over_items(boxes, outer->places, outer->nodes, outer->count, outer->top, outer->top_start,
-                    state.labels, outer->seeds, region, width, height, memory.lists, memory.counts);
+                    state.labels, outer->seeds, region, outer->home, width, height, memory.lists,
+                    memory.counts);
     Kernel& compare = kernel("compare_outer_seeds");
     const std::size_t squares_of_row = OUTER_BOX / compare.vector_width();
     event = compare.over_items(boxes * squares_of_row * squares_of_row, outer->places, outer->nodes,
