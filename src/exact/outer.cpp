@@ -20,16 +20,14 @@ std::size_t boxes_along(int pixels) { return (static_cast<std::size_t>(pixels - 
 
 }  // namespace
 
-cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, ListLength length,
-                          const cl::Event& last) {
+cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, const cl::Event& last) {
   const std::shared_ptr<const OuterSeeds>& outer = Internal::state(seeds).frame()->outer;
   if (!outer) return last;
   const Grid& grid = state.grid;
   const int width = grid.width(), height = grid.height();
   const cl_int4& region = outer->region;
-  const char* const file = length == ListLength::full ? "exact/outer.cl" : "exact/short_outer.cl";
   const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernel(file, name, {metric, Neighbourhood::moore, outer->extent});
+    return state.kernel("exact/outer.cl", name, {metric, Neighbourhood::moore, outer->extent});
   };
   cl::Event event = last;
   if (outer->count > 0) {
