@@ -257,7 +257,7 @@ Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
 }
 
 const cl::Context& Device::context() const { return state_->context; }
-const cl::CommandQueue& Device::queue() const { return state_->queue; }
+cl::CommandQueue& Device::queue() const { return state_->queue; }
 const cl::Device& Device::cl_device() const { return state_->device; }
 const Tuning& Device::tuning() const { return tuning_; }
 std::string Device::name() const { return device_info<std::string>(cl_device()(), CL_DEVICE_NAME); }
