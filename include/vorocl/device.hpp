@@ -80,7 +80,9 @@ class VOROCL_API Device {
   ~Device() = default;
 
   const cl::Context& context() const;
-  const cl::CommandQueue& queue() const;
+
+  /// The one queue. The reference is not const because cl::EnqueueArgs takes no other: do not assign to it.
+  cl::CommandQueue& queue() const;
   const cl::Device& cl_device() const;
   std::string name() const;
   std::string platform_name() const;

@@ -76,6 +76,7 @@ class VOROCL_API Axis {
   double to() const { return to_; }
   bool is_periodic() const { return periodic_; }
   bool is_reversed() const { return reversed_; }
+  bool is_closed() const { return closed_; }
 
   /// Whether a coordinate is in [from, to], or the axis is periodic and it is finite.
   bool covers(double coordinate) const;

@@ -3,11 +3,21 @@
 #include "core/philox.cl"
 #include "core/position.cl"
 
+// A coordinate's pixel on an axis of `size` pixels, which wraps if the axis is periodic; -1 if there is none.
+static inline int snapped(float at, int size, int periodic) {
+  // Written so that a NaN fails.
+  if (!(at >= -0x1p31f && at < 0x1p31f)) return -1;
+  const int pixel = (int)floor(at);
+  if (!periodic) return pixel >= 0 && pixel < size ? pixel : -1;
+  const int rest = pixel % size;
+  return rest < 0 ? rest + size : rest;
+}
+
 // Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and
 // its point is not looked at. `found` holds the least index of a bad point, the bits of its x and y, and how many are
-// absent.
+// absent: also those outside the grid, if such seeds are to be absent.
 kernel void snap_points(global const float2* restrict points, global const uchar* restrict marks, int marked,
-                        global uint* restrict positions, uint count, int width, int height,
+                        int outside_is_absent, global uint* restrict positions, uint count, int width, int height,
                         global uint* restrict found) {
   const uint id = (uint)get_global_id(0);
   if (id > count) return;
@@ -18,9 +28,11 @@ kernel void snap_points(global const float2* restrict points, global const uchar
     return;
   }
   const float2 point = points[id];
-  // Written so that a NaN fails.
-  if (point.x >= 0.0f && point.x < (float)width && point.y >= 0.0f && point.y < (float)height) {
-    positions[id] = pack((int)point.x, (int)point.y);
+  const int x = snapped(point.x, width, PERIODIC_X), y = snapped(point.y, height, PERIODIC_Y);
+  if (x >= 0 && y >= 0) {
+    positions[id] = pack(x, y);
+  } else if (outside_is_absent && isfinite(point.x) && isfinite(point.y)) {
+    atomic_inc(found + 3);
   } else {
     atomic_min(found, id);
   }
@@ -31,6 +43,17 @@ kernel void note_bad_point(global const float2* restrict points, global uint* re
   if (get_global_id(0) > 0 || found[0] == NO_LABEL) return;
   found[1] = as_uint(points[found[0]].x);
   found[2] = as_uint(points[found[0]].y);
+}
+
+// The greatest way of a seed along an axis between two lists of positions, the shorter way round; in a word of 0.
+kernel void find_greatest_way(global const uint* restrict from, global const uint* restrict to, uint count, int width,
+                              int height, global uint* restrict greatest) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || (from[id] | to[id]) & EMPTY_BIT) return;
+  const int dx = shorter_way_x(packed_x(to[id]) - packed_x(from[id]), width);
+  const int dy = shorter_way_y(packed_y(to[id]) - packed_y(from[id]), height);
+  const uint way = max(abs(dx), abs(dy));
+  if (way > 0) atomic_max(greatest, way);
 }
 
 kernel void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {

@@ -4,7 +4,7 @@
 // OUTER SEEDS are the seeds outside the pixels and, where the plane is periodic, images of all seeds. They stand in a
 // tree: `places` in an order in which neighbours are near each other, and boxes around OUTER_FAN of them, around
 // OUTER_FAN such boxes, and so on up to one box: the levels of `nodes`, the finest one first. Only pixels in the region
-// get labels: it lies in one period. No outer seed is in the region.
+// get labels: it is no longer than a period. Its part in the grid's own period is home: no outer seed is there.
 
 #include "exact/sizes.cl"
 #include "core/plane.cl"
@@ -154,7 +154,7 @@ static inline int4 box_in_region(int item, int width, int4 region) {
 // Lists, for each box of pixels, the outer seeds that may win at one of them. A list that is full names the leaf to go
 // on from, others the end of the leaves.
 kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels, global const int2* restrict seeds,
-                             int4 region, int width, int height, global uint* restrict lists,
+                             int4 region, int4 home, int width, int height, global uint* restrict lists,
                              global uint2* restrict counts) {
   const int item = (int)get_global_id(0);
   if (item >= boxes_along(width) * boxes_along(height)) return;
@@ -169,10 +169,10 @@ kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels
   const uint label = labels[(box.TOP + box.BOTTOM) / 2 * width + (box.LEFT + box.RIGHT) / 2];
   if (label != NO_LABEL) {
     const Sides sides = sides_to_place(box, seeds[label]);
-    const int gap = 1 + min(min(box.LEFT - region.LEFT, region.RIGHT - box.RIGHT),
-                            min(box.TOP - region.TOP, region.BOTTOM - box.BOTTOM));
+    const int gap = 1 + min(min(box.LEFT - home.LEFT, home.RIGHT - box.RIGHT),
+                            min(box.TOP - home.TOP, home.BOTTOM - box.BOTTOM));
     // All outer seeds are farther from the box than this seed is from any of its pixels.
-    if (along(gap) > max(sides.left, sides.right) + max(sides.top, sides.bottom)) return;
+    if (gap > 0 && along(gap) > max(sides.left, sides.right) + max(sides.top, sides.bottom)) return;
     take_winners(&winners, box, seeds[labels[box.TOP * width + box.LEFT]]);
     take_winners(&winners, box, seeds[labels[box.TOP * width + box.RIGHT]]);
     take_winners(&winners, box, seeds[labels[box.BOTTOM * width + box.LEFT]]);

@@ -35,9 +35,12 @@
 #define DUPLICATE_COUNT 0  // of seeds on a pixel that has one
 #define LIST_END 1         // of those parts of the list that are given away
 
-// How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them.
+// How many bins are refined at a time, and how many seeds fill a list: only speed and memory depend on them. (As all
+// lengths of lists, they can be build options; the buffers of lists have room for these.)
 #ifndef MOST_PARENTS
 #define MOST_PARENTS 64
+#endif
+#ifndef MOST_CANDIDATES
 #define MOST_CANDIDATES 1024
 #endif
 

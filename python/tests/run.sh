@@ -23,5 +23,7 @@ export PIP_NO_INDEX=1 PIP_FIND_LINKS=$wheels PIP_DISABLE_PIP_VERSION_CHECK=1
 for example in python/examples/*.py; do
   "$python" "$example" "$folder/$(basename "$example" .py).png"
 done
-sed -n '/^```python$/,/^```$/{/^```/!p}' README.md | "$python" -
+for page in README.md docs/python.md; do
+  sed -n '/^```python$/,/^```$/{/^```/!p}' "$page" | "$python" -
+done
 "$python" python/benchmarks/compare.py --size 256 --seeds 64 1024 --repeat 1

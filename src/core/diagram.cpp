@@ -6,30 +6,40 @@
 #include "core/diagram_state.hpp"
 #include "core/seeds_state.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/metric.hpp"
 #include "runtime/opencl_info.hpp"
 
 namespace vorocl {
 
 namespace {
 
-std::size_t bytes_of(const Grid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
+std::size_t bytes_of(const PixelGrid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
 
-std::string size_text(const Grid& grid) {
+std::string text_of(const Grid& grid) {
   const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
   return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) +
          periodic[static_cast<int>(grid.periodic())];
+}
+
+/// Why seeds of one grid are not of another.
+std::string difference(const Grid& seeds, const Grid& diagram) {
+  const std::string one = text_of(seeds), other = text_of(diagram);
+  if (one != other) return "the seeds' grid is " + one + ", the diagram's " + other;
+  return "the seeds' grid and the diagram's have " + one +
+         " pixels, but show other stretches of the data; make both of one grid";
 }
 
 }  // namespace
 
 // --- what a diagram holds ---
 
-DiagramState::DiagramState(const Device& device_of_diagram, const Grid& grid_of_diagram,
+DiagramState::DiagramState(const Device& device_of_diagram, const Window& window_of_diagram,
                            const cl::Buffer& label_image)
     : device(device_of_diagram),
-      grid(grid_of_diagram),
+      window(window_of_diagram),
+      grid(window_of_diagram),
       labels(label_image),
-      held_(bytes_of(grid_of_diagram)) {}
+      held_(bytes_of(grid)) {}
 
 void DiagramState::reserve(cl::Buffer& buffer, std::size_t bytes) {
   const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
@@ -40,11 +50,10 @@ void DiagramState::reserve(cl::Buffer& buffer, std::size_t bytes) {
   held_ += size_of(buffer);
 }
 
-void DiagramState::check_fits(const Seeds& seeds) const {
+std::shared_ptr<const Placement> DiagramState::place(const Seeds& seeds) const {
   if (!seeds.device().same_as(device)) throw Error("the seeds and the diagram belong to different devices");
-  if (seeds.grid() != grid) {
-    throw Error("the seeds' grid is " + size_text(seeds.grid()) + ", the diagram's " + size_text(grid));
-  }
+  if (seeds.grid() != window.grid()) throw Error(difference(seeds.grid(), window.grid()));
+  return Internal::state(seeds).frame()->place_in(window, grid);
 }
 
 template <typename Then>
@@ -74,30 +83,40 @@ void DiagramState::read(std::uint32_t* to) {
   wait_and([&] { download(device, labels, grid.pixels(), to); });
 }
 
-Filling::Filling(const Seeds& seeds, Diagram& diagram)
+Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
     : diagram_(Internal::state(diagram)), previous_(std::exchange(diagram_.contents, std::nullopt)) {
-  diagram_.check_fits(seeds);
-  seeds_ = Internal::state(seeds).frame();
+  next_.placement = diagram_.place(seeds);
+  next_.seeds = Internal::state(seeds).frame();
+  next_.metric = checked(metric);
+  next_.method = method;
+}
+
+Kernel& Filling::kernel(const char* file, const char* name, Neighbourhood neighbourhood) {
+  return diagram_.kernels.get(diagram_.device, file, name, placement().grid, {next_.metric, neighbourhood});
 }
 
 Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age, bool far_counted,
                        const FloodStart& start) {
   check(clFlush(diagram_.device.queue()()), "starting the diagram");
-  diagram_.contents = DiagramContents{seeds_, age, last, far_counted};
-  return {waves, first, last, stopwatch_.milliseconds(), start};
+  next_.last = last;
+  next_.age = age;
+  next_.far_counted = far_counted;
+  diagram_.contents = next_;
+  return Internal::report(waves, first, last, stopwatch_.milliseconds(), start);
 }
 
 // --- Diagram ---
 
-Diagram::Diagram(const Device& device, const Grid& grid)
-    : state_(
-          std::make_unique<DiagramState>(device, grid, allocate(device, bytes_of(grid), "the label image"))) {
-  fill(device, labels(), no_label, grid.pixels());
+Diagram::Diagram(const Device& device, const Window& window)
+    : state_(std::make_unique<DiagramState>(
+          device, window, allocate(device, bytes_of(PixelGrid(window)), "the label image"))) {
+  fill(device, labels(), no_label, state_->grid.pixels());
 }
 
-Diagram::Diagram(const Device& device, const Grid& grid, const cl::Buffer& labels) {
-  check_foreign_buffer(device, labels, bytes_of(grid), "the buffer of labels", Access::read_and_write);
-  state_ = std::make_unique<DiagramState>(device, grid, labels);
+Diagram::Diagram(const Device& device, const Window& window, const cl::Buffer& labels) {
+  check_foreign_buffer(device, labels, bytes_of(PixelGrid(window)), "the buffer of labels",
+                       Access::read_and_write);
+  state_ = std::make_unique<DiagramState>(device, window, labels);
 }
 
 Diagram::~Diagram() = default;
@@ -110,33 +129,75 @@ DiagramState& Diagram::state() const {
 }
 
 const Device& Diagram::device() const { return state().device; }
-const Grid& Diagram::grid() const { return state().grid; }
+const Window& Diagram::window() const { return state().window; }
 const cl::Buffer& Diagram::labels() const { return state().labels; }
 
-void Diagram::write(const std::vector<std::uint32_t>& labels) {
-  if (labels.size() != grid().pixels()) {
-    throw Error("there are " + std::to_string(labels.size()) + " labels to write, and the diagram has " +
-                std::to_string(grid().pixels()) + " pixels");
+Metric Diagram::metric() const {
+  const std::optional<DiagramContents>& contents = state().contents;
+  if (!contents || !contents->seeds) {
+    throw Error(
+        "the diagram has no metric, because no method has filled it; run one, or write labels with "
+        "their seeds and metric");
   }
-  state().contents.reset();
-  upload(device(), this->labels(), labels);
-  state().contents.emplace();
+  return contents->metric;
 }
 
-void Diagram::write(const cl::Buffer& labels) {
-  check_foreign_buffer(device(), labels, bytes_of(grid()), "the buffer of labels to write", Access::read);
-  if (labels() == this->labels()())
+const std::string& Diagram::method() const {
+  static const std::string none;
+  return state().contents ? state().contents->method : none;
+}
+
+namespace {
+
+/// What labels of the caller's are, which name no seeds or these.
+DiagramContents written() { return {}; }
+DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric metric) {
+  DiagramContents contents;
+  contents.placement = state.place(seeds);
+  contents.seeds = Internal::state(seeds).frame();
+  contents.metric = checked(metric);
+  return contents;
+}
+
+void write_labels(DiagramState& state, const std::vector<std::uint32_t>& labels, DiagramContents&& contents) {
+  if (labels.size() != state.grid.pixels()) {
+    throw Error("there are " + std::to_string(labels.size()) + " labels to write, and the diagram has " +
+                std::to_string(state.grid.pixels()) + " pixels");
+  }
+  state.contents.reset();
+  upload(state.device, state.labels, labels);
+  state.contents = std::move(contents);
+}
+
+void write_labels(DiagramState& state, const cl::Buffer& labels, DiagramContents&& contents) {
+  const std::size_t bytes = bytes_of(state.grid);
+  check_foreign_buffer(state.device, labels, bytes, "the buffer of labels to write", Access::read);
+  if (labels() == state.labels())
     throw Error("the buffer of labels to write is the diagram's own, which holds them already");
-  if (overlap(labels, this->labels(), bytes_of(grid()))) {
+  if (overlap(labels, state.labels, bytes)) {
     throw Error("the buffer of labels to write overlaps with the diagram's own; write them from another one");
   }
-  state().contents.reset();
-  const cl::Event copied = copy(device(), labels, this->labels(), bytes_of(grid()));
-  state().contents = DiagramContents{nullptr, 0, copied};
+  state.contents.reset();
+  contents.last = copy(state.device, labels, state.labels, bytes);
+  state.contents = std::move(contents);
+}
+
+}  // namespace
+
+void Diagram::write(const std::vector<std::uint32_t>& labels) { write_labels(state(), labels, written()); }
+
+void Diagram::write(const std::vector<std::uint32_t>& labels, const Seeds& seeds, Metric metric) {
+  write_labels(state(), labels, written(state(), seeds, metric));
+}
+
+void Diagram::write(const cl::Buffer& labels) { write_labels(state(), labels, written()); }
+
+void Diagram::write(const cl::Buffer& labels, const Seeds& seeds, Metric metric) {
+  write_labels(state(), labels, written(state(), seeds, metric));
 }
 
 std::vector<std::uint32_t> Diagram::read() const {
-  std::vector<std::uint32_t> labels(grid().pixels());
+  std::vector<std::uint32_t> labels(state().grid.pixels());
   read(labels.data());
   return labels;
 }

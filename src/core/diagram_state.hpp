@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <typeindex>
 #include <vector>
 
@@ -17,24 +18,24 @@ namespace vorocl {
 
 /// What the labels of a diagram are, once something has filled it.
 struct DiagramContents {
-  std::shared_ptr<const SeedsFrame> seeds;  // that an engine made them from; null: the caller wrote them
-  int age = 0;                              // frames since they were last made from nothing
-  cl::Event last;                           // the command that finished them
-  bool far_counted = false;                 // the flood that made them counted pixels far from their seeds
+  std::shared_ptr<const SeedsFrame> seeds;     // that they name; null: the caller wrote them, and named none
+  std::shared_ptr<const Placement> placement;  // of these seeds, in the diagram's window; null likewise
+  Metric metric = Metric::euclidean;           // not known without seeds
+  std::string method;                          // empty: the caller wrote them
+  cl::Event last;                              // the command that finished them
+  int age = 0;                                 // frames since they were last made from nothing
+  bool far_counted = false;                    // the flood that made them counted pixels far from their seeds
 };
 
 struct DiagramState {
-  DiagramState(const Device& device, const Grid& grid, const cl::Buffer& labels);
+  DiagramState(const Device& device, const Window& window, const cl::Buffer& labels);
 
   Device device;
-  Grid grid;
+  Window window;
+  PixelGrid grid;  // its pixels
   cl::Buffer labels;
   std::optional<DiagramContents> contents;  // none: it counts as never filled
   KernelSet kernels;
-
-  Kernel& kernel(const char* file, const char* name, const KernelOptions& options = {}) {
-    return kernels.get(device, file, name, grid, options);
-  }
 
   /// An engine's working memory, a struct of buffers, made empty at its first use and kept.
   template <typename Workspace>
@@ -48,8 +49,8 @@ struct DiagramState {
   /// there is, if the device cannot hold it besides what the diagram has.
   void reserve(cl::Buffer& buffer, std::size_t bytes);
 
-  /// Throws Error unless the seeds have this device and this grid.
-  void check_fits(const Seeds& seeds) const;
+  /// Where seeds lie in the window. Throws Error unless they have this device and its grid.
+  std::shared_ptr<const Placement> place(const Seeds& seeds) const;
 
   /// Waits for the queue. If the device fails, the diagram counts as never filled. Throws BadPoint if the
   /// frame that the labels are of had one.
@@ -72,7 +73,13 @@ struct DiagramState {
 class Filling {
  public:
   /// Throws Error unless seeds and diagram fit together.
-  Filling(const Seeds& seeds, Diagram& diagram);
+  Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method);
+
+  const SeedsFrame& seeds() const { return *next_.seeds; }
+  const Placement& placement() const { return *next_.placement; }
+
+  /// A kernel of the diagram for these seeds and this metric.
+  Kernel& kernel(const char* file, const char* name, Neighbourhood neighbourhood = Neighbourhood::moore);
 
   /// What the diagram held before; none if it counted as never filled.
   const std::optional<DiagramContents>& previous() const { return previous_; }
@@ -86,7 +93,7 @@ class Filling {
   Stopwatch stopwatch_;
   DiagramState& diagram_;
   std::optional<DiagramContents> previous_;
-  std::shared_ptr<const SeedsFrame> seeds_;
+  DiagramContents next_;
 };
 
 }  // namespace vorocl

@@ -1,35 +1,185 @@
 #include "vorocl/grid.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
 #include <string>
 
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl {
 
 namespace {
 
-int checked_side(std::int64_t side, const char* name, bool periodic) {
-  if (periodic && side > Grid::max_period && side <= Grid::max_side) {
-    throw Error("the grid's " + std::string(name) + " is " + std::to_string(side) +
-                "; along a periodic axis it may be " + std::to_string(Grid::max_period) + " pixels at most");
+std::string stretch_text(double from, double to) {
+  std::ostringstream text;
+  text << "an axis from " << from << " to " << to;
+  return text.str();
+}
+
+/// A scale in pixels per unit and in units per axis; an axis without extent needs none.
+bool has_scale(double extent) {
+  constexpr auto most = static_cast<double>(Axis::max_pixels);
+  return extent == 0 || (std::isfinite(extent * most) && std::isfinite(most / extent));
+}
+
+std::int64_t checked_pixels(std::int64_t pixels) {
+  if (pixels >= 1 && pixels <= Axis::max_pixels) return pixels;
+  throw Error("an axis has " + std::to_string(pixels) + " pixels; it must have from 1 to " +
+              std::to_string(Axis::max_pixels));
+}
+
+/// The whole number at or below a number: std::floor(), which is a call where the processor is not known.
+double floor_of(double number) {
+  constexpr double no_fractions_from = 4503599627370496.0;  // 2^52
+  // Written so that a NaN comes back.
+  if (!(std::abs(number) < no_fractions_from)) return number;
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(number));
+  return whole > number ? whole - 1 : whole;
+}
+
+/// Where a window begins along an axis. Throws Error if it does not lie in the grid.
+std::int64_t checked_begin(const Axis& axis, const char* name, std::int64_t begin, std::int64_t length) {
+  const std::int64_t pixels = axis.pixels();
+  if (length < 1 || length > Axis::max_pixels) {
+    throw Error("the window has " + std::to_string(length) + " pixels along " + name +
+                "; it must have from 1 to " + std::to_string(Axis::max_pixels));
   }
-  if (side < 1 || side > Grid::max_side) {
-    throw Error("the grid's " + std::string(name) + " is " + std::to_string(side) +
-                "; it must be from 1 to " + std::to_string(Grid::max_side) + " pixels");
+  if (axis.is_periodic()) {
+    if (length > pixels) return begin % pixels;
+    return (begin % pixels + pixels) % pixels;
   }
-  return static_cast<int>(side);
+  if (begin < 0 || begin > pixels - length) {
+    throw Error("the window has " + std::to_string(length) + " pixels from " + name + " = " +
+                std::to_string(begin) + " on; the grid has " + std::to_string(pixels) +
+                " along that axis, which is not periodic");
+  }
+  return begin;
 }
 
 }  // namespace
 
+// --- Axis ---
+
+Axis::Axis(std::int64_t pixels)
+    : pixels_(checked_pixels(pixels)), from_(0), to_(static_cast<double>(pixels)), in_pixels_(true) {}
+
+Axis::Axis(std::int64_t pixels, double from, double to)
+    : pixels_(checked_pixels(pixels)), from_(from), to_(to), in_pixels_(false) {
+  // Written so that a NaN fails.
+  if (!(from <= to)) throw Error(stretch_text(from, to) + " is not possible; it must begin before it ends");
+  if (!has_scale(to - from)) {
+    throw Error(stretch_text(from, to) + " is too long, or too short, to compute with");
+  }
+}
+
+Axis Axis::periodic() const {
+  if (from_ == to_) throw Error(stretch_text(from_, to_) + " has no extent, so that it cannot repeat");
+  Axis axis = *this;
+  axis.periodic_ = true;
+  return axis;
+}
+
+Axis Axis::reversed() const {
+  Axis axis = *this;
+  axis.reversed_ = !reversed_;
+  return axis;
+}
+
+Axis Axis::closed() const {
+  Axis axis = *this;
+  axis.closed_ = true;
+  return axis;
+}
+
+bool Axis::covers(double coordinate) const {
+  return periodic_ ? std::isfinite(coordinate) : coordinate >= from_ && coordinate <= to_;
+}
+
+double Axis::unreversed_pixel(double coordinate) const {
+  const auto count = static_cast<double>(pixels_);
+  if (periodic_) {
+    const double period = to_ - from_;
+    double offset = coordinate - from_;
+    if (!(offset >= 0 && offset < period)) {
+      offset = std::fmod(offset, period);
+      if (offset < 0) offset += period;
+    }
+    // What is just below the period can be rounded up to its end.
+    const double pixel = floor_of(in_pixels_ ? offset : offset * count / period);
+    return pixel >= count ? count - 1 : pixel;
+  }
+  if (from_ == to_) {
+    if (coordinate == from_) return floor_of(count / 2);
+    return coordinate < from_ ? -1 : coordinate > from_ ? count : coordinate;
+  }
+  const double pixel = floor_of(in_pixels_ ? coordinate : (coordinate - from_) * count / (to_ - from_));
+  return closed_ && coordinate <= to_ ? std::min(pixel, count - 1) : pixel;
+}
+
+double Axis::pixel(double coordinate) const {
+  const double pixel = unreversed_pixel(coordinate);
+  return reversed_ ? static_cast<double>(pixels_ - 1) - pixel : pixel;
+}
+
+double Axis::coordinate(double position) const {
+  const auto count = static_cast<double>(pixels_);
+  const double along = reversed_ ? count - position : position;
+  return in_pixels_ ? along : from_ + along * (to_ - from_) / count;
+}
+
+// --- Grid and Window ---
+
+namespace {
+Axis axis_of_pixels(std::int64_t pixels, bool periodic) {
+  return periodic ? Axis(pixels).periodic() : Axis(pixels);
+}
+}  // namespace
+
 Grid::Grid(std::int64_t width, std::int64_t height, Periodic periodic)
-    : width_(checked_side(width, "width", periodic == Periodic::x || periodic == Periodic::xy)),
-      height_(checked_side(height, "height", periodic == Periodic::y || periodic == Periodic::xy)),
-      periodic_(periodic) {
-  if (pixels() > max_pixels) {
-    throw Error("a grid of " + std::to_string(width) + " x " + std::to_string(height) +
+    : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic))) {}
+
+Window::Window(const Grid& grid) : grid_(grid), width_(grid.width()), height_(grid.height()) {}
+
+Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height)
+    : grid_(grid),
+      x_(checked_begin(grid.x(), "x", x, width)),
+      y_(checked_begin(grid.y(), "y", y, height)),
+      width_(width),
+      height_(height) {}
+
+// --- PixelGrid ---
+
+namespace {
+
+int checked_side(std::int64_t side, const char* name) {
+  if (side <= Window::max_side) return static_cast<int>(side);
+  throw Error("the " + std::string(name) + " of the diagram's window is " + std::to_string(side) +
+              "; it must be from 1 to " + std::to_string(Window::max_side) +
+              " pixels: take a window of the grid, or tiles");
+}
+
+}  // namespace
+
+PixelGrid::PixelGrid(const Window& window)
+    : PixelGrid(checked_side(window.width(), "width"), checked_side(window.height(), "height"),
+                window.periodic()) {
+  if (window.pixels() > Window::max_pixels) {
+    throw Error("a diagram of " + std::to_string(width_) + " x " + std::to_string(height_) +
                 " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
   }
+}
+
+bool fits_in_a_diagram(const Grid& grid) {
+  return grid.width() <= Window::max_side && grid.height() <= Window::max_side &&
+         grid.pixels() <= Window::max_pixels;
+}
+
+std::string size_text(const PixelGrid& pixels) {
+  const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
+  return std::to_string(pixels.width()) + " x " + std::to_string(pixels.height()) +
+         periodic[static_cast<int>(pixels.periodic())];
 }
 
 }  // namespace vorocl

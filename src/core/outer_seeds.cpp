@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
+#include <optional>
 
 #include "core/z_order.hpp"
 #include "runtime/buffer.hpp"
@@ -12,8 +12,6 @@
 namespace vorocl {
 
 namespace {
-
-constexpr std::int64_t plane_side = std::int64_t{1} << 31;
 
 /// A position of 64 bits, for sums that do not overflow.
 struct Place {
@@ -33,35 +31,52 @@ struct Entry {
   cl_uint id;
 };
 
-/// The pixels of the grid that lie in the domain along its periodic axes.
-Region labelled_region(const Grid& grid, const std::optional<Domain>& domain) {
-  Region region = {0, 0, grid.width() - 1, grid.height() - 1};
-  if (domain && has_x(domain->periodic)) {
-    region.left = std::max(region.left, domain->x);
-    region.right = std::min(region.right, domain->x + domain->width - 1);
+/// What repeats: the periods, 0 along an axis that is not periodic.
+struct Periods {
+  explicit Periods(const Grid& grid)
+      : x(grid.x().is_periodic() ? grid.width() : 0), y(grid.y().is_periodic() ? grid.height() : 0) {}
+
+  std::int64_t x, y;
+};
+
+/// The pixels of a window that lie in its grid's one period, where seeds lie themselves and not their images.
+Region home_region(const Window& window) {
+  Region region = {0, 0, window.width() - 1, window.height() - 1};
+  const Periods periods(window.grid());
+  if (periods.x > 0) {
+    region.left = std::max<std::int64_t>(region.left, -window.x());
+    region.right = std::min(region.right, periods.x - 1 - window.x());
   }
-  if (domain && has_y(domain->periodic)) {
-    region.top = std::max(region.top, domain->y);
-    region.bottom = std::min(region.bottom, domain->y + domain->height - 1);
+  if (periods.y > 0) {
+    region.top = std::max<std::int64_t>(region.top, -window.y());
+    region.bottom = std::min(region.bottom, periods.y - 1 - window.y());
   }
   return region;
 }
 
-/// Calls a function with each place of a seed that is not a pixel of the region and may be the nearest one of
-/// a pixel there: no image farther than half a period is.
+/// The pixels of a window that get labels: all along an axis of which it shows no more than a period.
+Region labelled_region(const Window& window, const Region& home) {
+  Region region = home;
+  const Periods periods(window.grid());
+  if (window.width() <= periods.x) region.left = 0, region.right = window.width() - 1;
+  if (window.height() <= periods.y) region.top = 0, region.bottom = window.height() - 1;
+  return region;
+}
+
+/// Calls a function with each place of a seed that is no pixel where seeds lie themselves and may be the
+/// nearest one of a pixel of the region: no image farther than half a period is.
 template <typename Use>
-void each_outer_place(const Region& region, const std::optional<Domain>& domain, const Place& seed, Use use) {
-  const std::int64_t period_x = domain && has_x(domain->periodic) ? domain->width : 0;
-  const std::int64_t period_y = domain && has_y(domain->periodic) ? domain->height : 0;
-  const std::int64_t images_x = period_x > 0 ? 1 : 0, images_y = period_y > 0 ? 1 : 0;
+void each_outer_place(const Region& region, const Periods& periods, const Place& seed, Use use) {
+  const std::int64_t images_x = periods.x > 0 ? 1 : 0, images_y = periods.y > 0 ? 1 : 0;
   for (std::int64_t j = -images_y; j <= images_y; ++j) {
-    const std::int64_t y = seed.y + j * period_y;
-    if (period_y > 0 && (2 * (region.top - y) > period_y || 2 * (y - region.bottom) > period_y)) continue;
+    const std::int64_t y = seed.y + j * periods.y;
+    if (periods.y > 0 && (2 * (region.top - y) > periods.y || 2 * (y - region.bottom) > periods.y)) continue;
     for (std::int64_t i = -images_x; i <= images_x; ++i) {
-      const std::int64_t x = seed.x + i * period_x;
-      if (period_x > 0 && (2 * (region.left - x) > period_x || 2 * (x - region.right) > period_x)) continue;
+      const std::int64_t x = seed.x + i * periods.x;
+      if (periods.x > 0 && (2 * (region.left - x) > periods.x || 2 * (x - region.right) > periods.x))
+        continue;
       const bool inside = x >= region.left && x <= region.right && y >= region.top && y <= region.bottom;
-      if (!inside) use(Place{x, y});
+      if (i != 0 || j != 0 || !inside) use(Place{x, y});
     }
   }
 }
@@ -136,7 +151,7 @@ class Rim {
 
 /// The outer places, in order; of several on one pixel, which are images of seeds on one pixel, that of the
 /// lowest id.
-std::vector<Entry> ordered_entries(const Region& region, const std::optional<Domain>& domain,
+std::vector<Entry> ordered_entries(const Region& region, const Periods& periods,
                                    const std::vector<PlanePosition>& positions) {
   std::vector<Entry> entries;
   if (region.empty()) return entries;
@@ -148,10 +163,10 @@ std::vector<Entry> ordered_entries(const Region& region, const std::optional<Dom
   Rim rim(region);
   each_seed([&](const Place& seed, std::size_t) {
     rim.add(seed);
-    each_outer_place(region, domain, seed, [&](const Place& place) { rim.add(place); });
+    each_outer_place(region, periods, seed, [&](const Place& place) { rim.add(place); });
   });
   each_seed([&](const Place& seed, std::size_t id) {
-    each_outer_place(region, domain, seed, [&](const Place& place) {
+    each_outer_place(region, periods, seed, [&](const Place& place) {
       if (rim.rules_out(place)) return;
       const cl_int2 at = {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}};
       entries.push_back({z_order(at.s[0], at.s[1]), at, static_cast<cl_uint>(id)});
@@ -205,56 +220,40 @@ void make_tree(OuterSeeds& outer, const Device& device, const std::vector<Entry>
   outer.nodes = allocate_with(device, nodes, "seeds outside the grid");
 }
 
+cl_int4 bounds_of(const Region& region) {
+  const auto as_int = [](std::int64_t at) { return static_cast<cl_int>(at); };
+  return {{as_int(region.left), as_int(region.top), as_int(region.right), as_int(region.bottom)}};
+}
+
 /// Whether distances from all pixels to all these positions, and their keys (kernels/exact/outer.cl), take 32
 /// bits.
-bool is_near(const Grid& grid, const PlanePosition& at) {
+bool is_near(const PixelGrid& grid, const PlanePosition& at) {
   constexpr int most = 0x7fff;
   return at.s[0] >= grid.width() - 1 - most && at.s[0] <= most && at.s[1] >= grid.height() - 1 - most &&
          at.s[1] <= most;
 }
 
-void check_side(std::int64_t begin, std::int64_t length, int pixels, const char* side, const char* axis) {
-  if (length < 1 || length > plane_side) {
-    throw Error("the domain's " + std::string(side) + " is " + std::to_string(length) +
-                "; it must be from 1 to 2^31 pixels");
-  }
-  if (begin < pixels - plane_side || begin > plane_side - length) {
-    throw Error("the domain begins at " + std::string(axis) + " = " + std::to_string(begin) +
-                "; it may reach to less than 2^31 pixels from all pixels of the grid");
-  }
-}
-
 }  // namespace
 
-void check_domain(const Grid& grid, const Domain& domain) {
-  if (grid.periodic() != Periodic::none) {
-    throw Error(
-        "the grid is periodic, and there is a domain too; give the periodic axes to the domain alone");
-  }
-  check_side(domain.x, domain.width, grid.width(), "width", "x");
-  check_side(domain.y, domain.height, grid.height(), "height", "y");
-}
-
-std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const Grid& grid,
-                                                     const std::optional<Domain>& domain,
+std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const Window& window,
+                                                     const PixelGrid& pixels,
                                                      std::vector<PlanePosition> positions) {
   OuterSeeds outer;
-  if (domain) outer.periodic = domain->periodic;
   bool near = true;
   for (const PlanePosition& position : positions) {
     if (is_absent(position)) continue;
-    outer.outside += is_inside(grid, position) ? 0 : 1;
-    near = near && is_near(grid, position);
+    outer.outside += is_inside(pixels, position) ? 0 : 1;
+    near = near && is_near(pixels, position);
   }
-  if (outer.outside == 0 && outer.periodic == Periodic::none) return nullptr;
+  if (outer.outside == 0 && window.grid().periodic() == Periodic::none) return nullptr;
 
-  const Region region = labelled_region(grid, domain);
-  const auto as_int = [](std::int64_t at) { return static_cast<cl_int>(at); };
-  outer.region = {{as_int(region.left), as_int(region.top), as_int(region.right), as_int(region.bottom)}};
-  if (domain && has_x(domain->periodic)) outer.periods.s[0] = static_cast<cl_uint>(domain->width);
-  if (domain && has_y(domain->periodic)) outer.periods.s[1] = static_cast<cl_uint>(domain->height);
-  const std::vector<Entry> entries = ordered_entries(region, domain, positions);
-  for (const Entry& entry : entries) near = near && is_near(grid, entry.place);
+  const Periods periods(window.grid());
+  const Region home = home_region(window), region = labelled_region(window, home);
+  outer.home = bounds_of(home);
+  outer.region = bounds_of(region);
+  outer.periods = {{static_cast<cl_uint>(periods.x), static_cast<cl_uint>(periods.y)}};
+  const std::vector<Entry> entries = ordered_entries(region, periods, positions);
+  for (const Entry& entry : entries) near = near && is_near(pixels, entry.place);
   outer.extent = near ? Extent::near : Extent::far;
   positions.push_back({{absent_coordinate, 0}});
   outer.seeds = allocate_with(device, positions, "seeds outside the grid");

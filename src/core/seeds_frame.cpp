@@ -1,8 +1,11 @@
 #include "core/seeds_frame.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 
+#include "core/snapping.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
@@ -15,7 +18,26 @@ double coordinate(std::uint32_t bits) {
   return static_cast<double>(value);
 }
 
+/// The shorter way round between two pixels of an axis.
+std::int64_t way_along(const Axis& axis, std::int64_t from, std::int64_t to) {
+  const std::int64_t way = std::abs(to - from);
+  return axis.is_periodic() ? std::min(way, axis.pixels() - way) : way;
+}
+
+double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
+  const std::size_t count = std::min(earlier.size, now.size);
+  const cl::Buffer greatest = allocate(now.device, sizeof(cl_uint), "the way of the seeds");
+  fill(now.device, greatest, cl_uint{0}, 1);
+  const PixelGrid& grid = now.whole->grid;
+  Kernel(now.device, "core/seeds.cl", "find_greatest_way", grid)
+      .over_items(count, *earlier.whole->positions, *now.whole->positions, static_cast<cl_uint>(count),
+                  grid.width(), grid.height(), greatest);
+  return download<cl_uint>(now.device, greatest, 1).front();
+}
+
 }  // namespace
+
+// --- PointCheck ---
 
 PointCheck::PointCheck(const Device& device, const Grid& grid)
     : device_(device), grid_(grid), found_(allocate(device, sizeof(cl_uint4), "the check of the points")) {}
@@ -31,7 +53,8 @@ void PointCheck::read() const {
   if (known_) return;
   const cl_uint4 found = download<cl_uint4>(device_, found_, 1).front();
   if (found.s[0] != no_label) {
-    bad_point_.emplace(found.s[0], Point{coordinate(found.s[1]), coordinate(found.s[2])}, grid_);
+    bad_point_.emplace(
+        Snapping::outside_the_grid(found.s[0], Point{coordinate(found.s[1]), coordinate(found.s[2])}, grid_));
   }
   absent_ = found.s[3];
   known_ = true;
@@ -49,18 +72,94 @@ std::size_t PointCheck::absent() const {
   return absent_;
 }
 
-std::size_t SeedsFrame::alive() const { return size - absent - (marked ? points->absent() : 0); }
+// --- SeedsFrame ---
+
+double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
+                    const std::vector<PlanePosition>& to) {
+  std::int64_t greatest = 0;
+  const std::size_t count = std::min(from.size(), to.size());
+  for (std::size_t id = 0; id < count; ++id) {
+    if (is_absent(from[id]) || is_absent(to[id])) continue;
+    greatest = std::max({greatest, way_along(grid.x(), from[id].s[0], to[id].s[0]),
+                         way_along(grid.y(), from[id].s[1], to[id].s[1])});
+  }
+  return static_cast<double>(greatest);
+}
+
+std::size_t SeedsFrame::alive() const { return size - absent - (counted_there ? points->absent() : 0); }
 
 void SeedsFrame::check() const {
   if (points && points->bad_point()) throw BadPoint(*points->bad_point());
 }
 
-void SeedsFrame::refuse_outer_seeds(const char* what) const {
-  if (!outer) return;
-  const std::string lie = outer->outside == 0 ? "the seeds have a periodic domain"
-                                              : std::to_string(outer->outside) + " of " +
-                                                    std::to_string(size) + " seeds lie outside the grid";
-  throw Error(lie + ", which " + what + " cannot take; only exact diagrams do");
+double SeedsFrame::way_from(const SeedsFrame& earlier) const {
+  const bool known = earlier.owner == owner && earlier.way.stretch == way.stretch;
+  if (known) return way.all - earlier.way.all;
+  if (earlier.grid != grid || !device.same_as(earlier.device)) {
+    return static_cast<double>(std::max(grid.width(), grid.height()));
+  }
+  if (pixels && earlier.pixels) return greatest_way(grid, *earlier.pixels, *pixels);
+  if (whole && earlier.whole) return way_on_device(earlier, *this);
+  return greatest_way(grid, earlier.read_pixels(), read_pixels());
+}
+
+double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }
+
+std::vector<PlanePosition> SeedsFrame::read_pixels() const {
+  if (pixels) return *pixels;
+  check();
+  std::vector<PlanePosition> read;
+  read.reserve(size);
+  for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
+    read.push_back(position == absent_position ? PlanePosition{{absent_coordinate, 0}}
+                                               : PlanePosition{{static_cast<cl_int>(position & 0xffff),
+                                                                static_cast<cl_int>(position >> 16)}});
+  }
+  return read;
+}
+
+// --- placements ---
+
+class Placements {
+ public:
+  template <typename Make>
+  std::shared_ptr<const Placement> get(const Window& window, const PixelGrid& shown, Make make) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const Known& known : known_) {
+      if (known.window == window && known.shown == shown) return known.placement;
+    }
+    known_.push_back({window, shown, make()});
+    return known_.back().placement;
+  }
+
+ private:
+  struct Known {
+    Window window;
+    PixelGrid shown;
+    std::shared_ptr<const Placement> placement;
+  };
+  std::mutex mutex_;
+  std::vector<Known> known_;
+};
+
+std::shared_ptr<Placements> no_placements() { return std::make_shared<Placements>(); }
+
+std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, const PixelGrid& shown) const {
+  if (whole && window.is_whole() && shown == whole->grid) return whole;
+  return placements->get(window, shown,
+                         [&] { return place_in_window(device, window, shown, read_pixels()); });
+}
+
+void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
+  if (!placement.outer) return;
+  const std::size_t outside = placement.outer->outside;
+  if (outside > 0) {
+    throw Error(std::to_string(outside) + " of " + std::to_string(frame.size) +
+                " seeds lie outside the diagram's window, which " + what +
+                " cannot take; only exact diagrams do");
+  }
+  throw Error("the diagram's window is not one whole period of at most 32,000 pixels, which " +
+              std::string(what) + " cannot take; only exact diagrams do");
 }
 
 }  // namespace vorocl

@@ -6,8 +6,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
-#include "core/outer_seeds.hpp"
+#include "core/placement.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/grid.hpp"
@@ -46,26 +47,71 @@ class PointCheck {
   mutable std::size_t absent_ = 0;
 };
 
-/// Nothing of it changes.
+/// How far seeds went from frame to frame, as far as the host knows without asking the device.
+struct Way {
+  double last = 0;            // along an axis, in pixels, in the last move
+  double all = 0;             // the sum over the moves of this stretch
+  std::uint64_t stretch = 0;  // a new one begins with each move that only the device knows
+};
+
+/// The placements of a frame in windows that were asked for.
+class Placements;
+
+/// Nothing of it changes, but that placements are made when they are first asked for.
 struct SeedsFrame {
   Device device;
   Grid grid;
   std::size_t size = 0;
-  std::size_t absent = 0;        // known to the host; not those that the check counts
-  std::uint64_t owner = 0;       // the Seeds object it is of: no two have the same number
-  std::uint64_t vanishings = 0;  // how often, up to this frame, a seed may have gone that was there before
+  std::size_t absent = 0;    // known to the host; not those that the check counts
+  std::size_t outside = 0;   // the grid
+  std::uint64_t owner = 0;   // the Seeds object it is of: no two have the same number
+  std::uint64_t losses = 0;  // how often, up to this frame, a seed may have gone that was there before
+  Way way = {};
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
-  bool marked = false;                                 // a buffer said which seeds are present
-  std::shared_ptr<const OuterSeeds> outer = nullptr;   // none: all seeds lie in the pixels
+  bool counted_there = false;                          // the check counts seeds that are absent
 
-  /// The seeds that are there. Waits for the device if they are marked. A bad point is not absent.
+  /// The points as they were given, by id; null where the device has placed the seeds.
+  std::shared_ptr<const std::vector<Point>> given = nullptr;
+
+  /// The pixels, by id, counted from the grid's first one; null where the device has placed the seeds.
+  std::shared_ptr<const std::vector<PlanePosition>> pixels = nullptr;
+
+  /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
+  std::shared_ptr<const Placement> whole = nullptr;
+
+  /// The frame before (which does not remember its own), where the host does not know how far the seeds went.
+  std::shared_ptr<const SeedsFrame> before = nullptr;
+
+  std::shared_ptr<Placements> placements = nullptr;  // of other windows
+
+  /// The seeds that are there. Waits for the device if it counts them. A bad point is not absent.
   std::size_t alive() const;
 
   /// Throws BadPoint if there was one. May wait for the device.
   void check() const;
 
-  /// Throws Error if there are outer seeds, for something ("jump flooding") that does not know them.
-  void refuse_outer_seeds(const char* what) const;
+  /// Where the seeds lie in a window of the grid, of which these pixels are shown. Made at the first
+  /// question; then the host waits if the device has placed the seeds.
+  std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
+
+  /// The greatest way of a seed along an axis to this frame from an earlier one. May wait.
+  double way_from(const SeedsFrame& earlier) const;
+
+  /// The same from the frame before.
+  double way_of_last_move() const;
+
+  /// The pixels, from the device where the host has none. Waits.
+  std::vector<PlanePosition> read_pixels() const;
 };
+
+std::shared_ptr<Placements> no_placements();
+
+/// The greatest way along an axis between the pixels of one frame and another, for seeds present in both.
+double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
+                    const std::vector<PlanePosition>& to);
+
+/// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, for something
+/// ("jump flooding") that does not know them.
+void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what);
 
 }  // namespace vorocl

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "core/seeds_frame.hpp"
@@ -12,68 +11,66 @@
 
 namespace vorocl {
 
-/// The position of a seed that is absent, or outside the grid: EMPTY of position.cl.
-constexpr std::uint32_t absent_position = 0x80008000u;
-
-/// The position of a seed in a pixel.
-inline std::uint32_t pack(int x, int y) {
-  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
-}
-
-/// Where the host has placed seeds.
-struct Placement {
-  std::vector<std::uint32_t> packed;  // by id; absent_position if absent or outside the grid
-  std::vector<PlanePosition>
-      in_the_plane;  // by id; none if all seeds lie in the pixels of a plane that has no period
-};
-
 struct SeedsState {
-  SeedsState(const Device& device, const Grid& grid);
+  SeedsState(const Device& device, const Grid& grid, Outside outside);
 
   Device device;
-  Grid grid;
-  cl::Buffer positions;       // of the present frame
+  Outside outside;
   std::vector<bool> present;  // by id, as far as the host knows
   KernelSet kernels;
 
+  const Grid& grid() const { return frame_->grid; }
   std::size_t size() const { return present.size(); }
 
   /// The present frame.
   const std::shared_ptr<const SeedsFrame>& frame() const { return frame_; }
 
-  /// Makes the next frame of seeds that the host has placed.
-  void place(Placement&& placement, const std::optional<Domain>& domain = std::nullopt);
+  /// Makes the next frame of points on the host.
+  void place(const Grid& grid, const Points& points);
 
-  /// Makes the next frame from the caller's buffers. `marks` may be null.
-  void place(const cl::Buffer& points, std::size_t count, const cl::Buffer& marks);
+  /// Makes the next frame of points in the caller's buffers.
+  void place(const PointBuffer& points);
 
-  /// Makes the next frame, of seeds that a kernel places: room for so many, all present.
-  void place_on_device(std::size_t count);
+  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` may be
+  /// null.
+  void place(const Grid& grid, std::vector<PlanePosition>&& pixels,
+             std::shared_ptr<const std::vector<Point>> given);
 
-  /// Makes the next frame: the same seeds, which a kernel has moved.
-  void moved();
+  /// Makes the next frame, of so many seeds that a kernel places: all present.
+  void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);
 
-  /// Takes the frame and the positions of another object, on the device.
+  /// Room for the positions of so many seeds, and one more, that no frame uses.
+  std::shared_ptr<cl::Buffer> room_for_positions(std::size_t count);
+
+  /// The positions in a diagram of the whole grid, copied to where a kernel may move them. Throws Error if
+  /// seeds lie outside the grid, for something ("random motion") that does not know them.
+  std::shared_ptr<cl::Buffer> copy_to_move(const char* what);
+
+  /// Makes the next frame: the same seeds, which a kernel has moved by at most `way` pixels along an axis.
+  void moved(const std::shared_ptr<cl::Buffer>& positions, double way);
+
+  /// Takes the frame of another object.
   void copy_from(const SeedsState& other);
 
  private:
   /// The next frame of so many seeds, still without what is known of their points.
-  SeedsFrame next_frame(std::size_t size, bool vanished) const;
+  SeedsFrame next_frame(const Grid& grid, std::size_t size, bool lost) const;
 
-  /// Makes room for the positions of the next frame. The present ones are not touched: if the move fails,
-  /// they stay.
-  const cl::Buffer& next_positions(std::size_t count);
+  /// Says that only the device knows how far the seeds went.
+  void way_is_unknown(SeedsFrame& next) const;
 
-  /// The next frame becomes the present one, with the positions in next_positions().
+  /// The next frame becomes the present one.
   void commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept;
 
   /// A check that no frame remembers any more: a loop over frames makes two or three in all.
   std::shared_ptr<PointCheck> unused_check();
 
+  void place_on_the_device(const PointBuffer& points);
+
   std::shared_ptr<const SeedsFrame> frame_;
-  cl::Buffer spare_;                                 // where the next positions go
   Upload<std::uint32_t> upload_;                     // of positions that the host has placed
-  std::vector<std::shared_ptr<PointCheck>> checks_;  // those of frames that are remembered, and unused ones
+  std::vector<std::shared_ptr<cl::Buffer>> rooms_;   // of positions: those of frames that are remembered ...
+  std::vector<std::shared_ptr<PointCheck>> checks_;  // ... and unused ones; checks likewise
 };
 
 }  // namespace vorocl

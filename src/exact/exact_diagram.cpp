@@ -5,7 +5,6 @@
 #include "core/diagram_state.hpp"
 #include "exact/group_shape.hpp"
 #include "exact/index.hpp"
-#include "exact/lists.hpp"
 #include "exact/outer.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
@@ -28,13 +27,8 @@ struct ExactWorkspace {
 }  // namespace
 
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
-  return exact_diagram_with_lists(seeds, diagram, options, ListLength::full);
-}
-
-Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
-                                ListLength length) {
   if (diagram.device().tuning().shape == Shape::group && fits_in_groups(diagram.grid())) {
-    return exact_diagram_in_groups(seeds, diagram, options, length);
+    return exact_diagram_in_groups(seeds, diagram, options);
   }
   Filling filling(seeds, diagram);
   DiagramState& state = Internal::state(diagram);
@@ -50,7 +44,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   state.reserve(memory.lists, list_count * MOST_CANDIDATES * word);
   state.reserve(memory.counts, list_count * word);
 
-  const char* const file = length == ListLength::full ? "exact/diagram.cl" : "exact/short_lists.cl";
+  const char* const file = "exact/diagram.cl";
   const std::size_t group = device.tuning().group_width * device.tuning().group_height;
   // Work-items that do much each: small groups spread them over the compute units.
   const auto heavy = [&](const char* name, std::size_t most) -> Kernel& {
@@ -70,7 +64,7 @@ Report exact_diagram_with_lists(const Seeds& seeds, Diagram& diagram, const Exac
   const cl::Event last = heavy("label_far", 64)
                              .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
                                          pyramid, top, lists, counts, state.labels);
-  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, length, last));
+  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, last));
 }
 
 }  // namespace vorocl

@@ -33,7 +33,7 @@ Device without_vectors(const Device& device) {
 /// A work-group of the search has more items than others: it may have all seeds as candidates of one patch
 /// while most of the device has nothing to do.
 std::size_t items_of_search(const Device& device) {
-  const std::size_t most = std::min<std::size_t>(group_limits(device.cl_device()()).items, MOST_ITEMS);
+  const std::size_t most = std::min<std::size_t>(Internal::state(device).limits.items, MOST_ITEMS);
   std::size_t items = device.tuning().patch_items;
   while (items * 2 <= most) items *= 2;
   return items;
@@ -52,8 +52,7 @@ bool fits_in_groups(const Grid& grid) {
          (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
 }
 
-Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
-                               ListLength length) {
+Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram);
   DiagramState& state = Internal::state(diagram);
   const int width = state.grid.width(), height = state.grid.height();
@@ -62,12 +61,10 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   state.reserve(memory.pending, patches * word);
   state.reserve(memory.queue, (1 + 2 * patches) * word);
 
-  const char* const file =
-      length == ListLength::full ? "exact/group/diagram.cl" : "exact/group/short_lists.cl";
+  const char* const file = "exact/group/diagram.cl";
   const Device device = without_vectors(state.device);
   const std::size_t items = device.tuning().patch_items;
-  // The tests' short lists are for groups of all sizes.
-  const std::size_t of_search = length == ListLength::full ? items_of_search(device) : items;
+  const std::size_t of_search = items_of_search(device);
   const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
     return state.kernels.get(device, file, name, state.grid, {options.metric}).in_groups_of(items_of_group);
   };
@@ -84,7 +81,7 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
       kernel("search_patches", of_search)
           .over_items(groups_of_search(device, patches) * of_search, bits, starts, word_starts, list, ids,
                       width, height, pyramid, top, memory.queue, state.labels);
-  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, length, last));
+  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, last));
 }
 
 }  // namespace vorocl

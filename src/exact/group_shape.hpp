@@ -2,15 +2,14 @@
 // (kernels/exact/group/).
 #pragma once
 
-#include "exact/lists.hpp"
+#include "vorocl/exact_diagram.hpp"
 
 namespace vorocl {
 
 /// Whether the shape can do it: its periods are limited.
 bool fits_in_groups(const Grid& grid);
 
-/// As exact_diagram_with_lists(), whatever the shape of the device's tuning.
-Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options,
-                               ListLength length);
+/// As exact_diagram(), whatever the shape of the device's tuning.
+Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options);
 
 }  // namespace vorocl

@@ -20,16 +20,14 @@ std::size_t boxes_along(int pixels) { return (static_cast<std::size_t>(pixels - 
 
 }  // namespace
 
-cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, ListLength length,
-                          const cl::Event& last) {
+cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, const cl::Event& last) {
   const std::shared_ptr<const OuterSeeds>& outer = Internal::state(seeds).frame()->outer;
   if (!outer) return last;
   const Grid& grid = state.grid;
   const int width = grid.width(), height = grid.height();
   const cl_int4& region = outer->region;
-  const char* const file = length == ListLength::full ? "exact/outer.cl" : "exact/short_outer.cl";
   const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernel(file, name, {metric, Neighbourhood::moore, outer->extent});
+    return state.kernel("exact/outer.cl", name, {metric, Neighbourhood::moore, outer->extent});
   };
   cl::Event event = last;
   if (outer->count > 0) {
@@ -42,7 +40,8 @@ cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric
     kernel("list_outer_seeds")
         .in_groups_of(std::min<std::size_t>(group, 64))
         .over_items(boxes, outer->places, outer->nodes, outer->count, outer->top, outer->top_start,
-                    state.labels, outer->seeds, region, width, height, memory.lists, memory.counts);
+                    state.labels, outer->seeds, region, outer->home, width, height, memory.lists,
+                    memory.counts);
     Kernel& compare = kernel("compare_outer_seeds");
     const std::size_t squares_of_row = OUTER_BOX / compare.vector_width();
     event = compare.over_items(boxes * squares_of_row * squares_of_row, outer->places, outer->nodes,

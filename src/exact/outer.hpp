@@ -2,13 +2,11 @@
 #pragma once
 
 #include "core/diagram_state.hpp"
-#include "exact/lists.hpp"
 
 namespace vorocl {
 
 /// Corrects labels that were made of the seeds inside the pixels by those outside. Returns the last command:
 /// `last`, that of the engine, if there are none.
-cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, ListLength length,
-                          const cl::Event& last);
+cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, const cl::Event& last);
 
 }  // namespace vorocl

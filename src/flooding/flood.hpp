@@ -21,7 +21,9 @@ struct FloodWorkspace {
 class Flood {
  public:
   /// Checks that seeds and diagram fit together and makes the working memory. Enqueues nothing.
-  Flood(const Seeds& seeds, Diagram& diagram, Metric metric);
+  Flood(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method);
+
+  const SeedsFrame& seeds() const { return filling_.seeds(); }
 
   /// What the diagram held before.
   const std::optional<DiagramContents>& previous() const { return filling_.previous(); }
@@ -70,9 +72,11 @@ class Flood {
   /// Enqueues measure_labels(), for a squared distance, or in the Manhattan metric a distance.
   cl::Event measure_labels(std::uint32_t near);
 
-  const Seeds& seeds_;
   DiagramState& diagram_;
   Filling filling_;
+  const PixelGrid& grid_;
+  const cl::Buffer& positions_;
+  cl_uint count_;  // of the seeds
   Metric metric_;
   FloodWorkspace& memory_;
   cl::Event first_event_, last_event_;

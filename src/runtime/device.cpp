@@ -148,7 +148,16 @@ std::string list_of(const std::vector<Candidate>& candidates) {
   return text;
 }
 
-Tuning default_tuning(cl_device_id device) {
+GroupLimits group_limits(cl_device_id device) {
+  std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
+  check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
+                        sizes.data(), nullptr),
+        "asking for the sizes of work-groups");
+  return {std::min(device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE), sizes.at(0)),
+          sizes.at(1)};
+}
+
+Tuning default_tuning(cl_device_id device, const GroupLimits& limits) {
   Tuning tuning;
   if ((device_info<cl_device_type>(device, CL_DEVICE_TYPE) & CL_DEVICE_TYPE_CPU) != 0) {
     // As many lanes as the CPU's registers hold, and a work-group that walks along a row.
@@ -159,7 +168,6 @@ Tuning default_tuning(cl_device_id device) {
   } else {
     tuning.shape = Shape::group;
   }
-  const GroupLimits limits = group_limits(device);
   while (tuning.group_height > 1 && !limits.allow(tuning.group_width, tuning.group_height))
     tuning.group_height /= 2;
   while (tuning.group_width > 1 && !limits.allow(tuning.group_width, tuning.group_height))
@@ -169,15 +177,6 @@ Tuning default_tuning(cl_device_id device) {
 }
 
 }  // namespace
-
-GroupLimits group_limits(cl_device_id device) {
-  std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
-  check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
-                        sizes.data(), nullptr),
-        "asking for the sizes of work-groups");
-  return {std::min(device_info<std::size_t>(device, CL_DEVICE_MAX_WORK_GROUP_SIZE), sizes.at(0)),
-          sizes.at(1)};
-}
 
 void DeviceState::enqueued(const cl::Event& command) {
   cl::Event older;
@@ -253,11 +252,12 @@ Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
   state_->queue = queue;
   const auto device = info<cl_device_id>(clGetCommandQueueInfo, queue(), CL_QUEUE_DEVICE);
   state_->device = cl::Device(device, true);
-  tuning_ = default_tuning(device);
+  state_->limits = group_limits(device);
+  tuning_ = default_tuning(device, state_->limits);
 }
 
 const cl::Context& Device::context() const { return state_->context; }
-const cl::CommandQueue& Device::queue() const { return state_->queue; }
+cl::CommandQueue& Device::queue() const { return state_->queue; }
 const cl::Device& Device::cl_device() const { return state_->device; }
 const Tuning& Device::tuning() const { return tuning_; }
 std::string Device::name() const { return device_info<std::string>(cl_device()(), CL_DEVICE_NAME); }
@@ -276,7 +276,7 @@ Device Device::with_tuning(const Tuning& tuning) const {
     throw Error("a vector width of " + std::to_string(width) +
                 " is not possible; it must be 1, 2, 4, 8 or 16");
   }
-  const GroupLimits limits = group_limits(cl_device()());
+  const GroupLimits& limits = state_->limits;
   if (!limits.allow(tuning.group_width, tuning.group_height)) {
     throw Error("a work-group of " + std::to_string(tuning.group_width) + " x " +
                 std::to_string(tuning.group_height) + " is not possible; " + name() + " allows 1 to " +

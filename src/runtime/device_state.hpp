@@ -10,10 +10,22 @@
 
 namespace vorocl {
 
+/// How large a device lets a work-group be. A group over a list of items has all of them in the first
+/// dimension.
+struct GroupLimits {
+  std::size_t items = 0, rows = 0;
+
+  bool allow(std::size_t width, std::size_t height) const {
+    return width >= 1 && height >= 1 && height <= rows && width <= items / height;
+  }
+};
+
 struct DeviceState {
   cl::Context context;
   cl::CommandQueue queue;
   cl::Device device;
+  GroupLimits limits;
+  std::string build_options;  // behind the library's own, for all programs
 
   std::mutex programs_mutex;                    // held while a program is looked up or built
   std::map<std::string, cl::Program> programs;  // by file and build options
@@ -31,16 +43,5 @@ struct DeviceState {
   int commands_ = 0;        // of the present batch
   cl::Event end_of_batch_;  // the last command of the batch before it
 };
-
-/// How large a device lets a work-group be. A group over a list of items has all of them in the first
-/// dimension.
-struct GroupLimits {
-  std::size_t items, rows;
-
-  bool allow(std::size_t width, std::size_t height) const {
-    return width >= 1 && height >= 1 && height <= rows && width <= items / height;
-  }
-};
-GroupLimits group_limits(cl_device_id device);
 
 }  // namespace vorocl

@@ -5,6 +5,7 @@
 
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
+#include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl {
@@ -15,6 +16,11 @@ struct Internal {
   /// Throws Error if the object was moved from.
   static SeedsState& state(const Seeds& seeds) { return seeds.state(); }
   static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
+
+  static Report report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
+                       const FloodStart& start = {}) {
+    return {waves, first, last, host_milliseconds, start};
+  }
 
   /// Seeds of which there are none yet: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);

@@ -3,29 +3,29 @@
 #include <cstring>
 
 #include "runtime/device_state.hpp"
+#include "runtime/metric.hpp"
 #include "runtime/program.hpp"
 
 namespace vorocl {
 
 namespace {
 
-int vector_width_for(const Device& device, const Grid& grid) {
+int vector_width_for(const Device& device, const PixelGrid& grid) {
   int width = device.tuning().vector_width;
   while (width > grid.width()) width /= 2;
   return width;
 }
 
 /// Whether there may be two images of a seed in the surroundings of a bin: see exact/sizes.cl.
-bool has_short_period(const Grid& grid) {
+bool has_short_period(const PixelGrid& grid) {
   constexpr int surroundings = 64;
   return (grid.periodic_x() && grid.width() < surroundings) ||
          (grid.periodic_y() && grid.height() < surroundings);
 }
 
-std::string build_options(int vector_width, const Grid& grid, const KernelOptions& options) {
+std::string build_options(int vector_width, const PixelGrid& grid, const KernelOptions& options) {
   return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(vector_width) +
-         " -DVOROCL_GUARD=" + std::to_string(guard) +
-         (options.metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
+         " -DVOROCL_GUARD=" + std::to_string(guard) + build_option(options.metric) +
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
                                                         : " -DVOROCL_NEIGHBOURS=5") +
          (options.extent != Extent::grid ? " -DVOROCL_OUTER_SEEDS" : "") +
@@ -47,7 +47,7 @@ std::size_t group_size(std::size_t wanted, std::size_t count) {
 
 }  // namespace
 
-Kernel::Kernel(const Device& device, const char* file, const char* name, const Grid& grid,
+Kernel::Kernel(const Device& device, const char* file, const char* name, const PixelGrid& grid,
                const KernelOptions& options)
     : device_(device),
       file_(file),
@@ -103,13 +103,13 @@ cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const s
   return event;
 }
 
-bool Kernel::is_for(const Device& device, const Grid& grid) const {
+bool Kernel::is_for(const Device& device, const PixelGrid& grid) const {
   const Tuning &own = device_.tuning(), &other = device.tuning();
   return grid_ == grid && device_.same_as(device) && own.vector_width == other.vector_width &&
          own.group_width == other.group_width && own.group_height == other.group_height;
 }
 
-Kernel& KernelSet::get(const Device& device, const char* file, const char* name, const Grid& grid,
+Kernel& KernelSet::get(const Device& device, const char* file, const char* name, const PixelGrid& grid,
                        const KernelOptions& options) {
   for (Kernel& kernel : kernels_) {
     if (std::strcmp(kernel.name_, name) != 0 || std::strcmp(kernel.file_, file) != 0) continue;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "runtime/opencl_error.hpp"
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/device.hpp"
-#include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
@@ -41,7 +41,7 @@ class Kernel {
  public:
   /// The kernel `name` of a kernel file, built for the device's vector width, or less where a row is shorter
   /// than that. The texts must outlive the kernel.
-  Kernel(const Device& device, const char* file, const char* name, const Grid& grid,
+  Kernel(const Device& device, const char* file, const char* name, const PixelGrid& grid,
          const KernelOptions& options = {});
 
   /// The pixels of a vector.
@@ -81,7 +81,7 @@ class Kernel {
     std::size_t size = 0;  // 0: not set yet
   };
 
-  bool is_for(const Device& device, const Grid& grid) const;
+  bool is_for(const Device& device, const PixelGrid& grid) const;
   void set_arguments(std::size_t) {}
   template <typename First, typename... Rest>
   void set_arguments(std::size_t index, const First& first, const Rest&... rest) {
@@ -103,7 +103,7 @@ class Kernel {
   Device device_;
   const char* file_;
   const char* name_;
-  Grid grid_;
+  PixelGrid grid_;
   KernelOptions options_;
   int vector_width_;       // pixels that one work-item computes
   std::size_t group_ = 0;  // work-items of a group over items; 0: the usual ones, less for few items
@@ -115,7 +115,7 @@ class Kernel {
 class KernelSet {
  public:
   /// The kernel, made at its first use, and anew when the device or the grid is another than the last time.
-  Kernel& get(const Device& device, const char* file, const char* name, const Grid& grid,
+  Kernel& get(const Device& device, const char* file, const char* name, const PixelGrid& grid,
               const KernelOptions& options = {});
 
  private:

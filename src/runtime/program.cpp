@@ -117,11 +117,12 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
   DeviceState& state = Internal::state(device);
   const std::lock_guard<std::mutex> lock(state.programs_mutex);
-  const std::string key = file + ' ' + options;
+  const std::string all = state.build_options.empty() ? options : options + ' ' + state.build_options;
+  const std::string key = file + ' ' + all;
   const auto found = state.programs.find(key);
   if (found != state.programs.end()) return found->second;
   const std::string more = environment("VOROCL_BUILD_OPTIONS");
-  cl::Program program = build(device, file, more.empty() ? options : options + ' ' + more);
+  cl::Program program = build(device, file, more.empty() ? all : all + ' ' + more);
   return state.programs.emplace(key, program).first->second;
 }
 

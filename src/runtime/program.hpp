@@ -11,6 +11,7 @@ namespace vorocl {
 /// The program of a kernel file ("flooding/jump_flooding.cl") and all that it includes, from the device's
 /// cache or built now. Safe from several threads. Throws Error with device, options and log if the build
 /// fails; the log's lines are those of the .cl files.
+/// Behind the options go those of the device (DeviceState).
 ///
 /// For who debugs a kernel, three variables of the environment are read at each build: VOROCL_KERNEL_DIR, a
 /// folder whose files replace the embedded kernels; VOROCL_BUILD_OPTIONS, which go behind the library's own;

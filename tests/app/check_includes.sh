@@ -16,12 +16,13 @@ may_include() {
   trouble=1
 }
 may_include formats
-may_include studies formats
-may_include app/terminal formats studies
-may_include app/sources formats studies app/terminal
-may_include app/outputs formats studies app/terminal app/sources
-may_include app/options formats studies app/terminal app/sources app/outputs
-may_include app/commands formats studies app/terminal app/sources app/outputs app/options
+may_include trials formats
+may_include app/terminal formats trials
+may_include app/sources formats trials app/terminal
+may_include app/outputs formats trials app/terminal app/sources
+may_include app/options formats trials app/terminal app/sources app/outputs
+may_include app/commands formats trials app/terminal app/sources app/outputs app/options
+may_include studies formats trials app/terminal app/sources app/options
 
 # What takes long to compile, or to load, is included in one place.
 only_in() {

@@ -26,8 +26,7 @@ std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::s
 
 BOOST_AUTO_TEST_CASE(every_level_has_help) {
   const TemporaryFolder folder;
-  for (const char* subcommand :
-       {"devices", "render", "simulate", "cells", "relax", "compare", "bench", "evaluate", "ablation"}) {
+  for (const char* subcommand : {"devices", "render", "simulate", "cells", "relax", "compare", "bench"}) {
     BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
     BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
   }
@@ -38,6 +37,16 @@ BOOST_AUTO_TEST_CASE(every_level_has_help) {
     const bool has_fit = help.find("else what --fit says of a trajectory") != std::string::npos;
     BOOST_TEST(has_fit == (subcommand == std::string("simulate")), help);
     BOOST_TEST(has_fit == (help.find("the box of a trajectory's frame") == std::string::npos), help);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(subcommands_that_have_left_say_where_they_are) {
+  const TemporaryFolder folder;
+  for (const std::string subcommand : {"evaluate", "ablation"}) {
+    for (const char* options : {"", " -o t.csv", " --help"}) {
+      refuses(folder, subcommand + options, usage,
+              {"vorocl " + subcommand + " is now vorocl-study " + subcommand + ", with the same options\n"});
+    }
   }
 }
 

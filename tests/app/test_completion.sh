@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The completion of the command: test_completion.sh COMMAND
+# The completion of the programs: test_completion.sh VOROCL VOROCL_STUDY
 set -euo pipefail
-command=$1
+command=$1 study=$2
 # shellcheck disable=SC1091
 source "$(dirname "$0")/../../tools/vorocl.bash"
 
@@ -20,10 +20,8 @@ expect "render" ren
 expect "render relax" re
 expect "cells compare" c
 expect "devices" d
-expect "evaluate" ev
 expect "--check" devices --c
 expect "--resume" simulate --res
-expect "--seeds" evaluate --se
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis viridis_r" render --metric manhattan --palette v
@@ -36,3 +34,9 @@ expect "--labels" cells --lab
 expect "exact" cells --method e
 expect "--relaxed-points" relax --rel
 expect "" render --points cities
+
+command=$study
+expect "evaluate" ev
+expect "evaluate ablation" ""
+expect "--seeds" evaluate --se
+expect "--resume --repeats" evaluate --re

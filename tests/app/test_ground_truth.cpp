@@ -5,8 +5,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "studies/ground_truth.hpp"
-#include "studies/opencv_baseline.hpp"
+#include "trials/benchmark.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "formats/hash.hpp"
+#include "formats/values.hpp"
 #include "reference_flood.hpp"
 #include "run_command.hpp"
-#include "studies/known_answers.hpp"
+#include "trials/known_answers.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

@@ -1,7 +1,7 @@
 // What is said of output files before there is anything to write.
 #define BOOST_TEST_MODULE output_files
 #include "app/outputs/output_files.hpp"
-#include "app/terminal/usage_error.hpp"
+#include "app/terminal/console.hpp"
 #include "fixture.hpp"
 #include "temporary_folder.hpp"
 

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "app/sources/random_pixels.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "formats/npy.hpp"
 #include "run_command.hpp"
 

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "brute_force.hpp"
-#include "exact/lists.hpp"
 #include "exact/reference.hpp"
+#include "list_length.hpp"
 #include "runtime/kernel_sources.hpp"
 #include "runtime/opencl_info.hpp"
 #include "runtime/program.hpp"
@@ -77,9 +77,9 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   for (Pixel pixel : random_pixels({40, grid.height()}, 40, 4)) pixels.push_back({pixel.x + 35, pixel.y});
   pixels.push_back(pixels.back());
   const Seeds seeds(device, grid, centres(pixels));
-  Diagram diagram(device, grid);
-  for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
-    exact_diagram_with_lists(seeds, diagram, {metric}, length);
+  for (const ListLength length : both_lengths) {
+    Diagram diagram(with_lists(device, length), grid);
+    exact_diagram(seeds, diagram, {metric});
     diagram.wait();
   }
 }
@@ -87,16 +87,15 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
 /// A window with seeds in and around it, at a distance, and a zoom into a periodic domain. The right and the
 /// lower part of the grid are outside the domain.
 void make_windows(const Device& device, const Grid& grid, Metric metric) {
-  Diagram diagram(device, grid);
+  Diagram diagram(device, grid), by_short_lists(with_lists(device, ListLength::two_entries), grid);
   for (const int distance : {40, 100000}) {
     std::vector<Point> points = {{3, 4}, {30, 8}};
     for (int i = 0; i < 90; ++i)
       points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
     Seeds seeds(device, grid, points);
     const auto measure_labels = [&] {
-      for (const ListLength length : {ListLength::full, ListLength::two_entries}) {
-        exact_diagram_with_lists(seeds, diagram, {metric}, length);
-      }
+      exact_diagram(seeds, by_short_lists, {metric});
+      exact_diagram(seeds, diagram, {metric});
       CellShapesResult shapes;
       cell_shapes(seeds, diagram, shapes, metric);
       Field<float> floats;

@@ -26,11 +26,11 @@ const std::vector<Engine>& engines() {
     std::vector<Engine> made;
     for (const ListLength lists : both_lengths) {
       const std::string of_lists = std::string(", ") + name_of(lists);
-      made.push_back({"vector shape" + of_lists, shaped(Shape::vector), lists});
+      made.push_back({"vector shape" + of_lists, shaped(Shape::vector, lists), lists});
       for (const std::size_t items : {64u, 256u}) {
         if (items != 64 && lists != ListLength::full) continue;
         made.push_back({"group shape, " + std::to_string(items) + " items" + of_lists,
-                        shaped(Shape::group, items), lists});
+                        shaped(Shape::group, lists, items), lists});
       }
     }
     return made;
@@ -65,8 +65,7 @@ void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metri
     if (engine.lists != ListLength::full && !short_lists_too) continue;
     BOOST_TEST_CONTEXT(grid.width() << " x " << grid.height() << ", " << seeds.size() << " seeds, "
                                     << vorocl::name_of(metric) << ", " << engine.name) {
-      BOOST_TEST(
-          count_differences(exact_labels(engine.device, grid, seeds, metric, engine.lists), expected) == 0);
+      BOOST_TEST(count_differences(exact_labels(engine.device, grid, seeds, metric), expected) == 0);
     }
   }
 }
@@ -82,7 +81,7 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
       }
       for (const Engine& engine : engines(c.grid)) {
         BOOST_TEST_CONTEXT(c.name << ", " << vorocl::name_of(metric) << ", " << engine.name) {
-          const Labels labels = exact_labels(engine.device, c.grid, c.seeds, metric, engine.lists);
+          const Labels labels = exact_labels(engine.device, c.grid, c.seeds, metric);
           BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }
@@ -113,7 +112,7 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
       // The usual ways each time, the others now and then.
       const bool usual = engine.lists == ListLength::full && engine.device.tuning().patch_items == 64;
       if (!usual && rng() % 4 != 0) continue;
-      const Labels labels = exact_labels(engine.device, grid, seeds, metric, engine.lists);
+      const Labels labels = exact_labels(engine.device, grid, seeds, metric);
       const std::size_t wrong = count_differences(labels, expected);
       BOOST_TEST(wrong == 0, "case " << i << ": " << wrong << " wrong pixels of " << grid.width() << " x "
                                      << grid.height() << " (periodic " << static_cast<int>(grid.periodic())
@@ -186,7 +185,7 @@ BOOST_AUTO_TEST_CASE(same_labels_for_every_tuning) {
         BOOST_TEST_CONTEXT(c.name << ", width " << tuning.vector_width << ", groups of " << tuning.group_width
                                   << " x " << tuning.group_height << ", " << name_of(lists)) {
           const Labels labels =
-              exact_labels(test_device().with_tuning(tuning), c.grid, c.seeds, Metric::euclidean, lists);
+              exact_labels(with_lists(test_device().with_tuning(tuning), lists), c.grid, c.seeds);
           BOOST_TEST(count_differences(labels, expected) == 0);
         }
       }

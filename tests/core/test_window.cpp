@@ -24,7 +24,7 @@ const Engine& engine_for(const Grid& grid, std::size_t number) {
 
 Labels labels_of(const Engine& engine, const Seeds& seeds, Metric metric) {
   Diagram diagram(engine.device, seeds.grid());
-  exact_diagram_with_lists(seeds, diagram, {metric}, engine.lists);
+  exact_diagram(seeds, diagram, {metric});
   return diagram.read();
 }
 

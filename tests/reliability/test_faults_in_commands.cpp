@@ -25,8 +25,8 @@ const std::string subcommands[] = {
     "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
     "tiles --random 9 --size 40x30 --tile 16 --labels l.tif -o p.png --cells c.csv --adjacency a.csv",
     "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",
-    "evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
-    "ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
+    "vorocl-study evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
+    "vorocl-study ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
     "devices"};
 
 struct Fault {
@@ -72,7 +72,7 @@ void check_with(const Fault& fault, const TemporaryFolder& whole) {
       }
     } else {
       BOOST_TEST(result.exit_code == failure);
-      BOOST_TEST(result.error.rfind("vorocl: error: ", 0) == 0u);
+      BOOST_TEST(result.error.rfind(Line(fault.subcommand).name + ": error: ", 0) == 0u);
       BOOST_TEST(result.error.back() == '\n');
       BOOST_TEST(result.error.find(".vorocl-") == std::string::npos);
       if (fault.subcommand.find("times.csv") == std::string::npos) check_left(folder, whole, false);

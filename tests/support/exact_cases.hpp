@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "brute_force.hpp"
-#include "exact/lists.hpp"
 #include "fixture.hpp"
+#include "list_length.hpp"
 
 namespace vorocl {
 
@@ -18,23 +18,18 @@ using Labels = std::vector<std::uint32_t>;
 /// Many more and larger cases, for minutes instead of seconds.
 inline const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
-constexpr ListLength both_lengths[] = {ListLength::full, ListLength::two_entries};
-inline const char* name_of(ListLength lists) {
-  return lists == ListLength::full ? "full lists" : "short lists";
-}
-
-/// The test device with another shape of the engine.
-inline Device shaped(Shape shape, std::size_t patch_items = 64) {
+/// The test device with another shape of the engine, and lists of some length inside.
+inline Device shaped(Shape shape, ListLength lists, std::size_t patch_items = 64) {
   Tuning tuning = test_device().tuning();
   tuning.shape = shape;
   tuning.patch_items = patch_items;
-  return test_device().with_tuning(tuning);
+  return with_lists(test_device().with_tuning(tuning), lists);
 }
 
 inline Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
-                           Metric metric = Metric::euclidean, ListLength lists = ListLength::full) {
+                           Metric metric = Metric::euclidean) {
   Diagram diagram(device, grid);
-  exact_diagram_with_lists(Seeds(device, grid, centres(seeds)), diagram, {metric}, lists);
+  exact_diagram(Seeds(device, grid, centres(seeds)), diagram, {metric});
   return diagram.read();
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "formats/label_image.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "measured_cases.hpp"
 #include "temporary_folder.hpp"
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "exact/lists.hpp"
 #include "fixture.hpp"
+#include "list_length.hpp"
 #include "plane_brute_force.hpp"
 
 namespace vorocl {
@@ -17,23 +17,22 @@ using Labels = std::vector<std::uint32_t>;
 struct Engine {
   std::string name;
   Device device;
-  ListLength lists;
 };
 
-inline Device tuned(int vector_width, Shape shape) {
+inline Device tuned(int vector_width, Shape shape, ListLength lists = ListLength::full) {
   Tuning tuning = test_device().tuning();
   tuning.vector_width = vector_width;
   tuning.shape = shape;
-  return test_device().with_tuning(tuning);
+  return with_lists(test_device().with_tuning(tuning), lists);
 }
 
 inline const std::vector<Engine>& engines() {
   static const std::vector<Engine> all = {
-      {"vector shape", tuned(16, Shape::vector), ListLength::full},
-      {"vectors of 4", tuned(4, Shape::vector), ListLength::full},
-      {"group shape", tuned(1, Shape::group), ListLength::full},
-      {"short lists", tuned(8, Shape::vector), ListLength::two_entries},
-      {"group shape, short lists", tuned(1, Shape::group), ListLength::two_entries},
+      {"vector shape", tuned(16, Shape::vector)},
+      {"vectors of 4", tuned(4, Shape::vector)},
+      {"group shape", tuned(1, Shape::group)},
+      {"short lists", tuned(8, Shape::vector, ListLength::two_entries)},
+      {"group shape, short lists", tuned(1, Shape::group, ListLength::two_entries)},
   };
   return all;
 }

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

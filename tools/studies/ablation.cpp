@@ -4,8 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "studies/in_place_scatter.hpp"
-#include "studies/random_motion.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/similarity.hpp"
 

@@ -1,17 +1,39 @@
 // What each choice of dJFA is worth: its variants, one choice changed in each, in accuracy and time.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "studies/error_samples.hpp"
 #include "studies/evaluation.hpp"
-#include "studies/samples.hpp"
-#include "studies/seed_spread.hpp"
+#include "trials/samples.hpp"
+#include "vorocl/device.hpp"
+#include "vorocl/seeds.hpp"
 #include "vorocl/simulation.hpp"
 
 namespace vorocl::command {
+
+/// How seeds are spread. dJFA assumes that they are spread evenly.
+enum class Spread {
+  uniform,   ///< as Seeds::random()
+  clusters,  ///< normally distributed about 16 random centres, with a fiftieth of the sides as deviation
+  gradient,  ///< the density grows in proportion to x
+};
+
+Seeds spread_seeds(const Device& device, const Grid& grid, std::size_t count, Spread spread,
+                   std::uint64_t rng_seed);
+
+/// What a frame starts from, besides the labels of the last one.
+enum class Stamping {
+  none,   ///< nothing, as printed: a seed whose region has vanished does not come back
+  seeds,  ///< the seeds' labels at their pixels
+};
+
+/// The paper's Algorithm 1 as it is printed, to be held against the library's waves, which gather:
+/// an engine that makes Euclidean diagrams by the waves of dJFA, each scattered in place; frame 0 is a JFA.
+/// Its results differ from run to run.
+Simulation::Engine in_place_scatter(const Device& device, Stamping stamping);
 
 /// An engine with the motion that it runs on.
 struct Variant {

@@ -4,7 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "studies/random_motion.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "vorocl/cells.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/method.hpp"
@@ -14,6 +14,9 @@
 namespace vorocl::command {
 
 namespace {
+
+/// How many frames of a timed run may be on their way to the device.
+constexpr int most_frames_ahead = 16;
 
 Simulation::Engine engine_of(const MethodResult& result) {
   MethodOptions options;
@@ -88,6 +91,17 @@ void measure_accuracy(Simulation simulation, int frames, ConfigurationResult& re
 }
 
 }  // namespace
+
+RunTimes timed_run(Simulation simulation, const Simulation::Engine& engine, int frames,
+                   const std::function<void(int)>& made) {
+  simulation.add_engine(engine);
+  for (int frame = 0; frame <= frames; ++frame) {
+    simulation.step();
+    if (frame % most_frames_ahead == 0) simulation.milliseconds();  // waits
+    made(1);
+  }
+  return {simulation.milliseconds(), simulation.host_milliseconds()};
+}
 
 const std::vector<std::string>& evaluated_methods() {
   static const std::vector<std::string> methods = {"jfa", "djfa", "exact"};

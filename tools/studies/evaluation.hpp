@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "studies/error_samples.hpp"
-#include "studies/samples.hpp"
+#include "trials/samples.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/grid.hpp"
+#include "vorocl/simulation.hpp"
 
 namespace vorocl::command {
 
@@ -36,6 +36,16 @@ struct Configuration {
     return a.side == b.side && a.seeds == b.seeds;
   }
 };
+
+struct RunTimes {
+  double milliseconds = 0;       ///< the device's
+  double host_milliseconds = 0;  ///< the host's, to enqueue the same
+};
+
+/// Makes the diagrams of some frames after frame 0 and adds up their times. `made` is told the number of
+/// diagrams after each frame, and may throw to stop.
+RunTimes timed_run(Simulation simulation, const Simulation::Engine& engine, int frames,
+                   const std::function<void(int)>& made);
 
 /// A method in a metric, and all that is measured of it.
 struct MethodResult {

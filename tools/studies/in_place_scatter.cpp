@@ -1,9 +1,8 @@
-#include "studies/in_place_scatter.hpp"
-
 #include <map>
 #include <string>
 
-#include "studies/stopwatch.hpp"
+#include "studies/ablation.hpp"
+#include "trials/samples.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/jump_flooding.hpp"
 #include "vorocl/plan.hpp"

@@ -1,9 +1,9 @@
-#include "studies/seed_spread.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "studies/ablation.hpp"
 
 namespace vorocl::command {
 

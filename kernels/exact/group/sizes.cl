@@ -31,6 +31,8 @@
 // Lists of one patch: seeds that the nearest known one does not dominate, and candidates that are ranked at a time.
 #ifndef MOST_GATHERED
 #define MOST_GATHERED 256
+#endif
+#ifndef MOST_RANKED
 #define MOST_RANKED 128
 #endif
 

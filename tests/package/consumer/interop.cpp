@@ -79,6 +79,15 @@ void draw(const cl::Context& context, const cl::Device& cl_device) {
   require(read_squares[0] == 5 * 5 + 7 * 7, "the program's own kernel read the labels");
   require(read_labels == diagram.read(), "both queues see the same labels");
 
+  // On the device's own queue no event is needed.
+  const cl::Buffer squares_again(context, CL_MEM_READ_WRITE, pixels * sizeof(cl_int));
+  cl::KernelFunctor<cl::Buffer, cl::Buffer, cl::Buffer, cl_int> distances(program, "distances");
+  distances(cl::EnqueueArgs(device.queue(), cl::NDRange(width, height)), labels, points, squares_again,
+            width);
+  std::vector<cl_int> read_again(pixels);
+  cl::copy(device.queue(), squares_again, read_again.begin(), read_again.end());
+  require(read_again == read_squares, "the program's own kernel ran on the device's queue");
+
   require(report.milliseconds() == 0.0, "a queue without profiling has no times, and that is no error");
   const cl::Buffer small(context, CL_MEM_READ_WRITE, 16);
   require_error([&] { vorocl::Diagram(device, grid, small); }, "16 bytes");

@@ -14,6 +14,6 @@ if [ -f "$libdir/pkgconfig/vorocl-picture.pc" ]; then pkg-config --exists --prin
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 # shellcheck disable=SC2046
-notes=$("$@" -std=c99 -Wall -Wextra "$source" $(pkg-config --cflags --libs vorocl) -lm -o "$folder/program" 2>&1)
+notes=$("$@" -std=c99 -Wall -Wextra "$source" $(pkg-config --cflags --libs vorocl) -o "$folder/program" 2>&1)
 [ -z "$notes" ] || { echo "$notes"; exit 1; }
 LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$folder/program"

@@ -5,14 +5,14 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
 #include "app/options/seed_options.hpp"
 #include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
-#include "studies/benchmark.hpp"
-#include "studies/metric_name.hpp"
+#include "formats/values.hpp"
+#include "trials/benchmark.hpp"
 
 namespace vorocl::command {
 

@@ -1,10 +1,24 @@
 #include "app/commands/commands.hpp"
 
+#include <string>
+
+#include "app/terminal/console.hpp"
 #include "vorocl/version.hpp"
 
 namespace vorocl::command {
 
+namespace {
+
+/// Says where the subcommands are that have left.
+void refuse_moved(const std::string& subcommand) {
+  if (subcommand != "evaluate" && subcommand != "ablation") return;
+  throw UsageError("vorocl " + subcommand + " is now vorocl-study " + subcommand + ", with the same options");
+}
+
+}  // namespace
+
 void run_command(int argc, char** argv) {
+  if (argc > 1) refuse_moved(argv[1]);
   CommandLine line("Raster Voronoi diagrams on any OpenCL device.", "vorocl", "vorocl " VOROCL_VERSION);
   add_devices(line);
   add_render(line);
@@ -14,8 +28,6 @@ void run_command(int argc, char** argv) {
   add_tiles(line);
   add_compare(line);
   add_bench(line);
-  add_evaluate(line);
-  add_ablation(line);
   line.run(argc, argv);
 }
 

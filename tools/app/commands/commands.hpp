@@ -14,8 +14,6 @@ void add_relax(CommandLine& line);
 void add_tiles(CommandLine& line);
 void add_compare(CommandLine& line);
 void add_bench(CommandLine& line);
-void add_evaluate(CommandLine& line);
-void add_ablation(CommandLine& line);
 
 /// Parses a command line and runs the subcommand that it names. Throws UsageError for one that makes no
 /// sense, and what the work throws.

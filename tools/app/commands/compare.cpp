@@ -9,12 +9,11 @@
 #include <unordered_map>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/seed_options.hpp"
 #include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/label_files.hpp"
 #include "vorocl/distance_errors.hpp"

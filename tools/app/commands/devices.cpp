@@ -4,11 +4,11 @@
 #include <memory>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
-#include "studies/known_answers.hpp"
+#include "trials/known_answers.hpp"
 #include "vorocl/device.hpp"
 
 namespace vorocl::command {

@@ -5,13 +5,12 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/output_options.hpp"
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "formats/files.hpp"

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
 #include "app/options/output_options.hpp"
@@ -13,8 +12,8 @@
 #include "app/options/seed_options.hpp"
 #include "app/outputs/results.hpp"
 #include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
 #include "vorocl/jump_flooding.hpp"

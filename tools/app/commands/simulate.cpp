@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/commands/simulate_course.hpp"
 #include "app/options/common_options.hpp"
 #include "app/options/method_options.hpp"
@@ -15,9 +14,9 @@
 #include "app/options/picture_options.hpp"
 #include "app/options/seed_options.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/version.hpp"
 

@@ -7,7 +7,7 @@
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
-#include "studies/metric_name.hpp"
+#include "formats/values.hpp"
 #include "vorocl/cells.hpp"
 
 namespace vorocl::command {

@@ -6,8 +6,8 @@
 
 #include "app/outputs/frame_writer.hpp"
 #include "app/sources/moving_seeds.hpp"
-#include "formats/hash.hpp"
-#include "studies/error_samples.hpp"
+#include "formats/values.hpp"
+#include "trials/samples.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/simulation.hpp"
 

@@ -1,9 +1,8 @@
 // vorocl tiles: the exact diagram of a plane that may be far larger than a device, tile by tile.
 #include "app/commands/commands.hpp"
-#include "app/commands/finish_at_end.hpp"
 #include "app/commands/tiles_options.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
 
 namespace vorocl::command {

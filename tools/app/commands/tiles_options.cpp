@@ -9,10 +9,8 @@
 #include "app/options/seed_options.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
-#include "formats/numbers.hpp"
-#include "studies/metric_name.hpp"
+#include "formats/values.hpp"
 #include "vorocl/version.hpp"
 
 namespace vorocl::command {

@@ -8,9 +8,8 @@
 #include "app/mpi/ranks.hpp"
 #include "app/mpi/tiles.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/interruption.hpp"
-#include "app/terminal/usage_error.hpp"
-#include "formats/hash.hpp"
+#include "app/terminal/end_of_run.hpp"
+#include "formats/values.hpp"
 #include "vorocl/mpi.hpp"
 #include "vorocl/version.hpp"
 

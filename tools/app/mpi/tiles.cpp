@@ -6,14 +6,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/commands/finish_at_end.hpp"
 #include "app/commands/tiles_options.hpp"
 #include "app/mpi/ranks.hpp"
 #include "app/mpi/shared_plane_writer.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "vorocl/mpi.hpp"
 

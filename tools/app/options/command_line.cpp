@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
+#include "app/terminal/end_of_run.hpp"
 
 namespace vorocl::command {
 
@@ -175,6 +175,23 @@ void CommandLine::run(int argc, char** argv) {
   if (app_->get_subcommands().empty()) {
     throw UsageError("no subcommand was given; see " + app_->get_name() + " --help");
   }
+}
+
+int run_program(void (*run)(int argc, char** argv), int argc, char** argv) {
+  constexpr int success = 0, failure = 1, usage = 2;
+  open_standard_streams();
+  remove_temporary_files_on_signals();
+  try {
+    run(argc, argv);
+    flush_standard_output();
+    return success;
+  } catch (const UsageError& error) {
+    print_error(error);
+    return usage;
+  } catch (const std::exception& error) {
+    print_error(error);
+  }
+  return failure;
 }
 
 }  // namespace vorocl::command

@@ -145,4 +145,8 @@ class CommandLine {
   std::unique_ptr<CLI::App> app_;
 };
 
+/// What main() does: has the function run a command line, turns what went wrong into one line on standard
+/// error, and returns the exit code: 0 for success, 1 for an error and 2 for a UsageError.
+int run_program(void (*run)(int argc, char** argv), int argc, char** argv);
+
 }  // namespace vorocl::command

@@ -1,6 +1,6 @@
 #include "app/options/common_options.hpp"
 
-#include "studies/metric_name.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "app/options/common_options.hpp"
-#include "app/terminal/usage_error.hpp"
+#include "app/terminal/console.hpp"
 
 namespace vorocl::command {
 

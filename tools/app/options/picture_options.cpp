@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "app/terminal/usage_error.hpp"
-#include "formats/numbers.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/files.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "formats/files.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 

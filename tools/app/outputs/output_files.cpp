@@ -3,7 +3,6 @@
 #include <climits>
 
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/numbered_files.hpp"
 

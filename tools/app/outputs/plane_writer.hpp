@@ -11,7 +11,7 @@
 #include "app/outputs/output_files.hpp"
 #include "app/outputs/plane_tables.hpp"
 #include "app/outputs/tile_journal.hpp"
-#include "studies/stopwatch.hpp"
+#include "trials/samples.hpp"
 
 namespace vorocl::command {
 

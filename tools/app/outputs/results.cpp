@@ -1,7 +1,7 @@
 #include "app/outputs/results.hpp"
 
 #include "app/sources/bounds.hpp"
-#include "studies/metric_name.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "app/terminal/console.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/sources/random_seeds.hpp"
 #include "app/sources/trajectory_bounds.hpp"
-#include "app/terminal/usage_error.hpp"
-#include "studies/random_motion.hpp"
+#include "app/terminal/console.hpp"
 
 namespace vorocl::command {
 

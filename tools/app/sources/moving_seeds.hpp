@@ -8,7 +8,7 @@
 
 #include "app/sources/seed_input.hpp"
 #include "app/sources/trajectory_seeds.hpp"
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "vorocl/motion.hpp"
 
 namespace vorocl::command {

@@ -8,12 +8,11 @@
 #include <utility>
 
 #include "app/sources/bounds.hpp"
-#include "app/sources/random_pixels.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
-#include "formats/hash.hpp"
 #include "formats/point_files.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

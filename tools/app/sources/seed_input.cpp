@@ -8,7 +8,6 @@
 #include "app/sources/bounds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/usage_error.hpp"
 #include "formats/files.hpp"
 #include "formats/mask.hpp"
 #include "formats/npy.hpp"

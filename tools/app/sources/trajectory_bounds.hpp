@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/bounds.hpp"
 

@@ -10,7 +10,7 @@
 #include <new>
 #include <opencv2/core.hpp>
 
-#include "app/terminal/interruption.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "formats/files.hpp"
 #include "vorocl/error.hpp"
 

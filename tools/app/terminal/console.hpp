@@ -1,4 +1,5 @@
-// What the command says: results on standard output, all else on standard error.
+// What the command says: results on standard output, all else on standard error; and the errors of a wrong
+// command line.
 #pragma once
 
 #include <fmt/format.h>
@@ -7,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <utility>
+
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -50,5 +53,21 @@ std::string printable(const std::string& text);
 /// What an exception says, in our words where memory is missing, OpenCV failed, or a signal stopped a
 /// compiler.
 std::string message_of(const std::exception& error);
+
+/// The error of a wrong command line: exit code 2, where other errors give 1.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Does what checks or reads something of the command line: its Error is a UsageError.
+template <typename Check>
+auto as_usage(const Check& check) {
+  try {
+    return check();
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
 
 }  // namespace vorocl::command

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "studies/stopwatch.hpp"
+#include "trials/samples.hpp"
 
 namespace vorocl::command {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "formats/load_module.hpp"
-#include "formats/numbers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -12,10 +12,10 @@
 #include <filesystem>
 
 #include "formats/files.hpp"
-#include "formats/numbers.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
 #include "formats/planes/workers.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-#include "formats/numbers.hpp"
 #include "formats/trajectory/lammps_dump.hpp"
 #include "formats/trajectory/line_reader.hpp"
 #include "formats/trajectory/xyz.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "formats/numbers.hpp"
 #include "formats/trajectory/simulation_box.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
-# similarities, ablation and tables; without any, all of them.
+# similarities, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 vorocl=$(realpath "${1:-build/tools/vorocl}")
+study=$vorocl-study
 shift || true
 parts=" ${*:-pictures lengths evaluation large similarities ablation tables} "
 out=$PWD/docs/evaluation
@@ -64,11 +65,11 @@ if wants lengths; then
 fi
 
 if wants evaluation; then
-  "$vorocl" evaluate -o "$work/evaluation.csv"
+  "$study" evaluate -o "$work/evaluation.csv"
   mv "$work/evaluation.csv" "$out/"
 fi
 if wants large; then
-  "$vorocl" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 5 -o "$work/evaluation-10000.csv"
+  "$study" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 5 -o "$work/evaluation-10000.csv"
   mv "$work/evaluation-10000.csv" "$out/"
 fi
 if wants similarities; then
@@ -95,7 +96,7 @@ if wants similarities; then
   mv "$work"/{extra_waves,tolerance}.csv "$out/"
 fi
 if wants ablation; then
-  "$vorocl" ablation -o "$work/ablation.csv"
+  "$study" ablation -o "$work/ablation.csv"
   mv "$work/ablation.csv" "$out/"
 fi
 if wants tables; then

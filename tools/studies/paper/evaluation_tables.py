@@ -23,7 +23,7 @@ def number(row, column):
 
 
 class Evaluation:
-    """Rows of vorocl evaluate, by n, seeds, method and metric."""
+    """Rows of vorocl-study evaluate, by n, seeds, method and metric."""
 
     def __init__(self, rows):
         self.rows = {(int(row["n"]), int(row["seeds"]), row["method"], row["metric"]): row for row in rows}

@@ -1,0 +1,43 @@
+// Where the seeds of a frame lie, seen from the window of a diagram.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/outer_seeds.hpp"
+#include "runtime/pixel_grid.hpp"
+#include "vorocl/opencl.hpp"
+
+namespace vorocl {
+
+/// What kernels get of a frame. Nothing of it changes.
+struct Placement {
+  /// The window's pixels. Its axes are periodic where the kernels themselves go round: then no seed lies
+  /// outside.
+  PixelGrid grid;
+
+  /// One uint32 per seed: y << 16 | x of its pixel, or absent_position if it is absent or outside the window;
+  /// and one more such value at the end.
+  std::shared_ptr<const cl::Buffer> positions;
+
+  /// The seeds outside, and images across the ends of periods; null if there are none.
+  std::shared_ptr<const OuterSeeds> outer;
+};
+
+/// The position of a seed that is absent, or outside the window: EMPTY of position.cl.
+constexpr std::uint32_t absent_position = 0x80008000u;
+
+/// The position of a seed in a pixel.
+inline std::uint32_t pack(int x, int y) {
+  return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
+}
+
+/// Places seeds that the host knows, whose pixels are counted from the grid's first one.
+std::shared_ptr<const Placement> place_in_window(const Device& device, const Window& window,
+                                                 const PixelGrid& shown,
+                                                 const std::vector<PlanePosition>& pixels);
+
+/// Whether kernels go round the periodic axes of these pixels themselves, where no seed lies outside.
+bool kernels_go_round(const Window& window, const PixelGrid& shown);
+
+}  // namespace vorocl

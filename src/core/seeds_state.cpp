@@ -1,0 +1,258 @@
+#include "core/seeds_state.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <string>
+#include <utility>
+
+#include "core/snapping.hpp"
+
+namespace vorocl {
+
+namespace {
+
+constexpr std::size_t most_seeds = Window::max_pixels;  // ids are uint32, and work-item ids must not wrap
+
+void check_count(std::size_t count) {
+  if (count > most_seeds) {
+    throw Error(std::to_string(count) + " seeds are too many; at most 2^30 are possible");
+  }
+}
+
+void check_buffers(const Device& device, const PointBuffer& points) {
+  check_count(points.count);
+  const std::string number = std::to_string(points.count);
+  const std::size_t bytes = points.format == PointFormat::float2 ? sizeof(cl_float2) : sizeof(cl_double2);
+  check_foreign_buffer(device, points.points, points.count * bytes, "the buffer of " + number + " points",
+                       Access::read);
+  if (points.present() != nullptr) {
+    check_foreign_buffer(device, points.present, points.count,
+                         "the buffer that says which of " + number + " seeds are present", Access::read);
+  }
+}
+
+std::uint64_t next_number() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+/// Whether the device snaps points to this axis as the host does.
+bool device_snaps_to(const Axis& axis) {
+  return axis == (axis.is_periodic() ? Axis(axis.pixels()).periodic() : Axis(axis.pixels()));
+}
+
+/// The points of a buffer, on the host. Waits.
+std::vector<std::optional<Point>> read_points(const Device& device, const PointBuffer& from) {
+  std::vector<std::optional<Point>> points;
+  points.reserve(from.count);
+  if (from.format == PointFormat::float2) {
+    for (const cl_float2& point : download<cl_float2>(device, from.points, from.count))
+      points.push_back(Point{static_cast<double>(point.s[0]), static_cast<double>(point.s[1])});
+  } else {
+    for (const cl_double2& point : download<cl_double2>(device, from.points, from.count))
+      points.push_back(Point{point.s[0], point.s[1]});
+  }
+  if (from.present() == nullptr) return points;
+  const auto marks = download<cl_uchar>(device, from.present, from.count);
+  for (std::size_t id = 0; id < marks.size(); ++id) {
+    if (marks[id] == 0) points[id].reset();
+  }
+  return points;
+}
+
+/// The positions in a diagram of all of the grid, with the one behind them; empty if kernels cannot have them
+/// alone, because seeds lie outside or go round the ends of long periods.
+std::vector<std::uint32_t> packed_positions(const Window& window, std::size_t outside,
+                                            const std::vector<PlanePosition>& pixels) {
+  std::vector<std::uint32_t> packed;
+  if (outside > 0 || !fits_in_a_diagram(window.grid()) || !kernels_go_round(window, PixelGrid(window)))
+    return packed;
+  packed.reserve(pixels.size() + 1);
+  for (const PlanePosition& at : pixels)
+    packed.push_back(is_absent(at) ? absent_position : pack(at.s[0], at.s[1]));
+  packed.push_back(absent_position);
+  return packed;
+}
+
+}  // namespace
+
+SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, Outside outside_is)
+    : device(device_of_seeds), outside(outside_is) {
+  SeedsFrame none{device, grid};
+  none.owner = next_number();
+  none.placements = no_placements();
+  frame_ = std::make_shared<const SeedsFrame>(std::move(none));
+}
+
+SeedsFrame SeedsState::next_frame(const Grid& grid, std::size_t size, bool lost) const {
+  check_count(size);
+  SeedsFrame next{device, grid, size};
+  next.owner = frame_->owner;
+  next.losses = frame_->losses + (lost ? 1 : 0);
+  next.way = {0, frame_->way.all, frame_->way.stretch};
+  next.placements = no_placements();
+  return next;
+}
+
+void SeedsState::way_is_unknown(SeedsFrame& next) const {
+  if (frame_->size == 0) return;
+  next.way = {0, 0, next_number()};
+  auto before = std::make_shared<SeedsFrame>(*frame_);
+  before->before = nullptr;
+  next.before = std::move(before);
+}
+
+void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept {
+  present = std::move(there);
+  frame_ = std::move(frame);
+}
+
+void SeedsState::place(const Grid& grid, const Points& points) {
+  check_count(points.size());
+  const Snapping snap(grid, outside);
+  std::vector<Point> given;
+  std::vector<PlanePosition> pixels;
+  given.reserve(points.size());
+  pixels.reserve(points.size());
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (points.is_present(id)) {
+      given.push_back(points[id]);
+      pixels.push_back(snap(id, given.back()));
+    } else {
+      given.push_back({});
+      pixels.push_back({{absent_coordinate, 0}});
+    }
+  }
+  place(grid, std::move(pixels), std::make_shared<const std::vector<Point>>(std::move(given)));
+}
+
+void SeedsState::place(const Grid& grid, std::vector<PlanePosition>&& pixels,
+                       std::shared_ptr<const std::vector<Point>> given) {
+  const Snapping snap(grid, outside);
+  std::vector<bool> there(pixels.size(), true);
+  bool lost = there.size() < present.size();
+  std::size_t absent = 0, out = 0;
+  for (std::size_t id = 0; id < pixels.size(); ++id) {
+    if (is_absent(pixels[id])) {
+      there[id] = false;
+      ++absent;
+      lost = lost || (id < present.size() && present[id]);
+    } else {
+      out += snap.is_inside(pixels[id]) ? 0 : 1;
+    }
+  }
+  SeedsFrame next = next_frame(grid, pixels.size(), lost);
+  next.absent = absent;
+  next.outside = out;
+  next.given = std::move(given);
+  if (frame_->grid != grid) {
+    next.way = {0, 0, next_number()};
+  } else if (frame_->pixels) {
+    next.way.last = greatest_way(grid, *frame_->pixels, pixels);
+    next.way.all += next.way.last;
+  } else {
+    way_is_unknown(next);
+  }
+  const Window window(grid);
+  std::vector<std::uint32_t> packed = packed_positions(window, out, pixels);
+  next.pixels = std::make_shared<const std::vector<PlanePosition>>(std::move(pixels));
+  if (!packed.empty()) {
+    const std::shared_ptr<cl::Buffer> positions = room_for_positions(there.size());
+    next.whole = std::make_shared<const Placement>(Placement{PixelGrid(window), positions, nullptr});
+    upload_.start(device, *positions, std::move(packed));
+  }
+  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
+}
+
+void SeedsState::place(const PointBuffer& points) {
+  check_buffers(device, points);
+  const Window window(grid());
+  const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count &&
+                             device_snaps_to(grid().x()) && device_snaps_to(grid().y()) &&
+                             fits_in_a_diagram(grid()) && kernels_go_round(window, PixelGrid(window));
+  if (on_the_device) {
+    place_on_the_device(points);
+  } else {
+    place(grid(), Points(read_points(device, points)));
+  }
+}
+
+void SeedsState::place_on_the_device(const PointBuffer& points) {
+  const bool marked = points.present() != nullptr;
+  const bool counted = marked || outside == Outside::absent;
+  const PixelGrid pixels{Window(grid())};
+  // Which are present, only the device knows.
+  SeedsFrame next = next_frame(grid(), points.count, counted || points.count < size());
+  const std::shared_ptr<PointCheck> check = unused_check();
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
+  next.points = check;
+  next.counted_there = counted;
+  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, nullptr});
+  way_is_unknown(next);
+  auto made = std::make_shared<const SeedsFrame>(std::move(next));
+  std::vector<bool> there(points.count, true);
+  check->reset();
+  kernels.get(device, "core/seeds.cl", "snap_points", pixels)
+      .over_items(points.count + 1, points.points, marked ? points.present : points.points, cl_int{marked},
+                  cl_int{outside == Outside::absent}, *positions, static_cast<cl_uint>(points.count),
+                  pixels.width(), pixels.height(), check->found());
+  kernels.get(device, "core/seeds.cl", "note_bad_point", pixels).over_items(1, points.points, check->found());
+  commit(std::move(made), std::move(there));
+}
+
+void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions) {
+  SeedsFrame next = next_frame(grid(), count, count < size());
+  next.whole =
+      std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), std::move(positions), nullptr});
+  way_is_unknown(next);
+  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(count, true));
+}
+
+std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
+  const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
+  for (std::shared_ptr<cl::Buffer>& room : rooms_) {
+    if (room.use_count() > 1) continue;
+    if (size_of(*room) < bytes) *room = allocate(device, bytes, "the seeds");
+    return room;
+  }
+  rooms_.push_back(std::make_shared<cl::Buffer>(allocate(device, bytes, "the seeds")));
+  return rooms_.back();
+}
+
+std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
+  const PixelGrid pixels{Window(grid())};
+  const std::shared_ptr<const Placement> placement = frame_->place_in(grid(), pixels);
+  refuse_outer_seeds(*placement, *frame_, what);
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(size());
+  copy(device, *placement->positions, *positions, (size() + 1) * sizeof(std::uint32_t));
+  return positions;
+}
+
+void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way) {
+  SeedsFrame next = *frame_;
+  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), positions, nullptr});
+  next.given = nullptr;
+  next.pixels = nullptr;
+  next.before = nullptr;
+  next.placements = no_placements();
+  next.way.last = way;
+  next.way.all += way;
+  frame_ = std::make_shared<const SeedsFrame>(std::move(next));
+}
+
+void SeedsState::copy_from(const SeedsState& other) {
+  SeedsFrame copied = *other.frame();
+  copied.owner = frame_->owner;
+  present = other.present;
+  frame_ = std::make_shared<const SeedsFrame>(std::move(copied));
+}
+
+std::shared_ptr<PointCheck> SeedsState::unused_check() {
+  for (const std::shared_ptr<PointCheck>& check : checks_) {
+    if (check.use_count() == 1) return check;
+  }
+  checks_.push_back(std::make_shared<PointCheck>(device, grid()));
+  return checks_.back();
+}
+
+}  // namespace vorocl

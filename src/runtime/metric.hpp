@@ -1,0 +1,95 @@
+// What depends on the metric, on the host. In kernels it is ALONG() of core/position.cl.
+//
+// Each of these is a switch without a default: a metric that is missing in one does not compile.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "vorocl/error.hpp"
+#include "vorocl/grid.hpp"
+
+namespace vorocl {
+
+/// The metric, if it is one. Throws Error for a number that was made one.
+inline Metric checked(Metric metric) {
+  switch (metric) {
+    case Metric::euclidean:
+    case Metric::manhattan:
+      return metric;
+  }
+  throw Error("there is no metric of number " + std::to_string(static_cast<int>(metric)) +
+              "; there are euclidean and manhattan");
+}
+
+/// The option that builds kernels for it.
+inline const char* build_option(Metric metric) {
+  switch (metric) {
+    case Metric::euclidean:
+      return " -DVOROCL_EUCLIDEAN";
+    case Metric::manhattan:
+      return " -DVOROCL_MANHATTAN";
+  }
+  return "";
+}
+
+/// Distances as kernels and engines compare them, of the offsets along both axes. They are squared if
+/// Euclidean.
+inline std::int64_t compared_distance(Metric metric, std::int64_t dx, std::int64_t dy) {
+  switch (metric) {
+    case Metric::euclidean:
+      return dx * dx + dy * dy;
+    case Metric::manhattan:
+      return std::abs(dx) + std::abs(dy);
+  }
+  return 0;
+}
+
+/// A compared distance in pixels.
+inline double in_pixels(Metric metric, double compared) {
+  switch (metric) {
+    case Metric::euclidean:
+      return std::sqrt(compared);
+    case Metric::manhattan:
+      return compared;
+  }
+  return 0;
+}
+
+/// A distance in pixels as it is compared.
+inline double as_compared(Metric metric, double pixels) {
+  switch (metric) {
+    case Metric::euclidean:
+      return pixels * pixels;
+    case Metric::manhattan:
+      return pixels;
+  }
+  return 0;
+}
+
+/// From the centre of a square to its corners, in half sides.
+inline double to_corner_of_square(Metric metric) {
+  switch (metric) {
+    case Metric::euclidean:
+      return std::sqrt(2.0);
+    case Metric::manhattan:
+      return 2.0;
+  }
+  return 0;
+}
+
+/// The compared distance that a disc of the metric has whose area is pi times these pixels.
+inline double radius_of_area(Metric metric, double pixels) {
+  constexpr double half_pi = 1.5707963267948966;
+  switch (metric) {
+    case Metric::euclidean:
+      return pixels;
+    case Metric::manhattan:
+      return std::sqrt(half_pi * pixels);
+  }
+  return 0;
+}
+
+}  // namespace vorocl

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# The scripts that make docs/evaluation.md, on tiny tables: test_evaluation_scripts.sh VOROCL VOROCL_STUDY. Exits with 77 where
+# python3-matplotlib is not installed.
+set -euo pipefail
+command=$1 study=$2
+scripts=$(dirname "$(realpath "$0")")/../../tools/studies/paper
+/usr/bin/python3 -c 'import matplotlib' 2>/dev/null || { echo "python3-matplotlib is not installed: skipped"; exit 77; }
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+export MPLCONFIGDIR=$folder/matplotlib
+is_png() { [ "$(head -c 4 "$1")" = $'\x89PNG' ] || { echo "$1 is no picture"; exit 1; }; }
+refuses() { # refuses TEXT SCRIPT ARGUMENT...: one line, which says TEXT
+  local text=$1
+  shift
+  if "$scripts/$1" "${@:2}" >/dev/null 2>said; then echo "$* was done"; exit 1; fi
+  if [ "$(wc -l <said)" -ne 1 ] || ! grep -qF "$text" said; then echo "\"$text\" was wanted, and it said:"; cat said; exit 1; fi
+}
+
+# Lengths of regions, against a loop over the pixels.
+"$command" render --random 60 --size 57x40 --method exact --labels labels.npy -o labels.png >/dev/null
+"$scripts/plot_region_lengths.py" labels.npy -o lengths.png >lengths.csv
+is_png lengths.png
+/usr/bin/python3 - <<'PYTHON'
+import csv
+import math
+import numpy
+
+places = {}
+for y, row in enumerate(numpy.load("labels.npy").tolist()):
+    for x, label in enumerate(row):
+        places.setdefault(label, []).append((x, y))
+expected = {"square root of the area": [], "larger side of the bounding box": []}
+for pixels in places.values():
+    xs, ys = zip(*pixels)
+    expected["square root of the area"].append(math.sqrt(len(pixels)))
+    expected["larger side of the bounding box"].append(max(max(xs) - min(xs), max(ys) - min(ys)) + 1)
+l_avg = math.sqrt(57 * 40 / len(places))
+rows = list(csv.DictReader(open("lengths.csv")))
+assert [row["length"] for row in rows] == list(expected), rows
+for row in rows:
+    lengths = expected[row["length"]]
+    mean = sum(lengths) / len(lengths)
+    deviation = math.sqrt(sum((length - mean) ** 2 for length in lengths) / len(lengths))
+    under = 100 * sum(length < 2 * l_avg for length in lengths) / len(lengths)
+    for column, value in [("regions", len(places)), ("l_avg", l_avg), ("mean", mean), ("deviation", deviation),
+                          ("greatest", max(lengths)), ("percent_under_2_l_avg", under)]:
+        assert abs(float(row[column]) - value) < 1e-5, (row["length"], column, row[column], value)
+PYTHON
+refuses 'missing.npy' plot_region_lengths.py missing.npy -o a.png
+refuses 'labels.png' plot_region_lengths.py labels.png -o a.png
+
+"$scripts/montage.py" -o montage.png --columns 2 "one=labels.png" "" "two=lengths.png"
+is_png montage.png
+refuses 'missing.png' montage.py -o a.png "one=missing.png"
+
+# The tables.
+"$study" evaluate --sizes 40,64 --seeds 2%,20% --frames 3 --timed-frames 2 -o evaluation.csv >/dev/null
+"$study" ablation --sizes 40 --seeds 2% --frames 3 --timed-frames 2 -o ablation.csv >/dev/null
+for name in machine lengths similarity times published ablation; do
+  printf 'before %s\n<!-- table %s -->\nold\n<!-- end -->\n' "$name" "$name"
+done >document.md
+"$scripts/evaluation_tables.py" document.md .
+[ "$(grep -c '^before' document.md)" -eq 6 ] || { echo "text around the tables is gone"; exit 1; }
+! grep -q '^old' document.md || { echo "an old table has stayed"; exit 1; }
+rows() { sed -n "/<!-- table $1 -->/,/<!-- end -->/p" document.md | grep -c '^| '; }
+[ "$(rows times) $(rows similarity) $(rows ablation) $(rows lengths)" = "6 6 40 4" ] || { echo "rows are missing:"; cat document.md; exit 1; }
+grep -q 'speedup of dJFAe, 1,000², 100 pixels per seed | 2.1 × | not run' document.md
+cp document.md again.md
+"$scripts/evaluation_tables.py" again.md .
+cmp document.md again.md
+sed -i '/table times/d' document.md
+refuses 'must have one place "<!-- table times -->"' evaluation_tables.py document.md .
+refuses 'evaluation.csv' evaluation_tables.py again.md figures

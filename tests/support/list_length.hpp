@@ -1,0 +1,42 @@
+// The exact engine with short lists of candidates inside: what overflows may cost time, never a pixel.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "runtime/device_state.hpp"
+
+namespace vorocl {
+
+enum class ListLength { full, two_entries };
+
+constexpr ListLength both_lengths[] = {ListLength::full, ListLength::two_entries};
+inline const char* name_of(ListLength lists) {
+  return lists == ListLength::full ? "full lists" : "short lists";
+}
+
+/// The build options by which nearly every list overflows (kernels/exact/sizes.cl,
+/// kernels/exact/group/sizes.cl). tools/check_kernels.sh reads them here.
+constexpr const char* short_lists =
+    "-DMOST_PARENTS=2 -DMOST_CANDIDATES=2 -DOUTER_LIST=8 "
+    "-DMOST_GATHERED=2 -DMOST_RANKED=2 -DSTACK=SHORTEST_STACK";
+
+/// A device whose exact engine has lists of this length, on the same queue and with the same tuning. Short
+/// lists are for groups of all sizes: none has more items than the tuning says.
+inline Device with_lists(const Device& device, ListLength lists) {
+  if (lists == ListLength::full) return device;
+  static std::map<std::pair<cl_command_queue, std::size_t>, Device> devices;  // with programs of their own
+  const Tuning& tuning = device.tuning();
+  const std::size_t most = std::max(tuning.patch_items, tuning.group_width * tuning.group_height);
+  const auto [found, is_new] =
+      devices.try_emplace({device.queue()(), most}, device.context(), device.queue());
+  if (is_new) {
+    DeviceState& state = Internal::state(found->second);
+    state.build_options = short_lists;
+    state.limits.items = std::min(state.limits.items, most);
+  }
+  return found->second.with_tuning(tuning);
+}
+
+}  // namespace vorocl

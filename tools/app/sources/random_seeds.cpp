@@ -1,0 +1,43 @@
+#include "app/sources/random_seeds.hpp"
+
+#include <array>
+
+namespace vorocl::command {
+
+namespace {
+
+std::uint32_t low(std::uint64_t product) { return static_cast<std::uint32_t>(product); }
+std::uint32_t high(std::uint64_t product) { return static_cast<std::uint32_t>(product >> 32); }
+
+/// Philox-4x32-10 of a counter whose other words are 0, as in kernels/core/philox.cl: its first two words.
+std::array<std::uint32_t, 2> philox(std::uint32_t counter, std::uint64_t key) {
+  std::array<std::uint32_t, 4> words = {counter, 0, 0, 0};
+  std::uint32_t key_0 = low(key), key_1 = high(key);
+  for (int round = 0; round < 10; ++round) {
+    const std::uint64_t product_0 = std::uint64_t{words[0]} * 0xd2511f53u;
+    const std::uint64_t product_1 = std::uint64_t{words[2]} * 0xcd9e8d57u;
+    words = {high(product_1) ^ words[1] ^ key_0, low(product_1), high(product_0) ^ words[3] ^ key_1,
+             low(product_0)};
+    key_0 += 0x9e3779b9u;
+    key_1 += 0xbb67ae85u;
+  }
+  return {words[0], words[1]};
+}
+
+double centre_below(std::uint32_t bits, std::int64_t count) {
+  return high(std::uint64_t{bits} * static_cast<std::uint64_t>(count)) + 0.5;
+}
+
+}  // namespace
+
+Point random_pixel(const Plane& plane, std::uint32_t id, std::uint64_t rng_seed) {
+  const std::array<std::uint32_t, 2> bits = philox(id, rng_seed);
+  return {centre_below(bits[0], plane.width()), centre_below(bits[1], plane.height())};
+}
+
+double RandomMotion::operator()(Seeds& seeds, int frame) const {
+  random_step(seeds, step_length, border, rng_seed, static_cast<std::uint32_t>(frame));
+  return step_length;
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,57 @@
+// Single values: numbers in text, metrics by name, and a hash of numbers; the same in every locale and on
+// every machine.
+#pragma once
+
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl::command {
+
+inline std::string_view trimmed(std::string_view text) {
+  const char* const blanks = " \t\r";
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The number that the text is, without the blanks around it; "nan" and "inf" are numbers too. None if it is
+/// not one, if anything follows it, or if it does not fit the type.
+template <typename T>
+std::optional<T> parse_number(std::string_view text) {
+  text = trimmed(text);
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  T value{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The name that options, tables and JSON give it.
+inline std::string to_string(Metric metric) {
+  return metric == Metric::euclidean ? "euclidean" : "manhattan";
+}
+
+/// 64-bit FNV-1a (Fowler, Noll, Vo) of whole numbers, byte by byte from the lowest one.
+class Hash {
+ public:
+  template <typename T>
+  void add(T number) {
+    static_assert(static_cast<T>(-1) > 0, "unsigned numbers");
+    for (std::size_t i = 0; i < sizeof number; ++i) {
+      value_ = (value_ ^ ((number >> (8 * i)) & 0xff)) * 0x100000001b3u;
+    }
+  }
+
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+}  // namespace vorocl::command

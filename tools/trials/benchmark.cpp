@@ -1,0 +1,153 @@
+#include "trials/benchmark.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+
+#include "trials/samples.hpp"
+#include "vorocl/exact_diagram.hpp"
+#include "vorocl/jump_flooding.hpp"
+#include "vorocl/motion.hpp"
+#include "vorocl/tiles.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// How far seeds have moved along an axis, at most, since the diagram that djfa starts from (as in the
+/// paper).
+constexpr int max_displacement = 5;
+
+/// A method as it is measured: `run` is what is timed, after `prepare`; `labels` are those of its last run.
+struct Contender {
+  std::string name;
+  std::function<void()> prepare;
+  std::function<void()> run;
+  std::function<std::vector<std::uint32_t>()> labels;
+};
+
+/// All methods share the diagram and its buffers. A mixed neighbourhood is for djfa: the others take part
+/// with their own.
+Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram, MethodOptions options) {
+  if (options.neighbourhood == NeighbourhoodMix::mixed) options.neighbourhood.reset();
+  const auto run = [&method, &seeds, &diagram, options] {
+    method.run(seeds, diagram, 0, options);
+    seeds.device().finish();
+  };
+  return {method.name, [] {}, run, [&diagram] { return diagram.read(); }};
+}
+
+Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& diagram,
+                            const MethodOptions& options) {
+  const auto now = seeds.read();
+  const auto moving = std::make_shared<Seeds>(seeds.clone());
+  random_step(*moving, max_displacement, Border::reflect, 1, 0);
+  const auto before = moving->read();
+  const auto prepare = [moving, before, now, &diagram, options] {
+    moving->move_to(before);
+    jump_flooding(*moving, diagram, {options.metric});
+    moving->move_to(now);
+    moving->device().finish();
+  };
+  const auto run = [&method, moving, &diagram, options] {
+    method.run(*moving, diagram, max_displacement, options);
+    moving->device().finish();
+  };
+  return {method.name, prepare, run, [&diagram] { return diagram.read(); }};
+}
+
+Contender opencv(const Seeds& seeds, Metric metric) {
+  const auto baseline = std::make_shared<OpenCvBaseline>(seeds.grid(), seeds.read(), metric);
+  return {opencv_method().name, [] {}, [baseline] { baseline->run(); },
+          [baseline] { return baseline->labels(); }};
+}
+
+Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
+                    const MethodOptions& options) {
+  if (!method.run) return opencv(seeds, options.metric);
+  return method.continues ? continuing_method(method, seeds, diagram, options)
+                          : other_method(method, seeds, diagram, options);
+}
+
+/// From seeds on the host to labels on the host.
+Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric) {
+  const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.grid().pixels());
+  const auto run = [&seeds, points = seeds.read(), &diagram, metric, labels] {
+    const Seeds placed(seeds.device(), diagram.grid(), points);
+    exact_diagram(placed, diagram, {metric});
+    diagram.read(labels->data());
+  };
+  return {"exact, host to host", [] {}, run, [labels] { return *labels; }};
+}
+
+/// From seeds on the host, which are sorted, to labels on the host, which are there for each tile in turn.
+Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric) {
+  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid());
+  const auto points = seeds.read();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i]) continue;
+    const PlaneSeed seed = {static_cast<std::int32_t>(points[i]->x), static_cast<std::int32_t>(points[i]->y),
+                            static_cast<std::uint32_t>(i)};
+    sorted->add(&seed, 1);
+  }
+  sorted->sort();
+  const auto each_tile = [device = seeds.device(), tiling = Tiling(seeds.grid(), side), metric,
+                          sorted](const std::function<void(const TileLabels&)>& use) {
+    exact_tiles(device, *sorted, tiling, use, {metric});
+  };
+  const auto labels = [grid = seeds.grid(), each_tile] {
+    std::vector<std::uint32_t> all(grid.pixels());
+    each_tile([&](const TileLabels& made) {
+      for (std::int64_t y = 0; y < made.tile.height; ++y) {
+        std::copy_n(made.labels + y * made.tile.width, made.tile.width,
+                    all.begin() + (made.tile.y + y) * grid.width() + made.tile.x);
+      }
+    });
+    return all;
+  };
+  const auto run = [each_tile] { each_tile([](const TileLabels&) {}); };
+  return {"exact, tiles of " + std::to_string(side), [] {}, run, labels};
+}
+
+double milliseconds_of(const Contender& contender) {
+  contender.prepare();
+  const Stopwatch stopwatch;
+  contender.run();
+  return stopwatch.milliseconds();
+}
+
+}  // namespace
+
+const Method& opencv_method() {
+  static const Method method = {"opencv", false, false, false, nullptr, nullptr};
+  return method;
+}
+
+std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const BenchmarkOptions& options,
+                                       const Seeds& seeds) {
+  Diagram diagram(seeds.device(), seeds.grid());
+  std::vector<Contender> contenders;
+  contenders.reserve(methods.size() + 2);
+  for (const Method& method : methods)
+    contenders.push_back(contender(method, seeds, diagram, options.method));
+  const Metric metric = options.method.metric;
+  if (options.tile > 0) {
+    contenders.push_back(exact_on_host(seeds, diagram, metric));
+    contenders.push_back(exact_in_tiles(seeds, options.tile, metric));
+  }
+  const GroundTruth truth(seeds.grid(), seeds.read(), metric);
+  std::vector<BenchmarkResult> results;
+  for (const Contender& contender : contenders) {
+    contender.prepare();
+    contender.run();
+    results.push_back({contender.name, {}, truth.wrong_pixels(contender.labels())});
+  }
+  for (int round = 0; round < options.rounds; ++round) {
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      results[i].milliseconds.add(milliseconds_of(contenders[i]));
+    }
+  }
+  return results;
+}
+
+}  // namespace vorocl::command

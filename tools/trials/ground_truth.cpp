@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <nanoflann.hpp>
+#include <opencv2/core/utility.hpp>
+#include <tuple>
+
+#include "trials/benchmark.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// The seeds' pixels as nanoflann wants them. In double, whose sums of squares of pixels are exact.
+struct Cloud {
+  std::vector<Point> points;
+
+  std::size_t kdtree_get_point_count() const { return points.size(); }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
+    return axis == 0 ? points[index].x : points[index].y;
+  }
+  template <typename Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+/// Where a pixel is along an axis, and a period before and behind that.
+std::vector<int> images(int at, int size, bool periodic) {
+  return periodic ? std::vector<int>{at - size, at, at + size} : std::vector<int>{at};
+}
+
+/// The length of a way along an axis, round the grid if that is shorter.
+int along(int offset, int size, bool periodic) {
+  const int inside = std::abs(offset);
+  return periodic ? std::min(inside, size - inside) : inside;
+}
+
+/// Calls found(x, y, a nearest seed's pixel) for every pixel, from several threads.
+template <template <class, class, class, class> class Distance, typename Found>
+void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) {
+  using Adaptor = Distance<double, Cloud, double, std::uint32_t>;
+  const nanoflann::KDTreeSingleIndexAdaptor<Adaptor, Cloud, 2> tree(2, cloud);
+  cv::parallel_for_(cv::Range(0, grid.height()), [&](const cv::Range& rows) {
+    for (int y = rows.start; y < rows.end; ++y) {
+      for (int x = 0; x < grid.width(); ++x) {
+        std::uint32_t nearest = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (const int image_y : images(y, grid.height(), grid.periodic_y())) {
+          for (const int image_x : images(x, grid.width(), grid.periodic_x())) {
+            const double query[2] = {static_cast<double>(image_x), static_cast<double>(image_y)};
+            std::uint32_t index = 0;
+            double distance = 0;
+            tree.knnSearch(query, 1, &index, &distance);
+            if (distance >= least) continue;
+            least = distance;
+            nearest = index;
+          }
+        }
+        found(x, y, cloud.points[nearest]);
+      }
+    }
+  });
+}
+
+}  // namespace
+
+GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
+    : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
+  Cloud cloud;
+  for (std::size_t id = 0; id < seeds.size(); ++id) {
+    if (!seeds[id]) continue;
+    seeds_[id] = Position{static_cast<int>(seeds[id]->x), static_cast<int>(seeds[id]->y)};
+    cloud.points.push_back({static_cast<double>(seeds_[id]->x), static_cast<double>(seeds_[id]->y)});
+  }
+  // Thousands of seeds on one pixel would make a leaf of the tree that every query goes through.
+  const auto before = [](const Point& a, const Point& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+  const auto same = [](const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; };
+  std::sort(cloud.points.begin(), cloud.points.end(), before);
+  cloud.points.erase(std::unique(cloud.points.begin(), cloud.points.end(), same), cloud.points.end());
+  if (cloud.points.empty()) throw Error("without seeds no pixel has a true label");
+  const auto found = [&](int x, int y, const Point& nearest) {
+    const auto i =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width()) + static_cast<std::size_t>(x);
+    least_[i] = distance({static_cast<int>(nearest.x), static_cast<int>(nearest.y)}, x, y);
+  };
+  if (metric == Metric::euclidean) {
+    for_each_nearest<nanoflann::L2_Simple_Adaptor>(grid, cloud, found);
+  } else {
+    for_each_nearest<nanoflann::L1_Adaptor>(grid, cloud, found);
+  }
+}
+
+std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) const {
+  std::size_t wrong = 0, i = 0;
+  for (int y = 0; y < grid_.height(); ++y) {
+    for (int x = 0; x < grid_.width(); ++x, ++i) {
+      const std::uint32_t label = labels.at(i);
+      if (label >= seeds_.size() || !seeds_[label] || distance(*seeds_[label], x, y) > least_[i]) ++wrong;
+    }
+  }
+  return wrong;
+}
+
+std::uint32_t GroundTruth::distance(const Position& seed, int x, int y) const {
+  const int dx = along(seed.x - x, grid_.width(), grid_.periodic_x());
+  const int dy = along(seed.y - y, grid_.height(), grid_.periodic_y());
+  return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? dx * dx + dy * dy : dx + dy);
+}
+
+}  // namespace vorocl::command
