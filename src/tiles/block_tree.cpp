@@ -29,7 +29,7 @@ std::vector<std::size_t> BlockTree::find_near(const PlaneRectangle& rectangle, M
   // as near.
   const auto nearest_sample = [&](const PlanePoint& point, const SeedImage&) {
     SeedImage nearest;
-    samples_.find_nearest(point, plane_, metric, nearest);
+    samples_.find_nearest(point, grid_, metric, nearest);
     return nearest;
   };
   const auto find_in_blocks = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
@@ -69,11 +69,11 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
 bool BlockTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
                              const SeedImage& at_b, Metric metric, std::size_t most,
                              std::vector<std::size_t>& found) const {
-  const std::int64_t of_b_at_a = samples_.seen_from(a, plane_, metric, at_b).distance;
-  const std::int64_t of_a_at_b = samples_.seen_from(b, plane_, metric, at_a).distance;
-  const PlaneDistance distance(plane_, metric, length_of(a, b));
+  const std::int64_t of_b_at_a = samples_.seen_from(a, grid_, metric, at_b).distance;
+  const std::int64_t of_a_at_b = samples_.seen_from(b, grid_, metric, at_a).distance;
+  const PlaneDistance distance(grid_, metric, length_of(a, b));
   bool all = true;
-  each_image(plane_, [&](const PlanePoint& offset) {
+  each_image(grid_, [&](const PlanePoint& offset) {
     const PlanePoint from_a = a - offset, from_b = b - offset;
     // Unless a sample is nearer than the whole box at both ends, and so between them.
     const auto may_win = [&](const Box& box) {

@@ -19,7 +19,7 @@ struct SeedBlock {
 
 class BlockTree {
  public:
-  explicit BlockTree(const Plane& plane) : plane_(plane) {}
+  explicit BlockTree(const Grid& grid) : grid_(grid) {}
 
   /// Of blocks in the order of the Z-curve. None is empty.
   void make(const std::vector<SeedBlock>& blocks);
@@ -35,7 +35,7 @@ class BlockTree {
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
                     Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
 
-  Plane plane_;
+  Grid grid_;
   std::vector<SeedBlock> blocks_;
   BoxTree tree_;
   SeedTree samples_;  // one seed of each block

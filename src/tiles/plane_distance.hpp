@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "runtime/metric.hpp"
 #include "tiles/box_tree.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -25,9 +26,9 @@ constexpr std::int64_t too_far = INT64_MAX;
 /// axis, and `slack` more, is too_far: another image is nearer. So no square overflows.
 class PlaneDistance {
  public:
-  PlaneDistance(const Plane& plane, Metric metric, std::int64_t slack = 0)
-      : twice_most_x_(has_x(plane.periodic()) ? plane.width() + 2 * slack : INT64_MAX),
-        twice_most_y_(has_y(plane.periodic()) ? plane.height() + 2 * slack : INT64_MAX),
+  PlaneDistance(const Grid& grid, Metric metric, std::int64_t slack = 0)
+      : twice_most_x_(has_x(grid.periodic()) ? grid.width() + 2 * slack : INT64_MAX),
+        twice_most_y_(has_y(grid.periodic()) ? grid.height() + 2 * slack : INT64_MAX),
         metric_(metric) {}
 
   std::int64_t operator()(const PlanePoint& from, const PlanePoint& to) const {
@@ -46,7 +47,7 @@ class PlaneDistance {
 
   std::int64_t of(std::int64_t dx, std::int64_t dy) const {
     if (2 * dx > twice_most_x_ || 2 * dy > twice_most_y_) return too_far;
-    return metric_ == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
+    return compared_distance(metric_, dx, dy);
   }
 
   std::int64_t twice_most_x_, twice_most_y_;
@@ -55,12 +56,12 @@ class PlaneDistance {
 
 /// Calls a function with the offset of each image of the plane around it, the plane's own first.
 template <typename Use>
-void each_image(const Plane& plane, Use use) {
-  const int along_x = has_x(plane.periodic()) ? 3 : 1, along_y = has_y(plane.periodic()) ? 3 : 1;
+void each_image(const Grid& grid, Use use) {
+  const int along_x = has_x(grid.periodic()) ? 3 : 1, along_y = has_y(grid.periodic()) ? 3 : 1;
   constexpr std::int64_t periods[] = {0, -1, 1};
   for (int j = 0; j < along_y; ++j) {
     for (int i = 0; i < along_x; ++i) {
-      use(PlanePoint{periods[i] * plane.width(), periods[j] * plane.height()});
+      use(PlanePoint{periods[i] * grid.width(), periods[j] * grid.height()});
     }
   }
 }

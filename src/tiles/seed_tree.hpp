@@ -48,15 +48,15 @@ class SeedTree {
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
   /// Makes `best` the image that wins at a point, if it does not yet.
-  void find_nearest(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage& best) const;
+  void find_nearest(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage& best) const;
 
   /// The image as it is seen from another point.
-  SeedImage seen_from(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage image) const;
+  SeedImage seen_from(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage image) const;
 
   /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some
   /// that do not, given the images that win at both ends. Returns false if they are more than `most`.
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
-                    const Plane& plane, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
+                    const Grid& grid, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
                     std::vector<std::size_t>& found) const;
 
  private:
