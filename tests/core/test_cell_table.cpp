@@ -156,8 +156,8 @@ BOOST_AUTO_TEST_CASE(a_table_of_a_window_counts_what_it_shows) {
   exact_diagram(seeds, diagram);
   const std::vector<CellRow> table = cell_table(diagram);
   BOOST_TEST_REQUIRE(table.size() == 3u);
-  // Columns 95 to 99 are those of the seed in column 98, and 0 to 4 those of the seed in column 2, which comes
-  // first in the grid: so it has the tie in column 0.
+  // Columns 95 to 99 are those of the seed in column 98, and 0 to 4 those of the seed in column 2, which
+  // comes first in the grid: so it has the tie in column 0.
   BOOST_TEST(table[0].pixels == 50u);
   BOOST_TEST(table[1].pixels == 50u);
   BOOST_TEST(table[2].pixels == 0u);

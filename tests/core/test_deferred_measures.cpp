@@ -32,8 +32,8 @@ class Film {
       const auto values = transformed(points, [](const Point& point) {
         return cl_float2{{static_cast<float>(point.x), static_cast<float>(point.y)}};
       });
-      seeds_.move_to(PointBuffer(cl::Buffer(test_device().queue(), values.begin(), values.end(), true),
-                                 values.size()));
+      seeds_.move_to(
+          PointBuffer(cl::Buffer(test_device().queue(), values.begin(), values.end(), true), values.size()));
     } else if (frame > 0) {
       random_step(seeds_, 6, Border::reflect, 2, frame);
     }

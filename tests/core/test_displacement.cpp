@@ -56,7 +56,8 @@ BOOST_AUTO_TEST_CASE(seeds_that_come_and_go_have_not_moved) {
 
 BOOST_AUTO_TEST_CASE(from_buffers_and_from_random_steps) {
   const Grid grid(64, 64);
-  const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}}, later = {{{55.5f, 3.f}}, {{2.f, 62.f}}};
+  const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}},
+                               later = {{{55.5f, 3.f}}, {{2.f, 62.f}}};
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
   const cl::Buffer next(test_device().queue(), later.begin(), later.end(), true);
   Seeds seeds(test_device(), grid, {{58, 3}, {2, 60}});

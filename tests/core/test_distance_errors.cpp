@@ -95,9 +95,9 @@ BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   BOOST_REQUIRE((exact.read() == std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
-  diagram.write({2, 0, 1, 1, 1}, seeds, Metric::euclidean);
+  diagram.write(std::vector<std::uint32_t>{2, 0, 1, 1, 1}, seeds, Metric::euclidean);
   BOOST_TEST(errors_of(diagram, exact).wrong_pixels == 0u);
-  diagram.write({2, 1, 1, 7, no_label}, seeds, Metric::euclidean);
+  diagram.write(std::vector<std::uint32_t>{2, 1, 1, 7, no_label}, seeds, Metric::euclidean);
   const DistanceErrors errors = errors_of(diagram, exact);
   BOOST_TEST(errors.wrong_pixels == 3u);
   BOOST_TEST(errors.unlabelled_pixels == 2u);

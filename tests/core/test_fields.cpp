@@ -9,8 +9,8 @@ using namespace vorocl;
 
 namespace {
 
-void check_fields(const std::string& name, const std::vector<Pixel>& pixels,
-                  const Diagram& diagram, Metric metric) {
+void check_fields(const std::string& name, const std::vector<Pixel>& pixels, const Diagram& diagram,
+                  Metric metric) {
   const Grid& grid = diagram.window().grid();
   const std::vector<std::uint32_t> labels = diagram.read();
   Field<std::int32_t> integers;
@@ -114,7 +114,8 @@ BOOST_AUTO_TEST_CASE(a_table_that_cannot_be_read_is_refused) {
   BOOST_TEST(field.read().empty());
   const cl::Context& context = test_device().context();
   check_error([&] { map_labels(diagram, cl::Buffer(), field); }, {"null"});
-  check_error([&] { map_labels(diagram, cl::Buffer(context, CL_MEM_READ_WRITE, 156), field); }, {"156", "160"});
+  check_error([&] { map_labels(diagram, cl::Buffer(context, CL_MEM_READ_WRITE, 156), field); },
+              {"156", "160"});
   check_error([&] { map_labels(diagram, cl::Buffer(context, CL_MEM_WRITE_ONLY, 160), field); }, {"read"});
 }
 

@@ -150,7 +150,8 @@ BOOST_AUTO_TEST_CASE(labels_are_written) {
   BOOST_TEST((diagram.read() == ground_truth));
   diagram.write(ground_truth, seeds, Metric::euclidean);
   BOOST_TEST((diagram.metric() == Metric::euclidean));
-  BOOST_TEST(dynamic_jump_flooding(seeds, diagram).waves() == waves);  // the seeds know that they did not move
+  BOOST_TEST(dynamic_jump_flooding(seeds, diagram).waves() ==
+             waves);  // the seeds know that they did not move
   BOOST_TEST((diagram.read() == ground_truth));
 
   // Seeds of another grid have no labels here.

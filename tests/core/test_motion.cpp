@@ -92,7 +92,8 @@ BOOST_AUTO_TEST_CASE(steps_are_in_pixels) {
   const Grid data(Axis(80, -1, 1).periodic(), Axis(60, 0, 30).reversed());
   const std::vector<Pixel> from = random_pixels(pixels, 100, 1);
   Seeds a(test_device(), pixels, centres(from));
-  Seeds b(test_device(), data, transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
+  Seeds b(test_device(), data,
+          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
   BOOST_TEST(a.displacement() == 0);
   random_step(a, 7, Border::reflect, 5, 1);
   random_step(b, 7, Border::reflect, 5, 1);

@@ -107,10 +107,9 @@ BOOST_AUTO_TEST_CASE(a_simulation_can_move_its_window) {
   const std::vector<Pixel> pixels = random_pixels(grid, 12, 8);
   const std::vector<std::uint32_t> whole = brute_force(grid, pixels, Metric::euclidean);
   const int x[] = {0, 50, 50};
-  Simulation simulation(Seeds(test_device(), grid, centres(pixels)), Window(grid, x[0], 5, 20, 30),
-                        [&](Seeds&, Window& window, int frame) {
-                          window = Window(grid, x[frame], 5, 20, 30);
-                        });
+  Simulation simulation(
+      Seeds(test_device(), grid, centres(pixels)), Window(grid, x[0], 5, 20, 30),
+      [&](Seeds&, Window& window, int frame) { window = Window(grid, x[frame], 5, 20, 30); });
   simulation.add_engine(exactly);
   for (const int left : x) {
     simulation.step();
@@ -127,9 +126,8 @@ BOOST_AUTO_TEST_CASE(a_simulation_can_move_its_window) {
 
 BOOST_AUTO_TEST_CASE(a_window_of_another_grid_is_refused) {
   const Grid grid(60, 40);
-  Simulation simulation(Seeds(test_device(), grid, {{1, 1}}), [&](Seeds&, Window& window, int) {
-    window = Window(Grid(90, 90), 0, 0, 60, 40);
-  });
+  Simulation simulation(Seeds(test_device(), grid, {{1, 1}}),
+                        [&](Seeds&, Window& window, int) { window = Window(Grid(90, 90), 0, 0, 60, 40); });
   simulation.add_engine(exactly);
   simulation.step();
   check_error([&] { simulation.step(); }, {"grid"});

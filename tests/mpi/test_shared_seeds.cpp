@@ -86,12 +86,13 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
   for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
     const Grid grids[] = {{300, 210, axes}, {997, 503, axes}, {1, 700, axes}};
     for (const Grid& grid : grids) {
-      const std::vector<Pixel> planes[] = {{},
-                                           {{static_cast<int>(grid.width() / 2), static_cast<int>(grid.height() / 2)}},
-                                           random_pixels(grid, 3, 1),
-                                           random_pixels(grid, 20000, 2),
-                                           random_pixels(grid, 300, 3),
-                                           cluster({300, 300}, grid.width() > 1 ? 5000 : 0, 4)};
+      const std::vector<Pixel> planes[] = {
+          {},
+          {{static_cast<int>(grid.width() / 2), static_cast<int>(grid.height() / 2)}},
+          random_pixels(grid, 3, 1),
+          random_pixels(grid, 20000, 2),
+          random_pixels(grid, 300, 3),
+          cluster({300, 300}, grid.width() > 1 ? 5000 : 0, 4)};
       for (const std::vector<Pixel>& pixels : planes) {
         const Metric metric = pixels.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
         Diagram diagram(test_device(), grid);

@@ -4,9 +4,11 @@
 
 int main() {
   const char* const names[] = {"Honolulu", "Tokyo", "Auckland", "Los Angeles"};
-  const std::vector<vorocl::Point> cities = {{-157.86, 21.31}, {139.69, 35.68}, {174.76, -36.85}, {-118.24, 34.05}};
+  const std::vector<vorocl::Point> cities = {
+      {-157.86, 21.31}, {139.69, 35.68}, {174.76, -36.85}, {-118.24, 34.05}};
 
-  const vorocl::Grid map(vorocl::Axis(1440, -180, 180).periodic(), vorocl::Axis(720, -90, 90).reversed().closed());
+  const vorocl::Grid map(vorocl::Axis(1440, -180, 180).periodic(),
+                         vorocl::Axis(720, -90, 90).reversed().closed());
   const vorocl::Device device = vorocl::Device::select();
   vorocl::Diagram diagram(device, map);
   vorocl::exact_diagram(vorocl::Seeds(device, map, cities), diagram);

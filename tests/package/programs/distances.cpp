@@ -19,6 +19,6 @@ int main() {
   const std::vector<float> distance = distances.read();
   const std::vector<std::uint32_t> labels = grown.read();
   std::cout << "at most " << *std::max_element(distance.begin(), distance.end()) << " pixels; grown to "
-            << std::count(labels.begin(), labels.end(), 0u) << " and " << std::count(labels.begin(), labels.end(), 1u)
-            << '\n';
+            << std::count(labels.begin(), labels.end(), 0u) << " and "
+            << std::count(labels.begin(), labels.end(), 1u) << '\n';
 }

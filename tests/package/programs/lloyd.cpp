@@ -10,6 +10,7 @@ int main() {
   const vorocl::Relaxation done = vorocl::relax(seeds, diagram, vorocl::engine(vorocl::method("exact")), 100);
 
   std::cout << (done.converged ? "converged" : "still moving") << ":";
-  for (const std::optional<vorocl::Point>& point : seeds.read()) std::cout << ' ' << point->x << ',' << point->y;
+  for (const std::optional<vorocl::Point>& point : seeds.read())
+    std::cout << ' ' << point->x << ',' << point->y;
   std::cout << '\n';
 }

@@ -16,6 +16,6 @@ int main() {
 
   std::vector<cl_uint> read(64);
   queue.enqueueReadBuffer(labels, CL_TRUE, 0, 256, read.data());
-  std::cout << std::count(read.begin(), read.end(), 0u) << " pixels and " << std::count(read.begin(), read.end(), 1u)
-            << '\n';
+  std::cout << std::count(read.begin(), read.end(), 0u) << " pixels and "
+            << std::count(read.begin(), read.end(), 1u) << '\n';
 }

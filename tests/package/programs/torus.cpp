@@ -6,7 +6,8 @@ int main() {
   const vorocl::Device device = vorocl::Device::select();
   const vorocl::Grid torus(90, 90, vorocl::Periodic::xy);
   vorocl::Diagram diagram(device, torus);
-  vorocl::exact_diagram(vorocl::Seeds(device, torus, {{2.5, 2.5}, {47.5, 2.5}, {2.5, 47.5}, {47.5, 47.5}}), diagram);
+  vorocl::exact_diagram(vorocl::Seeds(device, torus, {{2.5, 2.5}, {47.5, 2.5}, {2.5, 47.5}, {47.5, 47.5}}),
+                        diagram);
 
   vorocl::CellSumsResult sums;
   vorocl::cell_sums(diagram, sums);

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     const vorocl::Grid grid(1000, 600);
     vorocl::SharedSeeds seeds(MPI_COMM_WORLD, grid);
     const std::vector<vorocl::Point> points = {{100.0 + 500 * rank, 300}, {200, 100.0 + 400 * rank}};
-    seeds.add(points.data(), points.size(), 2 * static_cast<std::uint64_t>(rank));
+    seeds.add(points, 2 * static_cast<std::uint64_t>(rank));
     seeds.share();
     const vorocl::Tiling tiling(grid, 256);
     vorocl::TileCounter counter(MPI_COMM_WORLD, seeds, tiling);
