@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "mpi/agreement.hpp"
-#include "tiles/block_tree.hpp"
+#include "mpi/block_tree.hpp"
 #include "tiles/plane_axes.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
