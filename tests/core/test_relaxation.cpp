@@ -165,6 +165,25 @@ BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
   BOOST_TEST(same(pixels_of(points_of(seeds)), before));
 }
 
+// Pixels are what seeds move on, whatever the unit of their points.
+BOOST_AUTO_TEST_CASE(rounds_are_the_same_in_units_of_the_data) {
+  const Grid pixels(120, 90, Periodic::x);
+  const Grid data(Axis(120, -6, 6).periodic(), Axis(90, 0, 1).reversed());
+  const std::vector<Pixel> from = random_pixels(pixels, 60, 1);
+  Seeds a(test_device(), pixels, centres(from));
+  Seeds b(test_device(), data,
+          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
+  Diagram of_a(test_device(), pixels), of_b(test_device(), data);
+  const Relaxation first = relax(a, of_a, exactly, 5), second = relax(b, of_b, exactly, 5);
+  BOOST_TEST(first.energies == second.energies, boost::test_tools::per_element());
+  BOOST_TEST((of_a.read() == of_b.read()));
+  const std::vector<Point> in_pixels = points_of(a), in_units = points_of(b);
+  for (std::size_t id = 0; id < from.size(); ++id) {
+    const Point expected = data.point(in_pixels[id]);
+    BOOST_TEST((in_units[id].x == expected.x && in_units[id].y == expected.y));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {
   const Grid grid(9, 9);
   Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}});
