@@ -107,8 +107,9 @@ struct SeedsFrame {
 std::shared_ptr<Placements> no_placements();
 
 /// The greatest way along an axis between the pixels of one frame and another, for seeds present in both.
+/// `some_absent`: whether there may be others.
 double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
-                    const std::vector<PlanePosition>& to);
+                    const std::vector<PlanePosition>& to, bool some_absent);
 
 /// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, for something
 /// ("jump flooding") that does not know them.
