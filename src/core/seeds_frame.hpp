@@ -53,7 +53,7 @@ struct SeedsFrame {
   std::size_t size = 0;
   std::size_t absent = 0;        // known to the host; not those that the check counts
   std::uint64_t owner = 0;       // the Seeds object it is of: no two have the same number
-  std::uint64_t vanishings = 0;  // how often, up to this frame, a seed may have gone that was there before
+  std::uint64_t vanishings = 0;  // how many frames, up to this one, may have lost a seed of the frame before
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
   bool marked = false;                                 // a buffer said which seeds are present
   std::shared_ptr<const OuterSeeds> outer = nullptr;   // none: all seeds lie in the pixels
