@@ -78,8 +78,8 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .value_name("EPSG:N");
   command
       .add("-o", options->output.picture,
-           "Picture of the plane to write, with --only of its part, of 4096 pixels a side at most: .png, "
-           ".jpg, .bmp or .tif")
+           "Picture to write, of the plane or of the part that --only names, at most 4096 pixels a side: "
+           ".png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
   command
       .add("--cells", options->output.cells,
