@@ -1,17 +1,16 @@
-// What the tests of windows share: the shapes of the exact engine, and how a case is named.
+// What the tests of windows share: the shapes of the exact engine, and random seeds, and how a case is named.
 #pragma once
 
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "brute_force.hpp"
 #include "fixture.hpp"
 #include "list_length.hpp"
-#include "plane_brute_force.hpp"
 
 namespace vorocl {
-
-using Labels = std::vector<std::uint32_t>;
 
 /// The ways in which the engine and the pass after it work.
 struct Engine {
@@ -37,12 +36,25 @@ inline const std::vector<Engine>& engines() {
   return all;
 }
 
-inline std::string text_of(const Grid& grid, const Domain& domain, std::size_t seeds) {
+inline std::string text_of(const Window& window, std::size_t seeds) {
+  const Grid& grid = window.grid();
   std::ostringstream text;
-  text << grid.width() << " x " << grid.height() << " in " << domain.width << " x " << domain.height
-       << " from " << domain.x << ", " << domain.y << ", periodic " << static_cast<int>(domain.periodic)
-       << ", " << seeds << " seeds";
+  text << window.width() << " x " << window.height() << " from " << window.x() << ", " << window.y() << " of "
+       << grid.width() << " x " << grid.height() << ", periodic " << static_cast<int>(grid.periodic()) << ", "
+       << seeds << " seeds";
   return text.str();
+}
+
+/// Random pixels of a rectangle of the plane.
+inline std::vector<Pixel> random_pixels_between(const Pixel& first, const Pixel& last, std::size_t count,
+                                                std::mt19937_64& rng) {
+  std::uniform_int_distribution<std::int64_t> x(first.x, last.x), y(first.y, last.y);
+  std::vector<Pixel> pixels;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t column = x(rng);
+    pixels.push_back({column, y(rng)});
+  }
+  return pixels;
 }
 
 }  // namespace vorocl
