@@ -172,9 +172,9 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
   check_error([&] { some.move_to({{1, 1}, {not_a_number, 5}}); }, {"point 1", "not finite"});
 
   check_error([&] { Seeds(test_device(), grid, points, Outside::refuse); },
-              {"point 1 (-0.5, 3)", "outside the grid", "[0, 20)"});
+              {"point 1 (-0.5", "outside the grid", "[0, 20)"});
   Seeds all(test_device(), grid, {{1, 1}, {2, 2}}, Outside::refuse);
-  check_error([&] { all.move_to({{3, 3}, {20, 2}}); }, {"point 1 (20, 2)", "outside the grid"});
+  check_error([&] { all.move_to({{3, 3}, {20, 2}}); }, {"point 1 (20", "outside the grid"});
   BOOST_TEST(same(all.read(), {Point{1, 1}, Point{2, 2}}));  // where they were
   const Grid closed(Axis(20).closed(), Axis(10));
   BOOST_TEST(centres_of(Seeds(test_device(), closed, {{20, 2}}, Outside::refuse))[0].x == 19.5);

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "core/seeds_state.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/program.hpp"
 
@@ -18,7 +19,7 @@ std::string source_of_reference() {
   return with_includes("reference.cl", text.str());
 }
 
-std::string options_for(const Grid& grid, Metric metric) {
+std::string options_for(const PixelGrid& grid, Metric metric) {
   return std::string("-cl-std=CL1.2 -DVOROCL_WIDTH=1 -DVOROCL_GUARD=0 -DVOROCL_NEIGHBOURS=9") +
          (metric == Metric::euclidean ? " -DVOROCL_EUCLIDEAN" : " -DVOROCL_MANHATTAN") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
@@ -41,10 +42,11 @@ const cl::Program& program_for_reference(const Device& device, const std::string
 
 std::vector<std::uint32_t> reference_labels(const Seeds& seeds, Metric metric) {
   const Device& device = seeds.device();
-  const Grid& grid = seeds.grid();
+  const PixelGrid grid{Window(seeds.grid())};
+  const auto placement = Internal::state(seeds).frame()->place_in(seeds.grid(), grid);
   const cl::Buffer labels = allocate(device, grid.pixels() * sizeof(cl_uint), "the reference's labels");
   cl::Kernel kernel(program_for_reference(device, options_for(grid, metric)), "label_by_all_seeds");
-  check(kernel.setArg(0, seeds.positions()), "setting the reference's seeds");
+  check(kernel.setArg(0, *placement->positions), "setting the reference's seeds");
   check(kernel.setArg(1, static_cast<cl_uint>(seeds.size())), "setting the reference's count");
   check(kernel.setArg(2, labels), "setting the reference's labels");
   check(kernel.setArg(3, cl_int{grid.width()}), "setting the reference's width");
