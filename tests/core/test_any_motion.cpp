@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 

@@ -1,6 +1,7 @@
 // Sums, shapes and statistics of cells, against straight host code.
 #define BOOST_TEST_MODULE cells
 #include "measured_cases.hpp"
+#include "read_measures.hpp"
 #include "vorocl/cells.hpp"
 
 using namespace vorocl;
@@ -62,12 +63,6 @@ void check_shapes(const std::string& name, const std::vector<Pixel>& pixels, con
   BOOST_TEST(wrong_boxes == 0u, name << ": " << wrong_boxes << " boxes are wrong");
   BOOST_TEST(wrong_distances == 0u, name << ": " << wrong_distances << " distances are wrong");
   BOOST_TEST(wrong_borders == 0u, name << ": " << wrong_borders << " cells are wrong about the border");
-}
-
-CellStatistics statistics_of(const Diagram& diagram) {
-  CellStatisticsResult result;
-  cell_statistics(diagram, result);
-  return result.read();
 }
 
 }  // namespace

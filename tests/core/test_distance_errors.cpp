@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measured_cases.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 
@@ -33,12 +34,6 @@ DistanceErrors on_the_host(const Grid& grid, const std::vector<Pixel>& seeds, Me
     }
   }
   return errors;
-}
-
-DistanceErrors errors_of(const Diagram& diagram, const Diagram& exact) {
-  DistanceErrorsResult result;
-  distance_errors(diagram, exact, result);
-  return result.read();
 }
 
 void check(const std::string& name, const Device& device, const Case& example, Metric metric,

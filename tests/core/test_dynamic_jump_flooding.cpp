@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 #include "reference_flood.hpp"
 
 using namespace vorocl;

@@ -1,6 +1,7 @@
 // Lloyd relaxation: energies, motions and where it ends.
 #define BOOST_TEST_MODULE relaxation
 #include "measured_cases.hpp"
+#include "read_measures.hpp"
 #include "vorocl/cells.hpp"
 #include "vorocl/relaxation.hpp"
 

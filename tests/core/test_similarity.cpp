@@ -6,6 +6,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 #include "plane_brute_force.hpp"
 
 using namespace vorocl;

@@ -3,6 +3,7 @@
 #define BOOST_TEST_MODULE simulation
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 

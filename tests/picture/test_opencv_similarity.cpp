@@ -4,6 +4,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 #include "vorocl/picture.hpp"
 
 using namespace vorocl;
