@@ -38,8 +38,8 @@ std::vector<Row> rows_on_host(const Grid& grid, const std::vector<Pixel>& pixels
     Row& row = rows[label];
     const Pixel image = nearest_image(grid, {x, y}, pixels[label]);
     ++row.pixels;
-    row.sum_x += image.x + 0.5;
-    row.sum_y += image.y + 0.5;
+    row.sum_x += centre(image).x;
+    row.sum_y += centre(image).y;
     row.touches_border |= (!has_x(grid.periodic()) && (x == 0 || x == grid.width() - 1)) ||
                           (!has_y(grid.periodic()) && (y == 0 || y == grid.height() - 1));
     for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {

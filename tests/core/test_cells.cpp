@@ -44,10 +44,11 @@ void check_shapes(const std::string& name, const std::vector<Pixel>& pixels, con
   each_pixel(grid, diagram.read(), [&](std::uint32_t label, int x, int y) {
     CellShape& cell = expected[label];
     const Pixel image = nearest_image(grid, {x, y}, pixels[label]);
-    cell.left = std::min(cell.left, image.x);
-    cell.top = std::min(cell.top, image.y);
-    cell.right = std::max(cell.right, image.x);
-    cell.bottom = std::max(cell.bottom, image.y);
+    const auto column = static_cast<int>(image.x), row = static_cast<int>(image.y);
+    cell.left = std::min(cell.left, column);
+    cell.top = std::min(cell.top, row);
+    cell.right = std::max(cell.right, column);
+    cell.bottom = std::max(cell.bottom, row);
     cell.largest_distance = std::max(cell.largest_distance, distance(image, pixels[label], diagram.metric()));
     cell.touches_border |= (!has_x(grid.periodic()) && (x == 0 || x == grid.width() - 1)) ||
                            (!has_y(grid.periodic()) && (y == 0 || y == grid.height() - 1));

@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(points_are_in_the_units_of_the_data) {
   Diagram diagram(test_device(), Window(data, 0, 0, 90, 60));
   const auto points = transformed(seeds, [&](const Pixel& pixel) {
     Point point = data.point(centre(pixel));
-    point.y += 360 * (pixel.x % 3 - 1);  // which wraps
+    point.y += 360 * static_cast<double>(pixel.x % 3 - 1);  // which wraps
     return point;
   });
   jump_flooding(Seeds(test_device(), data, points), diagram);

@@ -33,10 +33,9 @@ std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32
     sums[label].x += image.x;
     sums[label].y += image.y;
   });
-  const auto nearest = [](std::int64_t area, std::int64_t sum, int present, std::int64_t side) {
-    const auto size = static_cast<int>(side);
-    int best = present;
-    for (int at = -size; at < 2 * size; ++at) {
+  const auto nearest = [](std::int64_t area, std::int64_t sum, std::int64_t present, std::int64_t size) {
+    std::int64_t best = present;
+    for (std::int64_t at = -size; at < 2 * size; ++at) {
       if (std::abs(at * area - sum) < std::abs(best * area - sum)) best = at;
     }
     return best;
@@ -114,11 +113,11 @@ BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_can_ask_how_far_seeds_moved) {
   std::vector<Pixel> before = pixels_of(points_of(seeds));
   const auto engine = [&](const Seeds& moved, Diagram& filled) {
     const std::vector<Pixel> now = pixels_of(points_of(moved));
-    int longest = 0;
+    std::int64_t longest = 0;
     for (std::size_t id = 0; id < now.size(); ++id) {
       longest = std::max({longest, std::abs(now[id].x - before[id].x), std::abs(now[id].y - before[id].y)});
     }
-    BOOST_TEST(moved.displacement() == longest);
+    BOOST_TEST(moved.displacement() == static_cast<double>(longest));
     before = now;
     return dynamic_jump_flooding(moved, filled);
   };

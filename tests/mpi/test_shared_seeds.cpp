@@ -39,7 +39,8 @@ void add_slice(SharedSeeds& seeds, const std::vector<Pixel>& pixels, bool shuffl
     const std::size_t owner = shuffled ? id % static_cast<std::size_t>(ranks())
                                        : id * static_cast<std::size_t>(ranks()) / pixels.size();
     if (owner != static_cast<std::size_t>(rank())) continue;
-    const PlaneSeed seed = {pixels[id].x, pixels[id].y, static_cast<std::uint32_t>(id)};
+    const PlaneSeed seed = {static_cast<std::int32_t>(pixels[id].x), static_cast<std::int32_t>(pixels[id].y),
+                            static_cast<std::uint32_t>(id)};
     seeds.add(&seed, 1);
   }
 }
