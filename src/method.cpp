@@ -1,5 +1,6 @@
 #include "vorocl/method.hpp"
 
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/exact_diagram.hpp"
@@ -24,42 +25,42 @@ Neighbourhood neighbourhood(const MethodOptions& options) {
                                                                 : Neighbourhood::moore;
 }
 
-Report run_standard_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+Report run_standard_flooding(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
   return standard_flooding(seeds, diagram, {options.metric, neighbourhood(options)});
 }
 
 template <JumpFloodingVariant variant>
-Report run_jump_flooding(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+Report run_jump_flooding(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
   return jump_flooding(seeds, diagram, {options.metric, neighbourhood(options), variant});
 }
 
-Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, double max_displacement,
-                                 const MethodOptions& options) {
+Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
   const DynamicPlanOptions plan = {options.neighbourhood.value_or(NeighbourhoodMix::mixed),
                                    options.von_neumann_waves, options.extra_waves};
-  return dynamic_jump_flooding(seeds, diagram, max_displacement,
-                               {options.metric, plan, options.refresh_interval, options.reach});
+  return dynamic_jump_flooding(
+      seeds, diagram,
+      {options.metric, plan, options.refresh_interval, options.reach, options.max_displacement});
 }
 
-Report run_exact(const Seeds& seeds, Diagram& diagram, double, const MethodOptions& options) {
+Report run_exact(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
   refuse_mixed(options);
   return exact_diagram(seeds, diagram, {options.metric});
 }
 
-Plan plan_standard_flooding(const Grid&, int waves, const MethodOptions& options) {
+Plan plan_standard_flooding(const Window&, int waves, const MethodOptions& options) {
   if (waves < 0) throw Error("a plan of " + std::to_string(waves) + " waves is not possible; 0 is the least");
   return Plan(static_cast<std::size_t>(waves), {1, neighbourhood(options)});
 }
 
 template <JumpFloodingVariant variant>
-Plan plan_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
-  return jump_flooding_plan(grid, variant, neighbourhood(options));
+Plan plan_jump_flooding(const Window& window, int, const MethodOptions& options) {
+  return jump_flooding_plan(window, variant, neighbourhood(options));
 }
 
 /// From seeds alone it runs JFA.
-Plan plan_dynamic_jump_flooding(const Grid& grid, int, const MethodOptions& options) {
+Plan plan_dynamic_jump_flooding(const Window& window, int, const MethodOptions& options) {
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
-  return jump_flooding_plan(grid, JumpFloodingVariant::jfa,
+  return jump_flooding_plan(window, JumpFloodingVariant::jfa,
                             von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore);
 }
 
@@ -97,22 +98,26 @@ void check_options(const Method& method, const MethodOptions& options) {
 }
 
 Simulation::Engine engine(const Method& method, const MethodOptions& options) {
-  return [run = method.run, options](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-    return run(seeds, diagram, max_displacement, options);
+  return [run = method.run, options](const Seeds& seeds, Diagram& diagram) {
+    return run(seeds, diagram, options);
   };
 }
 
-void prepare(const Method& method, const Device& device, const Grid& grid, std::size_t seeds,
+void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
              const MethodOptions& options) {
-  Diagram diagram(device, grid);
-  method.run(Seeds::random(device, grid, seeds, 1), diagram, 0, options);
+  const Grid& grid = window.grid();
+  const Grid pixels(fits_in_a_diagram(grid) ? grid
+                                            : Grid(window.width(), window.height(), window.periodic()));
+  Diagram diagram(device, fits_in_a_diagram(grid) ? window : Window(pixels));
+  method.run(Seeds::random(device, pixels, seeds, 1), diagram, options);
   if (method.continues) {
     // The second frame runs the longest plan and, because its seeds are others, the search for pixels without
     // a label; the third one starts from its labels: all need kernels that the first frame does not.
-    const Seeds others = Seeds::random(device, grid, seeds, 2);
-    const double farthest = grid.longest_side();
-    method.run(others, diagram, farthest, options);
-    method.run(others, diagram, 0, options);
+    const Seeds others = Seeds::random(device, pixels, seeds, 2);
+    MethodOptions farthest = options;
+    farthest.max_displacement = static_cast<double>(window.longest_side());
+    method.run(others, diagram, farthest);
+    method.run(others, diagram, options);
   }
   diagram.wait();
 }

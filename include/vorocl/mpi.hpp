@@ -44,7 +44,7 @@ class VOROCL_API SharedSeeds : public SeedSource {
   /// Takes seeds from this rank, in any order, as PlaneSeeds::add(): with ids of their own, or the ids first,
   /// first + 1, ...
   void add(const PlaneSeed* seeds, std::size_t count);
-  void add(const Point* points, std::size_t count, std::uint64_t first);
+  void add(const Points& points, std::uint64_t first);
 
   /// Collective: sorts the seeds and shares them out.
   void share();
@@ -56,7 +56,7 @@ class VOROCL_API SharedSeeds : public SeedSource {
   std::uint64_t size() const;
   std::uint64_t held() const;
 
-  /// About how many seeds lie in a rectangle, as the boxes say. After share().
+  /// About how many seeds lie in a window, as the boxes say. After share().
   double expected(const Window& window) const;
 
   /// Fetches seeds. Not collective. Throws Error before share().

@@ -161,8 +161,8 @@ class Seeds:
 class Diagram:
     """A Voronoi diagram: an image of labels, kept on the device.
 
-    It keeps its working memory, so that filling it again allocates nothing. It remembers the seeds, in the frame in which
-    they were then, and the metric: measures ask it for them. Threads that share a diagram take turns.
+    It keeps its working memory, so that filling it again allocates nothing. It remembers the metric and the seeds, where
+    they were then: measures ask it for them. Threads that share a diagram take turns.
 
     Parameters
     ----------

@@ -95,6 +95,10 @@ Kernel& Filling::kernel(const char* file, const char* name, Neighbourhood neighb
   return diagram_.kernels.get(diagram_.device, file, name, placement().grid, {next_.metric, neighbourhood});
 }
 
+Kernel& Filling::kernel(const Device& device, const char* file, const char* name) {
+  return diagram_.kernels.get(device, file, name, placement().grid, {next_.metric});
+}
+
 Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age, bool far_counted,
                        const FloodStart& start) {
   check(clFlush(diagram_.device.queue()()), "starting the diagram");

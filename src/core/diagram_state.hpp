@@ -78,8 +78,12 @@ class Filling {
   const SeedsFrame& seeds() const { return *next_.seeds; }
   const Placement& placement() const { return *next_.placement; }
 
-  /// A kernel of the diagram for these seeds and this metric.
+  Metric metric() const { return next_.metric; }
+
+  /// A kernel of the diagram for these seeds and this metric, on the diagram's device or that with another
+  /// tuning.
   Kernel& kernel(const char* file, const char* name, Neighbourhood neighbourhood = Neighbourhood::moore);
+  Kernel& kernel(const Device& device, const char* file, const char* name);
 
   /// What the diagram held before; none if it counted as never filled.
   const std::optional<DiagramContents>& previous() const { return previous_; }

@@ -1,24 +1,32 @@
 // Which pixel of a grid a point's seed lies in.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <sstream>
 #include <string>
 
 #include "core/outer_seeds.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/seeds.hpp"
+#include "vorocl/tiles.hpp"
 
 namespace vorocl {
 
 /// Snaps points to the pixels of a grid, by its axes.
 class Snapping {
  public:
-  Snapping(const Grid& grid, Outside outside) : grid_(grid), outside_(outside) {}
+  Snapping(const Grid& grid, Outside outside)
+      : grid_(grid),
+        outside_(outside),
+        width_(static_cast<cl_uint>(grid.width())),
+        height_(static_cast<cl_uint>(grid.height())) {}
 
   /// Whether a pixel is one of the grid's.
   bool is_inside(const PlanePosition& at) const {
-    return at.s[0] >= 0 && at.s[0] < grid_.width() && at.s[1] >= 0 && at.s[1] < grid_.height();
+    // What is negative is too large without its sign.
+    return static_cast<cl_uint>(at.s[0]) < width_ && static_cast<cl_uint>(at.s[1]) < height_;
   }
 
   /// The pixel of a point, counted from the grid's first one; absent_coordinate if it is outside and such
@@ -32,7 +40,11 @@ class Snapping {
   }
 
   /// "point 7 (nan, 3) is outside the grid; ...", or not finite.
-  static BadPoint outside_the_grid(std::size_t id, const Point& point, const Grid& grid);
+  static BadPoint outside_the_grid(std::size_t id, const Point& point, const Grid& grid) {
+    return {id, point,
+            complaint(point, "outside the grid") + "; " + range_text(grid.x(), "x must be in ") + " and " +
+                range_text(grid.y(), "y in ")};
+  }
 
  private:
   cl_int along(const Axis& axis, std::size_t id, const Point& point, double coordinate) const {
@@ -43,11 +55,39 @@ class Snapping {
     return static_cast<cl_int>(pixel);
   }
 
-  /// Throws BadPoint for a point that is not finite or too far away.
-  [[noreturn]] static void fail(std::size_t id, const Point& point);
+  [[noreturn]] static void fail(std::size_t id, const Point& point) {
+    throw BadPoint(id, point,
+                   complaint(point, "too far away") +
+                       "; x and y must be less than 2^31 pixels from all pixels of the grid");
+  }
+
+  /// What is bad about a point that is not finite, or else.
+  static std::string complaint(const Point& point, const char* otherwise) {
+    return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
+  }
+
+  static std::string range_text(const Axis& axis, const char* start) {
+    std::ostringstream text;
+    text << start << '[' << axis.from() << ", " << axis.to() << (axis.is_closed() ? "]" : ")");
+    return text.str();
+  }
 
   Grid grid_;
   Outside outside_;
+  cl_uint width_, height_;
 };
+
+/// Throws Error unless a seed with an id of the caller's may have this pixel of a grid and this id.
+inline void check(const PlaneSeed& seed, const Grid& grid) {
+  if (seed.id == no_label) throw Error("a seed has the id 2^32 - 1, which says that there is none");
+  const auto holds = [](const Axis& axis, std::int64_t pixel) {
+    return axis.is_periodic() ? pixel >= 0 && pixel < axis.pixels()
+                              : pixel >= axis.pixels() - (std::int64_t{1} << 31);
+  };
+  if (!holds(grid.x(), seed.x) || !holds(grid.y(), seed.y)) {
+    throw Error("seed " + std::to_string(seed.id) + " at pixel (" + std::to_string(seed.x) + ", " +
+                std::to_string(seed.y) + ") is too far away, or outside the grid's period");
+  }
+}
 
 }  // namespace vorocl

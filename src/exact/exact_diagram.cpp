@@ -27,13 +27,13 @@ struct ExactWorkspace {
 }  // namespace
 
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
-  if (diagram.device().tuning().shape == Shape::group && fits_in_groups(diagram.grid())) {
-    return exact_diagram_in_groups(seeds, diagram, options);
-  }
-  Filling filling(seeds, diagram);
+  Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
   const Device& device = state.device;
-  const Grid& grid = state.grid;
+  const PixelGrid& grid = filling.placement().grid;
+  if (device.tuning().shape == Shape::group && fits_in_groups(grid)) {
+    return exact_diagram_in_groups(filling, state);
+  }
   const IndexFrame frame(grid, Shape::vector);
   const int width = grid.width(), height = grid.height();
   const std::size_t pairs = bins_across(frame, 0) * ((bins_down(frame, 0) - 1) / PAIR + 1);
@@ -48,9 +48,9 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   const std::size_t group = device.tuning().group_width * device.tuning().group_height;
   // Work-items that do much each: small groups spread them over the compute units.
   const auto heavy = [&](const char* name, std::size_t most) -> Kernel& {
-    return state.kernel(file, name, {options.metric}).in_groups_of(std::min(group, most));
+    return filling.kernel(file, name).in_groups_of(std::min(group, most));
   };
-  const cl::Event first = make_index(state, device, seeds, memory.index, Shape::vector, file, options.metric);
+  const cl::Event first = make_index(filling, state, device, memory.index, Shape::vector, file);
   const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory.index;
   const auto& [index, labelled, lists, counts] = memory;
   const int top = top_level(frame);
@@ -64,7 +64,7 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   const cl::Event last = heavy("label_far", 64)
                              .over_items(pairs, bits, starts, word_starts, list, ids, width, height, labelled,
                                          pyramid, top, lists, counts, state.labels);
-  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, last));
+  return filling.commit(0, first, add_outer_seeds(filling, state, last));
 }
 
 }  // namespace vorocl

@@ -47,15 +47,14 @@ std::size_t groups_of_search(const Device& device, std::size_t patches) {
 
 }  // namespace
 
-bool fits_in_groups(const Grid& grid) {
+bool fits_in_groups(const PixelGrid& grid) {
   return (!grid.periodic_x() || grid.width() <= MOST_PERIOD_OF_GROUPS) &&
          (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
 }
 
-Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
-  Filling filling(seeds, diagram);
-  DiagramState& state = Internal::state(diagram);
-  const int width = state.grid.width(), height = state.grid.height();
+Report exact_diagram_in_groups(Filling& filling, DiagramState& state) {
+  const PixelGrid& grid = filling.placement().grid;
+  const int width = grid.width(), height = grid.height();
   const std::size_t patches = patches_along(width) * patches_along(height);
   GroupWorkspace& memory = state.workspace<GroupWorkspace>();
   state.reserve(memory.pending, patches * word);
@@ -66,11 +65,11 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
   const std::size_t items = device.tuning().patch_items;
   const std::size_t of_search = items_of_search(device);
   const auto kernel = [&](const char* name, std::size_t items_of_group) -> Kernel& {
-    return state.kernels.get(device, file, name, state.grid, {options.metric}).in_groups_of(items_of_group);
+    return filling.kernel(device, file, name).in_groups_of(items_of_group);
   };
-  const cl::Event first = make_index(state, device, seeds, memory.index, Shape::group, file, options.metric);
+  const cl::Event first = make_index(filling, state, device, memory.index, Shape::group, file);
   const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory.index;
-  const int top = top_level(IndexFrame(state.grid, Shape::group));
+  const int top = top_level(IndexFrame(grid, Shape::group));
   kernel("label_dense_patches", items)
       .over_items(patches * items, bits, starts, word_starts, list, ids, width, height, state.labels,
                   memory.pending, memory.queue);
@@ -81,7 +80,7 @@ Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const Exact
       kernel("search_patches", of_search)
           .over_items(groups_of_search(device, patches) * of_search, bits, starts, word_starts, list, ids,
                       width, height, pyramid, top, memory.queue, state.labels);
-  return filling.commit(0, first, add_outer_seeds(state, seeds, options.metric, last));
+  return filling.commit(0, first, add_outer_seeds(filling, state, last));
 }
 
 }  // namespace vorocl

@@ -2,14 +2,14 @@
 // (kernels/exact/group/).
 #pragma once
 
-#include "vorocl/exact_diagram.hpp"
+#include "core/diagram_state.hpp"
 
 namespace vorocl {
 
 /// Whether the shape can do it: its periods are limited.
-bool fits_in_groups(const Grid& grid);
+bool fits_in_groups(const PixelGrid& grid);
 
-/// As exact_diagram(), whatever the shape of the device's tuning.
-Report exact_diagram_in_groups(const Seeds& seeds, Diagram& diagram, const ExactOptions& options);
+/// Fills a diagram as exact_diagram(), whatever the shape of the device's tuning.
+Report exact_diagram_in_groups(Filling& filling, DiagramState& state);
 
 }  // namespace vorocl

@@ -25,7 +25,7 @@ int frame_side(int side, bool periodic, Shape shape) {
 }
 
 /// The most seeds that the index lists: each with all its images, of which a pixel has one.
-std::size_t most_listed(const Grid& grid, const IndexFrame& frame, std::size_t seeds) {
+std::size_t most_listed(const PixelGrid& grid, const IndexFrame& frame, std::size_t seeds) {
   const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   const auto images = [](int of_frame, int side) {
     return static_cast<std::size_t>((of_frame - 1) / side) + 1;
@@ -36,7 +36,7 @@ std::size_t most_listed(const Grid& grid, const IndexFrame& frame, std::size_t s
 
 }  // namespace
 
-IndexFrame::IndexFrame(const Grid& grid, Shape shape)
+IndexFrame::IndexFrame(const PixelGrid& grid, Shape shape)
     : width(frame_side(grid.width(), grid.periodic_x(), shape)),
       height(frame_side(grid.height(), grid.periodic_y(), shape)) {}
 
@@ -60,33 +60,34 @@ std::size_t bins_of_all_levels(const IndexFrame& frame) {
 }
 }  // namespace
 
-cl::Event make_index(DiagramState& state, const Device& device, const Seeds& seeds, IndexMemory& memory,
-                     Shape shape, const char* file, Metric metric) {
-  const Grid& grid = state.grid;
+cl::Event make_index(Filling& filling, DiagramState& state, const Device& device, IndexMemory& memory,
+                     Shape shape, const char* file) {
+  const PixelGrid& grid = filling.placement().grid;
+  const cl::Buffer& positions = *filling.placement().positions;
+  const std::size_t seeds = filling.seeds().size;
   const IndexFrame frame(grid, shape);
   const int width = grid.width(), height = grid.height();
-  const auto count = static_cast<cl_uint>(seeds.size());
+  const auto count = static_cast<cl_uint>(seeds);
   const std::size_t down = bins_down(frame, 0), bit_words = bins(frame, 0) * pixels_of_bin / 32;
   state.reserve(memory.bits, (bit_words + COUNTERS) * word);
   state.reserve(memory.word_starts, bit_words * word);
   state.reserve(memory.starts, (bins(frame, 0) + down) * word);
-  const std::size_t list_room = most_listed(grid, frame, seeds.size()) + behind_list;
+  const std::size_t list_room = most_listed(grid, frame, seeds) + behind_list;
   state.reserve(memory.list, list_room * word);
   state.reserve(memory.ids, list_room * word);
-  state.reserve(memory.bit_of_seed, seeds.size() * word);
-  state.reserve(memory.duplicates, seeds.size() * word);
+  state.reserve(memory.bit_of_seed, seeds * word);
+  state.reserve(memory.duplicates, seeds * word);
   state.reserve(memory.pyramid, bins_of_all_levels(frame) * word);
 
   const auto counters = static_cast<cl_int>(bit_words);
   const Tuning& tuning = device.tuning();
   const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernels.get(device, file, name, grid, {metric})
-        .in_groups_of(tuning.group_width * tuning.group_height);
+    return filling.kernel(device, file, name).in_groups_of(tuning.group_width * tuning.group_height);
   };
   const auto& [bits, word_starts, starts, list, ids, bit_of_seed, duplicates, pyramid] = memory;
   cl::Event first = fill(device, bits, cl_uint{0}, bit_words + COUNTERS);
   kernel("set_bits")
-      .over_items(count, seeds.positions(), count, bits, bit_of_seed, duplicates, counters, width, height);
+      .over_items(count, positions, count, bits, bit_of_seed, duplicates, counters, width, height);
   kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
   for (int level = 1; level <= top_level(frame); ++level) {
     kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
@@ -100,10 +101,10 @@ cl::Event make_index(DiagramState& state, const Device& device, const Seeds& see
   }
   kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
   kernel("list_seeds")
-      .over_items(count, seeds.positions(), bit_of_seed, count, bits, word_starts, list, ids, width, height);
+      .over_items(count, positions, bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")
-      .over_items(std::min(seeds.size(), most_items_for_duplicates), seeds.positions(), duplicates, bits,
-                  word_starts, ids, counters, width, height);
+      .over_items(std::min(seeds, most_items_for_duplicates), positions, duplicates, bits, word_starts, ids,
+                  counters, width, height);
   return first;
 }
 

@@ -16,7 +16,7 @@ struct IndexMemory {
 /// What the index covers, in pixels: the grid, and margins along periodic axes that are a shape's
 /// (kernels/exact/seed_index.cl).
 struct IndexFrame {
-  IndexFrame(const Grid& grid, Shape shape);
+  IndexFrame(const PixelGrid& grid, Shape shape);
 
   int width, height;
 };
@@ -31,7 +31,7 @@ int top_level(const IndexFrame& frame);
 
 /// Makes the index by the kernels of a file, of this shape and built for a device, and returns the first
 /// command.
-cl::Event make_index(DiagramState& state, const Device& device, const Seeds& seeds, IndexMemory& memory,
-                     Shape shape, const char* file, Metric metric);
+cl::Event make_index(Filling& filling, DiagramState& state, const Device& device, IndexMemory& memory,
+                     Shape shape, const char* file);
 
 }  // namespace vorocl

@@ -20,14 +20,15 @@ std::size_t boxes_along(int pixels) { return (static_cast<std::size_t>(pixels - 
 
 }  // namespace
 
-cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, const cl::Event& last) {
-  const std::shared_ptr<const OuterSeeds>& outer = Internal::state(seeds).frame()->outer;
+cl::Event add_outer_seeds(const Filling& filling, DiagramState& state, const cl::Event& last) {
+  const std::shared_ptr<const OuterSeeds>& outer = filling.placement().outer;
   if (!outer) return last;
-  const Grid& grid = state.grid;
+  const PixelGrid& grid = filling.placement().grid;
   const int width = grid.width(), height = grid.height();
   const cl_int4& region = outer->region;
   const auto kernel = [&](const char* name) -> Kernel& {
-    return state.kernel("exact/outer.cl", name, {metric, Neighbourhood::moore, outer->extent});
+    return state.kernels.get(state.device, "exact/outer.cl", name, grid,
+                             {filling.metric(), Neighbourhood::moore, outer->extent});
   };
   cl::Event event = last;
   if (outer->count > 0) {

@@ -7,6 +7,6 @@ namespace vorocl {
 
 /// Corrects labels that were made of the seeds inside the pixels by those outside. Returns the last command:
 /// `last`, that of the engine, if there are none.
-cl::Event add_outer_seeds(DiagramState& state, const Seeds& seeds, Metric metric, const cl::Event& last);
+cl::Event add_outer_seeds(const Filling& filling, DiagramState& state, const cl::Event& last);
 
 }  // namespace vorocl

@@ -6,21 +6,44 @@
 
 namespace vorocl {
 
-Report flood(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric) {
-  Flood flood(seeds, diagram, metric);
+namespace {
+
+Report run_plan(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric, const char* method) {
+  Flood flood(seeds, diagram, metric, method);
   for (const Wave& wave : plan) {
-    if (wave.step < 1 || wave.step > Grid::max_side) {
+    if (wave.step < 1 || wave.step > Window::max_side) {
       throw Error("a wave's step is " + std::to_string(wave.step) + "; it must be from 1 to " +
-                  std::to_string(Grid::max_side));
+                  std::to_string(Window::max_side));
     }
   }
   flood.run(plan);
   return flood.commit(plan.size());
 }
 
+const char* name_of(JumpFloodingVariant variant) {
+  switch (variant) {
+    case JumpFloodingVariant::jfa:
+      return "jfa";
+    case JumpFloodingVariant::jfa_plus_1:
+      return "jfa+1";
+    case JumpFloodingVariant::jfa_plus_2:
+      return "jfa+2";
+    case JumpFloodingVariant::one_plus_jfa:
+      return "1+jfa";
+  }
+  return "";
+}
+
+}  // namespace
+
+Report flood(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric) {
+  return run_plan(seeds, diagram, plan, metric, "flood");
+}
+
 Report jump_flooding(const Seeds& seeds, Diagram& diagram, const JumpFloodingOptions& options) {
-  return flood(seeds, diagram, jump_flooding_plan(diagram.grid(), options.variant, options.neighbourhood),
-               options.metric);
+  return run_plan(seeds, diagram,
+                  jump_flooding_plan(diagram.window(), options.variant, options.neighbourhood),
+                  options.metric, name_of(options.variant));
 }
 
 }  // namespace vorocl

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "runtime/metric.hpp"
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl {
@@ -25,13 +27,13 @@ void check_options(double max_displacement, const DynamicPlanOptions& options) {
   }
 }
 
-/// The least power of two that is at least 2 L and max_displacement, or the grid's first step if that is
+/// The least power of two that is at least 2 L and max_displacement, or the window's first step if that is
 /// less. 2 L is compared in integers: step >= 2 sqrt(pixels / seeds), squared.
-int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_displacement) {
-  const int most = std::max(first_step(grid), 1);
+int dynamic_first_step(const Window& window, std::size_t seeds, double max_displacement) {
+  const int most = std::max(first_step(window), 1);
   const auto covers = [&](int step) {
     const auto square = static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(step);
-    return square * seeds >= 4 * static_cast<std::uint64_t>(grid.pixels()) && step >= max_displacement;
+    return square * seeds >= 4 * static_cast<std::uint64_t>(window.pixels()) && step >= max_displacement;
   };
   int step = 1;
   while (step < most && !covers(step)) step *= 2;
@@ -39,12 +41,12 @@ int dynamic_first_step(const Grid& grid, std::size_t seeds, double max_displacem
 }
 
 /// Whether the paper's plan can be relied on: the reasons are in docs/moving_seeds.md.
-bool is_reliable(const Plan& plan, const Grid& grid, std::size_t seeds, double max_displacement,
+bool is_reliable(const Plan& plan, const Window& window, std::size_t seeds, double max_displacement,
                  const LabelDistances& distances, Metric metric) {
   constexpr double most_far = 0.1;
-  const double to_corner = reach_of(plan) * (metric == Metric::euclidean ? std::sqrt(2.0) : 2.0);
-  const double length = std::sqrt(static_cast<double>(grid.pixels()) / static_cast<double>(seeds));
-  const bool shorter_than_jfa = !plan.empty() && plan.front().step < first_step(grid);
+  const double to_corner = reach_of(plan) * to_corner_of_square(metric);
+  const double length = std::sqrt(static_cast<double>(window.pixels()) / static_cast<double>(seeds));
+  const bool shorter_than_jfa = !plan.empty() && plan.front().step < first_step(window);
   const bool labels_help = max_displacement < (shorter_than_jfa ? 2 : 0.5) * length;
   return distances.greatest <= to_corner && distances.far <= most_far && labels_help;
 }
@@ -56,30 +58,31 @@ void append_extra_waves(Plan& plan, int waves, Neighbourhood neighbourhood) {
 
 }  // namespace
 
-int first_step(const Grid& grid) {
+int first_step(const Window& window) {
+  const PixelGrid grid(window);
   int step = 1;
   while (step < grid.longest_side()) step *= 2;  // 2^ceil(log2 N)
   return step / 2;
 }
 
-Plan jump_flooding_plan(const Grid& grid, JumpFloodingVariant variant, Neighbourhood neighbourhood) {
+Plan jump_flooding_plan(const Window& window, JumpFloodingVariant variant, Neighbourhood neighbourhood) {
   Plan plan;
-  if (first_step(grid) == 0) return plan;
+  if (first_step(window) == 0) return plan;
   if (variant == JumpFloodingVariant::one_plus_jfa) plan.push_back({1, neighbourhood});
-  for (int step = first_step(grid); step >= 1; step /= 2) plan.push_back({step, neighbourhood});
+  for (int step = first_step(window); step >= 1; step /= 2) plan.push_back({step, neighbourhood});
   if (variant == JumpFloodingVariant::jfa_plus_1) append_extra_waves(plan, 1, neighbourhood);
   if (variant == JumpFloodingVariant::jfa_plus_2) append_extra_waves(plan, 2, neighbourhood);
   return plan;
 }
 
-Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, double max_displacement,
+Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
                                 const DynamicPlanOptions& options) {
   check_options(max_displacement, options);
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan;
-  if (first_step(grid) == 0) return plan;
-  for (int step = dynamic_first_step(grid, seeds, max_displacement); step >= 1; step /= 2)
+  if (first_step(window) == 0) return plan;
+  for (int step = dynamic_first_step(window, seeds, max_displacement); step >= 1; step /= 2)
     plan.push_back({step, rest});
   append_extra_waves(plan, options.extra_waves, rest);
   if (options.neighbourhood == NeighbourhoodMix::mixed) {
@@ -90,13 +93,13 @@ Plan dynamic_jump_flooding_plan(const Grid& grid, std::size_t seeds, double max_
   return plan;
 }
 
-DynamicPlan reaching_plan(const Grid& grid, std::size_t seeds, double max_displacement,
+DynamicPlan reaching_plan(const Window& window, std::size_t seeds, double max_displacement,
                           const LabelDistances& distances, Metric metric, const DynamicPlanOptions& options) {
-  const Plan paper = dynamic_jump_flooding_plan(grid, seeds, max_displacement, options);
-  if (is_reliable(paper, grid, seeds, max_displacement, distances, metric)) return {false, paper};
+  const Plan paper = dynamic_jump_flooding_plan(window, seeds, max_displacement, options);
+  if (is_reliable(paper, window, seeds, max_displacement, distances, metric)) return {false, paper};
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood neighbourhood = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
-  Plan plan = jump_flooding_plan(grid, JumpFloodingVariant::jfa, neighbourhood);
+  Plan plan = jump_flooding_plan(window, JumpFloodingVariant::jfa, neighbourhood);
   // Without its first wave, JFA's plan still reaches the sum of the other steps.
   while (plan.size() > 1 && reach_of(plan) - plan.front().step >= distances.greatest + distances.margin)
     plan.erase(plan.begin());

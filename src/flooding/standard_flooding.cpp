@@ -9,7 +9,7 @@ constexpr int waves_between_reads = 16;  // a read stalls the queue, a wave too 
 }
 
 Report standard_flooding(const Seeds& seeds, Diagram& diagram, const StandardFloodingOptions& options) {
-  Flood flood(seeds, diagram, options.metric);
+  Flood flood(seeds, diagram, options.metric, "standard-flooding");
   flood.clear_last_change();
   flood.first_wave(Flood::none);
   int waves = 0, changing_waves = 0;

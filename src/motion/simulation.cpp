@@ -7,31 +7,41 @@
 
 namespace vorocl {
 
-Simulation::Simulation(Seeds seeds, Motion motion) : seeds_(std::move(seeds)), motion_(std::move(motion)) {
+Simulation::Simulation(Seeds seeds, Motion motion)
+    : seeds_(std::move(seeds)), window_(seeds_.grid()), motion_(std::move(motion)) {
+  if (!motion_) throw Error("a simulation needs a motion that moves the seeds");
+}
+
+Simulation::Simulation(Seeds seeds, const Window& window, Motion motion)
+    : seeds_(std::move(seeds)), window_(window), motion_(std::move(motion)) {
   if (!motion_) throw Error("a simulation needs a motion that moves the seeds");
 }
 
 std::size_t Simulation::add_engine(Engine engine) {
   if (!engine) throw Error("a simulation needs engines that fill diagrams; this one is empty");
   if (frame_ >= 0) throw Error("an engine must be added before the first frame is made");
-  tracks_.push_back({std::move(engine), Diagram(seeds_.device(), seeds_.grid()), {}, {}, 0, 0, 0});
+  tracks_.push_back({std::move(engine), Diagram(seeds_.device(), window_), {}, {}, 0, 0});
   return tracks_.size() - 1;
 }
 
 void Simulation::skip() {
-  const double max_displacement = frame_ < 0 ? 0 : motion_(seeds_, frame_ + 1);
+  if (frame_ >= 0) {
+    const bool follows = window_ == Window(seeds_.grid());
+    Window window = window_;
+    motion_(seeds_, window, frame_ + 1);
+    // A window of the whole grid stays one when the grid changes.
+    window_ = follows && window == window_ ? Window(seeds_.grid()) : window;
+  }
   ++frame_;
   for (Track& track : tracks_) {
-    track.max_displacement += max_displacement;
-    if (track.diagram.grid() != seeds_.grid()) track.diagram = Diagram(seeds_.device(), seeds_.grid());
+    if (track.diagram.window() != window_) track.diagram = Diagram(seeds_.device(), window_);
   }
 }
 
 void Simulation::step() {
   skip();
   for (Track& track : tracks_) {
-    track.report = track.engine(seeds_, track.diagram, track.max_displacement);
-    track.max_displacement = 0;
+    track.report = track.engine(seeds_, track.diagram);
     if (frame_ == 0) continue;  // every engine starts from nothing there: the paper does not count it
     track.untimed.push_back(track.report);
     track.host_milliseconds += track.report.host_milliseconds();

@@ -6,9 +6,9 @@
 #include <unordered_map>
 #include <utility>
 
+#include "core/snapping.hpp"
 #include "mpi/agreement.hpp"
-#include "tiles/block_tree.hpp"
-#include "tiles/plane_axes.hpp"
+#include "mpi/block_tree.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
 
@@ -159,8 +159,8 @@ std::vector<SeedBlock> blocks_of(const std::vector<PlaneSeed>& seeds) {
 }  // namespace
 
 struct SharedSeedsState {
-  SharedSeedsState(MPI_Comm communicator_of_caller, const Plane& plane_of_seeds)
-      : communicator(copy_of(communicator_of_caller)), plane(plane_of_seeds), axes(plane), blocks(plane) {
+  SharedSeedsState(MPI_Comm communicator_of_caller, const Grid& grid_of_seeds)
+      : communicator(copy_of(communicator_of_caller)), grid(grid_of_seeds), blocks(grid) {
     check_versions(communicator);
   }
 
@@ -197,12 +197,18 @@ struct SharedSeedsState {
     shared = true;
   }
 
-  /// The seeds near a rectangle, or more.
-  PlaneSeeds fetch(const PlaneRectangle& rectangle, Metric metric) {
-    const std::vector<std::size_t> near = blocks.find_near(rectangle, metric);
+  /// The seeds near a window, or more.
+  PlaneSeeds fetch(const Window& shown, Metric metric) {
+    std::vector<std::size_t> near;
+    for (const PlaneRectangle& part : parts_of(shown)) {
+      const std::vector<std::size_t> near_part = blocks.find_near(part, metric);
+      near.insert(near.end(), near_part.begin(), near_part.end());
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::size_t block : near) request(block);
     MPI_Win_flush_all(window);
-    PlaneSeeds seeds(plane);
+    PlaneSeeds seeds(grid);
     seeds.reserve(near.size() * block_size);
     for (const std::size_t block : near) {
       const std::size_t rank = owner_of(block);
@@ -215,8 +221,7 @@ struct SharedSeedsState {
   }
 
   MPI_Comm communicator;
-  Plane plane;
-  PlaneAxes axes;
+  Grid grid;
   std::vector<PlaneSeed> added;  // until they are shared out
   bool shared = false;
   std::uint64_t size = 0, ids = 0;
@@ -271,46 +276,48 @@ struct SharedSeedsState {
   std::list<std::size_t> uses;  // of what was fetched, the oldest first
 };
 
-SharedSeeds::SharedSeeds(MPI_Comm communicator, const Plane& plane)
-    : state_(std::make_unique<SharedSeedsState>(communicator, plane)) {}
+SharedSeeds::SharedSeeds(MPI_Comm communicator, const Grid& grid)
+    : state_(std::make_unique<SharedSeedsState>(communicator, grid)) {}
 SharedSeeds::~SharedSeeds() = default;
 
 void SharedSeeds::add(const PlaneSeed* seeds, std::size_t count) {
   if (state_->shared) throw Error("these seeds were shared out already; add all of them before");
-  for (std::size_t i = 0; i < count; ++i) state_->axes.check(seeds[i]);
+  for (std::size_t i = 0; i < count; ++i) check(seeds[i], state_->grid);
   state_->added.insert(state_->added.end(), seeds, seeds + count);
   for (std::size_t i = 0; i < count; ++i)
     state_->ids = std::max<std::uint64_t>(state_->ids, seeds[i].id + 1ull);
 }
 
-void SharedSeeds::add(const Point* points, std::size_t count, std::uint64_t first) {
-  const PlaneAxes& axes = state_->axes;
+void SharedSeeds::add(const Points& points, std::uint64_t first) {
+  const Snapping snap(state_->grid, Outside::count);
   std::vector<PlaneSeed> seeds;
-  seeds.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
+  seeds.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint64_t id = first + i;
     if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
-    if (!axes.x.reaches(points[i].x) || !axes.y.reaches(points[i].y)) throw BadPoint(id, points[i]);
-    seeds.push_back({axes.x.pixel(points[i].x), axes.y.pixel(points[i].y), static_cast<std::uint32_t>(id)});
+    if (!points.is_present(i)) continue;
+    const PlanePosition at = snap(id, points[i]);
+    seeds.push_back({at.s[0], at.s[1], static_cast<std::uint32_t>(id)});
   }
-  add(seeds.data(), count);
+  add(seeds.data(), seeds.size());
 }
 
 void SharedSeeds::reserve(std::size_t count) { state_->added.reserve(count); }
 
 void SharedSeeds::share() { state_->share(); }
-const Plane& SharedSeeds::plane() const { return state_->plane; }
-std::uint64_t SharedSeeds::ids() const { return state_->ids; }
+const Grid& SharedSeeds::grid() const { return state_->grid; }
+std::uint64_t SharedSeeds::id_end() const { return state_->ids; }
 std::uint64_t SharedSeeds::size() const { return state_->size; }
 std::uint64_t SharedSeeds::held() const { return state_->held_count; }
-double SharedSeeds::expected(const PlaneRectangle& rectangle) const {
-  return state_->blocks.expected(rectangle);
+double SharedSeeds::expected(const Window& window) const {
+  double seeds = 0;
+  for (const PlaneRectangle& part : parts_of(window)) seeds += state_->blocks.expected(part);
+  return seeds;
 }
 
-void SharedSeeds::find_near(const PlaneRectangle& rectangle, Metric metric,
-                            std::vector<PlaneSeed>& seeds) const {
+void SharedSeeds::find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const {
   if (!state_->shared) throw Error("these seeds are not shared out yet; call share() on all ranks");
-  state_->fetch(rectangle, metric).find_near(rectangle, metric, seeds);
+  state_->fetch(window, metric).find_near(window, metric, seeds);
 }
 
 }  // namespace vorocl

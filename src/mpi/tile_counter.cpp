@@ -10,10 +10,9 @@ namespace vorocl {
 namespace {
 
 /// What a tile is expected to cost, in pixels: a seed costs as much as this many.
-double cost_of(const SharedSeeds& seeds, const Tile& tile) {
+double cost_of(const SharedSeeds& seeds, const Window& tile) {
   constexpr double pixels_per_seed = 20;
-  return static_cast<double>(tile.width) * tile.height +
-         pixels_per_seed * seeds.expected({tile.x, tile.y, tile.width, tile.height});
+  return static_cast<double>(tile.pixels()) + pixels_per_seed * seeds.expected(tile);
 }
 
 std::vector<std::uint64_t> all_of(const Tiling& tiling) {

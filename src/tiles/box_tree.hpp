@@ -12,6 +12,28 @@
 
 namespace vorocl {
 
+/// A rectangle of a grid's pixels, in its one period.
+struct PlaneRectangle {
+  std::int64_t x = 0, y = 0;  // the first pixel
+  std::int64_t width = 1, height = 1;
+};
+
+/// The parts of a window that lie in its grid's one period: one, unless it crosses the end of a period.
+inline std::vector<PlaneRectangle> parts_of(const Window& window) {
+  using Stretch = std::pair<std::int64_t, std::int64_t>;
+  const auto stretches = [](const Axis& axis, std::int64_t begin, std::int64_t length) {
+    const std::int64_t rest = axis.pixels() - begin;
+    return length <= rest ? std::vector<Stretch>{{begin, length}}
+                          : std::vector<Stretch>{{begin, rest}, {0, length - rest}};
+  };
+  std::vector<PlaneRectangle> parts;
+  for (const auto& [y, height] : stretches(window.grid().y(), window.y(), window.height())) {
+    for (const auto& [x, width] : stretches(window.grid().x(), window.x(), window.width()))
+      parts.push_back({x, y, width, height});
+  }
+  return parts;
+}
+
 /// A rectangle of pixels, both ends included.
 struct Box {
   std::int32_t left = INT32_MAX, top = INT32_MAX, right = INT32_MIN, bottom = INT32_MIN;

@@ -14,8 +14,16 @@ namespace {
 
 /// What tiles of one size are made with. All have their labels in one buffer.
 struct TileMaker {
-  TileMaker(const Device& device, const Grid& grid, const cl::Buffer& labels)
-      : seeds(Internal::no_seeds(device, grid)), diagram(device, grid, labels) {}
+  TileMaker(const Device& device, const Window& tile, const cl::Buffer& labels)
+      : seeds(Internal::no_seeds(device, tile.grid())), diagram(device, tile, labels) {}
+
+  /// The next tile of this size. Its measures count pixels where it shows them: PlaneCells brings them round.
+  void show(const Window& tile) {
+    DiagramState& state = Internal::state(diagram);
+    state.contents.reset();
+    state.window = tile;
+    state.grid = PixelGrid(tile).without_periods();
+  }
 
   Seeds seeds;
   Diagram diagram;
@@ -55,7 +63,7 @@ class MappedLabels {
 /// A tile whose labels are enqueued, and whose cells, if they are asked for, are measured.
 struct MadeTile {
   std::uint64_t number;
-  Tile tile;
+  Window tile;
   cl::Buffer labels;
   TileMeasures measures;
 };
@@ -65,22 +73,20 @@ class TileEngine {
  public:
   TileEngine(const Device& device, const SeedSource& seeds, const Tiling& tiling, const TileOptions& options)
       : device_(device), seeds_(seeds), tiling_(tiling), options_(options) {
-    const Plane &of_seeds = seeds.plane(), &of_tiles = tiling.plane();
-    if (of_seeds.width() != of_tiles.width() || of_seeds.height() != of_tiles.height() ||
-        of_seeds.periodic() != of_tiles.periodic()) {
-      throw Error("the seeds are of another plane than the tiles; make both for the same one");
-    }
+    if (seeds.grid() != tiling.window().grid())
+      throw Error("the seeds are of another grid than the tiles; make both for the same one");
     labels_ = allocate(device, largest_bytes(), "the labels of a tile");
-    if (options.cells) Internal::result(*options.cells).begin(seeds.ids(), tiling);
+    if (options.cells) Internal::result(*options.cells).begin(seeds.id_end(), tiling);
   }
 
   MadeTile enqueue(std::uint64_t number) {
-    const Tile tile = tiling_.tile(number);
+    const Window tile = tiling_.tile(number);
     // While the device makes the tile before.
-    seeds_.find_near({tile.x, tile.y, tile.width, tile.height}, options_.metric, near_);
-    std::unique_ptr<TileMaker>& maker = makers_[{tile.width, tile.height}];
-    if (!maker) maker = std::make_unique<TileMaker>(device_, Grid(tile.width, tile.height), labels_);
-    place(tile, Internal::state(maker->seeds));
+    seeds_.find_near(tile, options_.metric, near_);
+    std::unique_ptr<TileMaker>& maker = makers_[{tile.width(), tile.height()}];
+    if (!maker) maker = std::make_unique<TileMaker>(device_, tile, labels_);
+    maker->show(tile);
+    place(maker->seeds);
     upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
     MadeTile made = {number, tile, name_labels(maker->diagram), {}};
@@ -88,7 +94,7 @@ class TileEngine {
     return made;
   }
 
-  MappedLabels map(const MadeTile& made) const { return {device_, made.labels, pixels_of(made.tile)}; }
+  MappedLabels map(const MadeTile& made) const { return {device_, made.labels, made.tile.pixels()}; }
 
   void add_measures(const MadeTile& made, const std::uint32_t* labels) const {
     if (options_.cells) {
@@ -98,28 +104,13 @@ class TileEngine {
 
  private:
   /// Of the labels of the largest tile, which is the first one.
-  std::size_t largest_bytes() const { return pixels_of(tiling_.tile(0)) * sizeof(cl_uint); }
+  std::size_t largest_bytes() const { return tiling_.tile(0).pixels() * sizeof(cl_uint); }
 
-  /// Places seeds as they lie seen from a tile's first pixel.
-  void place(const Tile& tile, SeedsState& seeds) const {
-    const Plane& plane = seeds_.plane();
-    std::optional<Domain> domain;
-    if (plane.periodic() != Periodic::none) {
-      domain = Domain{-tile.x, -tile.y, plane.width(), plane.height(), plane.periodic()};
-    }
-    Placement placement;
-    placement.packed.reserve(near_.size() + 1);        // one more is added when they are uploaded
-    placement.in_the_plane.reserve(near_.size() + 1);  // likewise
-    bool all_inside = true;
-    for (const PlaneSeed& seed : near_) {
-      const PlanePosition at = {{static_cast<cl_int>(seed.x - tile.x), static_cast<cl_int>(seed.y - tile.y)}};
-      const bool inside = is_inside(seeds.grid, at);
-      placement.packed.push_back(inside ? pack(at.s[0], at.s[1]) : absent_position);
-      placement.in_the_plane.push_back(at);
-      all_inside = all_inside && inside;
-    }
-    if (all_inside && !domain) placement.in_the_plane.clear();
-    seeds.place(std::move(placement), domain);
+  void place(Seeds& seeds) const {
+    SeedsState& state = Internal::state(seeds);
+    const auto pixels = state.list_of_pixels();
+    for (const PlaneSeed& seed : near_) pixels->push_back({{seed.x, seed.y}});
+    state.place(seeds.grid(), pixels, nullptr);
   }
 
   void upload_ids() {
@@ -137,7 +128,7 @@ class TileEngine {
     cl::Buffer& named = named_[next_];
     next_ = 1 - next_;
     if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
-    const Grid& grid = diagram.grid();
+    const PixelGrid& grid = Internal::state(diagram).grid;
     kernels_.get(device_, "core/tiles.cl", "name_labels", grid)
         .over_grid(diagram.labels(), ids_, static_cast<cl_uint>(near_.size()), grid.width(), grid.height(),
                    named);
@@ -145,9 +136,9 @@ class TileEngine {
   }
 
   TileMeasures measure(const TileMaker& maker) {
-    cell_sums(maker.seeds, maker.diagram, sums_);
-    cell_shapes(maker.seeds, maker.diagram, shapes_, options_.metric);
-    adjacency(maker.seeds, maker.diagram, pairs_);
+    cell_sums(maker.diagram, sums_);
+    cell_shapes(maker.diagram, shapes_);
+    adjacency(maker.diagram, pairs_);
     return {near_, sums_.read(), shapes_.read(), pairs_.read_pairs()};
   }
 
@@ -155,8 +146,8 @@ class TileEngine {
   const SeedSource& seeds_;
   const Tiling& tiling_;
   TileOptions options_;
-  std::map<std::pair<int, int>, std::unique_ptr<TileMaker>> makers_;  // by size, of which there are four
-  std::vector<PlaneSeed> near_;                                       // the tile that is being made
+  std::map<std::pair<std::int64_t, std::int64_t>, std::unique_ptr<TileMaker>> makers_;  // by size: four
+  std::vector<PlaneSeed> near_;  // the tile that is being made
   KernelSet kernels_;
   cl::Buffer ids_;
   Upload<cl_uint> upload_;
@@ -205,17 +196,6 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
     waiting = std::move(made);
   }
   hand_over();
-}
-
-void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
-                           const std::function<void(const TileBuffer&)>& use, const TileOptions& options) {
-  TileEngine engine(device, seeds, tiling, options);
-  const NextTile next = every_tile(tiling);
-  while (const std::optional<std::uint64_t> number = next()) {
-    const MadeTile made = engine.enqueue(*number);
-    if (options.cells) engine.add_measures(made, engine.map(made).wait());
-    use({made.number, made.tile, made.labels});
-  }
 }
 
 }  // namespace vorocl

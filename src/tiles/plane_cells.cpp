@@ -17,19 +17,22 @@ struct Unwrapping {
   std::int64_t seed;
 
   /// What is added to a coordinate: a period, or nothing. Half a period away it lies behind the seed.
+  /// A window that crosses the period's end shows pixels behind it.
   std::int64_t shift_at(std::int64_t at) const {
     if (period == 0) return 0;
-    if (2 * (at - seed) > period) return -period;
-    return 2 * (at - seed) <= -period ? period : 0;
+    const std::int64_t home = at < period ? 0 : -period, way = at + home - seed;
+    if (2 * way > period) return home - period;
+    return 2 * way <= -period ? home + period : home;
   }
 };
 
+/// Whether both have the same pixels, whatever units the grids have.
 bool is_same(const Tiling& a, const Tiling& b) {
   const auto key = [](const Tiling& tiling) {
-    const Plane& plane = tiling.plane();
-    const PlaneRectangle& part = tiling.part();
-    return std::make_tuple(plane.width(), plane.height(), plane.periodic(), part.x, part.y, part.width,
-                           part.height, tiling.side());
+    const Window& window = tiling.window();
+    const Grid& grid = window.grid();
+    return std::make_tuple(grid.width(), grid.height(), grid.periodic(), window.x(), window.y(),
+                           window.width(), window.height(), tiling.side());
   };
   return key(a) == key(b);
 }
@@ -39,7 +42,7 @@ struct TakenHead {
   std::uint64_t ids;
   std::int64_t width, height;
   std::int64_t periodic;
-  PlaneRectangle part;
+  std::int64_t window_x, window_y, window_width, window_height;
   std::int64_t side;
   std::uint64_t cells, pairs, rims;
 };
@@ -92,13 +95,14 @@ void PlaneCellsState::begin(std::uint64_t ids_of_seeds, const Tiling& tiling) {
 std::vector<char> PlaneCellsState::take() {
   if (tiling_.empty()) return {};
   const Tiling tiling = tiling_.front();
-  const Plane& plane = tiling.plane();
+  const Window& window = tiling.window();
+  const Grid& grid = window.grid();
   const std::vector<CellRecord>& cell_records = cells.sorted();
   const std::vector<PairRecord>& pair_records = pairs.sorted();
   const TakenHead head = {
-      ids,           plane.width(), plane.height(),      static_cast<std::int64_t>(plane.periodic()),
-      tiling.part(), tiling.side(), cell_records.size(), pair_records.size(),
-      rims_.size()};
+      ids,           grid.width(),        grid.height(),       static_cast<std::int64_t>(grid.periodic()),
+      window.x(),    window.y(),          window.width(),      window.height(),
+      tiling.side(), cell_records.size(), pair_records.size(), rims_.size()};
   TakenWriter taken;
   taken.add(&head, 1);
   taken.add(cell_records.data(), cell_records.size());
@@ -117,8 +121,9 @@ void PlaneCellsState::add(const std::vector<char>& taken) {
   if (taken.empty()) return;
   TakenReader reader(taken);
   const TakenHead head = reader.next<TakenHead>(1).front();
-  const Plane plane(head.width, head.height, static_cast<Periodic>(head.periodic));
-  const Tiling tiling(plane, head.side, head.part);
+  const Grid grid(head.width, head.height, static_cast<Periodic>(head.periodic));
+  const Tiling tiling(Window(grid, head.window_x, head.window_y, head.window_width, head.window_height),
+                      head.side);
   if (tiling_.empty()) begin(head.ids, tiling);
   if (head.ids != ids || !is_same(tiling, tiling_.front())) {
     throw Error("these sums are of the cells of another plane, or of other tiles");
@@ -143,23 +148,23 @@ void PlaneCellsState::add(const TileLabels& tile, const TileMeasures& measures) 
 
 void PlaneCellsState::add_cell(const TileLabels& labels, const PlaneSeed& seed, const CellSums& sums,
                                const CellShape& shape) {
-  const Tile& tile = labels.tile;
-  const Plane& plane = tiling_.front().plane();
-  const bool periodic_x = has_x(plane.periodic()), periodic_y = has_y(plane.periodic());
-  const Unwrapping x = {periodic_x ? plane.width() : 0, seed.x};
-  const Unwrapping y = {periodic_y ? plane.height() : 0, seed.y};
-  const std::int64_t left = tile.x + shape.left, right = tile.x + shape.right;
-  const std::int64_t top = tile.y + shape.top, bottom = tile.y + shape.bottom;
+  const std::int64_t tile_x = labels.tile.x(), tile_y = labels.tile.y();
+  const Grid& grid = labels.tile.grid();
+  const bool periodic_x = has_x(grid.periodic()), periodic_y = has_y(grid.periodic());
+  const Unwrapping x = {periodic_x ? grid.width() : 0, seed.x};
+  const Unwrapping y = {periodic_y ? grid.height() : 0, seed.y};
+  const std::int64_t left = tile_x + shape.left, right = tile_x + shape.right;
+  const std::int64_t top = tile_y + shape.top, bottom = tile_y + shape.bottom;
   CellRecord record;
   record.id = seed.id;
-  record.touches_border = (!periodic_x && (left == 0 || right == plane.width() - 1)) ||
-                          (!periodic_y && (top == 0 || bottom == plane.height() - 1));
+  record.touches_border = (!periodic_x && (left == 0 || right == grid.width() - 1)) ||
+                          (!periodic_y && (top == 0 || bottom == grid.height() - 1));
 
   const std::int64_t shift_x = x.shift_at(left), shift_y = y.shift_at(top);
   if (x.shift_at(right) == shift_x && y.shift_at(bottom) == shift_y) {
     record.area = sums.area;
-    record.sum_x = sums.sum_x + Int128{tile.x + shift_x} * sums.area;
-    record.sum_y = sums.sum_y + Int128{tile.y + shift_y} * sums.area;
+    record.sum_x = sums.sum_x + Int128{tile_x + shift_x} * sums.area;
+    record.sum_y = sums.sum_y + Int128{tile_y + shift_y} * sums.area;
     record.left = left + shift_x;
     record.right = right + shift_x;
     record.top = top + shift_y;
@@ -170,14 +175,14 @@ void PlaneCellsState::add_cell(const TileLabels& labels, const PlaneSeed& seed, 
   // Half a period from the seed runs through this part of the cell: each pixel for itself.
   for (int row = shape.top; row <= shape.bottom; ++row) {
     for (int column = shape.left; column <= shape.right; ++column) {
-      if (labels.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(tile.width) +
+      if (labels.labels[static_cast<std::size_t>(row) * static_cast<std::size_t>(labels.tile.width()) +
                         static_cast<std::size_t>(column)] != seed.id) {
         continue;
       }
       CellRecord pixel = record;
       pixel.area = 1;
-      pixel.left = pixel.right = tile.x + column + x.shift_at(tile.x + column);
-      pixel.top = pixel.bottom = tile.y + row + y.shift_at(tile.y + row);
+      pixel.left = pixel.right = tile_x + column + x.shift_at(tile_x + column);
+      pixel.top = pixel.bottom = tile_y + row + y.shift_at(tile_y + row);
       pixel.sum_x = pixel.left;
       pixel.sum_y = pixel.top;
       cells.add(pixel);
@@ -193,8 +198,8 @@ void PlaneCellsState::add_pair(std::uint32_t a, std::uint32_t b, std::uint64_t l
 void PlaneCellsState::add_rims(const TileLabels& labels) {
   const Tiling& tiling = tiling_.front();
   const std::uint64_t column = labels.number % tiling.columns(), row = labels.number / tiling.columns();
-  const auto width = static_cast<std::size_t>(labels.tile.width);
-  const auto height = static_cast<std::size_t>(labels.tile.height);
+  const auto width = static_cast<std::size_t>(labels.tile.width());
+  const auto height = static_cast<std::size_t>(labels.tile.height());
   const auto column_of_labels = [&](std::size_t x) {
     std::vector<std::uint32_t> rim(height);
     for (std::size_t y = 0; y < height; ++y) rim[y] = labels.labels[y * width + x];
@@ -203,9 +208,7 @@ void PlaneCellsState::add_rims(const TileLabels& labels) {
   const auto row_of_labels = [&](std::size_t y) {
     return std::vector<std::uint32_t>(labels.labels + y * width, labels.labels + (y + 1) * width);
   };
-  const Plane& plane = tiling.plane();
-  const bool round_x = has_x(plane.periodic()) && tiling.part().width == plane.width();
-  const bool round_y = has_y(plane.periodic()) && tiling.part().height == plane.height();
+  const bool round_x = has_x(tiling.window().periodic()), round_y = has_y(tiling.window().periodic());
   const std::uint64_t last_column = tiling.columns() - 1, last_row = tiling.rows() - 1;
   if (column < last_column || round_x) meet({row, column, true}, column_of_labels(width - 1));
   if (column > 0 || round_x) meet({row, column > 0 ? column - 1 : last_column, true}, column_of_labels(0));

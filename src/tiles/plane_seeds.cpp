@@ -16,10 +16,11 @@ constexpr std::uint64_t most_ids = no_label;  // 0 to no_label - 1
 
 SeedSource::~SeedSource() = default;
 
-PlaneSeeds::PlaneSeeds(const Plane& plane) : state_(std::make_unique<PlaneSeedsState>(plane)) {}
-PlaneSeeds::PlaneSeeds(const Plane& plane, const std::vector<Point>& points) : PlaneSeeds(plane) {
+PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside)
+    : state_(std::make_unique<PlaneSeedsState>(grid, outside)) {}
+PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside) : PlaneSeeds(grid, outside) {
   reserve(points.size());
-  add(points.data(), points.size());
+  add(points);
 }
 PlaneSeeds::~PlaneSeeds() = default;
 PlaneSeeds::PlaneSeeds(PlaneSeeds&& other) noexcept = default;
@@ -33,17 +34,18 @@ PlaneSeedsState& PlaneSeeds::state() const {
 
 void PlaneSeeds::reserve(std::size_t count) { state().tree.reserve(count); }
 
-void PlaneSeeds::add(const Point* points, std::size_t count) {
+void PlaneSeeds::add(const Points& points) {
   PlaneSeedsState& seeds = state();
   seeds.add([&] {
-    if (count > most_ids - seeds.ids) throw Error("there are more than 2^32 - 1 seeds; ids end there");
-    for (std::size_t i = 0; i < count; ++i) {
-      const Point& point = points[i];
-      if (!seeds.axes.x.reaches(point.x) || !seeds.axes.y.reaches(point.y)) throw BadPoint(seeds.ids, point);
-      seeds.tree.add(seeds.axes.x.pixel(point.x), seeds.axes.y.pixel(point.y),
-                     static_cast<std::uint32_t>(seeds.ids));
-      ++seeds.ids;
+    if (points.size() > most_ids - seeds.id_end)
+      throw Error("there are more than 2^32 - 1 seeds; ids end there");
+    const std::uint64_t first = seeds.id_end;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!points.is_present(i)) continue;
+      const PlanePosition at = seeds.snap(first + i, points[i]);
+      if (!is_absent(at)) seeds.add({at.s[0], at.s[1], static_cast<std::uint32_t>(first + i)});
     }
+    seeds.id_end = first + points.size();
   });
 }
 
@@ -51,28 +53,20 @@ void PlaneSeeds::add(const PlaneSeed* added, std::size_t count) {
   PlaneSeedsState& seeds = state();
   seeds.add([&] {
     for (std::size_t i = 0; i < count; ++i) {
-      const PlaneSeed& seed = added[i];
-      seeds.axes.check(seed);
-      seeds.tree.add(seed.x, seed.y, seed.id);
-      seeds.ids = std::max<std::uint64_t>(seeds.ids, seed.id + std::uint64_t{1});
+      check(added[i], seeds.grid);
+      seeds.add(added[i]);
     }
   });
 }
 
-const Plane& PlaneSeeds::plane() const { return state().plane; }
-std::size_t PlaneSeeds::size() const { return state().size; }
-std::uint64_t PlaneSeeds::ids() const { return state().ids; }
+const Grid& PlaneSeeds::grid() const { return state().grid; }
+std::size_t PlaneSeeds::alive() const { return state().alive; }
+std::size_t PlaneSeeds::outside() const { return state().outside; }
+std::uint64_t PlaneSeeds::id_end() const { return state().id_end; }
 void PlaneSeeds::sort() const { state().sort(); }
 
 void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
                                 std::vector<PlaneSeed>& seeds) {
-  if (std::max(rectangle.width, rectangle.height) > Grid::max_side) {
-    throw Error("the rectangle has " + std::to_string(rectangle.width) + " x " +
-                std::to_string(rectangle.height) + " pixels; " + std::to_string(Grid::max_side) +
-                " along a side are possible");
-  }
-  sort();
-  seeds.clear();
   if (tree.size() == 0) return;
   tree.find_inside(rectangle, seeds);
   // A seed outside that owns a pixel inside owns every point of the plane between them: so one of the rim
@@ -80,15 +74,15 @@ void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
   std::vector<std::size_t> on_rim;
   const auto owner_at = [&](const PlanePoint& point, const SeedImage& guess) {
     SeedImage owner = guess;
-    if (owner.distance != too_far) owner = tree.seen_from(point, plane, metric, guess);
-    tree.find_nearest(point, plane, metric, owner);
+    if (owner.distance != too_far) owner = tree.seen_from(point, grid, metric, guess);
+    tree.find_nearest(point, grid, metric, owner);
     on_rim.push_back(owner.index);
     return owner;
   };
   const auto find_between = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
                                 const SeedImage& at_b, std::size_t most, std::vector<std::size_t>& found) {
     if (at_a == at_b) return true;  // what wins at both ends wins between them
-    return tree.find_between(a, at_a, b, at_b, plane, metric, rectangle, most, found);
+    return tree.find_between(a, at_a, b, at_b, grid, metric, rectangle, most, found);
   };
   walk_rim(rectangle, 32, owner_at, find_between, on_rim);
   std::sort(on_rim.begin(), on_rim.end());
@@ -99,9 +93,22 @@ void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
   }
 }
 
-void PlaneSeeds::find_near(const PlaneRectangle& rectangle, Metric metric,
-                           std::vector<PlaneSeed>& seeds) const {
-  state().find_near(rectangle, metric, seeds);
+void PlaneSeeds::find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const {
+  if (window.longest_side() > Window::max_side) {
+    throw Error("the window has " + std::to_string(window.width()) + " x " + std::to_string(window.height()) +
+                " pixels; " + std::to_string(Window::max_side) + " along a side are possible");
+  }
+  PlaneSeedsState& all = state();
+  all.sort();
+  seeds.clear();
+  const std::vector<PlaneRectangle> parts = parts_of(window);
+  for (const PlaneRectangle& part : parts) all.find_near(part, metric, seeds);
+  if (parts.size() == 1) return;
+  // What owns pixels of several parts was found several times.
+  const auto by_id = [](const PlaneSeed& a, const PlaneSeed& b) { return a.id < b.id; };
+  const auto same = [](const PlaneSeed& a, const PlaneSeed& b) { return a.id == b.id; };
+  std::sort(seeds.begin(), seeds.end(), by_id);
+  seeds.erase(std::unique(seeds.begin(), seeds.end(), same), seeds.end());
 }
 
 }  // namespace vorocl

@@ -1,10 +1,11 @@
 // What a PlaneSeeds object holds.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
-#include "tiles/plane_axes.hpp"
+#include "core/snapping.hpp"
 #include "tiles/seed_tree.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/tiles.hpp"
@@ -12,22 +13,24 @@
 namespace vorocl {
 
 struct PlaneSeedsState {
-  explicit PlaneSeedsState(const Plane& plane_of_seeds) : plane(plane_of_seeds), axes(plane) {}
+  PlaneSeedsState(const Grid& grid_of_seeds, Outside outside_is)
+      : grid(grid_of_seeds), snap(grid, outside_is) {}
 
   /// Calls a function that adds seeds. If it throws, none is there.
   template <typename Add>
   void add(Add add_seeds) {
     if (sorted) throw Error("these seeds were asked for already; add all of them before");
-    const std::size_t size_before = tree.size();
-    const std::uint64_t ids_before = ids;
+    const std::size_t size_before = tree.size(), outside_before = outside;
+    const std::uint64_t ids_before = id_end;
     try {
       add_seeds();
     } catch (...) {
       tree.shorten(size_before);
-      ids = ids_before;
+      id_end = ids_before;
+      outside = outside_before;
       throw;
     }
-    size += tree.size() - size_before;
+    alive += tree.size() - size_before;
   }
 
   void sort() {
@@ -35,14 +38,21 @@ struct PlaneSeedsState {
     sorted = true;
   }
 
-  /// Replaces what a list has by the seeds near a rectangle: PlaneSeeds::find_near().
+  /// Adds a seed.
+  void add(const PlaneSeed& seed) {
+    tree.add(seed.x, seed.y, seed.id);
+    outside += snap.is_inside({{seed.x, seed.y}}) ? 0 : 1;
+    id_end = std::max<std::uint64_t>(id_end, seed.id + std::uint64_t{1});
+  }
+
+  /// Appends the seeds near a rectangle: PlaneSeeds::find_near().
   void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds);
 
-  Plane plane;
-  PlaneAxes axes;
+  Grid grid;
+  Snapping snap;
   SeedTree tree;
-  std::size_t size = 0;
-  std::uint64_t ids = 0;
+  std::size_t alive = 0, outside = 0;
+  std::uint64_t id_end = 0;
   bool sorted = false;
 };
 

@@ -6,19 +6,6 @@
 
 namespace vorocl {
 
-namespace {
-
-/// What no seed of a box is before, in the order of winning: as near as the box, and first in it.
-SeedImage first_in(const Box& box, std::int64_t away) {
-  SeedImage image;
-  image.distance = away;
-  image.rank = static_cast<std::uint64_t>(static_cast<std::uint32_t>(box.top) ^ z_bias) << 32 |
-               (static_cast<std::uint32_t>(box.left) ^ z_bias);
-  return image;
-}
-
-}  // namespace
-
 void SeedTree::reserve(std::size_t count) {
   places_.reserve(count);
   ids_.reserve(count);
@@ -90,10 +77,9 @@ void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSee
   });
 }
 
-void SeedTree::find_nearest(const PlanePoint& point, const Plane& plane, Metric metric,
-                            SeedImage& best) const {
-  const PlaneDistance distance(plane, metric);
-  each_image(plane, [&](const PlanePoint& offset) {
+void SeedTree::find_nearest(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage& best) const {
+  const PlaneDistance distance(grid, metric);
+  each_image(grid, [&](const PlanePoint& offset) {
     const PlanePoint from = point - offset;
     const auto to_box = [&](const Box& box) { return distance(from, box); };
     const auto counts = [&](const Box& box, std::int64_t away) {
@@ -108,25 +94,24 @@ void SeedTree::find_nearest(const PlanePoint& point, const Plane& plane, Metric 
   });
 }
 
-SeedImage SeedTree::seen_from(const PlanePoint& point, const Plane& plane, Metric metric,
+SeedImage SeedTree::seen_from(const PlanePoint& point, const Grid& grid, Metric metric,
                               SeedImage image) const {
   // It may be farther away than half a period, though not far.
-  const PlaneDistance distance(plane, metric, plane.width() + plane.height());
+  const PlaneDistance distance(grid, metric, grid.width() + grid.height());
   image.distance = distance(point, point_of(image.index) + image.offset);
   return image;
 }
 
 bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
-                            const SeedImage& at_b, const Plane& plane, Metric metric,
+                            const SeedImage& at_b, const Grid& grid, Metric metric,
                             const PlaneRectangle& rectangle, std::size_t most,
                             std::vector<std::size_t>& found) const {
   // What wins at a is nearer there than another image: if it wins against that one at b too, it does between
   // them. So only images count that are as near at b as what wins at a, and the other way round.
-  const SeedImage of_b_at_a = seen_from(a, plane, metric, at_b),
-                  of_a_at_b = seen_from(b, plane, metric, at_a);
-  const PlaneDistance distance(plane, metric, length_of(a, b));
+  const SeedImage of_b_at_a = seen_from(a, grid, metric, at_b), of_a_at_b = seen_from(b, grid, metric, at_a);
+  const PlaneDistance distance(grid, metric, length_of(a, b));
   bool all = true;
-  each_image(plane, [&](const PlanePoint& offset) {
+  each_image(grid, [&](const PlanePoint& offset) {
     const PlanePoint from_a = a - offset, from_b = b - offset;
     const auto judge = [&](const Box& box) {
       const bool counts = !holds(rectangle, box) && !of_b_at_a.wins(first_in(box, distance(from_a, box))) &&

@@ -13,23 +13,6 @@
 
 namespace vorocl {
 
-/// A seed, or one of its images where the plane is periodic, at a distance from a point.
-struct SeedImage {
-  std::size_t index = 0;  // in the tree
-  PlanePoint offset;      // of the image from the seed
-  std::int64_t distance = too_far;
-  std::uint64_t rank = UINT64_MAX;  // of the seed in the tie rule
-
-  /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
-  bool wins(const SeedImage& other) const {
-    return distance != other.distance ? distance < other.distance : rank < other.rank;
-  }
-
-  friend bool operator==(const SeedImage& a, const SeedImage& b) {
-    return a.index == b.index && a.offset == b.offset;
-  }
-};
-
 /// 13 bytes a seed.
 class SeedTree {
  public:
@@ -48,15 +31,15 @@ class SeedTree {
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
   /// Makes `best` the image that wins at a point, if it does not yet.
-  void find_nearest(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage& best) const;
+  void find_nearest(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage& best) const;
 
   /// The image as it is seen from another point.
-  SeedImage seen_from(const PlanePoint& point, const Plane& plane, Metric metric, SeedImage image) const;
+  SeedImage seen_from(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage image) const;
 
   /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some
   /// that do not, given the images that win at both ends. Returns false if they are more than `most`.
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
-                    const Plane& plane, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
+                    const Grid& grid, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
                     std::vector<std::size_t>& found) const;
 
  private:

@@ -1,14 +1,14 @@
-#include "formats/temporary_names.hpp"
-
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <climits>
 #include <cstring>
 
+#include "formats/output_file.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -74,7 +74,13 @@ void remove_temporary_files() noexcept {
     if (slot.kind == TemporaryName::Kind::folder) remove_files_in(slot.name);
   }
   for (const Slot& slot : all) {
-    if (slot.holds_name) rmdir(slot.name);
+    if (!slot.holds_name) continue;
+    // Other threads may still write into a folder of ours.
+    constexpr int most_tries = 1000;
+    for (int tries = 0; rmdir(slot.name) != 0 && errno == ENOTEMPTY && tries < most_tries; ++tries) {
+      if (slot.kind != TemporaryName::Kind::folder) break;
+      remove_files_in(slot.name);
+    }
   }
 }
 

@@ -2,7 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <tuple>
+
+#include "app/sources/bounds.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 
@@ -102,6 +107,17 @@ CellSumsResult& Measures::sums_result() {
   if (!has_sums_) cell_sums(seeds_, diagram_, buffers_.sums);
   has_sums_ = true;
   return buffers_.sums;
+}
+
+Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
+  return {{"method", method.name},
+          {"metric", to_string(metric)},
+          {"device", seeds.device().name()},
+          {"width", view.picture.grid.width()},
+          {"height", view.picture.grid.height()},
+          {"periodic", to_string(seeds.periodic())},
+          {"area_unit", view.units.of_area()},
+          {"length_unit", view.units.of_length()}};
 }
 
 }  // namespace vorocl::command
