@@ -268,7 +268,7 @@ static void test_bad_diagrams(const vorocl_device* device) {
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof labels, NULL, &code);
   FAILS(vorocl_diagram_create(device, window_of(width, 40000), &made), VOROCL_BAD_ARGUMENT,
-        "height is 40000");
+        "window is 40000");
   FAILS(vorocl_diagram_create(NULL, window, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
   FAILS(vorocl_diagram_create(device, window, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_diagram_over_buffer(device, window_of(width, height + 1), buffer, &made), VOROCL_BAD_ARGUMENT,
