@@ -75,7 +75,7 @@ def _filled(
         _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
         _workspace.made_for = wanted
     else:
-        _workspace.seeds.move_to(array)
+        _workspace.seeds._seeds.move_to(array)  # without asking how far
     made = _workspace.diagram
     if method in _CONTINUING:
         made = Diagram(shape, periodic=periodic, device=device)  # or it would go on from the last call's labels
