@@ -69,8 +69,8 @@ HOST_TESTS = [
     ("tools/formats/images/image_header.cpp", ["large_claims"]),
     ("tools/formats/trajectory/*.cpp", ["trajectory", "trajectory_errors", "xyz"]),
     ("tools/app/outputs/journal.cpp", ["resume"]),
-    ("tools/app/sources/particle_slots.cpp", ["particle_slots", "simulate_trajectory"]),
-    ("tools/app/sources/periodic_step.cpp", ["periodic_step"]), ("tools/app/sources/bounds.cpp", ["bounds"]),
+    ("tools/app/sources/particles.cpp", ["particle_slots", "periodic_step", "simulate_trajectory"]),
+    ("tools/app/sources/bounds.cpp", ["bounds"]),
 ]
 
 

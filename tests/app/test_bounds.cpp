@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/options/seed_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/sources/mapping.hpp"
 #include "fixture.hpp"

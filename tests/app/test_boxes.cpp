@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"

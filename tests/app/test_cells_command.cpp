@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 
-#include "formats/images/image_header.hpp"
-#include "formats/label_files.hpp"
+#include "formats/images/pictures.hpp"
+#include "formats/raster_files.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;

@@ -2,7 +2,7 @@
 #define BOOST_TEST_MODULE particle_slots
 #include <boost/test/unit_test.hpp>
 
-#include "app/sources/particle_slots.hpp"
+#include "app/sources/particles.hpp"
 
 using namespace vorocl::command;
 

@@ -2,7 +2,7 @@
 #define BOOST_TEST_MODULE periodic_step
 #include <boost/test/unit_test.hpp>
 
-#include "app/sources/periodic_step.hpp"
+#include "app/sources/particles.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

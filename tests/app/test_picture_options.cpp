@@ -3,7 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "app/options/picture_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "brute_force.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"

@@ -9,7 +9,7 @@
 #include <opencv2/videoio.hpp>
 #include <thread>
 
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "brute_force.hpp"
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "app/terminal/progress.hpp"
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "run_command.hpp"
 #include "vorocl/picture.hpp"
 

@@ -5,7 +5,7 @@
 #include <regex>
 #include <sstream>
 
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
 #include "run_command.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "brute_force.hpp"
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "run_command.hpp"
 #include "trajectory_text.hpp"
 

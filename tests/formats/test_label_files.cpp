@@ -5,7 +5,7 @@
 
 #include "fixture.hpp"
 #include "formats/files.hpp"
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;

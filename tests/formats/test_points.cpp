@@ -10,7 +10,7 @@
 
 #include "fixture.hpp"
 #include "formats/csv.hpp"
-#include "formats/mask.hpp"
+#include "formats/images/pictures.hpp"
 #include "formats/npy.hpp"
 #include "formats/point_files.hpp"
 #include "temporary_folder.hpp"

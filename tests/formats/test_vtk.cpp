@@ -1,8 +1,7 @@
 // .vti and .pvd files, with a straight parser; check_vtk.sh reads them with VTK.
 #define BOOST_TEST_MODULE vtk_files
 #include "fixture.hpp"
-#include "formats/label_files.hpp"
-#include "formats/vtk.hpp"
+#include "formats/raster_files.hpp"
 #include "raw_images.hpp"
 
 using namespace vorocl;

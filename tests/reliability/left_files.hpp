@@ -5,7 +5,7 @@
 #include <chrono>
 #include <sstream>
 
-#include "formats/images/modules.hpp"
+#include "formats/modules.hpp"
 #include "run_command.hpp"
 
 namespace vorocl {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "formats/label_image.hpp"
+#include "formats/raster.hpp"
 #include "formats/values.hpp"
 #include "measured_cases.hpp"
 #include "temporary_folder.hpp"

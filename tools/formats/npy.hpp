@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/label_image.hpp"
 #include "formats/output_file.hpp"
+#include "formats/raster.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "formats/output_file.hpp"
-#include "formats/temporary_names.hpp"
 
 namespace vorocl::command {
 

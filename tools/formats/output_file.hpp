@@ -1,4 +1,5 @@
-// How files are written, all of them: whole, or not at all.
+// How files are written, all of them: whole, or not at all. What they are called meanwhile, whatever ends a
+// run can remove.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,31 @@
 #include <string_view>
 #include <vector>
 
-#include "formats/temporary_names.hpp"
-
 namespace vorocl::command {
+
+/// Remembers a name in its scope. It removes nothing by itself: what makes the file does.
+class TemporaryName {
+ public:
+  enum class Kind {
+    file,   ///< or a folder that goes if it is empty then
+    folder  ///< that goes with the files in it
+  };
+
+  /// Before anything has the name. Throws Error if it is too long for a path.
+  explicit TemporaryName(const std::string& path, Kind kind = Kind::file);
+  ~TemporaryName();
+  TemporaryName(const TemporaryName&) = delete;
+  TemporaryName& operator=(const TemporaryName&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::size_t slot_;
+};
+
+/// Removes all files and folders that have such a name. Safe in a signal handler.
+void remove_temporary_files() noexcept;
 
 /// A file that will be written, under this name or, where the name is a link, under the one that it leads to.
 /// A pipe or a device (not a disk) is written into; anything else is replaced.

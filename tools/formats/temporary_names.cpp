@@ -1,5 +1,3 @@
-#include "formats/temporary_names.hpp"
-
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/syscall.h>
@@ -9,6 +7,7 @@
 #include <climits>
 #include <cstring>
 
+#include "formats/output_file.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -1,5 +1,3 @@
-#include "formats/tiff.hpp"
-
 #include <tiffio.h>
 #include <unistd.h>
 
@@ -12,6 +10,7 @@
 #include <type_traits>
 
 #include "formats/files.hpp"
+#include "formats/raster_files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

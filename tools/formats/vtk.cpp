@@ -1,8 +1,8 @@
-#include "formats/vtk.hpp"
-
 #include <fmt/format.h>
 
 #include <cstddef>
+
+#include "formats/raster_files.hpp"
 
 namespace vorocl::command {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "app/options/common_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"

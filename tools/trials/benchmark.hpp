@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/label_image.hpp"
+#include "formats/raster.hpp"
 #include "trials/samples.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/method.hpp"

@@ -1,7 +1,9 @@
 // What is taken of a run: wall-clock time, and values of one quantity, one per frame or round.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <numeric>
 #include <vector>
 
 #include "vorocl/distance_errors.hpp"
@@ -15,10 +17,17 @@ class Samples {
   bool empty() const { return values_.empty(); }
 
   // Each of these needs at least one value.
-  double mean() const;
-  double median() const;
-  double least() const;
-  double greatest() const;
+  double mean() const {
+    return std::accumulate(values_.begin(), values_.end(), 0.0) / static_cast<double>(values_.size());
+  }
+  double median() const {
+    std::vector<double> sorted = values_;
+    std::sort(sorted.begin(), sorted.end());
+    const std::size_t half = sorted.size() / 2;
+    return sorted.size() % 2 == 1 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+  }
+  double least() const { return *std::min_element(values_.begin(), values_.end()); }
+  double greatest() const { return *std::max_element(values_.begin(), values_.end()); }
 
  private:
   std::vector<double> values_;

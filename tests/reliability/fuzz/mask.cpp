@@ -1,6 +1,5 @@
 // Masks: images of all kinds that are read.
-#include "formats/mask.hpp"
-
+#include "formats/images/pictures.hpp"
 #include "fuzz.hpp"
 
 using namespace vorocl;

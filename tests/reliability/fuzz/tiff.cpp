@@ -1,6 +1,5 @@
 // Labels of TIFF files.
-#include "formats/tiff.hpp"
-
+#include "formats/raster_files.hpp"
 #include "fuzz.hpp"
 
 using namespace vorocl;

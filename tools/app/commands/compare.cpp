@@ -9,13 +9,12 @@
 #include <unordered_map>
 
 #include "app/commands/commands.hpp"
-#include "app/options/common_options.hpp"
-#include "app/options/seed_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"
 #include "formats/files.hpp"
-#include "formats/label_files.hpp"
+#include "formats/raster_files.hpp"
 #include "vorocl/distance_errors.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/similarity.hpp"

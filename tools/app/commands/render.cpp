@@ -5,12 +5,8 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/options/common_options.hpp"
-#include "app/options/method_options.hpp"
-#include "app/options/output_options.hpp"
-#include "app/options/picture_options.hpp"
-#include "app/options/seed_options.hpp"
-#include "app/outputs/results.hpp"
+#include "app/options/option_groups.hpp"
+#include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/json.hpp"

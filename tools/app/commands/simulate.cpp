@@ -8,11 +8,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/commands/simulate_course.hpp"
-#include "app/options/common_options.hpp"
-#include "app/options/method_options.hpp"
-#include "app/options/output_options.hpp"
-#include "app/options/picture_options.hpp"
-#include "app/options/seed_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
-#include "app/outputs/results.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"

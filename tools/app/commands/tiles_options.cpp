@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "app/options/common_options.hpp"
-#include "app/options/seed_options.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/json.hpp"
 #include "formats/files.hpp"

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "app/mpi/ranks.hpp"
-#include "app/mpi/tiles.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "formats/values.hpp"

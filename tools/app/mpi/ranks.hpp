@@ -1,9 +1,12 @@
-// The processes that run together.
+// The processes that run together, and what they do: vorocl-mpi tiles.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <functional>
+
+#include "app/options/command_line.hpp"
 
 namespace vorocl::command {
 
@@ -24,5 +27,9 @@ struct Ranks {
   MPI_Comm communicator;
   int rank = 0, count = 1;
 };
+
+/// Adds the subcommand, which has the options of vorocl tiles. MPI must be initialised when it runs. It calls
+/// `before` when its options have been parsed and checked.
+void add_shared_tiles(CommandLine& line, const std::function<void()>& before);
 
 }  // namespace vorocl::command

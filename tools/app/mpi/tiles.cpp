@@ -1,5 +1,3 @@
-#include "app/mpi/tiles.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

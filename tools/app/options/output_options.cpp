@@ -1,6 +1,4 @@
-#include "app/options/output_options.hpp"
-
-#include "app/options/picture_options.hpp"
+#include "app/options/option_groups.hpp"
 
 namespace vorocl::command {
 

@@ -1,9 +1,8 @@
-#include "app/options/picture_options.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/values.hpp"
 

@@ -1,11 +1,10 @@
-#include "app/options/seed_options.hpp"
-
 #include <algorithm>
 #include <limits>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "app/options/option_groups.hpp"
 #include "formats/files.hpp"
 #include "formats/values.hpp"
 

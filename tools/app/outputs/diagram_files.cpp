@@ -7,8 +7,7 @@
 
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
-#include "formats/label_files.hpp"
-#include "formats/pixel_files.hpp"
+#include "formats/raster_files.hpp"
 
 namespace vorocl::command {
 

@@ -1,5 +1,5 @@
-// The files of one kind that a simulation writes: numbered ones, with the collection that lists those that
-// ParaView opens, or one table of all frames.
+// The files of all frames that a simulation writes: numbered ones of one kind, with the collection that lists
+// those that ParaView opens, or one table of that kind; and the table of statistics.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,10 @@
 
 #include "app/outputs/diagram_files.hpp"
 #include "app/outputs/frame_journal.hpp"
+#include "app/outputs/measures.hpp"
 #include "formats/numbered_files.hpp"
-#include "formats/vtk.hpp"
+#include "formats/raster_files.hpp"
+#include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
 
@@ -19,8 +21,8 @@ namespace vorocl::command {
 /// option's name where nothing is left. Empty for other files. The path is a NumberedName.
 std::string collection_path(const FileRequest& request);
 
-/// Each numbered file is whole as soon as it is there. A long table has the columns frame and timestep before
-/// its own, and grows under a temporary name until finish().
+/// Files of one kind. Each numbered file is whole as soon as it is there. A long table has the columns frame
+/// and timestep before its own, and grows under a temporary name until finish().
 class FrameFiles {
  public:
   /// Throws Error if no file can be made there. With a journal, the table can be continued.
@@ -44,6 +46,25 @@ class FrameFiles {
   std::unique_ptr<GrowingFile> table_;
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
+};
+
+/// A table of the diagrams' statistics, one row per frame.
+class FrameStatistics {
+ public:
+  /// Throws Error if the file cannot be made there.
+  explicit FrameStatistics(const std::string& path, FrameJournal* journal = nullptr);
+
+  /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
+  void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);
+
+  /// Goes on behind a frame that is in the table.
+  void go_on_from(Measures& measures);
+
+  void finish() { file_->finish(); }
+
+ private:
+  std::unique_ptr<GrowingFile> file_;
+  std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 
 }  // namespace vorocl::command

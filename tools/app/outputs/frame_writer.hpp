@@ -9,7 +9,6 @@
 
 #include "app/outputs/diagram_files.hpp"
 #include "app/outputs/frame_files.hpp"
-#include "app/outputs/frame_statistics.hpp"
 #include "app/outputs/painter.hpp"
 #include "formats/images/film.hpp"
 #include "formats/numbered_files.hpp"

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <tuple>
 
+#include "app/sources/bounds.hpp"
+#include "formats/values.hpp"
+
 namespace vorocl::command {
 
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
@@ -102,6 +105,17 @@ CellSumsResult& Measures::sums_result() {
   if (!has_sums_) cell_sums(seeds_, diagram_, buffers_.sums);
   has_sums_ = true;
   return buffers_.sums;
+}
+
+Json::Members json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
+  return {{"method", method.name},
+          {"metric", to_string(metric)},
+          {"device", seeds.device().name()},
+          {"width", view.picture.grid.width()},
+          {"height", view.picture.grid.height()},
+          {"periodic", to_string(seeds.periodic())},
+          {"area_unit", view.units.of_area()},
+          {"length_unit", view.units.of_length()}};
 }
 
 }  // namespace vorocl::command

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "app/sources/view.hpp"
-#include "formats/label_image.hpp"
+#include "app/terminal/json.hpp"
+#include "formats/raster.hpp"
 #include "vorocl/analysis.hpp"
+#include "vorocl/method.hpp"
 
 namespace vorocl::command {
 
@@ -87,5 +89,8 @@ class Measures {
   std::optional<std::vector<std::optional<Point>>> points_;
   std::optional<std::vector<float>> distances_;
 };
+
+/// How a diagram of seeds was made, and how it stands in the data.
+Json::Members json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
 
 }  // namespace vorocl::command

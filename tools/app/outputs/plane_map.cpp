@@ -1,5 +1,3 @@
-#include "app/outputs/plane_map.hpp"
-
 #include <unistd.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/outputs/plane_summary.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/planes/placed_file.hpp"
 #include "vorocl/picture.hpp"

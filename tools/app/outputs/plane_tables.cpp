@@ -1,5 +1,3 @@
-#include "app/outputs/plane_tables.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "app/outputs/output_files.hpp"
+#include "app/outputs/plane_summary.hpp"
 #include "formats/files.hpp"
 #include "vorocl/error.hpp"
 

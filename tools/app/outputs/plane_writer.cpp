@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/outputs/plane_map.hpp"
+#include "app/outputs/plane_summary.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 

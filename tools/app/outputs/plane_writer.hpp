@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/outputs/output_files.hpp"
-#include "app/outputs/plane_tables.hpp"
+#include "app/outputs/plane_summary.hpp"
 #include "app/outputs/tile_journal.hpp"
 #include "trials/samples.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/sources/bounds.hpp"
 #include "app/sources/random_seeds.hpp"
-#include "app/sources/trajectory_bounds.hpp"
 #include "app/terminal/console.hpp"
 
 namespace vorocl::command {

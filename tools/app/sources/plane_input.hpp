@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
-#include "app/sources/units.hpp"
+#include "app/sources/view.hpp"
 #include "formats/point_files.hpp"
 #include "vorocl/bounds.hpp"
 #include "vorocl/tiles.hpp"

@@ -9,7 +9,7 @@
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
-#include "formats/mask.hpp"
+#include "formats/images/pictures.hpp"
 #include "formats/npy.hpp"
 
 namespace vorocl::command {

@@ -9,9 +9,8 @@
 #include <utility>
 
 #include "app/sources/bounds.hpp"
-#include "app/sources/periodic_step.hpp"
+#include "app/sources/particles.hpp"
 #include "app/sources/seed_input.hpp"
-#include "app/sources/trajectory_bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "vorocl/error.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/sources/mapping.hpp"
-#include "app/sources/particle_slots.hpp"
+#include "app/sources/particles.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
 

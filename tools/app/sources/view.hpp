@@ -1,14 +1,53 @@
-// How the diagram of a frame stands in the picture and in the data.
+// How the diagram of a frame stands in the picture and in the data, and what a pixel is in the units of the
+// data: the one place that knows the scale of what is measured.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
-#include "app/sources/units.hpp"
 #include "formats/raster.hpp"
 
 namespace vorocl::command {
+
+/// Areas and lengths of pixels, in data units where there are bounds. A length has a scale only where pixels
+/// are squares: elsewhere lengths stay in pixels.
+class Units {
+ public:
+  /// Pixels.
+  Units() = default;
+
+  /// The sides of a pixel in data units; one of 0, of an axis without an extent, has no scale.
+  Units(double pixel_width, double pixel_height, bool square) {
+    if (pixel_width == 0 || pixel_height == 0) return;
+    area_ = pixel_width * pixel_height;
+    area_in_data_ = true;
+    if (!square) return;
+    length_ = std::sqrt(area_);  // the sides differ by the rounding of the picture's height alone
+    length_in_data_ = true;
+  }
+
+  double area(double pixels) const { return pixels * area_; }
+  double length(double pixels) const { return pixels * length_; }
+  std::vector<float> lengths(std::vector<float> pixels) const {
+    if (!length_in_data_) return pixels;
+    for (float& length : pixels) length = static_cast<float>(this->length(static_cast<double>(length)));
+    return pixels;
+  }
+
+  /// "data" or "px".
+  const char* of_area() const { return area_in_data_ ? "data" : "px"; }
+  const char* of_length() const { return length_in_data_ ? "data" : "px"; }
+
+  /// The same as titles have them: "data units^2", "px".
+  const char* area_title() const { return area_in_data_ ? "data units^2" : "px"; }
+  const char* length_title() const { return length_in_data_ ? "data units" : "px"; }
+
+ private:
+  double area_ = 1, length_ = 1;
+  bool area_in_data_ = false, length_in_data_ = false;
+};
 
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation
 /// box.

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <csignal>
 
-#include "formats/temporary_names.hpp"
+#include "formats/output_file.hpp"
 
 namespace vorocl::command {
 

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
-#include "formats/images/modules.hpp"
+#include "formats/modules.hpp"
 #include "formats/output_file.hpp"
 
 namespace vorocl::command {

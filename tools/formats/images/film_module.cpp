@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <opencv2/videoio.hpp>
 
-#include "formats/images/modules.hpp"
+#include "formats/modules.hpp"
 
 namespace vorocl::command {
 

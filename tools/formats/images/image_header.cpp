@@ -1,5 +1,3 @@
-#include "formats/images/image_header.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,7 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "formats/tiff.hpp"
+#include "formats/images/pictures.hpp"
+#include "formats/raster_files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -1,13 +1,36 @@
 // The module of image files: vorocl_images.so.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <new>
 #include <opencv2/imgcodecs.hpp>
 
-#include "formats/images/modules.hpp"
-#include "formats/images/quiet_standard_error.hpp"
+#include "formats/modules.hpp"
 
 namespace vorocl::command {
 
 namespace {
+
+/// Sends standard error nowhere for a scope: OpenCV and the image libraries under it print to it by
+/// themselves.
+class QuietStandardError {
+ public:
+  QuietStandardError() : standard_error_(dup(STDERR_FILENO)) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+    if (nowhere >= 0) close(nowhere);
+  }
+  ~QuietStandardError() {
+    if (standard_error_ < 0) return;
+    dup2(standard_error_, STDERR_FILENO);
+    close(standard_error_);
+  }
+  QuietStandardError(const QuietStandardError&) = delete;
+  QuietStandardError& operator=(const QuietStandardError&) = delete;
+
+ private:
+  int standard_error_;
+};
 
 /// What `work` makes; nothing if OpenCV refuses it, whose texts name its own source lines.
 template <typename Work>

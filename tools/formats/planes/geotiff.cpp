@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "formats/load_module.hpp"
+#include "formats/modules.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
 

@@ -1,15 +1,34 @@
-// What a GeoTIFF says of where it lies. Its keys are libgeotiff's work, which loads the registry of
-// coordinate reference systems and what that needs: so it stands behind a module that is loaded for --crs
-// alone, and that is built where libgeotiff is.
+// Where the pixels of a plane lie in the world, and what a GeoTIFF says of it. Its keys are libgeotiff's
+// work, which loads the registry of coordinate reference systems and what that needs: so it stands behind a
+// module that is loaded for --crs alone, and that is built where libgeotiff is.
 #pragma once
 
 #include <optional>
+#include <string>
 
-#include "formats/planes/georeference.hpp"
+#include "vorocl/bounds.hpp"
 
 struct tiff;  // TIFF
 
 namespace vorocl::command {
+
+/// A coordinate reference system of the EPSG's registry.
+struct Crs {
+  int code = 0;  ///< EPSG:code
+  bool is_geographic = false;
+  std::string name;
+};
+
+/// "EPSG:32632" to the system. Throws Error if it is no such text, if the registry has no projected or
+/// geographic system of this code, and where this vorocl was built without libgeotiff.
+Crs parse_crs(const std::string& text);
+
+/// The rectangle that an image shows, in data units, and whether its y axis points up.
+struct Georeference {
+  Bounds bounds;
+  bool y_up = false;
+  std::optional<Crs> crs;
+};
 
 /// What geotiff_module.cpp does. No function throws or prints.
 class GeotiffModule {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "formats/planes/georeference.hpp"
+#include "formats/planes/geotiff.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {

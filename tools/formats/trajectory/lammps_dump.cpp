@@ -1,11 +1,10 @@
-#include "formats/trajectory/lammps_dump.hpp"
-
 #include <algorithm>
 #include <array>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "formats/trajectory/readers.hpp"
 #include "formats/trajectory/simulation_box.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"

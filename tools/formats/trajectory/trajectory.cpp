@@ -2,9 +2,8 @@
 
 #include <utility>
 
-#include "formats/trajectory/lammps_dump.hpp"
 #include "formats/trajectory/line_reader.hpp"
-#include "formats/trajectory/xyz.hpp"
+#include "formats/trajectory/readers.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {

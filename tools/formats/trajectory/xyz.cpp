@@ -1,5 +1,3 @@
-#include "formats/trajectory/xyz.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -8,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/trajectory/readers.hpp"
 #include "formats/trajectory/simulation_box.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"

@@ -1,4 +1,4 @@
-// LAMMPS text dumps of the styles atom and custom.
+// The kinds of files that trajectories are read from.
 #pragma once
 
 #include <optional>
@@ -11,6 +11,8 @@
 
 namespace vorocl::command {
 
+/// LAMMPS text dumps of the styles atom and custom.
+///
 /// Each frame is a few sections, "ITEM: NAME" with lines after it, of which ATOMS is the last. The columns'
 /// names follow in that line; positions are x y, scaled xs ys, unwrapped xu yu, or both, xsu ysu.
 class LammpsDump : public TrajectoryReader {
@@ -32,6 +34,24 @@ class LammpsDump : public TrajectoryReader {
   SimulationBox read_box(std::string_view title, std::size_t frame_line);
   void next_value(std::size_t frame_line);
 
+  LineReader lines_;
+  std::string value_column_;
+  ParticleRows rows_;
+};
+
+/// XYZ files, plain and extended.
+///
+/// Each frame is a line with the number of particles, a line of comment, and one row per particle: its kind,
+/// x, y, z and maybe more. An extended file's comment holds key=value pairs, of which these matter: Lattice
+/// (the nine components of the box's edges), Origin (its corner), pbc (which axes are periodic; all, without
+/// it; the box grows on others) and Properties (what the columns are, among them pos and maybe id).
+class Xyz : public TrajectoryReader {
+ public:
+  Xyz(LineReader lines, std::string value_column);
+  bool next(Frame& frame) override;
+  std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
+
+ private:
   LineReader lines_;
   std::string value_column_;
   ParticleRows rows_;

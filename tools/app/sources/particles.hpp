@@ -1,10 +1,13 @@
-// Which seed stands for which particle of a trajectory.
+// What is known of particles from frame to frame: which seed stands for which, and how far they have moved.
 #pragma once
 
 #include <cstdint>
 #include <set>
 #include <unordered_map>
 #include <vector>
+
+#include "app/sources/bounds.hpp"
+#include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
 
@@ -29,5 +32,17 @@ class ParticleSlots {
   std::set<std::uint32_t> free_;
   std::size_t size_ = 0;
 };
+
+/// A box's periods in pixels; 0 along an axis that is not periodic.
+struct Periods {
+  double x = 0;
+  double y = 0;
+  double tilt = 0;  ///< how far the copy of the box below (at a greater row) is shifted in x
+};
+
+Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Grid& grid, bool y_up);
+
+/// How far apart two positions are along the axis where they are farther apart, by the shortest way round.
+double displacement(const Point& from, const Point& to, const Periods& periods);
 
 }  // namespace vorocl::command

@@ -1,6 +1,5 @@
-// The modules that read and write images and films. OpenCV's libraries for these load some 220 others, in a
-// tenth of a second; so each has a module of its own, a shared library that is loaded when it is first
-// needed.
+// Parts of the command that are shared libraries, loaded when they are first needed, because what they need
+// takes long to load. OpenCV's libraries for images and films load some 220 others, in a tenth of a second.
 #pragma once
 
 #include <cstdint>
@@ -49,5 +48,9 @@ class FilmModule {
 /// Load the module at the first call. Throw Error, which says why, if that fails.
 const ImageModule& image_module();
 const FilmModule& film_module();
+
+/// What the function vorocl_module() of a module returns; the module stays. Throws Error with the loader's
+/// reason, and `advice`, if it cannot be loaded.
+const void* load_module(const std::string& file, const std::string& advice);
 
 }  // namespace vorocl::command

@@ -1,15 +1,26 @@
-// The tables of a plane's cells.
+// What is written of a plane besides its labels: a picture, for people to look at, and the tables of its
+// cells.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "app/sources/units.hpp"
+#include "app/sources/view.hpp"
 #include "formats/output_file.hpp"
+#include "formats/planes/plane_file.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
+
+/// The longest side of the picture.
+constexpr std::int64_t longest_side_of_map = 4096;
+
+/// A picture of a tiling's part in which each pixel stands for a square of the plane's, and has the colour of
+/// the one in its middle: that of its seed's id, as in render's pictures. Until it is finished its labels
+/// are kept in a file. Throws Error as plane_file().
+std::unique_ptr<PlaneFile> plane_map(const std::string& path, const Tiling& tiling);
 
 /// Tables as those of cells_kind() and adjacency_kind(), with the columns that are known of a plane's cells,
 /// and one row per cell that has pixels. What another run is to go on with are the sums of tiles, in pieces

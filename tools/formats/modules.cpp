@@ -1,4 +1,4 @@
-#include "formats/load_module.hpp"
+#include "formats/modules.hpp"
 
 #include <dlfcn.h>
 
@@ -16,6 +16,22 @@ const void* load_module(const std::string& file, const std::string& advice) {
                 "; " + advice);
   }
   return reinterpret_cast<const void* (*)()>(function)();
+}
+
+namespace {
+
+const char* const advice = "install vorocl again, with the folder vorocl of its libraries, and OpenCV";
+
+}  // namespace
+
+const ImageModule& image_module() {
+  static const auto& module = *static_cast<const ImageModule*>(load_module("vorocl_images.so", advice));
+  return module;
+}
+
+const FilmModule& film_module() {
+  static const auto& module = *static_cast<const FilmModule*>(load_module("vorocl_films.so", advice));
+  return module;
 }
 
 }  // namespace vorocl::command

@@ -1,0 +1,84 @@
+// The options that subcommands share, in groups: seeds, methods, pictures, files, the device and JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/command_line.hpp"
+#include "app/outputs/diagram_files.hpp"
+#include "app/outputs/frame_writer.hpp"
+#include "app/outputs/painter.hpp"
+#include "app/sources/moving_seeds.hpp"
+#include "app/sources/plane_input.hpp"
+#include "app/sources/seed_input.hpp"
+#include "vorocl/grid.hpp"
+#include "vorocl/method.hpp"
+
+namespace vorocl::command {
+
+Option add_metric_option(Command& command, Metric& metric);
+Option add_device_option(Command& command, std::string& request);
+Option add_json_option(Command& command, bool& json);
+
+/// Adds --random, --points, --mask, --trajectory, of which at least so many and at most one must be given,
+/// and what goes with them. Where seeds `move` at random, all of them have a use for the rng seed.
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least = 1, bool move = false);
+
+/// Adds --random and --points, of which one must be given, and what goes with them, for planes.
+void add_plane_options(Command& command, PlaneInputOptions& options);
+
+/// Adds --frame, for the subcommands that show one frame.
+void add_frame_option(Command& command, SeedOptions& options);
+
+/// Adds --units, for the subcommands that measure.
+void add_units_option(Command& command, SeedOptions& options);
+
+/// Adds --frames, --step-length, --fit and --border.
+void add_motion_options(Command& command, MotionOptions& options);
+
+/// "WxH" to a grid. Throws Error if it is not that, or not possible.
+Grid parse_size(const std::string& text);
+
+/// The methods as choices of an option.
+Choices<Method> method_choices();
+
+/// Adds --method: what `method` is, unless it is given.
+void add_method_option(Command& command, Method& method, const std::string& about);
+
+/// Adds --metric, --neighbourhood and the waves of djfa.
+void add_method_options(Command& command, MethodOptions& options);
+
+/// Throws UsageError for options that only djfa has, if none of the methods is djfa.
+void check_method_options(const Command& command, const std::vector<Method>& methods,
+                          const MethodOptions& options);
+
+/// Adds --color, --palette, --scale, --log, --color-bar, --edges, --contours, --points-overlay, --stamp and
+/// --enlarge.
+void add_picture_options(Command& command, PictureOptions& options);
+
+/// For a command line that asks for no picture. Throws UsageError if one of the options above was given, and
+/// says that it is of use with `files`.
+void refuse_picture_options(const Command& command, const std::string& files);
+
+/// Throws UsageError for options that contradict each other.
+void check_picture_options(const PictureOptions& options);
+
+/// Throws UsageError if the pictures of a grid would be too large.
+void check_picture_size(const PictureOptions& options, const Grid& grid);
+
+/// "LOW,HIGH" or "LOW%,HIGH%" to the ends of a scale. Throws Error unless these are two finite numbers, LOW <
+/// HIGH, and percentages from 0 to 100.
+ScaleEnds parse_scale(const std::string& text);
+
+/// Adds the option of a file, which must stay where it is. If `numbered`, its path is a pattern for one file
+/// per frame.
+Option add_file_option(Command& command, FileRequest& request, bool numbered = false);
+
+/// Adds -o, with a help text and the name of its value, --fps and how pictures are drawn.
+void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
+                      const std::string& about);
+
+/// Adds all that, the numbered files, --similarity, --statistics and --every.
+void add_frame_writer_options(Command& command, FrameWriterOptions& options);
+
+}  // namespace vorocl::command

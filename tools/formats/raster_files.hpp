@@ -1,0 +1,65 @@
+// Files of one value per pixel, by the extension of their name: .npy, .tif or .tiff, and .vti, which ParaView
+// opens and which is only written. Labels are such values.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "formats/images/pictures.hpp"
+#include "formats/output_file.hpp"
+#include "formats/raster.hpp"
+
+namespace vorocl::command {
+
+/// The extensions of files that labels can be read from, and written to.
+const std::vector<std::string>& readable_label_extensions();
+const std::vector<std::string>& label_extensions();
+
+/// Throws Error if the file cannot be read or holds something else, or its name ends in no such extension.
+LabelImage read_labels(const std::string& path);
+
+/// Throws Error if the name ends in no such extension, or the file cannot be written.
+void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
+
+/// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name, and alone knows where the
+/// raster lies. Throws Error if the extension is none of these, or the file cannot be written.
+template <typename T>
+void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
+                  const std::vector<T>& values);
+
+/// Whether a file that starts like this is a TIFF, in either byte order, a BigTIFF too.
+bool is_tiff(const std::vector<std::uint8_t>& bytes);
+
+/// Throws Error if the file is something else or damaged.
+ImageHeader read_tiff_header(const std::string& path);
+
+/// Labels of a TIFF file in strips, of any compression. Throws Error if the file is something else or
+/// damaged.
+LabelImage read_tiff_labels(const std::string& path);
+
+/// One value per pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
+/// some readers (OpenCV 4) refuse unsigned ones: labels from 2^31 on, and no_label, look negative there.
+/// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written,
+/// or is a pipe.
+template <typename T>
+void write_tiff(const OutputFile& file, const Grid& grid, const std::vector<T>& values);
+
+/// One value per pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells
+/// are the pixels, with the raster's corner as its origin. The first row is on top as in a picture: where the
+/// raster is of pixels alone, what is at (x, y) in pixel units is at (x, height - y) there. The values are
+/// raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be written.
+template <typename T>
+void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
+               const std::vector<T>& values);
+
+/// A file of a collection and the time that it shows.
+struct TimedFile {
+  std::int64_t time;
+  std::string name;  // relative to the collection's folder
+};
+
+/// Throws Error if the file cannot be written.
+void write_pvd(const OutputFile& file, const std::vector<TimedFile>& files);
+
+}  // namespace vorocl::command
