@@ -59,15 +59,19 @@ void measure_accuracy(Simulation simulation, const Variant& variant, int frames,
   const std::size_t one = simulation.add_engine(variant.engine),
                     again = simulation.add_engine(variant.engine),
                     exact = simulation.add_engine(engine_of("exact"));
+  SimilarityResult similar;
+  DistanceErrorsResult errors;
   for (int frame = 0; frame <= frames; ++frame) {
     simulation.step();
     made(engines_side_by_side);
     if (frame == 0) continue;
     result.waves.add(simulation.report(one).waves());
-    result.similarity_to_exact.add(similarity(simulation.diagram(one), simulation.diagram(exact)));
-    result.differing_between_runs.add(100 - similarity(simulation.diagram(one), simulation.diagram(again)));
-    result.errors.add(
-        distance_errors(simulation.seeds(), simulation.diagram(one), simulation.diagram(exact)));
+    similarity(simulation.diagram(one), simulation.diagram(exact), similar);
+    result.similarity_to_exact.add(similar.read());
+    similarity(simulation.diagram(one), simulation.diagram(again), similar);
+    result.differing_between_runs.add(100 - similar.read());
+    distance_errors(simulation.diagram(one), simulation.diagram(exact), errors);
+    result.errors.add(errors.read());
   }
 }
 
@@ -84,7 +88,7 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
   const double length =
       std::sqrt(static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds));
   for (const int times : {1, 2, 3, 4}) {
-    const auto displacement = std::min(std::round(times * length), static_cast<double>(Grid::max_side));
+    const auto displacement = std::min(std::round(times * length), static_cast<double>(Window::max_side));
     const auto most = static_cast<int>(displacement);
     const std::string setting = std::to_string(times) + " L";
     variants.push_back({"d_max", setting + ", jfa", engine_of("jfa"), most});

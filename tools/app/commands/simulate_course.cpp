@@ -26,7 +26,9 @@ Json range(const Samples& samples) {
 
 /// Of the last frame.
 CellStatistics statistics(const Simulation& simulation) {
-  return cell_statistics(simulation.seeds(), simulation.diagram(main_engine));
+  CellStatisticsResult result;
+  cell_statistics(simulation.diagram(main_engine), result);
+  return result.read();
 }
 
 Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
