@@ -16,7 +16,7 @@ command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit
 [ -e "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
 command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
 
-# A GPU gets all programs but those of the exact engine's vector shape; short lists and references are for tests.
+# A GPU gets all programs but those of the exact engine's vector shape.
 kernel_files() {
   grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl

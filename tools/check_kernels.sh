@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-kernel_files() { find kernels tools -name '*.cl' | sort; }
+kernel_files() { find kernels tests tools -name '*.cl' | sort; }
 
 # Under C99, which OpenCL C follows, a driver may leave a call to a plain `inline` function undefined.
 refuse_plain_inline() {

@@ -80,8 +80,8 @@ class VOROCL_API CellShapesResult {
   std::size_t size() const;
   const cl::Buffer& boxes() const;  ///< int32 left, top, right, bottom per cell
 
-  /// int32 per cell. Null where a seed lies so far outside the window that they may not fit: read() tells
-  /// them.
+  /// int32 per cell. A null buffer if a seed lies so far outside the window that its distances may need more
+  /// bits; read() gives them in any case.
   const cl::Buffer& largest_distances() const;
 
   /// Waits. Throws BadPoint if the frame of the seeds had one.

@@ -85,7 +85,9 @@ class VOROCL_API Axis {
   /// order of operations, so that rounding is the same everywhere; floor(coordinate) where the unit is the
   /// pixel. Counted from the other end if reversed, brought into [0, pixels) if periodic; else it may lie
   /// outside. NaN or infinite if the coordinate is.
-  double pixel(double coordinate) const;
+  double pixel(double coordinate) const {
+    return is_plain() ? floor_of(coordinate) : mapped_pixel(coordinate);
+  }
 
   /// The coordinate of a position in pixels, of pixel(i) + 0.5 for the centre of pixel i.
   double coordinate(double position) const;
@@ -97,6 +99,19 @@ class VOROCL_API Axis {
   friend bool operator!=(const Axis& a, const Axis& b) { return !(a == b); }
 
  private:
+  /// Whether a coordinate's pixel is its floor.
+  bool is_plain() const { return in_pixels_ && !periodic_ && !reversed_ && !closed_; }
+
+  /// std::floor() without a call, which it is where the processor is not known.
+  static double floor_of(double number) {
+    constexpr double no_fractions_from = 4503599627370496.0;  // 2^52
+    // Written so that a NaN comes back.
+    if (!(number < no_fractions_from && number > -no_fractions_from)) return number;
+    const auto whole = static_cast<double>(static_cast<std::int64_t>(number));
+    return whole > number ? whole - 1 : whole;
+  }
+
+  double mapped_pixel(double coordinate) const;
   double unreversed_pixel(double coordinate) const;
 
   std::int64_t pixels_;

@@ -39,15 +39,17 @@ static inline uint_v look_up_positions(global const uint* labels, global const u
 // Packed positions of a vector's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
 static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES; }
 
-// DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, else the
-// Manhattan distance, both integers. ALONG(offset) is offset * FACTOR(offset). Both macros take numbers and vectors,
-// FACTOR those of 16 bits.
-#ifdef VOROCL_EUCLIDEAN
+// DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, the
+// Manhattan distance for VOROCL_MANHATTAN, both integers. The exact engine needs this sum. ALONG(offset) is
+// offset * FACTOR(offset). Both macros take numbers and vectors, FACTOR those of 16 bits.
+#if defined(VOROCL_EUCLIDEAN)
 #define ALONG(offset) ((offset) * (offset))
 #define FACTOR(offset) (offset)
-#else
+#elif defined(VOROCL_MANHATTAN)
 #define ALONG(offset) max(offset, -(offset))
 #define FACTOR(offset) (((offset) >> (short)15) | (short)1)  // the sign: -1 or 1
+#else
+#error "Kernels are built for no metric"
 #endif
 
 #if 2 * LAST_COORDINATE * LAST_COORDINATE >= 0x80000000

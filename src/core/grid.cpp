@@ -30,15 +30,6 @@ std::int64_t checked_pixels(std::int64_t pixels) {
               std::to_string(Axis::max_pixels));
 }
 
-/// The whole number at or below a number: std::floor(), which is a call where the processor is not known.
-double floor_of(double number) {
-  constexpr double no_fractions_from = 4503599627370496.0;  // 2^52
-  // Written so that a NaN comes back.
-  if (!(std::abs(number) < no_fractions_from)) return number;
-  const auto whole = static_cast<double>(static_cast<std::int64_t>(number));
-  return whole > number ? whole - 1 : whole;
-}
-
 /// Where a window begins along an axis. Throws Error if it does not lie in the grid.
 std::int64_t checked_begin(const Axis& axis, const char* name, std::int64_t begin, std::int64_t length) {
   const std::int64_t pixels = axis.pixels();
@@ -118,7 +109,7 @@ double Axis::unreversed_pixel(double coordinate) const {
   return closed_ && coordinate <= to_ ? std::min(pixel, count - 1) : pixel;
 }
 
-double Axis::pixel(double coordinate) const {
+double Axis::mapped_pixel(double coordinate) const {
   const double pixel = unreversed_pixel(coordinate);
   return reversed_ ? static_cast<double>(pixels_ - 1) - pixel : pixel;
 }

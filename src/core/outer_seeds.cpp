@@ -64,14 +64,15 @@ Region labelled_region(const Window& window, const Region& home) {
 }
 
 /// Calls a function with each place of a seed that is no pixel where seeds lie themselves and may be the
-/// nearest one of a pixel of the region: no image farther than half a period is.
+/// nearest one of a pixel of the region: no image farther than half a period is. A window may begin late in
+/// the period, and end nearly a period behind it.
 template <typename Use>
 void each_outer_place(const Region& region, const Periods& periods, const Place& seed, Use use) {
   const std::int64_t images_x = periods.x > 0 ? 1 : 0, images_y = periods.y > 0 ? 1 : 0;
-  for (std::int64_t j = -images_y; j <= images_y; ++j) {
+  for (std::int64_t j = -images_y; j <= 2 * images_y; ++j) {
     const std::int64_t y = seed.y + j * periods.y;
     if (periods.y > 0 && (2 * (region.top - y) > periods.y || 2 * (y - region.bottom) > periods.y)) continue;
-    for (std::int64_t i = -images_x; i <= images_x; ++i) {
+    for (std::int64_t i = -images_x; i <= 2 * images_x; ++i) {
       const std::int64_t x = seed.x + i * periods.x;
       if (periods.x > 0 && (2 * (region.left - x) > periods.x || 2 * (x - region.right) > periods.x))
         continue;

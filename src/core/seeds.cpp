@@ -71,15 +71,15 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
                 std::to_string(grid.pixels()));
   }
   const PixelGrid size = pixels_of(grid, "a mask");
-  std::vector<PlanePosition> pixels;
+  Seeds seeds = Internal::no_seeds(device, grid);
+  const auto pixels = seeds.state().list_of_pixels();
   std::size_t i = 0;
   for (int y = 0; y < size.height(); ++y) {
     for (int x = 0; x < size.width(); ++x) {
-      if (mask[i++] != 0) pixels.push_back({{x, y}});
+      if (mask[i++] != 0) pixels->push_back({{x, y}});
     }
   }
-  Seeds seeds = Internal::no_seeds(device, grid);
-  seeds.state().place(grid, std::move(pixels), nullptr);
+  seeds.state().place(grid, pixels, nullptr);
   return seeds;
 }
 
@@ -99,7 +99,10 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
       .over_items(count + 1, *positions, static_cast<cl_uint>(count), pixels.width(), pixels.height(), key);
   state.place_on_device(count, positions);
   // Where kernels cannot go round the ends themselves, the host places the images.
-  if (!kernels_go_round(grid, pixels)) state.place(grid, state.frame()->read_pixels(), nullptr);
+  if (!kernels_go_round(grid, pixels)) {
+    state.place(grid, std::make_shared<const std::vector<PlanePosition>>(state.frame()->read_pixels()),
+                nullptr);
+  }
   return seeds;
 }
 

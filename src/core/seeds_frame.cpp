@@ -18,11 +18,23 @@ double coordinate(std::uint32_t bits) {
   return static_cast<double>(value);
 }
 
-/// The shorter way round between two pixels of an axis.
-std::int64_t way_along(const Axis& axis, std::int64_t from, std::int64_t to) {
-  const std::int64_t way = std::abs(to - from);
-  return axis.is_periodic() ? std::min(way, axis.pixels() - way) : way;
-}
+/// The greatest of the shorter ways round between pixels of an axis.
+class Farthest {
+ public:
+  explicit Farthest(const Axis& axis)
+      : period_(static_cast<cl_uint>(axis.is_periodic() ? axis.pixels() : 0)) {}
+
+  void add(cl_int from, cl_int to) {
+    const auto a = static_cast<cl_uint>(from), b = static_cast<cl_uint>(to);
+    cl_uint way = from < to ? b - a : a - b;
+    if (period_ > 0) way = std::min(way, period_ - way);
+    greatest_ = std::max(greatest_, way);
+  }
+  cl_uint greatest() const { return greatest_; }
+
+ private:
+  cl_uint period_, greatest_ = 0;
+};
 
 double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
   const std::size_t count = std::min(earlier.size, now.size);
@@ -75,15 +87,15 @@ std::size_t PointCheck::absent() const {
 // --- SeedsFrame ---
 
 double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
-                    const std::vector<PlanePosition>& to) {
-  std::int64_t greatest = 0;
+                    const std::vector<PlanePosition>& to, bool some_absent) {
+  Farthest x(grid.x()), y(grid.y());
   const std::size_t count = std::min(from.size(), to.size());
   for (std::size_t id = 0; id < count; ++id) {
-    if (is_absent(from[id]) || is_absent(to[id])) continue;
-    greatest = std::max({greatest, way_along(grid.x(), from[id].s[0], to[id].s[0]),
-                         way_along(grid.y(), from[id].s[1], to[id].s[1])});
+    if (some_absent && (is_absent(from[id]) || is_absent(to[id]))) continue;
+    x.add(from[id].s[0], to[id].s[0]);
+    y.add(from[id].s[1], to[id].s[1]);
   }
-  return static_cast<double>(greatest);
+  return std::max(x.greatest(), y.greatest());
 }
 
 std::size_t SeedsFrame::alive() const { return size - absent - (counted_there ? points->absent() : 0); }
@@ -98,9 +110,9 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
   if (earlier.grid != grid || !device.same_as(earlier.device)) {
     return static_cast<double>(std::max(grid.width(), grid.height()));
   }
-  if (pixels && earlier.pixels) return greatest_way(grid, *earlier.pixels, *pixels);
+  if (pixels && earlier.pixels) return greatest_way(grid, *earlier.pixels, *pixels, true);
   if (whole && earlier.whole) return way_on_device(earlier, *this);
-  return greatest_way(grid, earlier.read_pixels(), read_pixels());
+  return greatest_way(grid, earlier.read_pixels(), read_pixels(), true);
 }
 
 double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }

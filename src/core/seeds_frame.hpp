@@ -65,7 +65,7 @@ struct SeedsFrame {
   std::size_t absent = 0;    // known to the host; not those that the check counts
   std::size_t outside = 0;   // the grid
   std::uint64_t owner = 0;   // the Seeds object it is of: no two have the same number
-  std::uint64_t losses = 0;  // how often, up to this frame, a seed may have gone that was there before
+  std::uint64_t losses = 0;  // how many frames, up to this one, may have lost a seed of the frame before
   Way way = {};
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
   bool counted_there = false;                          // the check counts seeds that are absent
@@ -107,8 +107,9 @@ struct SeedsFrame {
 std::shared_ptr<Placements> no_placements();
 
 /// The greatest way along an axis between the pixels of one frame and another, for seeds present in both.
+/// `some_absent`: whether there may be others.
 double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
-                    const std::vector<PlanePosition>& to);
+                    const std::vector<PlanePosition>& to, bool some_absent);
 
 /// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, for something
 /// ("jump flooding") that does not know them.

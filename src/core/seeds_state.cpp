@@ -110,52 +110,51 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
 void SeedsState::place(const Grid& grid, const Points& points) {
   check_count(points.size());
   const Snapping snap(grid, outside);
-  std::vector<Point> given;
-  std::vector<PlanePosition> pixels;
-  given.reserve(points.size());
-  pixels.reserve(points.size());
+  const std::shared_ptr<std::vector<Point>> given = points_.take();
+  const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
+  given->resize(points.size());
+  pixels->resize(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
+    PlanePosition& at = (*pixels)[id];
     if (points.is_present(id)) {
-      given.push_back(points[id]);
-      pixels.push_back(snap(id, given.back()));
+      (*given)[id] = points[id];
+      at = snap(id, (*given)[id]);
     } else {
-      given.push_back({});
-      pixels.push_back({{absent_coordinate, 0}});
+      at = {{absent_coordinate, 0}};
     }
   }
-  place(grid, std::move(pixels), std::make_shared<const std::vector<Point>>(std::move(given)));
+  place(grid, pixels, given);
 }
 
-void SeedsState::place(const Grid& grid, std::vector<PlanePosition>&& pixels,
+void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> placed,
                        std::shared_ptr<const std::vector<Point>> given) {
+  const std::vector<PlanePosition>& pixels = *placed;
   const Snapping snap(grid, outside);
   std::vector<bool> there(pixels.size(), true);
   bool lost = there.size() < present.size();
-  std::size_t absent = 0, out = 0;
-  for (std::size_t id = 0; id < pixels.size(); ++id) {
-    if (is_absent(pixels[id])) {
-      there[id] = false;
-      ++absent;
-      lost = lost || (id < present.size() && present[id]);
-    } else {
-      out += snap.is_inside(pixels[id]) ? 0 : 1;
-    }
+  std::size_t inside = 0, absent = 0;
+  for (const PlanePosition& at : pixels) inside += snap.is_inside(at) ? 1 : 0;
+  for (std::size_t id = 0; inside < pixels.size() && id < pixels.size(); ++id) {
+    if (!is_absent(pixels[id])) continue;
+    there[id] = false;
+    ++absent;
+    lost = lost || (id < present.size() && present[id]);
   }
   SeedsFrame next = next_frame(grid, pixels.size(), lost);
   next.absent = absent;
-  next.outside = out;
+  next.outside = pixels.size() - inside - absent;
   next.given = std::move(given);
   if (frame_->grid != grid) {
     next.way = {0, 0, next_number()};
   } else if (frame_->pixels) {
-    next.way.last = greatest_way(grid, *frame_->pixels, pixels);
+    next.way.last = greatest_way(grid, *frame_->pixels, pixels, absent > 0 || frame_->absent > 0);
     next.way.all += next.way.last;
   } else {
     way_is_unknown(next);
   }
   const Window window(grid);
-  std::vector<std::uint32_t> packed = packed_positions(window, out, pixels);
-  next.pixels = std::make_shared<const std::vector<PlanePosition>>(std::move(pixels));
+  std::vector<std::uint32_t> packed = packed_positions(window, next.outside, pixels);
+  next.pixels = std::move(placed);
   if (!packed.empty()) {
     const std::shared_ptr<cl::Buffer> positions = room_for_positions(there.size());
     next.whole = std::make_shared<const Placement>(Placement{PixelGrid(window), positions, nullptr});

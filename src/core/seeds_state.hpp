@@ -11,6 +11,26 @@
 
 namespace vorocl {
 
+/// Lists that frames share: a loop over frames makes two or three in all, so that their memory is not taken
+/// from the system anew each time.
+template <typename T>
+class Recycled {
+ public:
+  /// An empty list.
+  std::shared_ptr<std::vector<T>> take() {
+    for (const std::shared_ptr<std::vector<T>>& list : lists_) {
+      if (list.use_count() > 1) continue;
+      list->clear();
+      return list;
+    }
+    lists_.push_back(std::make_shared<std::vector<T>>());
+    return lists_.back();
+  }
+
+ private:
+  std::vector<std::shared_ptr<std::vector<T>>> lists_;
+};
+
 struct SeedsState {
   SeedsState(const Device& device, const Grid& grid, Outside outside);
 
@@ -33,8 +53,11 @@ struct SeedsState {
 
   /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` may be
   /// null.
-  void place(const Grid& grid, std::vector<PlanePosition>&& pixels,
+  void place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> pixels,
              std::shared_ptr<const std::vector<Point>> given);
+
+  /// An empty list of pixels, with the memory of one that no frame remembers any more.
+  std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
 
   /// Makes the next frame, of so many seeds that a kernel places: all present.
   void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);
@@ -68,6 +91,8 @@ struct SeedsState {
   void place_on_the_device(const PointBuffer& points);
 
   std::shared_ptr<const SeedsFrame> frame_;
+  Recycled<PlanePosition> pixels_;
+  Recycled<Point> points_;
   Upload<std::uint32_t> upload_;                     // of positions that the host has placed
   std::vector<std::shared_ptr<cl::Buffer>> rooms_;   // of positions: those of frames that are remembered ...
   std::vector<std::shared_ptr<PointCheck>> checks_;  // ... and unused ones; checks likewise

@@ -17,11 +17,16 @@ namespace vorocl {
 /// Snaps points to the pixels of a grid, by its axes.
 class Snapping {
  public:
-  Snapping(const Grid& grid, Outside outside) : grid_(grid), outside_(outside) {}
+  Snapping(const Grid& grid, Outside outside)
+      : grid_(grid),
+        outside_(outside),
+        width_(static_cast<cl_uint>(grid.width())),
+        height_(static_cast<cl_uint>(grid.height())) {}
 
   /// Whether a pixel is one of the grid's.
   bool is_inside(const PlanePosition& at) const {
-    return at.s[0] >= 0 && at.s[0] < grid_.width() && at.s[1] >= 0 && at.s[1] < grid_.height();
+    // What is negative is too large without its sign.
+    return static_cast<cl_uint>(at.s[0]) < width_ && static_cast<cl_uint>(at.s[1]) < height_;
   }
 
   /// The pixel of a point, counted from the grid's first one; absent_coordinate if it is outside and such
@@ -69,6 +74,7 @@ class Snapping {
 
   Grid grid_;
   Outside outside_;
+  cl_uint width_, height_;
 };
 
 /// Throws Error unless a seed with an id of the caller's may have this pixel of a grid and this id.

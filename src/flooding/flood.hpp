@@ -47,10 +47,13 @@ class Flood {
 
   void wave(const Wave& wave);
 
-  /// Clears the number of the last wave that changed a label; a wave of step 1 that stores its number there
-  /// if it changes one; the number. The last one waits.
+  /// Sets the number that last_change() gives to 0.
   void clear_last_change();
+
+  /// A wave of step 1. If it changes a label, last_change() gives its `number`.
   void reporting_wave(Neighbourhood neighbourhood, int number);
+
+  /// The number of the last reporting wave that changed a label. Waits for the device.
   int last_change();
 
   /// Runs a last wave and writes the ids of its labels into the diagram.

@@ -7,7 +7,6 @@
 
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
-#include "vorocl/similarity.hpp"
 
 namespace vorocl {
 
@@ -261,12 +260,6 @@ CellStatistics cell_statistics(CellSumsResult& result) {
     statistics.area_deviation = std::sqrt(std::max(variance, 0.0));
   }
   return statistics;
-}
-
-std::size_t changed_pixels(const Diagram& a, const Diagram& b) {
-  // A percentage of at most 2^30 pixels holds their count: its rounding is far below one pixel.
-  return static_cast<std::size_t>(
-      std::llround((100 - similarity(a, b)) / 100 * static_cast<double>(a.grid().pixels())));
 }
 
 }  // namespace vorocl

@@ -4,6 +4,7 @@
 
 #include "measures/judged_labels.hpp"
 #include "runtime/buffer.hpp"
+#include "vorocl/cells.hpp"
 
 namespace vorocl {
 
@@ -19,9 +20,9 @@ cl::Buffer no_differences(const Device& device) {
   return counter;
 }
 
-/// What the counter says of the pixels that were compared.
-double percentage(const cl::Buffer& differences, const Diagram& diagram) {
-  return percentage(download<cl_uint>(diagram.device(), differences, 1).front(), diagram.grid().pixels());
+/// What the counter says. Waits.
+std::size_t counted(const cl::Buffer& differences, const Device& device) {
+  return download<cl_uint>(device, differences, 1).front();
 }
 
 void check_pair(const Diagram& a, const Diagram& b) {
@@ -40,7 +41,7 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
   return percentage(differences, a.size());
 }
 
-double similarity(const Diagram& a, const Diagram& b) {
+std::size_t changed_pixels(const Diagram& a, const Diagram& b) {
   check_pair(a, b);
   const cl::Buffer differences = no_differences(a.device());
   Kernel(a.device(), "measures/similarity.cl", "count_differences", a.grid())
@@ -48,7 +49,11 @@ double similarity(const Diagram& a, const Diagram& b) {
                   static_cast<cl_uint>(judged_per_item), differences);
   a.wait();
   b.wait();
-  return percentage(differences, a);
+  return counted(differences, a.device());
+}
+
+double similarity(const Diagram& a, const Diagram& b) {
+  return percentage(changed_pixels(a, b), a.grid().pixels());
 }
 
 double similarity(const Seeds& seeds, const Diagram& a, const Diagram& b, double tolerance, Metric metric) {
@@ -64,7 +69,7 @@ double similarity(const Seeds& seeds, const Diagram& a, const Diagram& b, double
   b.wait();
   of_a.check();
   of_b.check();
-  return percentage(differences, a);
+  return percentage(counted(differences, a.device()), a.grid().pixels());
 }
 
 }  // namespace vorocl

@@ -8,7 +8,7 @@
 
 #include "core/snapping.hpp"
 #include "mpi/agreement.hpp"
-#include "tiles/block_tree.hpp"
+#include "mpi/block_tree.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
 

@@ -35,17 +35,18 @@ std::string source_of(const std::string& file) {
   return text;
 }
 
-/// Appends a file with its #include "..." lines resolved, each file once. #line keeps the compiler's messages
-/// true.
-void append_source(const std::string& file, std::set<std::string>& included, std::string& text) {
-  if (!included.insert(file).second) return;
+/// Appends a file's text with its #include "..." lines resolved, each file once. #line keeps the compiler's
+/// messages true.
+void append_source(const std::string& file, const std::string& source, std::set<std::string>& included,
+                   std::string& text) {
   const std::string include = "#include \"";
-  std::istringstream lines(source_of(file));
+  std::istringstream lines(source);
   std::string line;
   text += "#line 1 \"" + file + "\"\n";
   for (int number = 1; std::getline(lines, line); ++number) {
     if (line.compare(0, include.size(), include) == 0) {
-      append_source(line.substr(include.size(), line.rfind('"') - include.size()), included, text);
+      const std::string name = line.substr(include.size(), line.rfind('"') - include.size());
+      if (included.insert(name).second) append_source(name, source_of(name), included, text);
       text += "#line " + std::to_string(number + 1) + " \"" + file + "\"\n";
     } else {
       text += line + '\n';
@@ -87,9 +88,7 @@ std::string binary_of(const cl::Program& program) {
 }
 
 cl::Program build(const Device& device, const std::string& file, const std::string& options) {
-  std::string source;
-  std::set<std::string> included;
-  append_source(file, included, source);
+  const std::string source = with_includes(file, source_of(file));
   const std::string name = dump_name(device, file, options);
   dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
   const char* text = source.c_str();
@@ -113,6 +112,13 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
 }
 
 }  // namespace
+
+std::string with_includes(const std::string& file, const std::string& text) {
+  std::string whole;
+  std::set<std::string> included = {file};
+  append_source(file, text, included, whole);
+  return whole;
+}
 
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options) {
   DeviceState& state = Internal::state(device);

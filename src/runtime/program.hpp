@@ -19,4 +19,7 @@ namespace vorocl {
 /// (.bin).
 cl::Program program_for(const Device& device, const std::string& file, const std::string& options);
 
+/// The text of a kernel file with all that it includes.
+std::string with_includes(const std::string& file, const std::string& text);
+
 }  // namespace vorocl

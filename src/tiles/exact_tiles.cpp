@@ -107,10 +107,10 @@ class TileEngine {
   std::size_t largest_bytes() const { return tiling_.tile(0).pixels() * sizeof(cl_uint); }
 
   void place(Seeds& seeds) const {
-    std::vector<PlanePosition> pixels;
-    pixels.reserve(near_.size());
-    for (const PlaneSeed& seed : near_) pixels.push_back({{seed.x, seed.y}});
-    Internal::state(seeds).place(seeds.grid(), std::move(pixels), nullptr);
+    SeedsState& state = Internal::state(seeds);
+    const auto pixels = state.list_of_pixels();
+    for (const PlaneSeed& seed : near_) pixels->push_back({{seed.x, seed.y}});
+    state.place(seeds.grid(), pixels, nullptr);
   }
 
   void upload_ids() {

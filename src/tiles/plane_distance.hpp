@@ -1,10 +1,13 @@
-// Distances in a plane, which may be periodic, in 64-bit integers.
+// Distances in a plane, which may be periodic, in 64-bit integers; and which of two seeds wins.
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/z_order.hpp"
 #include "runtime/metric.hpp"
 #include "tiles/box_tree.hpp"
 #include "vorocl/tiles.hpp"
@@ -21,6 +24,37 @@ struct PlanePoint {
 };
 
 constexpr std::int64_t too_far = INT64_MAX;
+
+/// The rank of a position in row-major order, which is that of the tie rule.
+inline std::uint64_t rank_of(std::int32_t x, std::int32_t y) {
+  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(y) ^ z_bias) << 32 |
+         (static_cast<std::uint32_t>(x) ^ z_bias);
+}
+
+/// A seed, or one of its images where the plane is periodic, at a distance from a point.
+struct SeedImage {
+  std::size_t index = 0;  // of the seed
+  PlanePoint offset;      // of the image from the seed
+  std::int64_t distance = too_far;
+  std::uint64_t rank = UINT64_MAX;  // of the seed in the tie rule
+
+  /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
+  bool wins(const SeedImage& other) const {
+    return distance != other.distance ? distance < other.distance : rank < other.rank;
+  }
+
+  friend bool operator==(const SeedImage& a, const SeedImage& b) {
+    return a.index == b.index && a.offset == b.offset;
+  }
+};
+
+/// What no seed of a box is before, in the order of winning: as near as the box, and first in it.
+inline SeedImage first_in(const Box& box, std::int64_t away) {
+  SeedImage image;
+  image.distance = away;
+  image.rank = rank_of(box.left, box.top);
+  return image;
+}
 
 /// Distances between a point and images, squared if Euclidean. What is farther than half a period along an
 /// axis, and `slack` more, is too_far: another image is nearer. So no square overflows.

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "tiles/plane_distance.hpp"
-#include "tiles/seed_tree.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {

@@ -6,19 +6,6 @@
 
 namespace vorocl {
 
-namespace {
-
-/// What no seed of a box is before, in the order of winning: as near as the box, and first in it.
-SeedImage first_in(const Box& box, std::int64_t away) {
-  SeedImage image;
-  image.distance = away;
-  image.rank = static_cast<std::uint64_t>(static_cast<std::uint32_t>(box.top) ^ z_bias) << 32 |
-               (static_cast<std::uint32_t>(box.left) ^ z_bias);
-  return image;
-}
-
-}  // namespace
-
 void SeedTree::reserve(std::size_t count) {
   places_.reserve(count);
   ids_.reserve(count);

@@ -13,23 +13,6 @@
 
 namespace vorocl {
 
-/// A seed, or one of its images where the plane is periodic, at a distance from a point.
-struct SeedImage {
-  std::size_t index = 0;  // in the tree
-  PlanePoint offset;      // of the image from the seed
-  std::int64_t distance = too_far;
-  std::uint64_t rank = UINT64_MAX;  // of the seed in the tie rule
-
-  /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are of one rank.)
-  bool wins(const SeedImage& other) const {
-    return distance != other.distance ? distance < other.distance : rank < other.rank;
-  }
-
-  friend bool operator==(const SeedImage& a, const SeedImage& b) {
-    return a.index == b.index && a.offset == b.offset;
-  }
-};
-
 /// 13 bytes a seed.
 class SeedTree {
  public:

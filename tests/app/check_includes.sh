@@ -34,7 +34,6 @@ only_in() {
   trouble=1
 }
 only_in CLI/ app/options/command_line.cpp
-only_in nlohmann/ app/terminal/json.cpp
 only_in opencv2/imgcodecs formats/images/image_module.cpp
 only_in opencv2/videoio formats/images/film_module.cpp
 exit $trouble

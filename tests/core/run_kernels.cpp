@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "brute_force.hpp"
-#include "exact/reference.hpp"
 #include "list_length.hpp"
+#include "reference.hpp"
 #include "runtime/kernel_sources.hpp"
 #include "runtime/opencl_info.hpp"
 #include "runtime/program.hpp"
@@ -57,7 +57,7 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
       method.run(seeds, diagram, 0, {metric, mix});
     }
   }
-  reference_diagram(seeds, diagram, metric);
+  reference_labels(seeds, metric);
   DynamicJumpFloodingOptions options;
   options.metric = metric;
   random_step(seeds, 2, Border::reflect, 1, 1);

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "exact/reference.hpp"
 #include "exact_cases.hpp"
+#include "reference.hpp"
 #include "samples.hpp"
 #include "seed_tree.hpp"
 
@@ -53,9 +53,7 @@ std::vector<Engine> engines(const Grid& grid) {
 }
 
 Labels reference_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
-  Diagram diagram(test_device(), grid);
-  reference_diagram(Seeds(test_device(), grid, centres(seeds)), diagram, metric);
-  return diagram.read();
+  return vorocl::reference_labels(Seeds(test_device(), grid, centres(seeds)), metric);
 }
 
 void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric = Metric::euclidean,

@@ -9,7 +9,7 @@ command -v nm >/dev/null || { echo "nm is not installed: skipped"; exit 77; }
 case $1 in
 exported)
   all=$(nm -DC --defined-only "$2" | sed 's/^[0-9a-f]* . //')
-  found=$(grep -Ev '^(vorocl::|(vtable|typeinfo|typeinfo name) for vorocl::(Error|BadPoint)$|vorocl_[a-z_]+$)' <<<"$all" || true)
+  found=$(grep -Ev '^(vorocl::|(vtable|typeinfo|typeinfo name) for vorocl::(Error|BadPoint|SeedSource)$|vorocl_[a-z_]+$)' <<<"$all" || true)
   # The library's own internals are in its namespace too.
   found+=$(grep -E '^vorocl::(Kernel|Flood|allocate|check|program_for|kernel_sources)\b' <<<"$all" || true)
   for wanted in 'vorocl::jump_flooding(' 'vorocl_jump_flooding'; do

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <climits>
 #include <cstring>
 
@@ -73,7 +74,13 @@ void remove_temporary_files() noexcept {
     if (slot.kind == TemporaryName::Kind::folder) remove_files_in(slot.name);
   }
   for (const Slot& slot : all) {
-    if (slot.holds_name) rmdir(slot.name);
+    if (!slot.holds_name) continue;
+    // Other threads may still write into a folder of ours.
+    constexpr int most_tries = 1000;
+    for (int tries = 0; rmdir(slot.name) != 0 && errno == ENOTEMPTY && tries < most_tries; ++tries) {
+      if (slot.kind != TemporaryName::Kind::folder) break;
+      remove_files_in(slot.name);
+    }
   }
 }
 

@@ -65,7 +65,7 @@ void measure_accuracy(Simulation simulation, const Variant& variant, int frames,
     simulation.step();
     made(engines_side_by_side);
     if (frame == 0) continue;
-    result.waves.add(simulation.report(one).waves());
+    result.waves.add(variant.record ? variant.record->waves() : simulation.report(one).waves());
     similarity(simulation.diagram(one), simulation.diagram(exact), similar);
     result.similarity_to_exact.add(similar.read());
     similarity(simulation.diagram(one), simulation.diagram(again), similar);
@@ -108,10 +108,13 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
   variants.push_back({"waves", "gather", engine_of("djfa"), max_displacement});
   variants.push_back({"waves", "gather, one pixel per work-item", engine_of("djfa"), max_displacement,
                       Spread::uniform, true});
-  variants.push_back(
-      {"waves", "scatter in place, as printed", in_place_scatter(device, Stamping::none), max_displacement});
-  variants.push_back({"waves", "scatter in place, seeds stamped", in_place_scatter(device, Stamping::seeds),
-                      max_displacement});
+  const std::pair<const char*, Stamping> scatters[] = {{"scatter in place, as printed", Stamping::none},
+                                                       {"scatter in place, seeds stamped", Stamping::seeds}};
+  for (const auto& [name, stamping] : scatters) {
+    const auto record = std::make_shared<ScatterRecord>();
+    variants.push_back({"waves", name, in_place_scatter(device, stamping, record), max_displacement,
+                        Spread::uniform, false, record});
+  }
   return variants;
 }
 
@@ -125,9 +128,11 @@ std::vector<VariantResult> measure(const Device& device, const Configuration& co
   }
   for (int round = 0; round < settings.repeats; ++round) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      results[i].milliseconds.add(timed_run(walk(device, configuration, settings, variants[i]),
-                                            variants[i].engine, settings.timed_frames, made)
-                                      .milliseconds);
+      const Variant& variant = variants[i];
+      if (variant.record) variant.record->take_milliseconds();
+      const RunTimes times = timed_run(walk(device, configuration, settings, variant), variant.engine,
+                                       settings.timed_frames, made);
+      results[i].milliseconds.add(variant.record ? variant.record->take_milliseconds() : times.milliseconds);
     }
   }
   return results;

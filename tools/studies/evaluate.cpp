@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 #include "app/terminal/progress.hpp"
 #include "formats/files.hpp"
 #include "studies/study_line.hpp"

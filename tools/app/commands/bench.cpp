@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 #include "formats/values.hpp"
 #include "trials/benchmark.hpp"
 
@@ -30,10 +30,10 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
     std::vector<Json> list;
     list.reserve(results.size());
     for (const BenchmarkResult& result : results) {
-      list.push_back(Json::Members{{"method", result.method},
-                                   {"median_ms", result.milliseconds.median()},
-                                   {"min_ms", result.milliseconds.least()},
-                                   {"wrong_pixels", result.wrong_pixels}});
+      list.push_back(Json{{"method", result.method},
+                          {"median_ms", result.milliseconds.median()},
+                          {"min_ms", result.milliseconds.least()},
+                          {"wrong_pixels", result.wrong_pixels}});
     }
     print_json({{"metric", to_string(options.benchmark.method.metric)},
                 {"device", seeds.device().name()},

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 
 namespace vorocl::command {
 
@@ -54,16 +54,16 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   const CellStatistics statistics = measures.statistics();
   const View& view = measures.view();
   if (options.json) {
-    Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
-    result.insert(result.end(), {{"cells", statistics.cells},
-                                 {"empty_cells", statistics.empty_cells},
-                                 {"mean_area", statistics.mean_area},
-                                 {"area_deviation", statistics.area_deviation},
-                                 {"vertices", measures.vertices()},
-                                 {"pairs", measures.pair_count()},
-                                 {"waves", report.waves()},
-                                 {"milliseconds", report.milliseconds()},
-                                 {"host_milliseconds", report.host_milliseconds()}});
+    Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
+    result.update(Json{{"cells", statistics.cells},
+                       {"empty_cells", statistics.empty_cells},
+                       {"mean_area", statistics.mean_area},
+                       {"area_deviation", statistics.area_deviation},
+                       {"vertices", measures.vertices()},
+                       {"pairs", measures.pair_count()},
+                       {"waves", report.waves()},
+                       {"milliseconds", report.milliseconds()},
+                       {"host_milliseconds", report.host_milliseconds()}});
     print_json(result);
     return;
   }

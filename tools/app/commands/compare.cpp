@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
 #include <unordered_map>
@@ -12,7 +13,6 @@
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 #include "formats/files.hpp"
 #include "formats/raster_files.hpp"
 #include "vorocl/distance_errors.hpp"
@@ -105,14 +105,14 @@ Comparison compare_with_exact(const CompareOptions& options) {
 void print_result(const CompareOptions& options, const Comparison& comparison) {
   const auto& errors = comparison.errors;
   if (options.json) {
-    Json::Members result = {{"similarity", comparison.similarity},
-                            {"pixels", comparison.pixels},
-                            {"different_pixels", comparison.different_pixels}};
+    Json result = {{"similarity", comparison.similarity},
+                   {"pixels", comparison.pixels},
+                   {"different_pixels", comparison.different_pixels}};
     if (errors) {
-      result.emplace_back("errors", Json::Members{{"wrong_pixels", errors->wrong_pixels},
-                                                  {"unlabelled_pixels", errors->unlabelled_pixels},
-                                                  {"largest_excess", errors->largest_excess},
-                                                  {"mean_excess", errors->mean_excess}});
+      result["errors"] = Json{{"wrong_pixels", errors->wrong_pixels},
+                              {"unlabelled_pixels", errors->unlabelled_pixels},
+                              {"largest_excess", errors->largest_excess},
+                              {"mean_excess", errors->mean_excess}};
     }
     print_json(result);
     return;

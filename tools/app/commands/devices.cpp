@@ -2,12 +2,12 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 #include "trials/known_answers.hpp"
 #include "vorocl/device.hpp"
 
@@ -29,17 +29,17 @@ Json list_of(const std::vector<DeviceDescription>& devices) {
   std::vector<Json> list;
   list.reserve(devices.size());
   for (const DeviceDescription& device : devices) {
-    list.push_back(Json::Members{{"index", index_of(device)},
-                                 {"platform", device.platform},
-                                 {"name", device.name},
-                                 {"type", device.type},
-                                 {"opencl_version", device.opencl_version},
-                                 {"driver_version", device.driver_version},
-                                 {"compute_units", device.compute_units},
-                                 {"global_memory", device.global_memory},
-                                 {"max_allocation", device.max_allocation},
-                                 {"selected", device.selected},
-                                 {"reason", device.selected ? device.reason : device.why_not}});
+    list.push_back(Json{{"index", index_of(device)},
+                        {"platform", device.platform},
+                        {"name", device.name},
+                        {"type", device.type},
+                        {"opencl_version", device.opencl_version},
+                        {"driver_version", device.driver_version},
+                        {"compute_units", device.compute_units},
+                        {"global_memory", device.global_memory},
+                        {"max_allocation", device.max_allocation},
+                        {"selected", device.selected},
+                        {"reason", device.selected ? device.reason : device.why_not}});
   }
   return list;
 }
@@ -88,11 +88,11 @@ void check(const DevicesOptions& options) {
   std::string errors;
   for (const DeviceDescription& device : devices_to_check(options.device)) {
     const std::vector<std::string> wrong = wrong_answers(Device::select(index_of(device)));
-    list.push_back(Json::Members{{"index", index_of(device)},
-                                 {"platform", device.platform},
-                                 {"name", device.name},
-                                 {"checked", all},
-                                 {"wrong", std::vector<Json>(wrong.begin(), wrong.end())}});
+    list.push_back(Json{{"index", index_of(device)},
+                        {"platform", device.platform},
+                        {"name", device.name},
+                        {"checked", all},
+                        {"wrong", wrong}});
     if (!options.json) {
       print("{}  {}\n", index_of(device), device.name);
       for (const std::string& answer : wrong) print("     wrong: {}\n", answer);

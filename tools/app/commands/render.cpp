@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/commands.hpp"
@@ -9,7 +10,6 @@
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "app/terminal/json.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
 #include "vorocl/jump_flooding.hpp"
@@ -65,13 +65,13 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   const View& view = measures.view();
   const CellStatistics statistics = measures.statistics();
   if (options.json) {
-    Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
-    result.insert(result.end(), {{"seeds", seeds.alive()},
-                                 {"empty_cells", statistics.empty_cells},
-                                 {"frames", 1},
-                                 {"waves", report.waves()},
-                                 {"milliseconds", report.milliseconds()},
-                                 {"host_milliseconds", report.host_milliseconds()}});
+    Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
+    result.update(Json{{"seeds", seeds.alive()},
+                       {"empty_cells", statistics.empty_cells},
+                       {"frames", 1},
+                       {"waves", report.waves()},
+                       {"milliseconds", report.milliseconds()},
+                       {"host_milliseconds", report.host_milliseconds()}});
     print_json(result);
     return;
   }

@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/json.hpp"
 #include "formats/values.hpp"
 #include "vorocl/cells.hpp"
 
@@ -20,8 +21,7 @@ Json value(const Samples& samples, double (Samples::*of)() const) {
 }
 
 Json range(const Samples& samples) {
-  return Json::Members{{"least", value(samples, &Samples::least)},
-                       {"greatest", value(samples, &Samples::greatest)}};
+  return Json{{"least", value(samples, &Samples::least)}, {"greatest", value(samples, &Samples::greatest)}};
 }
 
 /// Of the last frame.
@@ -31,44 +31,42 @@ CellStatistics statistics(const Simulation& simulation) {
   return result.read();
 }
 
-Json::Members json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-                      const Course& course) {
+Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
+             const Course& course) {
   const Seeds& seeds = simulation.seeds();
-  Json::Members result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
-  result.insert(result.end(), {{"seeds", seeds.alive()},
-                               {"empty_cells", statistics(simulation).empty_cells},
-                               {"frames", simulation.frame()},
-                               {"waves", simulation.report(main_engine).waves()},
-                               {"milliseconds", simulation.milliseconds(main_engine)},
-                               {"host_milliseconds", simulation.host_milliseconds(main_engine)}});
-  if (options.output.resume) result.emplace_back("made_before", course.made_before);
+  Json result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
+  result.update(Json{{"seeds", seeds.alive()},
+                     {"empty_cells", statistics(simulation).empty_cells},
+                     {"frames", simulation.frame()},
+                     {"waves", simulation.report(main_engine).waves()},
+                     {"milliseconds", simulation.milliseconds(main_engine)},
+                     {"host_milliseconds", simulation.host_milliseconds(main_engine)}});
+  if (options.output.resume) result["made_before"] = course.made_before;
   if (options.method.continues) {
     const PlanSamples& plans = course.plans;
-    result.emplace_back("plans", Json::Members{{"first_step", range(plans.first_steps)},
-                                               {"waves", range(plans.waves)},
-                                               {"max_displacement", range(plans.displacements)},
-                                               {"frames_from_seeds", plans.from_seeds},
-                                               {"jfa_frames", plans.jfa}});
+    result["plans"] = Json{{"first_step", range(plans.first_steps)},
+                           {"waves", range(plans.waves)},
+                           {"max_displacement", range(plans.displacements)},
+                           {"frames_from_seeds", plans.from_seeds},
+                           {"jfa_frames", plans.jfa}};
   }
   if (!options.compare_with) return result;
   const Samples& similarities = course.similarities;
-  result.emplace_back("similarity", Json::Members{{"mean", value(similarities, &Samples::mean)},
-                                                  {"least", value(similarities, &Samples::least)}});
+  result["similarity"] =
+      Json{{"mean", value(similarities, &Samples::mean)}, {"least", value(similarities, &Samples::least)}};
   if (options.other_is_exact()) {
     const ErrorSamples& errors = course.errors;
-    result.emplace_back(
-        "errors", Json::Members{{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
-                                {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
-                                {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
-                                {"mean_excess", value(errors.mean_excess, &Samples::mean)}});
+    result["errors"] = Json{{"wrong_percent_mean", value(errors.wrong_percent, &Samples::mean)},
+                            {"wrong_percent_greatest", value(errors.wrong_percent, &Samples::greatest)},
+                            {"largest_excess", value(errors.largest_excess, &Samples::greatest)},
+                            {"mean_excess", value(errors.mean_excess, &Samples::mean)}};
   }
-  result.emplace_back("compare_with",
-                      Json::Members{{"method", options.compare_with->name},
-                                    {"metric", to_string(options.other_metric())},
-                                    {"tolerance", options.tolerance ? Json(*options.tolerance) : Json()},
-                                    {"waves", simulation.report(other_engine).waves()},
-                                    {"milliseconds", simulation.milliseconds(other_engine)},
-                                    {"host_milliseconds", simulation.host_milliseconds(other_engine)}});
+  result["compare_with"] = Json{{"method", options.compare_with->name},
+                                {"metric", to_string(options.other_metric())},
+                                {"tolerance", options.tolerance ? Json(*options.tolerance) : Json()},
+                                {"waves", simulation.report(other_engine).waves()},
+                                {"milliseconds", simulation.milliseconds(other_engine)},
+                                {"host_milliseconds", simulation.host_milliseconds(other_engine)}};
   return result;
 }
 

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
-#include "app/terminal/json.hpp"
 #include "formats/files.hpp"
 #include "formats/values.hpp"
 #include "vorocl/version.hpp"
@@ -94,8 +94,8 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .value_name("EPSG:N");
   command
       .add("-o", options->output.picture,
-           "Picture of the plane to write, with --only of its part, of 4096 pixels a side at most: .png, "
-           ".jpg, .bmp or .tif")
+           "Picture to write, of the plane or of the part that --only names, at most 4096 pixels a side: "
+           ".png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
   command
       .add("--cells", options->output.cells,
@@ -168,27 +168,25 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
   const double rate =
       course.milliseconds > 0 ? 1e3 * static_cast<double>(course.pixels) / course.milliseconds : 0;
   if (options.json) {
-    Json::Members result = {
+    Json result = {
         {"method", "exact"},
         {"metric", to_string(options.metric)},
         {"device", device.name()},
         {"width", plane.width()},
         {"height", plane.height()},
         {"periodic", to_string(plane.periodic())},
-        {"part", Json::Members{{"x", window.x()},
-                               {"y", window.y()},
-                               {"width", window.width()},
-                               {"height", window.height()}}},
+        {"part",
+         Json{{"x", window.x()}, {"y", window.y()}, {"width", window.width()}, {"height", window.height()}}},
         {"area_unit", seeds.units.of_area()},
         {"length_unit", seeds.units.of_length()},
         {"seeds", seeds.seeds},
         {"tile", tiling.side()},
         {"tiles", course.tiles}};
-    if (options.output.resume) result.emplace_back("made_before", course.made_before);
-    if (course.processes > 1) result.emplace_back("processes", course.processes);
-    result.emplace_back("milliseconds", course.milliseconds);
-    result.emplace_back("writing_milliseconds", course.writing);
-    result.emplace_back("pixels_per_second", rate);
+    if (options.output.resume) result["made_before"] = course.made_before;
+    if (course.processes > 1) result["processes"] = course.processes;
+    result["milliseconds"] = course.milliseconds;
+    result["writing_milliseconds"] = course.writing;
+    result["pixels_per_second"] = rate;
     print_json(result);
     return;
   }

@@ -80,7 +80,7 @@ Option add_periodic_option(Command& command, SeedOptions& options, const std::st
 
 void add_y_options(Command& command, SeedOptions& options, const std::string& about_up) {
   const Option up = command.add("--y-up", options.y_up, about_up);
-  command.add("--y-down", options.y_down, "The data's y axis points down, as that of points does anyway")
+  command.add("--y-down", options.y_down, "The data's y axis points down (the default for points)")
       .excludes(up);
 }
 
@@ -150,7 +150,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "
                       "across the border, and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
-  add_y_options(command, options, "The data's y axis points up, as a trajectory's does anyway");
+  add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
 }
 
 void add_plane_options(Command& command, PlaneInputOptions& options) {

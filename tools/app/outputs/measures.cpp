@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "app/sources/bounds.hpp"
+#include "app/terminal/console.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -117,7 +119,7 @@ CellSumsResult& Measures::sums_result() {
   return buffers_.sums;
 }
 
-Json::Members json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
+Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
   return {{"method", method.name},
           {"metric", to_string(metric)},
           {"device", seeds.device().name()},

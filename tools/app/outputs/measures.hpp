@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/sources/view.hpp"
-#include "app/terminal/json.hpp"
+#include "app/terminal/console.hpp"
 #include "formats/raster.hpp"
 #include "vorocl/analysis.hpp"
 #include "vorocl/method.hpp"
@@ -92,6 +92,6 @@ class Measures {
 };
 
 /// How a diagram of seeds was made, and how it stands in the data.
-Json::Members json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
+Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
 
 }  // namespace vorocl::command

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <iostream>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
 #include "app/terminal/end_of_run.hpp"
@@ -68,6 +69,8 @@ void print_text(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size()) return;
   throw Error("cannot write standard output: " + reason(errno));
 }
+
+void print_json(const Json& object) { print("{}\n", object.dump()); }
 
 void flush_standard_output() {
   std::cout.flush();  // CLI11 prints its help there

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <exception>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,6 +30,12 @@ template <typename... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   print_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
+
+/// A value as --json prints it: an object has its members in the order in which they were added.
+using Json = nlohmann::ordered_json;
+
+/// Prints an object as a line on standard output.
+void print_json(const Json& object);
 
 /// Throws Error unless all that was printed on standard output has arrived.
 void flush_standard_output();

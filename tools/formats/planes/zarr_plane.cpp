@@ -87,7 +87,10 @@ class ZarrPlane : public PlaneFile {
   ~ZarrPlane() override {
     workers_.reset();  // what still writes into the folder
     std::error_code ignored;
-    if (!stays_ && !folder_.empty()) fs::remove_all(folder_, ignored);
+    if (stays_ || folder_.empty()) return;
+    // A second signal's handler may be at it too: what it takes away first ends a removal.
+    constexpr int most_tries = 1000;
+    for (int tries = 0; is_there(folder_) && tries < most_tries; ++tries) fs::remove_all(folder_, ignored);
   }
 
   void open() override {

@@ -1,4 +1,4 @@
-#include "tiles/block_tree.hpp"
+#include "mpi/block_tree.hpp"
 
 #include <algorithm>
 
@@ -8,12 +8,6 @@ namespace vorocl {
 
 void BlockTree::make(const std::vector<SeedBlock>& blocks) {
   blocks_ = blocks;
-  samples_ = SeedTree();
-  samples_.reserve(blocks.size());
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    samples_.add(blocks[i].x, blocks[i].y, static_cast<std::uint32_t>(i));
-  }
-  samples_.sort();
   tree_.make(blocks.size(), [&](std::size_t i) { return blocks[i].box; });
 }
 
@@ -27,17 +21,15 @@ std::vector<std::size_t> BlockTree::find_near(const PlaneRectangle& rectangle, M
   });
   // As PlaneSeedsState::find_near() does, with the samples in place of the seeds that win: those are at least
   // as near.
-  const auto nearest_sample = [&](const PlanePoint& point, const SeedImage&) {
-    SeedImage nearest;
-    samples_.find_nearest(point, grid_, metric, nearest);
-    return nearest;
+  const auto nearest = [&](const PlanePoint& point, const SeedImage&) {
+    return nearest_sample(point, metric);
   };
   const auto find_in_blocks = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
                                   const SeedImage& at_b, std::size_t most,
                                   std::vector<std::size_t>& between) {
     return find_between(a, at_a, b, at_b, metric, most, between);
   };
-  walk_rim(rectangle, 16, nearest_sample, find_in_blocks, found);
+  walk_rim(rectangle, 16, nearest, find_in_blocks, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
@@ -64,13 +56,41 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
   return seeds;
 }
 
+SeedImage BlockTree::sample(std::size_t block, const PlanePoint& offset, const PlanePoint& from,
+                            const PlaneDistance& distance) const {
+  const SeedBlock& of = blocks_[block];
+  const PlanePoint place = {of.x + offset.x, of.y + offset.y};
+  return {block, offset, distance(from, place), rank_of(of.x, of.y)};
+}
+
+/// The sample that wins at a point. Its block's box is at least as near, by which blocks are left out.
+SeedImage BlockTree::nearest_sample(const PlanePoint& point, Metric metric) const {
+  const PlaneDistance distance(grid_, metric);
+  SeedImage best;
+  each_image(grid_, [&](const PlanePoint& offset) {
+    const auto to_box = [&](const Box& box) { return distance(point - offset, box); };
+    const auto counts = [&](const Box& box, std::int64_t away) {
+      return away != too_far && first_in(box, away).wins(best);
+    };
+    tree_.visit_nearest_first(to_box, counts, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) {
+        const SeedImage image = sample(i, offset, point, distance);
+        if (image.distance != too_far && image.wins(best)) best = image;
+      }
+    });
+  });
+  return best;
+}
+
 /// Appends the blocks that may hold a winner on the line from a to b, given the samples that are nearest to
 /// both ends. Returns false if they are more than `most`.
 bool BlockTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
                              const SeedImage& at_b, Metric metric, std::size_t most,
                              std::vector<std::size_t>& found) const {
-  const std::int64_t of_b_at_a = samples_.seen_from(a, grid_, metric, at_b).distance;
-  const std::int64_t of_a_at_b = samples_.seen_from(b, grid_, metric, at_a).distance;
+  // An image may be farther away than half a period, though not far.
+  const PlaneDistance slack(grid_, metric, grid_.width() + grid_.height());
+  const std::int64_t of_b_at_a = sample(at_b.index, at_b.offset, a, slack).distance;
+  const std::int64_t of_a_at_b = sample(at_a.index, at_a.offset, b, slack).distance;
   const PlaneDistance distance(grid_, metric, length_of(a, b));
   bool all = true;
   each_image(grid_, [&](const PlanePoint& offset) {

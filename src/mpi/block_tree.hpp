@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tiles/box_tree.hpp"
-#include "tiles/seed_tree.hpp"
+#include "tiles/plane_distance.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
@@ -32,13 +32,16 @@ class BlockTree {
   double expected(const PlaneRectangle& rectangle) const;
 
  private:
+  /// The image of the seed that is known of a block, as it is seen from a point.
+  SeedImage sample(std::size_t block, const PlanePoint& offset, const PlanePoint& from,
+                   const PlaneDistance& distance) const;
+  SeedImage nearest_sample(const PlanePoint& point, Metric metric) const;
   bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
                     Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
 
   Grid grid_;
   std::vector<SeedBlock> blocks_;
   BoxTree tree_;
-  SeedTree samples_;  // one seed of each block
 };
 
 }  // namespace vorocl
