@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/raster.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/version.hpp"
