@@ -54,7 +54,7 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
                                            Metric metric) {
   struct Cell {
     double area = 0, sum_x = 0, sum_y = 0, farthest = 0, perimeter = 0;
-    int left = 1 << 20, top = 1 << 20, right = -(1 << 20), bottom = -(1 << 20);
+    std::int64_t left = 1 << 20, top = 1 << 20, right = -(1 << 20), bottom = -(1 << 20);
     std::set<std::uint32_t> neighbours;
   };
   const Grid& grid = image.grid;
@@ -63,8 +63,8 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
     Cell& cell = cells[label];
     const Pixel pixel = nearest_image(grid, {x, y}, seeds.at(label));
     ++cell.area;
-    cell.sum_x += pixel.x;
-    cell.sum_y += pixel.y;
+    cell.sum_x += static_cast<double>(pixel.x);
+    cell.sum_y += static_cast<double>(pixel.y);
     cell.left = std::min(cell.left, pixel.x);
     cell.top = std::min(cell.top, pixel.y);
     cell.right = std::max(cell.right, pixel.x);
@@ -82,7 +82,7 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
   });
   std::vector<TableRow> rows;
   for (const auto& [id, pixel] : seeds) {
-    TableRow row = {static_cast<double>(id), pixel.x + 0.5, pixel.y + 0.5, 0};
+    TableRow row = {static_cast<double>(id), centre(pixel).x, centre(pixel).y, 0};
     const auto found = cells.find(id);
     if (found == cells.end()) {
       row.resize(10);
@@ -90,8 +90,8 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
     } else {
       const Cell& cell = found->second;
       row[3] = cell.area;
-      const bool touches = (!grid.periodic_x() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
-                           (!grid.periodic_y() && (cell.top == 0 || cell.bottom == grid.height() - 1));
+      const bool touches = (!grid.x().is_periodic() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
+                           (!grid.y().is_periodic() && (cell.top == 0 || cell.bottom == grid.height() - 1));
       row.insert(row.end(),
                  {cell.sum_x / cell.area + 0.5, cell.sum_y / cell.area + 0.5, cell.left, cell.top, cell.right,
                   cell.bottom, cell.perimeter, cell.neighbours.size(), cell.farthest, touches ? 1 : 0});
