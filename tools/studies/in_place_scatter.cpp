@@ -145,7 +145,7 @@ cl_ulong time_of(const cl::Event& event, cl_profiling_info what) {
 
 void ScatterRecord::add(int waves, const cl::Event& first, const cl::Event& last) {
   waves_ = waves;
-  frames_.emplace_back(first, last);
+  if (last() != nullptr) frames_.emplace_back(first, last);
 }
 
 double ScatterRecord::take_milliseconds() {
