@@ -110,6 +110,8 @@ BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {
   const Seeds seeds(test_device(), Grid(10, 20), {{1, 1}});
   Diagram other_grid(test_device(), Grid(20, 10));
   check_error([&] { jump_flooding(seeds, other_grid); }, {"10 x 20", "20 x 10"});
+  Diagram other_units(test_device(), Grid(Axis(10, 0, 1), Axis(20)));
+  check_error([&] { jump_flooding(seeds, other_units); }, {"10 x 20 pixels", "other stretches of the data"});
   Diagram other_device(Device::select(), Grid(10, 20));
   check_error([&] { jump_flooding(seeds, other_device); }, {"different devices"});
 }
