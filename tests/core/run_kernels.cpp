@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "all_measures.hpp"
 #include "brute_force.hpp"
 #include "list_length.hpp"
 #include "reference.hpp"
@@ -84,33 +85,6 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   }
 }
 
-void measure_all(Diagram& diagram, bool is_near) {
-  CellSumsResult sums;
-  CellShapesResult shapes;
-  CellStatisticsResult statistics;
-  AdjacencyResult pairs;
-  VerticesResult corners;
-  DistanceErrorsResult errors;
-  Field<std::int32_t> integers;
-  Field<float> floats;
-  Field<std::uint8_t> mask;
-  Field<std::uint32_t> mapped;
-  cell_sums(diagram, sums);
-  cell_shapes(diagram, shapes);
-  cell_statistics(diagram, statistics);
-  adjacency(diagram, pairs);
-  vertices(diagram, corners);
-  distance_errors(diagram, diagram, errors);
-  distance_field(diagram, floats);
-  if (is_near) distance_field(diagram, integers);
-  border_mask(diagram, mask);
-  expand_labels(diagram, 3, mapped);
-  map_labels(diagram, std::vector<std::uint32_t>(sums.size(), 7), mapped);
-  pairs.read_pairs();
-  corners.read();
-  diagram.device().finish();
-}
-
 /// Windows with seeds in and around them, at a distance: all of a grid, a part of a period, and more than
 /// one, whose right and lower parts have no labels.
 void make_windows(const Device& device, Metric metric) {
@@ -125,7 +99,10 @@ void make_windows(const Device& device, Metric metric) {
       const Seeds seeds(device, window.grid(), points);
       exact_diagram(seeds, by_short_lists, {metric});
       exact_diagram(seeds, diagram, {metric});
-      measure_all(diagram, distance < 1000);
+      AllMeasures measures;
+      measures.take(diagram, by_short_lists);
+      if (distance < 1000) measures.read();  // farther, whole numbers are too short
+      device.finish();
     }
   }
 }
@@ -155,13 +132,10 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
   };
   relax(seeds, diagram, engine, 1);
   exact_diagram(seeds, other, {metric});
-  SimilarityResult result;
-  similarity(diagram, other, result);
   jump_flooding(seeds, diagram, {metric});
-  similarity(diagram, other, 0.5, result);
-  DistanceErrorsResult errors;
-  distance_errors(diagram, other, errors);
-  measure_all(diagram, true);
+  AllMeasures measures;
+  measures.take(diagram, other);
+  measures.read();
 }
 
 /// Three parts of the list of cells, where a work-group has two items: one item is past the last part.
