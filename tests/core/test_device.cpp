@@ -127,7 +127,10 @@ BOOST_AUTO_TEST_CASE(a_diagram_larger_than_the_device_is_refused) {
 BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
   // A vector width that does not exist makes the kernel's types unknown.
   check_error(
-      [] { program_for(test_device(), "flooding/jump_flooding.cl", "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16"); },
+      [] {
+        program_for(test_device(), "flooding/jump_flooding.cl",
+                    "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16 -DVOROCL_EUCLIDEAN");
+      },
       {"flooding/jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
 }
 
