@@ -103,7 +103,8 @@ double Axis::unreversed_pixel(double coordinate) const {
   }
   if (from_ == to_) {
     if (coordinate == from_) return floor_of(count / 2);
-    return coordinate < from_ ? -1 : coordinate > from_ ? count : coordinate;
+    if (!std::isfinite(coordinate)) return coordinate;
+    return coordinate < from_ ? -1 : count;
   }
   const double pixel = floor_of(in_pixels_ ? coordinate : (coordinate - from_) * count / (to_ - from_));
   return closed_ && coordinate <= to_ ? std::min(pixel, count - 1) : pixel;

@@ -33,6 +33,10 @@ Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric, const char* me
       metric_(metric),
       memory_(diagram_.workspace<FloodWorkspace>()) {
   refuse_outer_seeds(filling_.placement(), filling_.seeds(), "flooding");
+  if (!diagram_.window.is_whole()) {
+    throw Error(
+        "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");
+  }
   const std::size_t pixels = grid_.pixels() + 2 * guard;
   diagram_.reserve(memory_.front, pixels * sizeof(std::uint32_t));
   diagram_.reserve(memory_.back, pixels * sizeof(std::uint32_t));

@@ -14,11 +14,18 @@ using Ids = std::pair<std::uint32_t, std::uint32_t>;
 
 Ids in_order(std::uint32_t a, std::uint32_t b) { return {std::min(a, b), std::max(a, b)}; }
 
-void recount(const std::string& name, const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result) {
-  const Grid& grid = diagram.grid();
+bool same(const std::vector<Point>& a, const std::vector<Point>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Point& p, const Point& q) { return p.x == q.x && p.y == q.y; });
+}
+
+/// Adjacency and vertices of a diagram of so many seeds, whose window is its grid.
+void recount(const std::string& name, std::size_t seeds, const Diagram& diagram, AdjacencyResult& result,
+             VerticesResult& corners) {
+  const Grid& grid = diagram.window().grid();
   const std::vector<std::uint32_t> labels = diagram.read();
   std::map<Ids, std::uint32_t> lengths;  // sorted, as the result must be
-  std::vector<std::uint32_t> neighbours(seeds.size()), perimeters(seeds.size());
+  std::vector<std::uint32_t> neighbours(seeds), perimeters(seeds);
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
     for (const auto& [right, below] : {std::pair{1, 0}, std::pair{0, 1}}) {
       const auto next = in_grid(grid, {x + right, y + below});
@@ -35,13 +42,13 @@ void recount(const std::string& name, const Seeds& seeds, const Diagram& diagram
       perimeters[id] += length;
     }
   }
-  adjacency(seeds, diagram, result);
+  adjacency(diagram, result);
   BOOST_TEST(result.pairs() == expected.size(), name);
   BOOST_TEST((result.read_pairs() == expected), name << ": the pairs are others than on the host");
   BOOST_TEST((result.read_neighbours() == neighbours), name);
   BOOST_TEST((result.read_perimeters() == perimeters), name);
 
-  std::size_t vertices = 0;
+  std::vector<Point> meetings;  // in row-major order
   for (int y = 0; y < grid.height(); ++y) {
     for (int x = 0; x < grid.width(); ++x) {
       const auto opposite = in_grid(grid, {x + 1, y + 1});
@@ -50,10 +57,12 @@ void recount(const std::string& name, const Seeds& seeds, const Diagram& diagram
                                        label_at(grid, labels, x, opposite->y),
                                        label_at(grid, labels, opposite->x, opposite->y)};
       cells.erase(no_label);
-      vertices += cells.size() >= 3 ? 1 : 0;
+      if (cells.size() >= 3) meetings.push_back({x + 1.0, y + 1.0});
     }
   }
-  BOOST_TEST(count_vertices(diagram) == vertices, name);
+  vertices(diagram, corners);
+  BOOST_TEST(corners.count() == meetings.size(), name);
+  BOOST_TEST(same(corners.read(), meetings), name << ": the vertices are elsewhere than on the host");
 }
 
 /// A Voronoi edge inside the grid, from Boost.Polygon: the seeds on its sides, and how much of it is between
@@ -69,8 +78,8 @@ double length_inside(const Grid& grid, double x0, double y0, double x1, double y
     from = std::max(from, std::min(a, b));
     to = std::min(to, std::max(a, b));
   };
-  clip(x0, x1 - x0, grid.width() - 1);
-  clip(y0, y1 - y0, grid.height() - 1);
+  clip(x0, x1 - x0, static_cast<double>(grid.width() - 1));
+  clip(y0, y1 - y0, static_cast<double>(grid.height() - 1));
   return to > from ? (to - from) * std::hypot(x1 - x0, y1 - y0) : 0;
 }
 
@@ -91,7 +100,8 @@ std::map<Ids, double> delaunay_edges(const Grid& grid, const std::vector<Pixel>&
     const std::size_t i = edge.cell()->source_index(), j = edge.twin()->cell()->source_index();
     if (i > j) continue;  // its twin comes too
     // An infinite edge runs along the bisector, far past the grid.
-    const double far = 4.0 * grid.longest_side() * grid.longest_side();
+    const auto side = static_cast<double>(Window(grid).longest_side());
+    const double far = 4 * side * side;
     const double dx = points[i].y() - points[j].y(), dy = points[j].x() - points[i].x();
     const double norm = far / std::hypot(dx, dy);
     const double x = (points[i].x() + points[j].x()) / 2.0, y = (points[i].y() + points[j].y()) / 2.0;
@@ -109,11 +119,12 @@ std::map<Ids, double> delaunay_edges(const Grid& grid, const std::vector<Pixel>&
 BOOST_AUTO_TEST_CASE(pairs_and_vertices_are_those_of_a_recount) {
   for (const Device& device : shapes()) {
     AdjacencyResult result;  // one for all: its buffers grow, and hold what the last case left
+    VerticesResult corners;
     for (const Case& test : measured_cases()) {
       const Seeds seeds(device, test.grid, centres(test.seeds));
       Diagram diagram(device, test.grid);
       jump_flooding(seeds, diagram);
-      recount(test.name, seeds, diagram, result);
+      recount(test.name, seeds.size(), diagram, result, corners);
     }
   }
 }
@@ -123,9 +134,11 @@ BOOST_AUTO_TEST_CASE(more_pairs_than_the_first_table_holds) {
   for (const Device& device : shapes()) {
     const Seeds seeds(device, grid, centres(random_pixels(grid, 120, 1)));
     Diagram diagram(device, grid);
-    write_labels(diagram, random_labels(grid, 120, 2));  // 7140 pairs, nearly all there are
+    // 7140 pairs, nearly all there are
+    diagram.write(random_labels(grid, 120, 2), seeds, Metric::euclidean);
     AdjacencyResult result;
-    recount("pieces", seeds, diagram, result);
+    VerticesResult corners;
+    recount("pieces", seeds.size(), diagram, result, corners);
     BOOST_TEST(result.pairs() > 7000u);
   }
 }
@@ -141,9 +154,10 @@ BOOST_AUTO_TEST_CASE(one_cell_around_all_others) {
   }
   const Seeds seeds(test_device(), grid, centres(random_pixels(grid, id + 1, 1)));
   Diagram diagram(test_device(), grid);
-  write_labels(diagram, labels);
+  diagram.write(labels, seeds, Metric::euclidean);
   AdjacencyResult result;
-  recount("islands", seeds, diagram, result);
+  VerticesResult corners;
+  recount("islands", seeds.size(), diagram, result, corners);
   BOOST_TEST(result.pairs() == id);
 }
 
@@ -162,7 +176,7 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_have_the_delaunay_neighbours) {
     Diagram diagram(test_device(), test.grid);
     exact_diagram(seeds, diagram);
     AdjacencyResult result;
-    adjacency(seeds, diagram, result);
+    adjacency(diagram, result);
     const std::map<Ids, double> edges = delaunay_edges(test.grid, test.seeds);
     std::set<Ids> pairs;
     const std::uint32_t least_length = test.name == "sparse" ? 1 : 2;
@@ -187,10 +201,41 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_have_the_delaunay_neighbours) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_bad_call_is_refused) {
-  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
-  const Diagram diagram(test_device(), Grid(20, 10));
+// The table may be too small for the pairs: the result finds them again, if the labels are still there.
+BOOST_AUTO_TEST_CASE(a_diagram_that_was_filled_anew_has_lost_the_pairs_that_did_not_fit) {
+  const Grid grid(600, 290);
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 120, 1)));
+  Diagram diagram(test_device(), grid);
   AdjacencyResult result;
-  check_error([&] { adjacency(seeds, diagram, result); }, {"10 x 20", "20 x 10"});
+  diagram.write(random_labels(grid, 120, 2), seeds, Metric::euclidean);
+  adjacency(diagram, result);
+  exact_diagram(seeds, diagram);
+  check_error([&] { result.read_pairs(); }, {"since"});
+  adjacency(diagram, result);
+  BOOST_TEST(result.pairs() > 120u);
+  BOOST_TEST(result.pairs() < 360u);
+}
+
+BOOST_AUTO_TEST_CASE(corners_of_three_cells_and_of_four) {
+  const Grid grid(4, 3);
+  Diagram diagram(test_device(), grid);
+  diagram.write({0, 0, 1, 1,  //
+                 0, 0, 2, 2,  //
+                 3, 3, 4, 4});
+  VerticesResult corners;
+  BOOST_TEST(corners.count() == 0u);
+  vertices(diagram, corners);
+  BOOST_TEST(same(corners.read(), {{2, 1}, {2, 2}}));
+}
+
+BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_adjacency) {
+  const Grid grid(20, 10);
+  Diagram diagram(test_device(), grid);
+  AdjacencyResult result;
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}, {9, 9}}), diagram);
+  adjacency(diagram, result);
+  BOOST_TEST(result.pairs() == 1u);
+  diagram.write(diagram.read());
+  check_error([&] { adjacency(diagram, result); }, {"seeds"});
   BOOST_TEST(result.read_pairs().empty());
 }

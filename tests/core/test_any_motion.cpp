@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 
@@ -15,7 +16,7 @@ namespace {
 
 constexpr int side = 256;
 
-using Points = std::vector<std::optional<Point>>;
+using Frame = std::vector<std::optional<Point>>;
 
 class Random {
  public:
@@ -45,8 +46,8 @@ Point in_box(Random& random, double corner, double width) {
 }
 
 /// So many points, each made by a function of its index.
-Points make(int count, const std::function<Point(int)>& point) {
-  Points points;
+Frame make(int count, const std::function<Point(int)>& point) {
+  Frame points;
   for (int i = 0; i < count; ++i) points.push_back(point(i));
   return points;
 }
@@ -54,13 +55,13 @@ Points make(int count, const std::function<Point(int)>& point) {
 /// Where seeds start, and where they are a frame later.
 struct Motion {
   const char* name;
-  std::function<Points(Random&)> start;
-  std::function<void(Points&, int frame, Random&)> move;
+  std::function<Frame(Random&)> start;
+  std::function<void(Frame&, int frame, Random&)> move;
 };
 
 /// Each seed moves by up to `step` pixels along each axis, and is stopped by the border.
-std::function<void(Points&, int, Random&)> walk(int step) {
-  return [=](Points& points, int, Random& random) {
+std::function<void(Frame&, int, Random&)> walk(int step) {
+  return [=](Frame& points, int, Random& random) {
     for (auto& point : points) {
       const int dx = random.below(2 * step + 1) - step, dy = random.below(2 * step + 1) - step;
       point = inside(point->x + dx, point->y + dy);
@@ -69,7 +70,7 @@ std::function<void(Points&, int, Random&)> walk(int step) {
 }
 
 /// Clusters of so many seeds in a lattice of 64 x 64 pixels.
-std::function<Points(Random&)> lattice(int seeds_of_a_cluster) {
+std::function<Frame(Random&)> lattice(int seeds_of_a_cluster) {
   return [=](Random& random) {
     return make(16 * seeds_of_a_cluster, [&](int i) {
       return inside(32 + 64 * (i % 4) + 3 * random.normal(), 32 + 64 * (i / 4 % 4) + 3 * random.normal());
@@ -78,7 +79,7 @@ std::function<Points(Random&)> lattice(int seeds_of_a_cluster) {
 }
 
 /// Horizontal lines of seeds, one in every second pixel.
-std::function<Points(Random&)> lines(int apart) {
+std::function<Frame(Random&)> lines(int apart) {
   return [=](Random&) {
     constexpr int in_line = side / 2;
     return make(in_line * (side / apart), [&](int i) {
@@ -88,7 +89,7 @@ std::function<Points(Random&)> lines(int apart) {
   };
 }
 
-Points evenly(int count, Random& random) {
+Frame evenly(int count, Random& random) {
   return make(count, [&](int) { return anywhere(random); });
 }
 
@@ -103,7 +104,7 @@ const std::vector<Motion>& motions() {
        walk(5)},
       {"16 clusters",
        [](Random& r) {
-         const Points centres = evenly(16, r);
+         const Frame centres = evenly(16, r);
          return make(700, [&](int i) {
            const Point& centre = *centres[static_cast<std::size_t>(i % 16)];
            return inside(centre.x + 5 * r.normal(), centre.y + 5 * r.normal());
@@ -115,14 +116,14 @@ const std::vector<Motion>& motions() {
        [](Random& r) {
          return make(400, [&](int) { return inside(64 + 8 * r.normal(), 128 + 8 * r.normal()); });
        },
-       [](Points& points, int frame, Random&) {
+       [](Frame& points, int frame, Random&) {
          const int step = frame / 20 % 2 == 0 ? 6 : -6;
          for (auto& point : points) point = inside(point->x + step, point->y);
        }},
       {"3 seeds that jump anywhere", [](Random& r) { return evenly(3, r); },
-       [](Points& points, int, Random& r) { points = evenly(3, r); }},
+       [](Frame& points, int, Random& r) { points = evenly(3, r); }},
       {"3 seeds of 655 that jump anywhere", [](Random& r) { return evenly(655, r); },
-       [](Points& points, int, Random& r) {
+       [](Frame& points, int, Random& r) {
          for (std::size_t i = 0; i < 3; ++i) points[i] = anywhere(r);
        }},
       {"a lattice of clusters of 3", lattice(3), walk(4)},
@@ -145,15 +146,15 @@ const std::vector<Motion>& motions() {
        walk(2)},
       {"seeds that appear in empty space",
        [](Random& r) {
-         Points points = make(300, [&](int) { return in_box(r, 0, 80); });
+         Frame points = make(300, [&](int) { return in_box(r, 0, 80); });
          points.resize(400);
          return points;
        },
-       [](Points& points, int frame, Random& r) {
+       [](Frame& points, int frame, Random& r) {
          points[299 + static_cast<std::size_t>(frame)] = anywhere(r);
        }},
       {"discs that are cleared and refilled", [](Random& r) { return evenly(655, r); },
-       [](Points& points, int frame, Random& r) {
+       [](Frame& points, int frame, Random& r) {
          for (auto& point : points) {
            const bool in_disc = point && std::hypot(point->x - 128, point->y - 128) < 50;
            if (frame % 10 == 1 && in_disc) point.reset();
@@ -173,11 +174,15 @@ struct Similarities {
 };
 
 /// The greatest displacement along an axis of a seed that is there in both frames.
-double greatest_displacement(const Points& before, const Points& now) {
+double greatest_displacement(const Frame& before, const Frame& now, Periodic periodic) {
+  const auto along = [&](double way, bool wraps) {
+    return wraps ? std::min(std::abs(way), side - std::abs(way)) : std::abs(way);
+  };
   double most = 0;
   for (std::size_t i = 0; i < now.size(); ++i) {
     if (!before[i] || !now[i]) continue;
-    most = std::max({most, std::abs(now[i]->x - before[i]->x), std::abs(now[i]->y - before[i]->y)});
+    most = std::max({most, along(now[i]->x - before[i]->x, has_x(periodic)),
+                     along(now[i]->y - before[i]->y, has_y(periodic))});
   }
   return most;
 }
@@ -186,22 +191,22 @@ double greatest_displacement(const Points& before, const Points& now) {
 void check_motion(const Motion& motion, Metric metric, Periodic periodic, int frames) {
   const Grid grid(side, side, periodic);
   Random random(7);
-  Points points = motion.start(random);
+  Frame points = motion.start(random);
   Seeds seeds(test_device(), grid, points);
   Diagram dynamic(test_device(), grid), jfa(test_device(), grid), exact(test_device(), grid);
-  dynamic_jump_flooding(seeds, dynamic, 0, {metric});
+  dynamic_jump_flooding(seeds, dynamic, {metric});
   Similarities of_dynamic, of_jfa;
   for (int frame = 1; frame <= frames; ++frame) {
-    const Points before = points;
+    const Frame before = points;
     motion.move(points, frame, random);
     seeds.move_to(points);
-    const Report report =
-        dynamic_jump_flooding(seeds, dynamic, greatest_displacement(before, points), {metric});
+    BOOST_TEST(seeds.displacement() == greatest_displacement(before, points, periodic));
+    const Report report = dynamic_jump_flooding(seeds, dynamic, {metric});
     const Report full = jump_flooding(seeds, jfa, {metric});
     BOOST_TEST(report.waves() <= full.waves());
     exact_diagram(seeds, exact, {metric});
-    of_dynamic.add(similarity(dynamic, exact), frames);
-    of_jfa.add(similarity(jfa, exact), frames);
+    of_dynamic.add(similarity_of(dynamic, exact), frames);
+    of_jfa.add(similarity_of(jfa, exact), frames);
   }
   const std::string name = std::string(motion.name) + ", " + name_of(metric);
   BOOST_TEST(of_dynamic.mean >= of_jfa.mean - 0.01,
@@ -229,16 +234,16 @@ BOOST_AUTO_TEST_CASE(the_paper_s_plan_does_not_reach_seeds_in_a_corner) {
   const Grid grid(side, side);
   Random random(7);
   const Motion& corner = motions()[3];
-  Points points = corner.start(random);
+  Frame points = corner.start(random);
   Seeds seeds(test_device(), grid, points);
   Diagram dynamic(test_device(), grid), exact(test_device(), grid);
   const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper};
-  dynamic_jump_flooding(seeds, dynamic, 0, paper);
+  dynamic_jump_flooding(seeds, dynamic, paper);
   corner.move(points, 1, random);
   seeds.move_to(points);
-  dynamic_jump_flooding(seeds, dynamic, 5, paper);
+  dynamic_jump_flooding(seeds, dynamic, paper);
   exact_diagram(seeds, exact);
-  BOOST_TEST(similarity(dynamic, exact) < 90);
+  BOOST_TEST(similarity_of(dynamic, exact) < 90);
 }
 
 // Evenly spread seeds keep the paper's plan, label for label.
@@ -249,10 +254,10 @@ BOOST_AUTO_TEST_CASE(evenly_spread_seeds_get_the_paper_s_labels) {
       Seeds seeds = Seeds::random(test_device(), grid, count, 3);
       Diagram measured(test_device(), grid), paper(test_device(), grid);
       for (std::uint32_t frame = 0; frame < 20; ++frame) {
-        const Report report = dynamic_jump_flooding(seeds, measured, 5, {metric});
-        dynamic_jump_flooding(seeds, paper, 5, {metric, {}, 0, Reach::paper});
+        const Report report = dynamic_jump_flooding(seeds, measured, {metric});
+        dynamic_jump_flooding(seeds, paper, {metric, {}, 0, Reach::paper});
         BOOST_TEST(report.start().from_seeds == (frame == 0));
-        BOOST_TEST(similarity(measured, paper) == 100.0, count << " seeds, frame " << frame);
+        BOOST_TEST(similarity_of(measured, paper) == 100.0, count << " seeds, frame " << frame);
         random_step(seeds, 5, Border::reflect, 4, frame);
       }
     }
@@ -269,7 +274,7 @@ BOOST_AUTO_TEST_CASE(the_same_plans_for_every_kernel_shape) {
     Diagram diagram(device, grid);
     Seeds seeds(device, grid, centres(random_pixels(Grid(110, 61), 150, 8)));
     for (std::size_t frame = 0; frame < 12; ++frame) {
-      const Report report = dynamic_jump_flooding(seeds, diagram, 6);
+      const Report report = dynamic_jump_flooding(seeds, diagram);
       const std::string plan =
           (report.start().from_seeds ? "seeds " : "labels ") + std::to_string(report.start().first_step);
       if (expected.size() <= frame) expected.push_back(plan);

@@ -1,20 +1,22 @@
 // Sums, shapes and statistics of cells, against straight host code.
 #define BOOST_TEST_MODULE cells
 #include "measured_cases.hpp"
+#include "read_measures.hpp"
 #include "vorocl/cells.hpp"
 
 using namespace vorocl;
 
 namespace {
 
-void check_sums(const std::string& name, const Seeds& seeds, const std::vector<Pixel>& pixels,
-                const Diagram& diagram, CellSumsResult& result) {
-  cell_sums(seeds, diagram, result);
+void check_sums(const std::string& name, const std::vector<Pixel>& pixels, const Diagram& diagram,
+                CellSumsResult& result) {
+  const Grid& grid = diagram.window().grid();
+  cell_sums(diagram, result);
   const std::vector<CellSums> sums = result.read();
-  std::vector<CellSums> expected(seeds.size());
+  std::vector<CellSums> expected(pixels.size());
   std::uint64_t labelled = 0, all = 0;
-  each_pixel(diagram.grid(), diagram.read(), [&](std::uint32_t label, int x, int y) {
-    const Pixel image = nearest_image(diagram.grid(), {x, y}, pixels[label]);
+  each_pixel(grid, diagram.read(), [&](std::uint32_t label, int x, int y) {
+    const Pixel image = nearest_image(grid, {x, y}, pixels[label]);
     ++labelled;
     ++expected[label].area;
     expected[label].sum_x += image.x;
@@ -33,23 +35,23 @@ void check_sums(const std::string& name, const Seeds& seeds, const std::vector<P
   BOOST_TEST(all == labelled, name);
 }
 
-void check_shapes(const std::string& name, const Seeds& seeds, const std::vector<Pixel>& pixels,
-                  const Diagram& diagram, Metric metric) {
+void check_shapes(const std::string& name, const std::vector<Pixel>& pixels, const Diagram& diagram) {
   CellShapesResult result;
-  cell_shapes(seeds, diagram, result, metric);
+  cell_shapes(diagram, result);
   const std::vector<CellShape> shapes = result.read();
-  const Grid& grid = diagram.grid();
-  std::vector<CellShape> expected(seeds.size(), {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, -1, false});
+  const Grid& grid = diagram.window().grid();
+  std::vector<CellShape> expected(pixels.size(), {INT32_MAX, INT32_MAX, INT32_MIN, INT32_MIN, -1, false});
   each_pixel(grid, diagram.read(), [&](std::uint32_t label, int x, int y) {
     CellShape& cell = expected[label];
     const Pixel image = nearest_image(grid, {x, y}, pixels[label]);
-    cell.left = std::min(cell.left, image.x);
-    cell.top = std::min(cell.top, image.y);
-    cell.right = std::max(cell.right, image.x);
-    cell.bottom = std::max(cell.bottom, image.y);
-    cell.largest_distance = std::max(cell.largest_distance, distance(image, pixels[label], metric));
-    cell.touches_border |= (!grid.periodic_x() && (x == 0 || x == grid.width() - 1)) ||
-                           (!grid.periodic_y() && (y == 0 || y == grid.height() - 1));
+    const auto column = static_cast<int>(image.x), row = static_cast<int>(image.y);
+    cell.left = std::min(cell.left, column);
+    cell.top = std::min(cell.top, row);
+    cell.right = std::max(cell.right, column);
+    cell.bottom = std::max(cell.bottom, row);
+    cell.largest_distance = std::max(cell.largest_distance, distance(image, pixels[label], diagram.metric()));
+    cell.touches_border |= (!has_x(grid.periodic()) && (x == 0 || x == grid.width() - 1)) ||
+                           (!has_y(grid.periodic()) && (y == 0 || y == grid.height() - 1));
   });
   BOOST_TEST_REQUIRE(shapes.size() == expected.size());
   std::size_t wrong_boxes = 0, wrong_distances = 0, wrong_borders = 0;
@@ -74,8 +76,8 @@ BOOST_AUTO_TEST_CASE(sums_and_shapes_are_those_of_the_host) {
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
       jump_flooding(seeds, diagram, {metric});
-      check_sums(test.name, seeds, test.seeds, diagram, result);
-      check_shapes(test.name, seeds, test.seeds, diagram, metric);
+      check_sums(test.name, test.seeds, diagram, result);
+      check_shapes(test.name, test.seeds, diagram);
     }
   }
 }
@@ -87,11 +89,13 @@ BOOST_AUTO_TEST_CASE(cells_in_many_pieces) {
     const Seeds seeds(device, grid, centres(pixels));
     Diagram diagram(device, grid);
     CellSumsResult result;
-    write_labels(diagram, random_labels(grid, 300, 2));
-    check_sums("pieces", seeds, pixels, diagram, result);
-    for (const Metric metric : both_metrics) check_shapes("pieces", seeds, pixels, diagram, metric);
-    write_labels(diagram, std::vector<std::uint32_t>(grid.pixels(), no_label));
-    check_sums("no labels", seeds, pixels, diagram, result);
+    for (const Metric metric : both_metrics) {
+      diagram.write(random_labels(grid, 300, 2), seeds, metric);
+      check_sums("pieces", pixels, diagram, result);
+      check_shapes("pieces", pixels, diagram);
+    }
+    diagram.write(std::vector<std::uint32_t>(grid.pixels(), no_label), seeds, Metric::euclidean);
+    check_sums("no labels", pixels, diagram, result);
   }
 }
 
@@ -102,7 +106,7 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
     Diagram diagram(device, grid);
     jump_flooding(seeds, diagram);
     CellSumsResult result;
-    cell_sums(seeds, diagram, result);
+    cell_sums(diagram, result);
     const CellSums cell = result.read().front();
     BOOST_TEST(cell.area == 4099u * 2100u);
     BOOST_TEST(cell.sum_x == 4098ll * 4099 / 2 * 2100);
@@ -117,10 +121,11 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
 BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   const Grid grid(4, 3);
   Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}, {3.5, 0.5}, {2.5, 2.5}});
-  seeds.move_to({Point{0.5, 0.5}, Point{0.5, 0.5}, Point{3.5, 0.5}, std::nullopt});
+  seeds.move_to(
+      std::vector<std::optional<Point>>{Point{0.5, 0.5}, Point{0.5, 0.5}, Point{3.5, 0.5}, std::nullopt});
   Diagram diagram(test_device(), grid);
-  write_labels(diagram, {0, 0, 2, 2, 0, 0, 2, 2, no_label, 0, 2, 2});
-  const CellStatistics statistics = cell_statistics(seeds, diagram);
+  diagram.write({0, 0, 2, 2, 0, 0, 2, 2, no_label, 0, 2, 2}, seeds, Metric::euclidean);
+  const CellStatistics statistics = statistics_of(diagram);
   BOOST_TEST(statistics.cells == 3u);
   BOOST_TEST(statistics.empty_cells == 1u);
   BOOST_TEST(statistics.pixels == 11u);
@@ -129,8 +134,9 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
              boost::test_tools::tolerance(1e-12));
 
   const Seeds none(test_device(), grid, std::vector<Point>{});
-  jump_flooding(none, diagram);
-  const CellStatistics empty = cell_statistics(none, diagram);
+  Diagram without(test_device(), grid);
+  jump_flooding(none, without);
+  const CellStatistics empty = statistics_of(without);
   BOOST_TEST(empty.cells == 0u);
   BOOST_TEST(empty.pixels == 0u);
   BOOST_TEST(empty.mean_area == 0);
@@ -147,36 +153,38 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
     variance += (area - 7) * (area - 7) / 30000;
   }
   CellSumsResult sums;
-  BOOST_TEST(cell_statistics(sums).cells == 0u);
-  cell_sums(many, dense, sums);
-  BOOST_TEST(cell_statistics(sums).area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
-  cell_sums(seeds, diagram, sums);  // fewer, into the same buffers
-  BOOST_TEST(cell_statistics(sums).cells == 3u);
-  const CellStatistics spread = cell_statistics(many, dense);
+  CellStatisticsResult of_sums;
+  cell_statistics(sums, of_sums);
+  BOOST_TEST(of_sums.read().cells == 0u);
+  cell_sums(dense, sums);
+  cell_statistics(sums, of_sums);
+  BOOST_TEST(of_sums.read().area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
+  cell_sums(diagram, sums);  // fewer, into the same buffers
+  cell_statistics(sums, of_sums);
+  BOOST_TEST(of_sums.read().cells == 3u);
+  const CellStatistics spread = statistics_of(dense);
   BOOST_TEST(spread.mean_area == 7);
   BOOST_TEST(spread.empty_cells == 30000 - areas.size());
   BOOST_TEST(spread.area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(pixels_that_changed) {
-  const Grid grid(700, 300);
-  Diagram a(test_device(), grid), b(test_device(), grid);
-  std::vector<std::uint32_t> labels = random_labels(grid, 100, 3);
-  write_labels(a, labels);
-  write_labels(b, labels);
-  BOOST_TEST(changed_pixels(a, b) == 0u);
-  for (std::size_t i = 0; i < 12345; ++i) labels[17 * i] ^= 1;
-  write_labels(b, labels);
-  BOOST_TEST(changed_pixels(a, b) == 12345u);
-}
-
-BOOST_AUTO_TEST_CASE(what_does_not_fit_together_is_refused) {
-  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
-  const Diagram other_grid(test_device(), Grid(20, 10)), other_device(Device::select(), Grid(10, 20));
+BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_cells) {
+  const Grid grid(20, 10);
+  Diagram diagram(test_device(), grid);
   CellSumsResult sums;
   CellShapesResult shapes;
-  check_error([&] { cell_sums(seeds, other_grid, sums); }, {"10 x 20", "20 x 10"});
-  check_error([&] { cell_shapes(seeds, other_device, shapes); }, {"different devices"});
+  CellStatisticsResult statistics;
+  check_error([&] { cell_sums(diagram, sums); }, {"seeds"});  // never filled
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}}), diagram);
+  cell_sums(diagram, sums);
+  cell_shapes(diagram, shapes);
+  cell_statistics(diagram, statistics);
+  diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0));
+  check_error([&] { cell_sums(diagram, sums); }, {"seeds"});
+  check_error([&] { cell_shapes(diagram, shapes); }, {"seeds"});
+  check_error([&] { cell_statistics(diagram, statistics); }, {"seeds"});
+  check_error([&] { cell_table(diagram); }, {"seeds"});
   BOOST_TEST(sums.read().empty());
   BOOST_TEST(shapes.size() == 0u);
+  BOOST_TEST(statistics.read().cells == 0u);
 }

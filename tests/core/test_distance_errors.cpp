@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "measured_cases.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 
@@ -40,9 +41,9 @@ void check(const std::string& name, const Device& device, const Case& example, M
   const Seeds seeds(device, example.grid, centres(example.seeds));
   Diagram exact(device, example.grid), diagram(device, example.grid);
   const std::vector<std::uint32_t> ground_truth = brute_force(example.grid, example.seeds, metric);
-  write_labels(exact, ground_truth);
-  write_labels(diagram, labels);
-  const DistanceErrors found = distance_errors(seeds, diagram, exact, metric);
+  exact.write(ground_truth, seeds, metric);
+  diagram.write(labels, seeds, metric);
+  const DistanceErrors found = errors_of(diagram, exact);
   const DistanceErrors expected = on_the_host(example.grid, example.seeds, metric, labels, ground_truth);
   BOOST_TEST_CONTEXT(example.name << ", " << name << ", " << name_of(metric)) {
     BOOST_TEST(found.pixels == example.grid.pixels());
@@ -73,7 +74,7 @@ BOOST_AUTO_TEST_CASE(errors_of_flooding_are_few_and_small) {
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   jump_flooding(seeds, diagram);
-  const DistanceErrors errors = distance_errors(seeds, diagram, exact);
+  const DistanceErrors errors = errors_of(diagram, exact);
   const DistanceErrors expected =
       on_the_host(grid, random_pixels(grid, 2000, 6), Metric::euclidean, diagram.read(), exact.read());
   BOOST_TEST(errors.wrong_pixels == expected.wrong_pixels);
@@ -89,10 +90,10 @@ BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   BOOST_REQUIRE((exact.read() == std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
-  write_labels(diagram, {2, 0, 1, 1, 1});
-  BOOST_TEST(distance_errors(seeds, diagram, exact).wrong_pixels == 0u);
-  write_labels(diagram, {2, 1, 1, 7, no_label});
-  const DistanceErrors errors = distance_errors(seeds, diagram, exact);
+  diagram.write(std::vector<std::uint32_t>{2, 0, 1, 1, 1}, seeds, Metric::euclidean);
+  BOOST_TEST(errors_of(diagram, exact).wrong_pixels == 0u);
+  diagram.write(std::vector<std::uint32_t>{2, 1, 1, 7, no_label}, seeds, Metric::euclidean);
+  const DistanceErrors errors = errors_of(diagram, exact);
   BOOST_TEST(errors.wrong_pixels == 3u);
   BOOST_TEST(errors.unlabelled_pixels == 2u);
   BOOST_TEST(errors.wrong_percent() == 60);
@@ -101,22 +102,52 @@ BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
 }
 
 BOOST_AUTO_TEST_CASE(the_longest_distances_there_are) {
-  const Grid grid(Grid::max_side, 2);
+  const Grid grid(Window::max_side, 2);
   const Seeds seeds(test_device(), grid, centres({{0, 0}, {32767, 1}}));
   for (const Metric metric : both_metrics) {
     Diagram exact(test_device(), grid), diagram(test_device(), grid);
     exact_diagram(seeds, exact, {metric});
-    write_labels(diagram, std::vector<std::uint32_t>(grid.pixels(), 0));
-    const DistanceErrors errors = distance_errors(seeds, diagram, exact, metric);
+    diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0), seeds, metric);
+    const DistanceErrors errors = errors_of(diagram, exact);
     const double farthest = metric == Metric::euclidean ? std::sqrt(32767.0 * 32767.0 + 1) : 32768;
     BOOST_TEST(errors.largest_excess == farthest, boost::test_tools::tolerance(1e-6));
     BOOST_TEST(errors.unlabelled_pixels == 0u);
   }
 }
 
+// A result that serves frame after frame holds the last one's errors alone.
+BOOST_AUTO_TEST_CASE(one_result_serves_one_diagram_after_another) {
+  const Grid grid(31, 17);
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 9, 1)));
+  Diagram exact(test_device(), grid), diagram(test_device(), grid);
+  exact_diagram(seeds, exact);
+  DistanceErrorsResult result;
+  BOOST_TEST(result.read().pixels == 0u);
+  diagram.write(std::vector<std::uint32_t>(grid.pixels(), no_label), seeds, Metric::euclidean);
+  distance_errors(diagram, exact, result);
+  BOOST_TEST(result.read().unlabelled_pixels == grid.pixels());
+  distance_errors(exact, exact, result);
+  BOOST_TEST(result.read().pixels == grid.pixels());
+  BOOST_TEST(result.read().wrong_pixels == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(diagrams_that_do_not_fit_are_refused) {
-  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
-  const Diagram fits(test_device(), Grid(10, 20)), other(test_device(), Grid(20, 10));
-  check_error([&] { distance_errors(seeds, other, fits); }, {"10 x 20", "20 x 10"});
-  check_error([&] { distance_errors(seeds, fits, other); }, {"10 x 20", "20 x 10"});
+  const Grid grid(10, 20);
+  Seeds seeds(test_device(), grid, {{1, 1}});
+  const Seeds others(test_device(), Grid(20, 10), {{1, 1}});
+  Diagram exact(test_device(), grid), diagram(test_device(), grid), other(test_device(), Grid(20, 10));
+  exact_diagram(seeds, exact);
+  DistanceErrorsResult result;
+  check_error([&] { distance_errors(diagram, exact, result); }, {"seeds"});
+  exact_diagram(others, other);
+  check_error([&] { distance_errors(other, exact, result); }, {"different windows"});
+  check_error([&] { distance_errors(exact, other, result); }, {"different windows"});
+  exact_diagram(seeds, diagram, {Metric::manhattan});
+  check_error([&] { distance_errors(diagram, exact, result); }, {"metric"});
+  seeds.move_to({{2, 2}});
+  exact_diagram(seeds, diagram);
+  check_error([&] { distance_errors(diagram, exact, result); }, {"frame"});
+  exact_diagram(seeds, exact);
+  distance_errors(diagram, exact, result);
+  BOOST_TEST(result.read().wrong_pixels == 0u);
 }

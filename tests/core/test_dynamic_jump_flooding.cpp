@@ -8,6 +8,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 #include "reference_flood.hpp"
 
 using namespace vorocl;
@@ -27,23 +28,20 @@ std::vector<std::uint32_t> owners(std::vector<std::uint32_t> labels, const std::
 }
 
 Simulation random_walk(const Grid& grid, std::size_t count, int most, Border border = Border::reflect) {
-  return Simulation(Seeds::random(test_device(), grid, count, 11), [=](Seeds& seeds, int frame) {
+  return Simulation(Seeds::random(test_device(), grid, count, 11), [=](Seeds& seeds, Window&, int frame) {
     random_step(seeds, most, border, 12, static_cast<std::uint32_t>(frame));
-    return static_cast<double>(most);
   });
 }
 
 /// With the paper's plans.
 Simulation::Engine djfa(Metric metric, DynamicPlanOptions plan = {}, int refresh_interval = 0) {
-  return [=](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-    return dynamic_jump_flooding(seeds, diagram, max_displacement,
-                                 {metric, plan, refresh_interval, Reach::paper});
+  return [=](const Seeds& seeds, Diagram& diagram) {
+    return dynamic_jump_flooding(seeds, diagram, {metric, plan, refresh_interval, Reach::paper});
   };
 }
 
 Simulation::Engine jfa(Metric metric) {
-  return
-      [=](const Seeds& seeds, Diagram& diagram, double) { return jump_flooding(seeds, diagram, {metric}); };
+  return [=](const Seeds& seeds, Diagram& diagram) { return jump_flooding(seeds, diagram, {metric}); };
 }
 
 /// Mean similarity of engine 0 to each other one, over frames 1 ... frames.
@@ -53,7 +51,7 @@ std::vector<double> mean_similarity(Simulation& simulation, std::size_t engines,
   for (int frame = 1; frame <= frames; ++frame) {
     simulation.step();
     for (std::size_t i = 1; i < engines; ++i) {
-      means[i] += similarity(simulation.diagram(), simulation.diagram(i)) / frames;
+      means[i] += similarity_of(simulation.diagram(), simulation.diagram(i)) / frames;
     }
   }
   return means;
@@ -123,7 +121,7 @@ BOOST_AUTO_TEST_CASE(the_same_film_for_every_kernel_shape) {
     Seeds seeds = Seeds::random(test_device().with_tuning(shape), grid, 200, 3);
     Diagram diagram(test_device().with_tuning(shape), grid);
     for (std::size_t frame = 0; frame < 10; ++frame) {
-      dynamic_jump_flooding(seeds, diagram, 4);
+      dynamic_jump_flooding(seeds, diagram);
       if (expected.size() <= frame) expected.push_back(diagram.read());
       BOOST_TEST((diagram.read() == expected[frame]),
                  "vector width " << shape.vector_width << ", frame " << frame);
@@ -140,7 +138,7 @@ BOOST_AUTO_TEST_CASE(a_refresh_is_a_full_jfa) {
     simulation.step();
     const int full = simulation.report(1).waves();
     BOOST_TEST(simulation.report().waves() == (frame % 4 == 0 ? full : 5));
-    if (frame % 4 == 0) BOOST_TEST(similarity(simulation.diagram(0), simulation.diagram(1)) == 100.0);
+    if (frame % 4 == 0) BOOST_TEST(similarity_of(simulation.diagram(0), simulation.diagram(1)) == 100.0);
   }
 }
 
@@ -150,7 +148,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   auto points = present(pixels);
   Seeds seeds(test_device(), grid, centres(pixels));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   // All seeds on the left vanish: a hole far wider than 2 L, which only the full JFA that follows can fill.
   std::vector<Pixel> left;
   std::vector<std::uint32_t> ids;
@@ -164,7 +162,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   }
   seeds.move_to(points);
   BOOST_TEST(seeds.alive() == left.size());
-  const Report report = dynamic_jump_flooding(seeds, diagram, 0);
+  const Report report = dynamic_jump_flooding(seeds, diagram);
   const auto labels = diagram.read();
   const auto ground_truth = brute_force(grid, left, Metric::euclidean);
   std::size_t wrong = 0;
@@ -173,7 +171,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   BOOST_TEST(report.waves() == static_cast<int>(jump_flooding_plan(grid).size()));
 
   seeds.move_to(std::vector<std::optional<Point>>(pixels.size()));
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), no_label)));
 
   // Out of nothing, and only in a corner: again farther than the first wave reaches.
@@ -181,7 +179,7 @@ BOOST_AUTO_TEST_CASE(vanished_seeds_leave_no_label_behind) {
   for (std::size_t id = 0; id < 100; ++id)
     corner[id] = Point{static_cast<double>(id % 10), std::floor(static_cast<double>(id) / 10)};
   seeds.move_to(corner);
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   const auto from_corner = diagram.read();
   BOOST_TEST(std::count(from_corner.begin(), from_corner.end(), no_label) == 0);
 }
@@ -193,7 +191,7 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
   const std::vector<Pixel> pixels = random_pixels(grid, 200, 22);
   Seeds seeds(test_device(), grid, centres(pixels));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   std::size_t wrong = 0;
   for (std::uint32_t frame = 1; frame <= 10; ++frame) {
     auto points = present(pixels);
@@ -208,7 +206,7 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
       }
     }
     seeds.move_to(points);
-    dynamic_jump_flooding(seeds, diagram, 0);
+    dynamic_jump_flooding(seeds, diagram);
     const auto labels = diagram.read();
     const auto ground_truth = brute_force(grid, alive, Metric::euclidean);
     for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -226,11 +224,11 @@ BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
   const Grid grid(90, 70);
   Seeds seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)));
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   for (const unsigned count : {80u, 20u, 1u, 300u}) {
     const auto pixels = random_pixels(grid, count, count);
     seeds.move_to(present(pixels));
-    dynamic_jump_flooding(seeds, diagram, 90);
+    dynamic_jump_flooding(seeds, diagram);
     const auto ground_truth = brute_force(grid, pixels, Metric::euclidean);
     const Verdict verdict = judge(grid, pixels, Metric::euclidean, diagram.read(), ground_truth);
     BOOST_TEST(verdict.unlabelled + verdict.invalid == 0u);
@@ -242,32 +240,32 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
   const Grid grid(64, 64);
   Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
   Diagram diagram(test_device(), grid);
-  dynamic_jump_flooding(seeds, diagram, 0);
+  dynamic_jump_flooding(seeds, diagram);
   const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
-  seeds.move_to(buffer, 2);
-  dynamic_jump_flooding(seeds, diagram, 64);
+  seeds.move_to(PointBuffer(buffer, 2));
+  dynamic_jump_flooding(seeds, diagram);
   BOOST_TEST((diagram.read() == brute_force(grid, {{60, 3}, {2, 62}}, Metric::euclidean)));
 }
 
 // While an event holds the queue back, a call that waits for the device does not return: the paper's reach
-// needs no wait.
+// needs no wait where it is told how far the seeds may have moved.
 BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
   const Grid grid(64, 64);
   const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
-  const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper};
+  const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper, 64.0};
   prepare(method("djfa"), test_device(), grid, 2);
-  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}}, Outside::refuse);
   Diagram first(test_device(), grid), next(test_device(), grid);
-  dynamic_jump_flooding(seeds, next, 0);
+  dynamic_jump_flooding(seeds, next);
   test_device().finish();
   cl::UserEvent gate(test_device().context());
   test_device().wait_for({gate});
   std::future<std::size_t> alive = std::async(std::launch::async, [&] {
-    seeds.move_to(buffer, 2);
-    dynamic_jump_flooding(seeds, first, 64, paper);
-    dynamic_jump_flooding(seeds, next, 64, paper);
+    seeds.move_to(PointBuffer(buffer, 2));
+    dynamic_jump_flooding(seeds, first, paper);
+    dynamic_jump_flooding(seeds, next, paper);
     return seeds.alive();
   });
   const bool returned = alive.wait_for(std::chrono::seconds(20)) == std::future_status::ready;
@@ -285,86 +283,11 @@ BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   Diagram diagram(test_device(), grid);
   const NeighbourhoodMix mixed = NeighbourhoodMix::mixed;
   const auto run = [&](double max_displacement, const DynamicPlanOptions& plan, int refresh) {
-    dynamic_jump_flooding(seeds, diagram, max_displacement, {Metric::euclidean, plan, refresh});
+    dynamic_jump_flooding(seeds, diagram,
+                          {Metric::euclidean, plan, refresh, Reach::measured, max_displacement});
   };
   check_error([&] { run(-1, {}, 0); }, {"-1.0"});
   check_error([&] { run(0, {mixed, 3, 0}, 0); }, {"3 von Neumann waves"});
   check_error([&] { run(0, {mixed, 2, -1}, 0); }, {"-1 extra waves"});
   check_error([&] { run(0, {}, -2); }, {"-2 frames"});
-}
-
-BOOST_AUTO_TEST_CASE(a_simulation_refuses_what_it_has_not) {
-  const Grid grid(8, 8);
-  check_error([&] { Simulation(Seeds(test_device(), grid, {}), nullptr); }, {"motion"});
-  Simulation simulation = random_walk(grid, 3, 1);
-  check_error([&] { simulation.add_engine(nullptr); }, {"engine", "empty"});
-  simulation.add_engine(jfa(Metric::euclidean));
-  simulation.step();
-  check_error([&] { simulation.diagram(3); }, {"1 engines", "number 3"});
-  check_error([&] { simulation.report(1); }, {"number 1"});
-  check_error([&] { simulation.milliseconds(1); }, {"number 1"});
-  check_error([&] { simulation.host_milliseconds(1); }, {"number 1"});
-}
-
-// An engine that did not run in a frame starts from an older one: it is told how far seeds moved since then.
-BOOST_AUTO_TEST_CASE(a_simulation_goes_on_after_an_engine_has_thrown) {
-  Simulation simulation(Seeds::random(test_device(), Grid(30, 20), 5, 1), [](Seeds&, int) { return 3.0; });
-  int calls = 0;
-  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double) {
-    if (++calls == 3) throw Error("no more");
-    return exact_diagram(seeds, diagram);
-  });
-  std::vector<double> displacements;
-  simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-    displacements.push_back(max_displacement);
-    return exact_diagram(seeds, diagram);
-  });
-  for (int frame = 0; frame < 5; ++frame) {
-    if (frame == 2) {
-      check_error([&] { simulation.step(); }, {"no more"});
-    } else {
-      simulation.step();
-    }
-  }
-  BOOST_TEST(simulation.frame() == 4);
-  BOOST_TEST(displacements == (std::vector<double>{0, 3, 6, 3}), boost::test_tools::per_element());
-}
-
-// A box that changes: the motion brings other seeds, on another grid.
-BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
-  const Grid before(40, 30), after(50, 20, Periodic::x);
-  const std::vector<Pixel> pixels = random_pixels(after, 12, 8);
-  Simulation simulation(Seeds::random(test_device(), before, 5, 1), [&](Seeds& seeds, int frame) {
-    if (frame == 1) seeds = Seeds(test_device(), after, centres(pixels));
-    return 0.0;
-  });
-  simulation.add_engine([](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-    return dynamic_jump_flooding(seeds, diagram, max_displacement);
-  });
-  simulation.add_engine(
-      [](const Seeds& seeds, Diagram& diagram, double) { return exact_diagram(seeds, diagram); });
-  for (int frame = 0; frame < 3; ++frame) simulation.step();
-  BOOST_TEST(simulation.frame() == 2);
-  BOOST_TEST((simulation.diagram(0).grid() == after));
-  BOOST_TEST(simulation.diagram(1).read() == brute_force(after, pixels, Metric::euclidean));
-  BOOST_TEST(similarity(simulation.diagram(0), simulation.diagram(1)) > 99);
-}
-
-BOOST_AUTO_TEST_CASE(a_skipped_frame_moves_the_seeds_alone) {
-  std::vector<double> displacements;
-  const auto exact = [&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-    displacements.push_back(max_displacement);
-    return exact_diagram(seeds, diagram);
-  };
-  Simulation all = random_walk(Grid(30, 20), 9, 3), last = random_walk(Grid(30, 20), 9, 3);
-  all.add_engine(exact);
-  last.add_engine(exact);
-  for (int frame = 0; frame <= 4; ++frame) all.step();
-  displacements.clear();
-  for (int frame = 0; frame < 4; ++frame) last.skip();
-  BOOST_TEST(last.frame() == 3);
-  BOOST_TEST(displacements.empty());
-  last.step();
-  BOOST_TEST((last.diagram().read() == all.diagram().read()));
-  BOOST_TEST(displacements == std::vector<double>{12}, boost::test_tools::per_element());
 }

@@ -1,5 +1,7 @@
-// Distance fields and border masks, against straight host code.
+// Images that follow from a diagram, against straight host code.
 #define BOOST_TEST_MODULE fields
+#include <limits>
+
 #include "measured_cases.hpp"
 #include "vorocl/fields.hpp"
 
@@ -7,15 +9,15 @@ using namespace vorocl;
 
 namespace {
 
-void check_fields(const std::string& name, const Seeds& seeds, const std::vector<Pixel>& pixels,
-                  const Diagram& diagram, Metric metric) {
-  const Grid& grid = diagram.grid();
+void check_fields(const std::string& name, const std::vector<Pixel>& pixels, const Diagram& diagram,
+                  Metric metric) {
+  const Grid& grid = diagram.window().grid();
   const std::vector<std::uint32_t> labels = diagram.read();
   Field<std::int32_t> integers;
   Field<float> floats;
   Field<std::uint8_t> mask;
-  distance_field(seeds, diagram, integers, metric);
-  distance_field(seeds, diagram, floats, metric);
+  distance_field(diagram, integers);
+  distance_field(diagram, floats);
   border_mask(diagram, mask);
   const std::vector<std::int32_t> integer = integers.read();
   const std::vector<float> in_pixels = floats.read();
@@ -56,34 +58,134 @@ BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
       jump_flooding(seeds, diagram, {metric});
-      check_fields(test.name, seeds, test.seeds, diagram, metric);
+      check_fields(test.name, test.seeds, diagram, metric);
     }
     const Grid grid(97, 53);
     const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
     Diagram pieces(device, grid);
-    write_labels(pieces, random_labels(grid, 20, 2));
     for (const Metric metric : both_metrics) {
-      check_fields("pieces", Seeds(device, grid, centres(pixels)), pixels, pieces, metric);
+      pieces.write(random_labels(grid, 20, 2), Seeds(device, grid, centres(pixels)), metric);
+      check_fields("pieces", pixels, pieces, metric);
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_longest_distance_there_is) {
-  const Grid grid(Grid::max_side, 3);
+  const Grid grid(Window::max_side, 3);
   const Seeds seeds(test_device(), grid, std::vector<Point>{{0.5, 0.5}});
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   Field<std::int32_t> field;
-  distance_field(seeds, diagram, field);
+  distance_field(diagram, field);
   BOOST_TEST(field.read().back() == 32767 * 32767 + 4);
 }
 
-BOOST_AUTO_TEST_CASE(a_bad_call_is_refused) {
-  const Seeds seeds(test_device(), Grid(10, 20), std::vector<Point>{{1, 1}});
-  const Diagram diagram(test_device(), Grid(20, 10));
-  Field<float> field;
-  distance_field(Seeds(test_device(), diagram.grid(), {{1, 1}}), diagram, field);
-  check_error([&] { distance_field(seeds, diagram, field); }, {"10 x 20", "20 x 10"});
+BOOST_AUTO_TEST_CASE(labels_are_looked_up_in_a_table) {
+  for (const Device& device : shapes()) {
+    for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Periodic::x)}) {
+      const Seeds seeds(device, grid, centres(random_pixels(grid, 40, 1)));
+      Diagram diagram(device, grid);
+      const std::vector<std::uint32_t> labels = random_labels(grid, 40, 2);
+      diagram.write(labels, seeds, Metric::euclidean);
+      std::vector<std::uint32_t> table;
+      for (std::uint32_t id = 0; id < 40; ++id) table.push_back(id * 2654435761u);
+      const auto expected = transformed(
+          labels, [&](std::uint32_t label) { return label == no_label ? no_label : table[label]; });
+      Field<std::uint32_t> field;
+      map_labels(diagram, table, field);
+      BOOST_TEST((field.read() == expected));
+      const cl::Buffer buffer(device.queue(), table.begin(), table.end(), true);
+      Field<std::uint32_t> from_buffer;
+      map_labels(diagram, buffer, from_buffer);
+      BOOST_TEST((from_buffer.read() == expected));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_table_that_cannot_be_read_is_refused) {
+  const Grid grid(20, 10);
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 40, 1)));
+  Diagram diagram(test_device(), grid);
+  exact_diagram(seeds, diagram);
+  Field<std::uint32_t> field;
+  map_labels(diagram, std::vector<std::uint32_t>(50, 7), field);
+  BOOST_TEST(field.read().front() == 7u);
+  check_error([&] { map_labels(diagram, std::vector<std::uint32_t>(39), field); }, {"39", "40"});
   BOOST_TEST(field.read().empty());
-  BOOST_TEST(field.values()() == nullptr);
+  const cl::Context& context = test_device().context();
+  check_error([&] { map_labels(diagram, cl::Buffer(), field); }, {"null"});
+  check_error([&] { map_labels(diagram, cl::Buffer(context, CL_MEM_READ_WRITE, 156), field); },
+              {"156", "160"});
+  check_error([&] { map_labels(diagram, cl::Buffer(context, CL_MEM_WRITE_ONLY, 160), field); }, {"read"});
+}
+
+BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const Device& device : shapes()) {
+    for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Periodic::xy)}) {
+      const std::vector<Pixel> pixels = random_pixels(grid, 12, 3);
+      const Seeds seeds(device, grid, centres(pixels));
+      Diagram diagram(device, grid);
+      for (const Metric metric : both_metrics) {
+        exact_diagram(seeds, diagram, {metric});
+        const std::vector<std::uint32_t> labels = diagram.read();
+        for (const double most : {0.0, 0.99, 2.5, 5.0, 13.0, 1e300, infinite}) {
+          const double bound = metric == Metric::euclidean ? most * most : most;
+          std::vector<std::uint32_t> expected(labels.size(), no_label);
+          std::size_t i = 0;
+          each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
+            const auto d = static_cast<double>(distance(grid, {x, y}, pixels[label], metric));
+            expected[i++] = d <= bound ? label : no_label;
+          });
+          Field<std::uint32_t> field;
+          expand_labels(diagram, most, field);
+          BOOST_TEST((field.read() == expected), name_of(metric) << ", at most " << most << " pixels");
+        }
+      }
+    }
+  }
+}
+
+// Distances of more than 31 bits.
+BOOST_AUTO_TEST_CASE(labels_of_seeds_far_away_expand_too) {
+  const Grid grid(61, 47);
+  const Seeds seeds(test_device(), grid, {{-3e6 + 0.5, 10.5}, {3e6 + 60.5, 40.5}});
+  Diagram diagram(test_device(), grid);
+  exact_diagram(seeds, diagram);
+  const std::vector<std::uint32_t> labels = diagram.read();
+  constexpr std::int64_t reach = 3000010;
+  std::vector<std::uint32_t> expected;
+  for (int y = 0, i = 0; y < 47; ++y) {
+    for (int x = 0; x < 61; ++x, ++i) {
+      const std::uint32_t label = labels[static_cast<std::size_t>(i)];
+      const std::int64_t dx = label == 0 ? x + 3000000 : 3000060 - x, dy = label == 0 ? y - 10 : y - 40;
+      expected.push_back(dx * dx + dy * dy <= reach * reach ? label : no_label);
+    }
+  }
+  BOOST_TEST(std::count(expected.begin(), expected.end(), no_label) > 40 * 47);
+  Field<std::uint32_t> field;
+  expand_labels(diagram, static_cast<double>(reach), field);
+  BOOST_TEST((field.read() == expected));
+}
+
+BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_distances) {
+  const Grid grid(20, 10);
+  Diagram diagram(test_device(), grid);
+  Field<float> distances;
+  Field<std::uint32_t> labels;
+  Field<std::uint8_t> mask;
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}}), diagram);
+  distance_field(diagram, distances);
+  BOOST_TEST(distances.read().size() == grid.pixels());
+  for (const double bad : {-0.1, std::nan("")}) {
+    check_error([&] { expand_labels(diagram, bad, labels); }, {"distance"});
+  }
+  diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0));
+  check_error([&] { distance_field(diagram, distances); }, {"seeds"});
+  BOOST_TEST(distances.read().empty());
+  BOOST_TEST(distances.values()() == nullptr);
+  check_error([&] { map_labels(diagram, std::vector<std::uint32_t>(9), labels); }, {"seeds"});
+  check_error([&] { expand_labels(diagram, 1, labels); }, {"seeds"});
+  border_mask(diagram, mask);  // which asks for labels alone
+  BOOST_TEST((mask.read() == std::vector<std::uint8_t>(grid.pixels(), 0)));
 }

@@ -83,6 +83,34 @@ BOOST_AUTO_TEST_CASE(steps_out_of_range_are_refused) {
   check_error([&] { flood(seeds, diagram, {{1 << 20}}, {}); }, {"step is 1048576"});
 }
 
+BOOST_AUTO_TEST_CASE(a_part_of_a_grid_is_not_flooded) {
+  const Grid grid(8, 8), ring(40000, 8, Periodic::x);
+  Diagram whole(test_device(), grid), part(test_device(), Window(grid, 2, 2, 4, 4));
+  check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}}), part); }, {"exact"});
+  check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}), whole); }, {"exact"});
+  check_error([&] { jump_flooding(Seeds(test_device(), Grid(9, 8), {{3, 3}}), whole); }, {"grid"});
+  Diagram zoom(test_device(), Window(ring, 0, 0, 8, 8));
+  check_error([&] { jump_flooding(Seeds(test_device(), ring, {{3, 3}}), zoom); }, {"exact"});
+  // Outside is where the point is, and not where its pixel would be after wrapping.
+  jump_flooding(Seeds(test_device(), Grid(8, 8), {{3, 3}, {-1, 3}}, Outside::absent), whole);
+  BOOST_TEST((whole.read() == std::vector<std::uint32_t>(64, 0)));
+}
+
+// A window of the whole grid is the grid.
+BOOST_AUTO_TEST_CASE(points_are_in_the_units_of_the_data) {
+  const Grid pixels(90, 60, Periodic::y);
+  const Grid data(Axis(90, 10, 11).reversed(), Axis(60, -180, 180).periodic());
+  const std::vector<Pixel> seeds = random_pixels(pixels, 200, 3);
+  Diagram diagram(test_device(), Window(data, 0, 0, 90, 60));
+  const auto points = transformed(seeds, [&](const Pixel& pixel) {
+    Point point = data.point(centre(pixel));
+    point.y += 360 * static_cast<double>(pixel.x % 3 - 1);  // which wraps
+    return point;
+  });
+  jump_flooding(Seeds(test_device(), data, points), diagram);
+  BOOST_TEST((diagram.read() == labels_of(test_device(), pixels, seeds)));
+}
+
 BOOST_AUTO_TEST_CASE(von_neumann_waves_alone_go_wrong) {
   // The paper's figure of a wrong diagram: regions that are concave or have saw-tooth borders.
   const Grid grid(256, 256);

@@ -37,21 +37,24 @@ BOOST_AUTO_TEST_CASE(methods_are_what_they_say) {
     for (const Method& each : methods()) {
       BOOST_TEST_CONTEXT(each.name << ", " << name_of(metric)) {
         Diagram diagram(test_device(), grid);
-        const Report report = engine(each, {metric})(seeds, diagram, 0);
+        const Report report = engine(each, {metric})(seeds, diagram);
         const double percent = similarity(diagram.read(), ground_truth);
         BOOST_TEST(percent >= 99.0);
         if (each.exact) BOOST_TEST(percent == 100.0);
+        BOOST_TEST(diagram.method() == each.name);
+        BOOST_TEST((diagram.metric() == metric));
         BOOST_TEST((each.plan == nullptr) == (report.waves() == 0));
         if (each.plan) {
           BOOST_TEST(each.plan(grid, report.waves(), {metric}).size() ==
                      static_cast<std::size_t>(report.waves()));
         }
         // Labels that are all of one seed: a method that starts anew does not see them.
-        diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0));
+        diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0), seeds, metric);
+        BOOST_TEST(diagram.method().empty());
         MethodOptions options;
         options.metric = metric;
         options.reach = Reach::paper;  // which does not measure the labels
-        const Report again = each.run(seeds, diagram, 0, options);
+        const Report again = each.run(seeds, diagram, options);
         BOOST_TEST((similarity(diagram.read(), ground_truth) != percent) == each.continues);
         BOOST_TEST((again.waves() < report.waves()) == each.continues);
       }
@@ -69,15 +72,35 @@ BOOST_AUTO_TEST_CASE(impossible_options_are_refused) {
     BOOST_TEST_CONTEXT(each.name) {
       if (each.name == "djfa") {
         check_options(each, mixed);
-        each.run(seeds, diagram, 0, mixed);
+        each.run(seeds, diagram, mixed);
         BOOST_TEST(to_string(each.plan(grid, 0, mixed)) == "8 4 2 1");
       } else {
         check_error([&] { check_options(each, mixed); }, {"mixed", "djfa"});
-        check_error([&] { each.run(seeds, diagram, 0, mixed); }, {"mixed", "djfa"});
+        check_error([&] { each.run(seeds, diagram, mixed); }, {"mixed", "djfa"});
       }
     }
   }
   check_error([&] { method("standard-flooding").plan(grid, -1, {}); }, {"-1 waves"});
+}
+
+// Those that say so take a window, and seeds outside it; the others refuse them.
+BOOST_AUTO_TEST_CASE(windows_are_for_those_that_say_so) {
+  const Grid grid(60, 40, Periodic::y);
+  const Seeds seeds(test_device(), grid, {{3, 3}, {50, 30}});
+  for (const Method& each : methods()) {
+    BOOST_TEST_CONTEXT(each.name) {
+      Diagram part(test_device(), Window(grid, 10, 35, 20, 10));
+      if (each.windows) {
+        each.run(seeds, part, {});
+        BOOST_TEST(part.read()[0] == 0u);
+        BOOST_TEST(part.read()[19] == 1u);
+        BOOST_TEST(part.method() == each.name);
+      } else {
+        check_error([&] { each.run(seeds, part, {}); }, {"exact"});
+        BOOST_TEST(part.method().empty());
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(after_prepare_nothing_is_built) {
@@ -90,7 +113,7 @@ BOOST_AUTO_TEST_CASE(after_prepare_nothing_is_built) {
     const int before = builds;
     BOOST_TEST(before > 0);
     for (int frame = 0; frame < 3; ++frame) {
-      each.run(seeds, diagram, 5, {Metric::manhattan});
+      each.run(seeds, diagram, {Metric::manhattan});
       seeds.move_to({Point{1, 1}, Point{2, 2}});
     }
     diagram.wait();
@@ -112,13 +135,28 @@ BOOST_AUTO_TEST_CASE(labels_are_written) {
   check_error([&] { diagram.write(cl::Buffer()); }, {"labels to write", "null"});
   BOOST_TEST((diagram.read() == labels));
 
+  BOOST_TEST(diagram.method().empty());
+  check_error([&] { diagram.metric(); }, {"metric"});
+
   // dJFA goes on from them: with the right ones it has nothing to mend.
   const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
+  const Seeds seeds(test_device(), grid, centres(pixels));
   const std::vector<std::uint32_t> ground_truth = brute_force(grid, pixels, Metric::euclidean);
+  const auto waves = static_cast<int>(dynamic_jump_flooding_plan(grid, pixels.size(), 0).size());
+  DynamicJumpFloodingOptions unmoved;
+  unmoved.max_displacement = 0;
   diagram.write(ground_truth);
-  const Report report = dynamic_jump_flooding(Seeds(test_device(), grid, centres(pixels)), diagram, 0);
+  BOOST_TEST(dynamic_jump_flooding(seeds, diagram, unmoved).waves() == waves);
   BOOST_TEST((diagram.read() == ground_truth));
-  BOOST_TEST(report.waves() == static_cast<int>(dynamic_jump_flooding_plan(grid, pixels.size(), 0).size()));
+  diagram.write(ground_truth, seeds, Metric::euclidean);
+  BOOST_TEST((diagram.metric() == Metric::euclidean));
+  BOOST_TEST(dynamic_jump_flooding(seeds, diagram).waves() ==
+             waves);  // the seeds know that they did not move
+  BOOST_TEST((diagram.read() == ground_truth));
+
+  // Seeds of another grid have no labels here.
+  const Seeds others(test_device(), Grid(30, 40), {{1, 1}});
+  check_error([&] { diagram.write(ground_truth, others, Metric::euclidean); }, {"grid"});
 
   const Diagram taken = std::move(diagram);
   BOOST_TEST((taken.read() == ground_truth));

@@ -80,11 +80,36 @@ BOOST_AUTO_TEST_CASE(impossible_steps_are_refused) {
   Seeds seeds(test_device(), Grid(8, 8), {{1, 1}});
   check_error([&] { random_step(seeds, -1, Border::reflect, 1, 1); }, {"displacement of at most -1"});
   check_error([&] { random_step(seeds, 1 << 16, Border::reflect, 1, 1); }, {"displacement of at most 65536"});
+  Seeds outside(test_device(), Grid(8, 8), {{1, 1}, {-1, 3}});
+  check_error([&] { random_step(outside, 1, Border::reflect, 1, 1); }, {"outside"});
+  Seeds far(test_device(), Grid(100000, 8), {{1, 1}});
+  check_error([&] { random_step(far, 1, Border::reflect, 1, 1); }, {"100000"});
+}
+
+// The numbers are those of pixels, whatever the unit of the data and the way that rows count.
+BOOST_AUTO_TEST_CASE(steps_are_in_pixels) {
+  const Grid pixels(80, 60, Periodic::x);
+  const Grid data(Axis(80, -1, 1).periodic(), Axis(60, 0, 30).reversed());
+  const std::vector<Pixel> from = random_pixels(pixels, 100, 1);
+  Seeds a(test_device(), pixels, centres(from));
+  Seeds b(test_device(), data,
+          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
+  BOOST_TEST(a.displacement() == 0);
+  random_step(a, 7, Border::reflect, 5, 1);
+  random_step(b, 7, Border::reflect, 5, 1);
+  BOOST_TEST(a.displacement() == 7);  // its bound
+  BOOST_TEST(b.displacement() == 7);
+  const auto moved_a = a.read_pixels(), moved_b = b.read_pixels(), points = b.read();
+  for (std::size_t id = 0; id < from.size(); ++id) {
+    BOOST_TEST((moved_a[id]->x == moved_b[id]->x && moved_a[id]->y == moved_b[id]->y));
+    const Point expected = data.point(*moved_a[id]);
+    BOOST_TEST((points[id]->x == expected.x && points[id]->y == expected.y));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(absent_seeds_stay_absent) {
   Seeds seeds(test_device(), Grid(50, 50), {{10, 10}, {20, 20}, {30, 30}});
-  seeds.move_to({Point{10, 10}, std::nullopt, Point{30, 30}});
+  seeds.move_to(std::vector<std::optional<Point>>{Point{10, 10}, std::nullopt, Point{30, 30}});
   BOOST_TEST(seeds.alive() == 2u);
   random_step(seeds, 5, Border::reflect, 1, 1);
   const std::vector<std::optional<Point>> points = seeds.read();

@@ -16,6 +16,15 @@ BOOST_AUTO_TEST_CASE(first_step_is_the_formula_of_the_paper) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_window_counts_and_not_its_grid) {
+  const Grid large(2000000000, 100);
+  BOOST_TEST(first_step(Window(large, 5, 7, 1000, 1)) == 512);
+  BOOST_TEST(to_string(jump_flooding_plan(Window(large, 0, 0, 8, 3))) == "4 2 1");
+  check_error([&] { first_step(large); }, {"2000000000"});
+  check_error([&] { jump_flooding_plan(Window(large, 0, 0, 32769, 1)); }, {"32769"});
+  check_error([&] { dynamic_jump_flooding_plan(Grid(1, 40000), 3, 0); }, {"40000"});
+}
+
 BOOST_AUTO_TEST_CASE(plans_of_the_variants) {
   const Grid grid(8, 8);
   BOOST_TEST(to_string(jump_flooding_plan(grid)) == "4 2 1");

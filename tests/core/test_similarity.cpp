@@ -6,7 +6,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "plane_brute_force.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 
@@ -23,8 +23,8 @@ BOOST_AUTO_TEST_CASE(the_device_counts_as_the_host_does) {
     Diagram a(test_device(), grid), b(test_device(), grid);
     jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 1))), a);
     jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 2))), b);
-    BOOST_TEST(similarity(a, b) == similarity(a.read(), b.read()));
-    BOOST_TEST(similarity(a, a) == 100.0);
+    BOOST_TEST(similarity_of(a, b) == similarity(a.read(), b.read()));
+    BOOST_TEST(similarity_of(a, a) == 100.0);
   }
 }
 
@@ -33,23 +33,28 @@ BOOST_AUTO_TEST_CASE(distances_that_differ_by_less_than_the_tolerance_are_equal)
   std::mt19937_64 rng(4);
   for (const Grid& grid : {Grid(40, 30), Grid(33, 41, Periodic::x), Grid(64, 20, Periodic::xy)}) {
     for (const std::int64_t reach : {0, 50, 2000000}) {
-      if (reach > 0 && grid.periodic() != Periodic::none) continue;
-      const std::vector<PlanePixel> points =
-          random_plane_pixels(-reach, -reach, grid.width() - 1 + reach, grid.height() - 1 + reach, 30, rng);
+      std::vector<Pixel> points;
+      std::uniform_int_distribution<std::int64_t> x(-reach, grid.width() - 1 + reach),
+          y(-reach, grid.height() - 1 + reach);
+      for (int i = 0; i < 30; ++i) {
+        const std::int64_t column = x(rng);
+        points.push_back({column, y(rng)});
+      }
       const Seeds seeds(test_device(), grid, centres(points));
       std::vector<std::uint32_t> labels_a(grid.pixels()), labels_b(grid.pixels());
       for (std::uint32_t& label : labels_a) label = static_cast<std::uint32_t>(rng() % 32);
       for (std::uint32_t& label : labels_b) label = static_cast<std::uint32_t>(rng() % 32);
       Diagram a(test_device(), grid), b(test_device(), grid);
-      a.write(labels_a);
-      b.write(labels_b);
-      const Domain domain = {0, 0, grid.width(), grid.height(), grid.periodic()};
+      SimilarityResult result;
       for (const Metric metric : both_metrics) {
+        a.write(labels_a, seeds, metric);
+        b.write(labels_b, seeds, metric);
         std::vector<double> apart;
         for (std::size_t i = 0; i < grid.pixels(); ++i) {
-          const PlanePixel at = {static_cast<int>(i) % grid.width(), static_cast<int>(i) / grid.width()};
+          const auto index = static_cast<std::int64_t>(i);
+          const Pixel at = {index % grid.width(), index / grid.width()};
           const auto length = [&](std::uint32_t label) {
-            const auto d = static_cast<double>(distance(domain, at, points[label], metric));
+            const auto d = static_cast<double>(distance(grid, at, in_period(grid, points[label]), metric));
             return metric == Metric::euclidean ? std::sqrt(d) : d;
           };
           const bool none_a = labels_a[i] >= 30, none_b = labels_b[i] >= 30;
@@ -61,22 +66,59 @@ BOOST_AUTO_TEST_CASE(distances_that_differ_by_less_than_the_tolerance_are_equal)
           const auto equal = std::count_if(apart.begin(), apart.end(),
                                            [&](double distance) { return distance <= tolerance; });
           const double expected = 100.0 * static_cast<double>(equal) / static_cast<double>(grid.pixels());
-          BOOST_TEST(similarity(seeds, a, b, tolerance, metric) == expected);
+          similarity(a, b, tolerance, result);
+          BOOST_TEST(result.read() == expected);
         }
       }
-      BOOST_TEST(similarity(seeds, a, a, 0) == 100.0);
+      similarity(a, a, 0, result);
+      BOOST_TEST(result.read() == 100.0);
     }
   }
 }
 
+BOOST_AUTO_TEST_CASE(pixels_that_differ_are_counted) {
+  const Grid grid(700, 300);
+  Diagram a(test_device(), grid), b(test_device(), grid);
+  std::vector<std::uint32_t> labels(grid.pixels());
+  std::mt19937 rng(3);
+  for (std::uint32_t& label : labels) label = static_cast<std::uint32_t>(rng() % 100);
+  a.write(labels);
+  b.write(labels);
+  SimilarityResult result;
+  BOOST_TEST(result.read_differences() == 0u);
+  BOOST_TEST(result.read() == 100.0);
+  BOOST_TEST((result.differences()() == nullptr));
+  similarity(a, b, result);
+  BOOST_TEST(result.read_differences() == 0u);
+  for (std::size_t i = 0; i < 12345; ++i) labels[17 * i] ^= 1;
+  b.write(labels);
+  similarity(a, b, result);
+  BOOST_TEST(result.read_differences() == 12345u);
+  BOOST_TEST(result.read() == 100.0 * (210000 - 12345) / 210000);
+  cl_uint on_the_device = 0;
+  BOOST_TEST_REQUIRE(test_device().queue().enqueueReadBuffer(result.differences(), CL_TRUE, 0, 4,
+                                                             &on_the_device) == CL_SUCCESS);
+  BOOST_TEST(on_the_device == 12345u);
+}
+
 BOOST_AUTO_TEST_CASE(diagrams_that_do_not_fit_together_are_refused) {
-  const Diagram a(test_device(), Grid(10, 20)), b(test_device(), Grid(20, 10));
-  check_error([&] { similarity(a, b); }, {"different grids"});
-  const Diagram c(Device::select(), Grid(10, 20));
-  check_error([&] { similarity(a, c); }, {"different devices"});
-  const Seeds seeds(test_device(), Grid(10, 20), {Point{1, 1}});
-  check_error([&] { similarity(seeds, a, b, 1); }, {"different grids"});
-  check_error([&] { similarity(seeds, b, b, 1); }, {"grid"});
-  check_error([&] { similarity(seeds, a, a, -0.1); }, {"tolerance", "-0.1"});
-  check_error([&] { similarity(seeds, a, a, std::nan("")); }, {"tolerance", "nan"});
+  const Grid grid(10, 20);
+  Diagram a(test_device(), grid), b(test_device(), Grid(20, 10)), c(Device::select(), grid);
+  SimilarityResult result;
+  check_error([&] { similarity(a, b, result); }, {"different windows"});
+  check_error([&] { similarity(a, c, result); }, {"different devices"});
+  check_error([&] { similarity(a, a, 1, result); }, {"seeds"});
+  Seeds seeds(test_device(), grid, {{1, 1}});
+  exact_diagram(seeds, a);
+  check_error([&] { similarity(a, b, 1, result); }, {"different windows"});
+  check_error([&] { similarity(a, a, -0.1, result); }, {"tolerance", "-0.1"});
+  check_error([&] { similarity(a, a, std::nan(""), result); }, {"tolerance", "nan"});
+  // Labels are compared all the same, but not distances.
+  Diagram other(test_device(), grid);
+  exact_diagram(seeds, other, {Metric::manhattan});
+  check_error([&] { similarity(a, other, 1, result); }, {"metric"});
+  seeds.move_to({{2, 2}});
+  exact_diagram(seeds, other);
+  check_error([&] { similarity(a, other, 1, result); }, {"frame"});
+  BOOST_TEST(similarity_of(a, other) == 100.0);
 }

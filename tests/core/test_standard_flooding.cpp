@@ -9,9 +9,9 @@ using namespace vorocl;
 
 namespace {
 
-int largest_chebyshev_distance(const Grid& grid, const std::vector<Pixel>& seeds,
-                               const std::vector<std::uint32_t>& labels) {
-  int largest = 0;
+std::int64_t largest_chebyshev_distance(const Grid& grid, const std::vector<Pixel>& seeds,
+                                        const std::vector<std::uint32_t>& labels) {
+  std::int64_t largest = 0;
   std::size_t i = 0;
   for (int y = 0; y < grid.height(); ++y) {
     for (int x = 0; x < grid.width(); ++x, ++i) {

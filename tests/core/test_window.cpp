@@ -1,10 +1,9 @@
-// Windows of a larger plane and of periodic domains: exact diagrams with seeds outside the grid, judged by
-// the diagram of the whole plane and by brute force over all images.
+// Windows of grids, periodic ones too: exact diagrams with seeds outside the window, judged by the diagram of
+// the whole grid and by brute force over all images.
 #define BOOST_TEST_MODULE window
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 
 #include "brute_force.hpp"
 #include "window_cases.hpp"
@@ -16,266 +15,262 @@ namespace {
 /// Many more cases, for minutes instead of seconds.
 const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
-/// One of those whose vectors fit in the grid's rows: for others kernels would be built anew.
-const Engine& engine_for(const Grid& grid, std::size_t number) {
-  while (engines()[number % engines().size()].device.tuning().vector_width > grid.width()) ++number;
+/// One of those whose vectors fit in the window's rows: for others kernels would be built anew.
+const Engine& engine_for(const Window& window, std::size_t number) {
+  while (engines()[number % engines().size()].device.tuning().vector_width > window.width()) ++number;
   return engines()[number % engines().size()];
 }
 
-Labels labels_of(const Engine& engine, const Seeds& seeds, Metric metric) {
-  Diagram diagram(engine.device, seeds.grid());
-  exact_diagram(seeds, diagram, {metric});
+Labels labels_of(const Engine& engine, const Window& window, const std::vector<Pixel>& seeds, Metric metric) {
+  Diagram diagram(engine.device, window);
+  exact_diagram(Seeds(engine.device, window.grid(), centres(seeds)), diagram, {metric});
   return diagram.read();
 }
 
-std::size_t count_differences(const Labels& a, const Labels& b) {
-  BOOST_REQUIRE(a.size() == b.size());
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differences += a[i] != b[i] ? 1 : 0;
-  return differences;
-}
-
-/// Holds every engine and metric against brute force.
-void check_against_brute_force(const Grid& grid, const Domain& domain, const std::vector<PlanePixel>& seeds,
-                               const Engine& engine, Metric metric) {
-  const Seeds made(engine.device, grid, centres(seeds), domain);
+void check_against_brute_force(const Window& window, const std::vector<Pixel>& seeds, const Engine& engine,
+                               Metric metric) {
   const std::size_t wrong =
-      count_differences(labels_of(engine, made, metric), brute_force(grid, domain, seeds, metric));
-  BOOST_TEST(wrong == 0u, text_of(grid, domain, seeds.size())
+      count_differences(labels_of(engine, window, seeds, metric), brute_force(window, seeds, metric));
+  BOOST_TEST(wrong == 0u, text_of(window, seeds.size())
                               << ", " << engine.name << ", " << name_of(metric) << ": " << wrong << " wrong");
 }
 
-/// All kinds of planes.
-std::vector<Pixel> seeds_of_plane(const Grid& plane, unsigned kind, unsigned rng_seed) {
-  const auto pixels = plane.pixels();
-  std::mt19937 rng(rng_seed);
-  std::vector<Pixel> seeds;
-  switch (kind) {
-    case 0:
-      return {};
-    case 1:
-      return random_pixels(plane, 1, rng_seed);
-    case 2:
-      return random_pixels(plane, 2 + rng_seed % 7, rng_seed);
-    case 3:
-      return random_pixels(plane, pixels / 1000, rng_seed);
-    case 4:
-      return random_pixels(plane, pixels / 20, rng_seed);
-    case 5: {  // clusters
-      std::normal_distribution<double> spread(0, plane.width() / 40.0);
-      for (const Pixel& middle : random_pixels(plane, 4, rng_seed)) {
-        for (int i = 0; i < 100; ++i) {
-          const Pixel at = {static_cast<int>(middle.x + spread(rng)),
-                            static_cast<int>(middle.y + spread(rng))};
-          if (at.x >= 0 && at.x < plane.width() && at.y >= 0 && at.y < plane.height()) seeds.push_back(at);
-        }
-      }
-      return seeds;
-    }
-    case 6:  // several on each pixel
-      for (int copy = 0; copy < 3; ++copy) {
-        for (const Pixel& pixel : random_pixels(plane, 30, rng_seed)) seeds.push_back(pixel);
-      }
-      return seeds;
-    case 7:  // in rows and columns, with many ties
-      for (int y = 0; y < plane.height(); y += 10) {
-        for (int x = 0; x < plane.width(); x += 10) seeds.push_back({x, y});
-      }
-      return seeds;
-    case 8:  // on the plane's border
-      for (int x = 0; x < plane.width(); x += 3) seeds.push_back({x, x % 2 == 0 ? 0 : plane.height() - 1});
-      return seeds;
-    default:  // on every pixel of a part
-      return every_pixel({plane.width() / 3, plane.height() / 3});
-  }
-}
-constexpr unsigned kinds_of_planes = 10;
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(windows_are_cut_out_of_the_plane) {
+BOOST_AUTO_TEST_CASE(windows_are_cut_out_of_the_grid) {
   const unsigned planes = long_tests ? 500 : 50, windows_of_plane = 20;
   std::mt19937 rng(5);
-  std::size_t with_outside = 0;
+  const auto below = [&](std::int64_t end) {
+    return static_cast<std::int64_t>(rng() % static_cast<unsigned>(end));
+  };
+  std::size_t parts = 0;
   for (unsigned number = 0; number < planes; ++number) {
-    const Grid plane(100 + static_cast<int>(rng() % 200), 100 + static_cast<int>(rng() % 200));
+    const std::int64_t width = 100 + below(200);
+    const Grid plane(width, 100 + below(200));
     const std::vector<Pixel> seeds = seeds_of_plane(plane, number % kinds_of_planes, number);
     const Metric metric = both_metrics[number / kinds_of_planes % 2];
     Diagram whole(test_device(), plane);
     exact_diagram(Seeds(test_device(), plane, centres(seeds)), whole, {metric});
     const Labels all = whole.read();
     for (unsigned i = 0; i < windows_of_plane; ++i) {
-      const int left = static_cast<int>(rng() % static_cast<unsigned>(plane.width()));
-      const int top = static_cast<int>(rng() % static_cast<unsigned>(plane.height()));
-      const Grid window(1 + static_cast<int>(rng() % static_cast<unsigned>(plane.width() - left)),
-                        1 + static_cast<int>(rng() % static_cast<unsigned>(plane.height() - top)));
-      const std::vector<Point> points = transformed(seeds, [&](const Pixel& seed) {
-        return centre({seed.x - left, seed.y - top});
-      });
+      const std::int64_t left = below(plane.width()), top = below(plane.height());
+      const std::int64_t columns = 1 + below(plane.width() - left);
+      const Window window(plane, left, top, columns, 1 + below(plane.height() - top));
       Labels cut;
-      for (int y = 0; y < window.height(); ++y) {
-        const auto row = all.begin() + std::ptrdiff_t{top + y} * plane.width() + left;
+      for (std::int64_t y = 0; y < window.height(); ++y) {
+        const auto row = all.begin() + (top + y) * plane.width() + left;
         cut.insert(cut.end(), row, row + window.width());
       }
       const Engine& engine = engine_for(window, rng());
-      const Seeds in_window(engine.device, window, points);
-      with_outside += in_window.outside() > 0 ? 1 : 0;
-      const std::size_t wrong = count_differences(labels_of(engine, in_window, metric), cut);
-      BOOST_TEST(wrong == 0u, "plane " << number << ", window " << i << ": " << window.width() << " x "
-                                       << window.height() << " at " << left << ", " << top << ", "
-                                       << engine.name << ": " << wrong << " wrong");
+      parts += window.is_whole() ? 0 : 1;
+      const std::size_t wrong = count_differences(labels_of(engine, window, seeds, metric), cut);
+      BOOST_TEST(wrong == 0u, "plane " << number << ", window " << i << ": " << text_of(window, seeds.size())
+                                       << ", " << engine.name << ": " << wrong << " wrong");
     }
   }
-  BOOST_TEST(with_outside > 15 * planes);
+  BOOST_TEST(parts > 15 * planes);
 }
 
 BOOST_AUTO_TEST_CASE(far_seeds) {
   std::mt19937_64 rng(6);
-  const Grid grid(70, 45);
-  for (const std::int64_t reach :
-       {std::int64_t{100}, std::int64_t{32600}, std::int64_t{32767}, std::int64_t{32768}, std::int64_t{40000},
-        std::int64_t{1} << 20, (std::int64_t{1} << 31) - 1 - 70}) {
-    for (unsigned number = 0; number < 20; ++number) {
-      const std::int64_t w = grid.width(), h = grid.height();
-      std::vector<PlanePixel> seeds;
-      if (number % 4 == 0) {  // around, none inside
-        seeds = random_plane_pixels(-reach, -reach, w + reach, h + reach, 50, rng);
-      } else if (number % 4 == 1) {  // some inside too
-        seeds = random_plane_pixels(-reach, -reach, w + reach, h + reach, 300, rng);
-        for (const PlanePixel& inside : random_plane_pixels(-5, -5, w, h, 3, rng)) seeds.push_back(inside);
-      } else if (number % 4 == 2) {  // as far as can be, on a line
-        for (int i = 0; i < 40; ++i)
-          seeds.push_back({w - 1 - reach + i / 20, h - reach + static_cast<int>(rng() % 30)});
-      } else {  // at nearly one distance from the middle
-        for (int i = 0; i < 400; ++i) {
-          const double angle = i * 0.0157, radius = static_cast<double>(reach) * 0.99;
-          seeds.push_back({w / 2 + std::llround(radius * std::cos(angle)),
-                           h / 2 + std::llround(radius * std::sin(angle))});
+  const Grid small(70, 45), large(Axis::max_pixels, Axis::max_pixels);
+  const std::int64_t half = Axis::max_pixels / 2;
+  for (const Window& window : {Window(small), Window(large, half, half, 70, 45)}) {
+    const std::int64_t most = window.is_whole() ? (std::int64_t{1} << 31) - 1 - 70 : half - 100;
+    for (const std::int64_t reach : {std::int64_t{100}, std::int64_t{32600}, std::int64_t{32767},
+                                     std::int64_t{32768}, std::int64_t{40000}, std::int64_t{1} << 20, most}) {
+      for (unsigned number = 0; number < 20; ++number) {
+        const std::int64_t w = window.width(), h = window.height();
+        std::vector<Pixel> seeds;
+        if (number % 4 == 0) {  // around, none inside
+          seeds = random_pixels_between({-reach, -reach}, {w + reach, h + reach}, 50, rng);
+        } else if (number % 4 == 1) {  // some inside too
+          seeds = random_pixels_between({-reach, -reach}, {w + reach, h + reach}, 300, rng);
+          for (const Pixel& inside : random_pixels_between({-5, -5}, {w, h}, 3, rng)) seeds.push_back(inside);
+        } else if (number % 4 == 2) {  // as far as can be, on a line
+          for (int i = 0; i < 40; ++i)
+            seeds.push_back({w - 1 - reach + i / 20, h - reach + static_cast<int>(rng() % 30)});
+        } else {  // at nearly one distance from the middle
+          for (int i = 0; i < 400; ++i) {
+            const double angle = i * 0.0157, radius = static_cast<double>(reach) * 0.99;
+            seeds.push_back({w / 2 + std::llround(radius * std::cos(angle)),
+                             h / 2 + std::llround(radius * std::sin(angle))});
+          }
         }
+        for (Pixel& seed : seeds) seed = {seed.x + window.x(), seed.y + window.y()};
+        check_against_brute_force(window, seeds, engines()[number % engines().size()],
+                                  both_metrics[number / 4 % 2]);
       }
-      check_against_brute_force(grid, {}, seeds, engines()[number % engines().size()],
-                                both_metrics[number / 4 % 2]);
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(zooms_into_periodic_domains) {
+// Windows that are a part of the period, cross its end, are as long as it from any pixel on, or longer.
+BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
   std::mt19937_64 rng(7);
-  const unsigned cases = long_tests ? 4000 : 400;
+  const unsigned cases = long_tests ? 6000 : 600;
+  std::size_t crossing = 0, whole = 0, longer = 0;
   for (unsigned number = 0; number < cases; ++number) {
-    const Grid grid(1 + static_cast<int>(rng() % 90), 1 + static_cast<int>(rng() % 90));
-    const auto side = [&] { return 1 + static_cast<std::int64_t>(rng() % (number % 3 == 0 ? 30 : 200)); };
-    const auto begin = [&] { return static_cast<std::int64_t>(rng() % 200) - 130; };
-    const Domain domain = {begin(), begin(), side(), side(), static_cast<Periodic>(1 + number % 3)};
+    const auto below = [&](std::int64_t end) {
+      return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
+    };
+    const auto side = [&] { return 1 + below(number % 3 == 0 ? 30 : 200); };
+    const std::int64_t columns = side();
+    const Grid grid(columns, side(), static_cast<Periodic>(1 + number % 3));
+    // Where a window begins along an axis, and how long it is.
+    const auto stretch = [&](const Axis& axis) -> std::pair<std::int64_t, std::int64_t> {
+      const std::int64_t most = std::min<std::int64_t>(axis.pixels(), 90);
+      if (!axis.is_periodic()) {
+        const std::int64_t length = 1 + below(most);
+        return {below(axis.pixels() - length + 1), length};
+      }
+      const std::int64_t length = number % 5 == 0  ? axis.pixels()
+                                  : number % 5 < 3 ? 1 + below(most)
+                                                   : 1 + below(150);
+      crossing += length < axis.pixels() ? 1 : 0;
+      whole += length == axis.pixels() ? 1 : 0;
+      longer += length > axis.pixels() ? 1 : 0;
+      return {below(600) - 300, length};
+    };
+    const auto [x, width] = stretch(grid.x());
+    const auto [y, height] = stretch(grid.y());
+    const Window window(grid, x, y, width, height);
     const std::size_t count = number % 7 == 0 ? 1 : number % 5 == 0 ? 400 : 1 + rng() % 40;
-    // Outside the domain too: they wrap.
-    const auto seeds = random_plane_pixels(domain.x - 100, domain.y - 100, domain.x + 2 * domain.width,
-                                           domain.y + 2 * domain.height, count, rng);
-    check_against_brute_force(grid, domain, seeds, engine_for(grid, number), both_metrics[number / 3 % 2]);
+    // Outside the grid too: along periodic axes they wrap.
+    const auto seeds = random_pixels_between({-100, -100}, {2 * grid.width(), 2 * grid.height()}, count, rng);
+    check_against_brute_force(window, seeds, engine_for(window, number), both_metrics[number / 3 % 2]);
   }
+  BOOST_TEST(crossing > cases / 3);
+  BOOST_TEST(whole > cases / 5);
+  BOOST_TEST(longer > cases / 8);
 }
 
 BOOST_AUTO_TEST_CASE(long_periods) {
   std::mt19937_64 rng(8);
-  const Grid grid(50, 40);
-  for (const std::int64_t period : {std::int64_t{60000}, std::int64_t{70001}, std::int64_t{1} << 31}) {
+  for (const std::int64_t period : {std::int64_t{60000}, std::int64_t{70001}, Axis::max_pixels}) {
     for (const Periodic axes : {Periodic::x, Periodic::y, Periodic::xy}) {
+      const Grid grid(period, period, axes);
+      const Window window(grid, has_x(axes) ? -25 : period / 2, has_y(axes) ? -20 : period / 2, 50, 40);
       for (const Engine& engine : engines()) {
-        const Domain domain = {-period / 2, -period / 2, period, period, axes};
-        const auto seeds =
-            random_plane_pixels(-period / 2, -period / 2, period / 2 - 1, period / 2 - 1, 60, rng);
-        check_against_brute_force(grid, domain, seeds, engine, Metric::euclidean);
-        check_against_brute_force(grid, domain, seeds, engine, Metric::manhattan);
+        const auto seeds = random_pixels_between({0, 0}, {period - 1, period - 1}, 60, rng);
+        check_against_brute_force(window, seeds, engine, Metric::euclidean);
+        check_against_brute_force(window, seeds, engine, Metric::manhattan);
       }
     }
   }
 }
 
-// The same plane said in two ways: the other one is a method of its own inside the engine.
-BOOST_AUTO_TEST_CASE(a_domain_of_the_grids_size_is_a_periodic_grid) {
+// One whole period is a torus, from whichever pixel it is shown: the labels of all spellings are the same,
+// though some of them are methods of their own inside the engine.
+BOOST_AUTO_TEST_CASE(all_spellings_of_a_torus) {
+  const std::int64_t w = 211, h = 130;
   for (const Periodic axes : {Periodic::x, Periodic::y, Periodic::xy}) {
     for (const std::size_t count : {1u, 5u, 100u, 3000u}) {
-      const Grid grid(211, 130), periodic(211, 130, axes);
-      const std::vector<Point> points = centres(random_pixels(grid, count, 9));
-      Diagram expected(test_device(), periodic);
-      exact_diagram(Seeds(test_device(), periodic, points), expected);
+      const Grid grid(w, h, axes);
+      const std::vector<Pixel> seeds = random_pixels(grid, count, 9);
+      const Labels expected = brute_force(grid, seeds, Metric::euclidean);
+      const auto check = [&](const Engine& engine, const Window& window, const std::vector<Point>& points) {
+        Diagram diagram(engine.device, window);
+        exact_diagram(Seeds(engine.device, window.grid(), points), diagram);
+        const Labels labels = diagram.read();
+        std::size_t wrong = 0, i = 0;
+        for (std::int64_t y = 0; y < window.height(); ++y) {
+          for (std::int64_t x = 0; x < window.width(); ++x, ++i) {
+            const auto pixel = shown_pixel(window, x, y);
+            const std::uint32_t label =
+                pixel ? expected[static_cast<std::size_t>(pixel->y * w + pixel->x)] : no_label;
+            wrong += labels[i] != label ? 1 : 0;
+          }
+        }
+        BOOST_TEST(wrong == 0u, text_of(window, count) << ", " << engine.name << ": " << wrong << " wrong");
+      };
+      const auto axis = [](std::int64_t pixels, bool periodic) {
+        const Axis in_data(pixels, -3, -3 + static_cast<double>(pixels) / 4);  // exact in binary
+        return periodic ? in_data.periodic() : in_data;
+      };
+      const Grid in_data(axis(w, has_x(axes)), axis(h, has_y(axes)));
+      const std::vector<Point> points = centres(seeds);
+      std::vector<Point> images, points_in_data;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const double periods = static_cast<double>(i % 5) - 2;
+        images.push_back({points[i].x + (has_x(axes) ? periods * static_cast<double>(w) : 0),
+                          points[i].y - (has_y(axes) ? periods * static_cast<double>(h) : 0)});
+        points_in_data.push_back(in_data.point(images.back()));
+      }
+      const std::int64_t left = has_x(axes) ? 150 : 0, top = has_y(axes) ? -30 : 0;
+      const std::int64_t more_x = has_x(axes) ? 60 : 0, more_y = has_y(axes) ? 50 : 0;
       for (const Engine& engine : engines()) {
-        const Seeds seeds(engine.device, grid, points, {0, 0, 211, 130, axes});
-        BOOST_TEST(count_differences(labels_of(engine, seeds, Metric::euclidean), expected.read()) == 0u);
+        check(engine, grid, points);
+        check(engine, grid, images);
+        check(engine, in_data, points_in_data);
+        check(engine, {grid, left, top, w, h}, points);
+        check(engine, {in_data, left, top, w, h}, points_in_data);
+        check(engine, {grid, -more_x / 2, -more_y / 2, w + more_x, h + more_y}, images);
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(seeds_know_where_they_lie) {
-  const Grid grid(20, 10);
-  Seeds seeds(test_device(), grid,
-              std::vector<std::optional<Point>>{Point{-0.5, 3}, std::nullopt, Point{20, 3}, Point{19.9, 3}});
+// Diagrams are of the frame that the seeds had, whatever window they show.
+BOOST_AUTO_TEST_CASE(frames_with_seeds_outside) {
+  const Grid grid(20, 10, Periodic::x);
+  Seeds seeds(test_device(), grid, {{-0.5, 13}, {5, 3}, {19.9, 3}});
   BOOST_TEST(seeds.alive() == 3u);
-  BOOST_TEST(seeds.outside() == 2u);
-  const auto read = seeds.read();
-  BOOST_TEST(read[0]->x == -0.5);
-  BOOST_TEST(!read[1].has_value());
-  BOOST_TEST(read[2]->x == 20.5);
-  BOOST_TEST(read[3]->x == 19.5);
-  const Seeds copy = seeds.clone();
-  Diagram of_copy(test_device(), grid), of_seeds(test_device(), grid);
-  const Domain domain = {-5, -5, 15, 15, Periodic::xy};
-  seeds.move_to(std::vector<Point>{{-6, 12}, {3, 3}}, domain);
   BOOST_TEST(seeds.outside() == 1u);
-  BOOST_TEST(seeds.read()[0]->x == 9.5);
-  BOOST_TEST(seeds.read()[0]->y == -2.5);
+  const Window window(grid, 15, 2, 9, 4);
+  const Seeds copy = seeds.clone();
+  Diagram of_copy(test_device(), window), of_seeds(test_device(), window), all(test_device(), grid);
+  seeds.move_to({{26, 12}, {3, 3}});
+  BOOST_TEST(seeds.read_pixels()[0]->x == 6.5);
+  BOOST_TEST(copy.outside() == 1u);
   exact_diagram(copy, of_copy);
   exact_diagram(seeds, of_seeds);
-  BOOST_TEST((of_copy.read() ==
-              brute_force(grid, {}, {{-1, 3}, {1000, 1000}, {20, 3}, {19, 3}}, Metric::euclidean)));
-  BOOST_TEST((of_seeds.read() == brute_force(grid, domain, {{9, -3}, {3, 3}}, Metric::euclidean)));
+  exact_diagram(seeds, all);
   seeds.move_to({{5, 5}});
   BOOST_TEST(seeds.outside() == 0u);
+  BOOST_TEST((of_copy.read() == brute_force(window, {{19, 13}, {5, 3}, {19, 3}}, Metric::euclidean)));
+  BOOST_TEST((of_seeds.read() == brute_force(window, {{6, 12}, {3, 3}}, Metric::euclidean)));
+  BOOST_TEST((all.read() == brute_force(grid, {{6, 12}, {3, 3}}, Metric::euclidean)));
   exact_diagram(seeds, of_seeds);
-  BOOST_TEST((of_seeds.read() == Labels(grid.pixels(), 0u)));
+  BOOST_TEST((of_seeds.read() == Labels(window.pixels(), 0u)));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
+BOOST_AUTO_TEST_CASE(points_that_are_too_far_away) {
   const Grid grid(20, 10);
-  const double side = 2147483648.0, nan = std::numeric_limits<double>::quiet_NaN();
+  const double side = 2147483648.0;
   const auto with = [&](Point bad) { Seeds(test_device(), grid, {Point{1, 1}, bad}); };
   BOOST_CHECK_NO_THROW(with({side - 1, 10 - side}));
   check_error([&] { with({side, 1}); }, {"point 1", "2147483648", "too far away", "2^31"});
   check_error([&] { with({1, 9 - side}); }, {"point 1", "too far away"});
-  check_error([&] { with({nan, 1}); }, {"point 1", "not finite"});
-  const Grid periodic(20, 10, Periodic::x);
-  check_error(
-      [&] {
-        Seeds(test_device(), periodic, {Point{1, 1}, Point{20, 1}});
-      },
-      {"point 1", "outside the grid"});
+  check_error([&] { with({std::nan(""), 1}); }, {"point 1", "not finite"});
+}
 
-  const std::vector<Point> points = {{1, 1}};
-  const auto in = [&](const Domain& domain) { Seeds(test_device(), grid, points, domain); };
-  check_error([&] { in({0, 0, 0, 5, Periodic::x}); }, {"domain's width is 0", "2^31"});
-  check_error([&] { in({0, 0, 5, (std::int64_t{1} << 31) + 1, Periodic::x}); }, {"domain's height", "2^31"});
-  check_error([&] { in({std::int64_t{1} << 31, 0, 5, 5, Periodic::x}); }, {"begins at x = 2147483648"});
-  check_error(
-      [&] {
-        Seeds(test_device(), Grid(20, 10, Periodic::x), points, Domain{0, 0, 5, 5, Periodic::x});
-      },
-      {"the grid is periodic", "domain"});
-
-  Seeds outside(test_device(), grid, {Point{1, 1}, Point{-1, 1}, Point{1, 99}});
-  Seeds in_domain(test_device(), grid, points, {0, 0, 20, 10, Periodic::x});
-  Diagram diagram(test_device(), grid);
+BOOST_AUTO_TEST_CASE(what_floods_cannot_take_is_refused) {
+  const Grid grid(20, 10), torus(20, 10, Periodic::xy), long_torus(32001, 10, Periodic::x);
+  Seeds outside(test_device(), grid, {{1, 1}, {-1, 1}, {1, 99}});
+  const Seeds inside(test_device(), grid, {{1, 1}}), on_torus(test_device(), torus, {{1, 1}}),
+      on_long_torus(test_device(), long_torus, {{1, 1}});
+  Diagram whole(test_device(), grid), part(test_device(), {grid, 0, 0, 20, 9}),
+      part_of_torus(test_device(), {torus, 3, 0, 10, 10}), turned(test_device(), {torus, 3, 0, 20, 10}),
+      longer(test_device(), {torus, 0, 0, 21, 10}), of_long_torus(test_device(), long_torus);
   for (const Method& method : methods()) {
-    if (method.outer_seeds) {
-      method.run(outside, diagram, 0, {});
-      method.run(in_domain, diagram, 0, {});
-    } else {
-      check_error([&] { method.run(outside, diagram, 0, {}); }, {"2 of 3 seeds lie outside", "exact"});
-      check_error([&] { method.run(in_domain, diagram, 0, {}); }, {"periodic domain", "exact"});
+    if (method.windows) {
+      method.run(outside, whole, {});
+      for (Diagram* const diagram : {&part_of_torus, &turned, &longer}) method.run(on_torus, *diagram, {});
+      method.run(inside, part, {});
+      method.run(on_long_torus, of_long_torus, {});
+      continue;
     }
+    check_error([&] { method.run(outside, whole, {}); }, {"2 of 3 seeds lie outside", "exact"});
+    check_error([&] { method.run(inside, part, {}); }, {"window", "exact"});
+    for (Diagram* const diagram : {&part_of_torus, &turned, &longer})
+      check_error([&] { method.run(on_torus, *diagram, {}); }, {"window", "exact"});
+    check_error([&] { method.run(on_long_torus, of_long_torus, {}); }, {"32,000", "exact"});
+    method.run(inside, whole, {});
   }
   check_error([&] { random_step(outside, 1, Border::reflect, 1, 1); },
               {"2 of 3 seeds lie outside", "random motion"});
-  check_error([&] { relax(outside, diagram, engine(method("exact")), 1); }, {"2 of 3", "Lloyd relaxation"});
-  check_error([&] { energy(outside, diagram); }, {"2 of 3", "energy"});
+  check_error([&] { relax(outside, whole, engine(method("exact")), 1); }, {"2 of 3", "Lloyd relaxation"});
+  exact_diagram(outside, whole);
+  check_error([&] { energy(whole); }, {"2 of 3", "energy"});
 }

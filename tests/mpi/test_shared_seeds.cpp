@@ -39,24 +39,25 @@ void add_slice(SharedSeeds& seeds, const std::vector<Pixel>& pixels, bool shuffl
     const std::size_t owner = shuffled ? id % static_cast<std::size_t>(ranks())
                                        : id * static_cast<std::size_t>(ranks()) / pixels.size();
     if (owner != static_cast<std::size_t>(rank())) continue;
-    const PlaneSeed seed = {pixels[id].x, pixels[id].y, static_cast<std::uint32_t>(id)};
+    const PlaneSeed seed = {static_cast<std::int32_t>(pixels[id].x), static_cast<std::int32_t>(pixels[id].y),
+                            static_cast<std::uint32_t>(id)};
     seeds.add(&seed, 1);
   }
 }
 
 /// The labels that all ranks make together, on all of them.
 std::vector<std::uint32_t> labels_of(const SharedSeeds& seeds, const Grid& grid, int side, Metric metric) {
-  const Tiling tiling(seeds.plane(), side);
+  const Tiling tiling(seeds.grid(), side);
   TileCounter counter(MPI_COMM_WORLD, seeds, tiling);
   // A label is written by one rank; pixels of none would be 0 here, and so would those of two be wrong.
   std::vector<std::uint32_t> own(grid.pixels(), 0), all(grid.pixels());
   std::uint64_t made = 0, made_by_all = 0;
   const auto use = [&](const TileLabels& tile) {
     ++made;
-    for (int y = 0; y < tile.tile.height; ++y) {
-      for (int x = 0; x < tile.tile.width; ++x) {
-        own[static_cast<std::size_t>((tile.tile.y + y) * grid.width() + tile.tile.x + x)] =
-            tile.labels[y * tile.tile.width + x] + 1;
+    for (std::int64_t y = 0; y < tile.tile.height(); ++y) {
+      for (std::int64_t x = 0; x < tile.tile.width(); ++x) {
+        own[static_cast<std::size_t>((tile.tile.y() + y) * grid.width() + tile.tile.x() + x)] =
+            tile.labels[y * tile.tile.width() + x] + 1;
       }
     }
   };
@@ -71,7 +72,9 @@ std::vector<std::uint32_t> labels_of(const SharedSeeds& seeds, const Grid& grid,
 std::vector<Pixel> cluster(const Grid& grid, std::size_t count, unsigned rng_seed) {
   std::mt19937 rng(rng_seed);
   std::vector<Pixel> pixels;
-  const auto around = [&](int middle) { return middle - 20 + static_cast<int>(rng() % 40); };
+  const auto around = [&](std::int64_t middle) {
+    return static_cast<int>(middle) - 20 + static_cast<int>(rng() % 40);
+  };
   for (std::size_t i = 0; i < count; ++i) {
     pixels.push_back({around(grid.width() / 3), around(grid.height() / 4)});
   }
@@ -84,22 +87,23 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
   for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
     const Grid grids[] = {{300, 210, axes}, {997, 503, axes}, {1, 700, axes}};
     for (const Grid& grid : grids) {
-      const std::vector<Pixel> planes[] = {{},
-                                           {{grid.width() / 2, grid.height() / 2}},
-                                           random_pixels(grid, 3, 1),
-                                           random_pixels(grid, 20000, 2),
-                                           random_pixels(grid, 300, 3),
-                                           cluster({300, 300}, grid.width() > 1 ? 5000 : 0, 4)};
+      const std::vector<Pixel> planes[] = {
+          {},
+          {{static_cast<int>(grid.width() / 2), static_cast<int>(grid.height() / 2)}},
+          random_pixels(grid, 3, 1),
+          random_pixels(grid, 20000, 2),
+          random_pixels(grid, 300, 3),
+          cluster({300, 300}, grid.width() > 1 ? 5000 : 0, 4)};
       for (const std::vector<Pixel>& pixels : planes) {
         const Metric metric = pixels.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
         Diagram diagram(test_device(), grid);
         exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram, {metric});
         const std::vector<std::uint32_t> expected = diagram.read();
-        SharedSeeds seeds(MPI_COMM_WORLD, {grid.width(), grid.height(), axes});
+        SharedSeeds seeds(MPI_COMM_WORLD, grid);
         add_slice(seeds, pixels, grid.width() == 300);
         seeds.share();
         BOOST_TEST(seeds.size() == pixels.size());
-        BOOST_TEST(seeds.ids() == pixels.size());
+        BOOST_TEST(seeds.id_end() == pixels.size());
         std::size_t wrong = 0;
         const std::vector<std::uint32_t> labels = labels_of(seeds, grid, 128, metric);
         for (std::size_t i = 0; i < labels.size(); ++i) wrong += labels[i] != expected[i] ? 1 : 0;
@@ -113,7 +117,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
 BOOST_AUTO_TEST_CASE(each_rank_holds_as_many) {
   const Grid grid(4000, 4000);
   for (const bool clustered : {false, true}) {
-    SharedSeeds seeds(MPI_COMM_WORLD, {grid.width(), grid.height()});
+    SharedSeeds seeds(MPI_COMM_WORLD, grid);
     std::vector<Pixel> pixels = random_pixels(clustered ? Grid(700, 700) : grid, 200000, 6);
     add_slice(seeds, pixels, false);
     seeds.share();
@@ -122,9 +126,10 @@ BOOST_AUTO_TEST_CASE(each_rank_holds_as_many) {
 }
 
 BOOST_AUTO_TEST_CASE(an_error_of_one_rank_is_one_of_all) {
-  SharedSeeds seeds(MPI_COMM_WORLD, {100, 100});
+  const Grid grid(100, 100);
+  SharedSeeds seeds(MPI_COMM_WORLD, grid);
   std::vector<PlaneSeed> near;
-  check_error([&] { seeds.find_near({0, 0, 9, 9}, Metric::euclidean, near); }, {"share()"});
+  check_error([&] { seeds.find_near(Window(grid, 0, 0, 9, 9), Metric::euclidean, near); }, {"share()"});
   seeds.share();
   const PlaneSeed seed = {1, 1, 0};
   check_error([&] { seeds.add(&seed, 1); }, {"shared out already"});

@@ -11,8 +11,9 @@ using namespace vorocl;
 BOOST_AUTO_TEST_CASE(jump_flooding_against_opencv) {
   const Grid grid(1000, 700);
   const auto seeds = random_pixels(grid, 3000, 9);
-  cv::Mat free(grid.height(), grid.width(), CV_8U, cv::Scalar(255)), expected;
-  for (const Pixel& seed : seeds) free.at<std::uint8_t>(seed.y, seed.x) = 0;
+  cv::Mat free(700, 1000, CV_8U, cv::Scalar(255)), expected;
+  for (const Pixel& seed : seeds)
+    free.at<std::uint8_t>(static_cast<int>(seed.y), static_cast<int>(seed.x)) = 0;
   cv::distanceTransform(free, expected, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   Diagram diagram(test_device(), grid);
   jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);

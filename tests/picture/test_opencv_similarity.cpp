@@ -4,6 +4,7 @@
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
+#include "read_measures.hpp"
 #include "vorocl/picture.hpp"
 
 using namespace vorocl;
@@ -12,8 +13,8 @@ namespace {
 
 /// Pixels that match, in percent. OpenCV compares no uint32: of int32 equal bits are equal.
 double by_opencv(std::vector<std::uint32_t> a, std::vector<std::uint32_t> b, const Grid& grid) {
-  const cv::Mat first(grid.height(), grid.width(), CV_32S, a.data());
-  const cv::Mat second(grid.height(), grid.width(), CV_32S, b.data());
+  const auto width = static_cast<int>(grid.width()), height = static_cast<int>(grid.height());
+  const cv::Mat first(height, width, CV_32S, a.data()), second(height, width, CV_32S, b.data());
   cv::Mat equal;
   cv::compare(first, second, equal, cv::CMP_EQ);
   return 100.0 * cv::countNonZero(equal) / static_cast<double>(grid.pixels());
@@ -36,11 +37,11 @@ BOOST_AUTO_TEST_CASE(opencv_finds_the_same_similarity) {
     Seeds seeds = Seeds::random(test_device(), grid, grid.pixels() / 20 + 1, 1);
     Diagram dynamic(test_device(), grid), jfa(test_device(), grid);
     for (std::uint32_t frame = 0; frame < 4; ++frame) {
-      dynamic_jump_flooding(seeds, dynamic, 5);
+      dynamic_jump_flooding(seeds, dynamic);
       jump_flooding(seeds, jfa);
       const std::vector<std::uint32_t> a = dynamic.read(), b = jfa.read();
       const double expected = by_opencv(a, b, grid);
-      BOOST_TEST(similarity(dynamic, jfa) == expected, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(similarity_of(dynamic, jfa) == expected, boost::test_tools::tolerance(1e-12));
       BOOST_TEST(similarity(a, b) == expected, boost::test_tools::tolerance(1e-12));
       random_step(seeds, 5, Border::reflect, 2, frame);
     }
@@ -56,7 +57,7 @@ BOOST_AUTO_TEST_CASE(so_do_the_pixels_of_two_pictures) {
   exact_diagram(seeds, euclidean);
   exact_diagram(seeds, manhattan, {Metric::manhattan});
   const std::vector<std::uint32_t> a = euclidean.read(), b = manhattan.read();
-  const double labels = similarity(euclidean, manhattan),
+  const double labels = similarity_of(euclidean, manhattan),
                colours = by_colour(color_by_id(a, grid), color_by_id(b, grid));
   BOOST_TEST(labels < 95);
   BOOST_TEST(labels > 80);

@@ -2,6 +2,7 @@
 // host.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -15,12 +16,17 @@
 
 namespace vorocl {
 
+using Labels = std::vector<std::uint32_t>;
+
+/// A pixel of a grid or beside it, counted from the grid's first one.
 struct Pixel {
-  int x, y;
+  std::int64_t x, y;
   friend bool operator<(const Pixel& a, const Pixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
 };
 
-inline Point centre(const Pixel& pixel) { return {pixel.x + 0.5, pixel.y + 0.5}; }
+inline Point centre(const Pixel& pixel) {
+  return {static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5};
+}
 
 inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
   return transformed(pixels, [](const Pixel& pixel) { return centre(pixel); });
@@ -28,7 +34,8 @@ inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
 
 inline std::vector<Pixel> pixels_of(const std::vector<Point>& points) {
   return transformed(points, [](const Point& point) {
-    return Pixel{static_cast<int>(std::floor(point.x)), static_cast<int>(std::floor(point.y))};
+    return Pixel{static_cast<std::int64_t>(std::floor(point.x)),
+                 static_cast<std::int64_t>(std::floor(point.y))};
   });
 }
 
@@ -37,12 +44,12 @@ inline std::int64_t distance(const Pixel& a, const Pixel& b, Metric metric) {
   return metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
 }
 
-/// Of the images of a coordinate along an axis the one nearest to another one; of two the one behind it.
-inline int nearest_image(int at, int to, int size, bool periodic) {
-  int nearest = at;
-  if (periodic) {
-    for (const int image : {at - size, at + size}) {
-      const int nearer = std::abs(nearest - to) - std::abs(image - to);
+/// Of the images of a coordinate in a period the one nearest to another one there; of two the one behind it.
+inline std::int64_t nearest_image(std::int64_t at, std::int64_t to, const Axis& axis) {
+  std::int64_t nearest = at;
+  if (axis.is_periodic()) {
+    for (const std::int64_t image : {at - axis.pixels(), at + axis.pixels()}) {
+      const std::int64_t nearer = std::abs(nearest - to) - std::abs(image - to);
       if (nearer > 0 || (nearer == 0 && image > nearest)) nearest = image;
     }
   }
@@ -50,38 +57,56 @@ inline int nearest_image(int at, int to, int size, bool periodic) {
 }
 
 inline Pixel nearest_image(const Grid& grid, const Pixel& pixel, const Pixel& to) {
-  return {nearest_image(pixel.x, to.x, grid.width(), grid.periodic_x()),
-          nearest_image(pixel.y, to.y, grid.height(), grid.periodic_y())};
+  return {nearest_image(pixel.x, to.x, grid.x()), nearest_image(pixel.y, to.y, grid.y())};
 }
 
-/// The distance in a grid, which may be periodic.
+/// The distance in a grid, which may be periodic: along such an axis both lie in the period.
 inline std::int64_t distance(const Grid& grid, const Pixel& a, const Pixel& b, Metric metric) {
   return distance(nearest_image(grid, a, b), b, metric);
 }
 
+/// The pixel that one is an image of along the periodic axes.
+inline Pixel in_period(const Grid& grid, const Pixel& pixel) {
+  const auto along = [](std::int64_t at, const Axis& axis) {
+    return axis.is_periodic() ? (at % axis.pixels() + axis.pixels()) % axis.pixels() : at;
+  };
+  return {along(pixel.x, grid.x()), along(pixel.y, grid.y())};
+}
+
 /// The pixel of the grid that one outside is an image of, if there is one.
 inline std::optional<Pixel> in_grid(const Grid& grid, const Pixel& pixel) {
-  const auto along = [](int at, int size, bool periodic) {
-    return periodic ? (at % size + size) % size : at;
-  };
-  const Pixel own = {along(pixel.x, grid.width(), grid.periodic_x()),
-                     along(pixel.y, grid.height(), grid.periodic_y())};
+  const Pixel own = in_period(grid, pixel);
   const bool inside = own.x >= 0 && own.x < grid.width() && own.y >= 0 && own.y < grid.height();
   return inside ? std::optional<Pixel>(own) : std::nullopt;
 }
 
-/// The labels of the exact diagram with the tie rule: the least distance, then the first seed in row-major
-/// order of position, then the lowest id.
-inline std::vector<std::uint32_t> brute_force(const Grid& grid, const std::vector<Pixel>& seeds,
-                                              Metric metric) {
-  std::vector<std::uint32_t> labels;
-  labels.reserve(grid.pixels());
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) {
+/// The grid's pixel that a window shows in a column and row of its own: none beside the period, if the
+/// window is longer than it.
+inline std::optional<Pixel> shown_pixel(const Window& window, std::int64_t column, std::int64_t row) {
+  const Grid& grid = window.grid();
+  const Pixel at = {window.x() + column, window.y() + row};
+  const auto beside = [](std::int64_t length, std::int64_t pixel, const Axis& axis) {
+    return axis.is_periodic() && length > axis.pixels() && (pixel < 0 || pixel >= axis.pixels());
+  };
+  if (beside(window.width(), at.x, grid.x()) || beside(window.height(), at.y, grid.y())) return std::nullopt;
+  return in_grid(grid, at);
+}
+
+/// The labels of a window of the exact diagram with the tie rule: the least distance, then the first seed in
+/// row-major order of position in the grid, then the lowest id. Along periodic axes seeds may lie outside the
+/// period.
+inline Labels brute_force(const Window& window, std::vector<Pixel> seeds, Metric metric) {
+  const Grid& grid = window.grid();
+  for (Pixel& seed : seeds) seed = in_period(grid, seed);
+  Labels labels;
+  labels.reserve(window.pixels());
+  for (std::int64_t y = 0; y < window.height(); ++y) {
+    for (std::int64_t x = 0; x < window.width(); ++x) {
       std::uint32_t best = no_label;
       std::int64_t least = 0;
-      for (std::uint32_t id = 0; id < seeds.size(); ++id) {
-        const std::int64_t d = distance(grid, {x, y}, seeds[id], metric);
+      const std::optional<Pixel> pixel = shown_pixel(window, x, y);
+      for (std::uint32_t id = 0; pixel && id < seeds.size(); ++id) {
+        const std::int64_t d = distance(grid, *pixel, seeds[id], metric);
         if (best == no_label || d < least || (d == least && seeds[id] < seeds[best])) {
           best = id;
           least = d;
@@ -93,6 +118,13 @@ inline std::vector<std::uint32_t> brute_force(const Grid& grid, const std::vecto
   return labels;
 }
 
+/// In how many pixels two label images differ: in all, if their sizes do.
+inline std::size_t count_differences(const Labels& a, const Labels& b) {
+  std::size_t differences = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differences += a[i] != b[i] ? 1 : 0;
+  return differences;
+}
+
 /// How labels stand to the true ones.
 struct Verdict {
   std::size_t unlabelled = 0;  // pixels without a label where the ground truth has one
@@ -102,13 +134,12 @@ struct Verdict {
       0;  // labels of seeds nearer than the ground truth's: the ground truth would be wrong
 };
 
-inline Verdict judge(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric,
-                     const std::vector<std::uint32_t>& labels,
-                     const std::vector<std::uint32_t>& ground_truth) {
+inline Verdict judge(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric, const Labels& labels,
+                     const Labels& ground_truth) {
   Verdict verdict;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
-    const Pixel pixel = {static_cast<int>(i % static_cast<std::size_t>(grid.width())),
-                         static_cast<int>(i / static_cast<std::size_t>(grid.width()))};
+    const Pixel pixel = {static_cast<std::int64_t>(i) % grid.width(),
+                         static_cast<std::int64_t>(i) / grid.width()};
     if (labels[i] == no_label) {
       verdict.unlabelled += ground_truth[i] != no_label ? 1 : 0;
     } else if (labels[i] >= seeds.size()) {
@@ -127,8 +158,8 @@ inline std::vector<Pixel> random_pixels(const Grid& grid, std::size_t count, uns
   std::mt19937 rng(rng_seed);
   std::vector<Pixel> pixels;
   for (std::size_t i = 0; i < count; ++i) {
-    const int x = static_cast<int>(rng() % static_cast<unsigned>(grid.width()));
-    const int y = static_cast<int>(rng() % static_cast<unsigned>(grid.height()));
+    const auto x = static_cast<std::int64_t>(rng() % static_cast<unsigned>(grid.width()));
+    const auto y = static_cast<std::int64_t>(rng() % static_cast<unsigned>(grid.height()));
     pixels.push_back({x, y});
   }
   return pixels;
@@ -136,8 +167,8 @@ inline std::vector<Pixel> random_pixels(const Grid& grid, std::size_t count, uns
 
 inline std::vector<Pixel> every_pixel(const Grid& grid) {
   std::vector<Pixel> pixels;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x) pixels.push_back({x, y});
+  for (std::int64_t y = 0; y < grid.height(); ++y) {
+    for (std::int64_t x = 0; x < grid.width(); ++x) pixels.push_back({x, y});
   }
   return pixels;
 }
@@ -152,14 +183,14 @@ struct Case {
 inline std::vector<Case> cases_on(const std::vector<Grid>& grids) {
   std::vector<Case> cases;
   for (const Grid& grid : grids) {
-    const int right = grid.width() - 1, bottom = grid.height() - 1;
+    const std::int64_t right = grid.width() - 1, bottom = grid.height() - 1;
     constexpr const char* periodic[] = {" ", " periodic in x ", " periodic in y ", " periodic "};
     const std::string size = std::to_string(grid.width()) + "x" + std::to_string(grid.height()) +
                              periodic[static_cast<int>(grid.periodic())];
     const Pixel middle = {grid.width() / 2, grid.height() / 2};
     std::vector<Pixel> row, diagonal;
-    for (int x = 0; x <= right; x += 2) row.push_back({x, bottom / 2});
-    for (int i = 0; i <= right && i <= bottom; ++i) diagonal.push_back({i, i});
+    for (std::int64_t x = 0; x <= right; x += 2) row.push_back({x, bottom / 2});
+    for (std::int64_t i = 0; i <= right && i <= bottom; ++i) diagonal.push_back({i, i});
     cases.push_back({size + "no seeds", grid, {}});
     cases.push_back({size + "one seed", grid, {middle}});
     cases.push_back({size + "two seeds", grid, {{right, 0}, {0, bottom}}});

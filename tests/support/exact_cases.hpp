@@ -13,8 +13,6 @@
 
 namespace vorocl {
 
-using Labels = std::vector<std::uint32_t>;
-
 /// Many more and larger cases, for minutes instead of seconds.
 inline const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
@@ -33,15 +31,9 @@ inline Labels exact_labels(const Device& device, const Grid& grid, const std::ve
   return diagram.read();
 }
 
-inline std::size_t count_differences(const Labels& a, const Labels& b) {
-  std::size_t differences = a.size() == b.size() ? 0 : std::max(a.size(), b.size());
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) differences += a[i] != b[i] ? 1 : 0;
-  return differences;
-}
-
 /// Sets that starve some bins of seeds and flood others.
 inline std::vector<Case> hurtful_cases(const Grid& grid) {
-  const int w = grid.width(), h = grid.height();
+  const int w = static_cast<int>(grid.width()), h = static_cast<int>(grid.height());
   std::vector<Pixel> clusters, corner, row, column, diagonal, ring, checkers, blocks, stacked, patches;
   std::mt19937 rng(11);
   std::normal_distribution<double> spread(0, w / 100.0);
@@ -51,7 +43,8 @@ inline std::vector<Case> hurtful_cases(const Grid& grid) {
   const auto middles = random_pixels(grid, 5, 12);
   for (std::size_t i = 0; i < grid.pixels() / 256; ++i) {
     const Pixel& middle = middles[i % middles.size()];
-    clusters.push_back({inside(middle.x + spread(rng), w), inside(middle.y + spread(rng), h)});
+    clusters.push_back(
+        {inside(centre(middle).x + spread(rng), w), inside(centre(middle).y + spread(rng), h)});
   }
   corner = random_pixels({w / 16, h / 16}, grid.pixels() / 256, 13);
   for (int x = 0; x < w; ++x) row.push_back({x, h / 3});

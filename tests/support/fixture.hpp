@@ -43,10 +43,15 @@ struct FinishAtEnd {
 };
 BOOST_TEST_GLOBAL_FIXTURE(FinishAtEnd);
 
-/// The points of seeds that are all present.
-inline std::vector<Point> points_of(const Seeds& seeds) {
-  return transformed(seeds.read(), [](const std::optional<Point>& point) { return point.value(); });
+inline std::vector<Point> all_of(const std::vector<std::optional<Point>>& points) {
+  return transformed(points, [](const std::optional<Point>& point) { return point.value(); });
 }
+
+/// The points of seeds that are all present.
+inline std::vector<Point> points_of(const Seeds& seeds) { return all_of(seeds.read()); }
+
+/// The centres of their pixels.
+inline std::vector<Point> centres_of(const Seeds& seeds) { return all_of(seeds.read_pixels()); }
 
 /// Checks that an Error is thrown whose text holds all of these parts.
 template <typename Function>

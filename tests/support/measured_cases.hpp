@@ -21,7 +21,7 @@ inline std::vector<Pixel> clusters(const Grid& grid, std::size_t count) {
   std::vector<Pixel> pixels;
   while (pixels.size() < count) {
     const Pixel& middle = middles[rng() % middles.size()];
-    int x = middle.x, y = middle.y;
+    std::int64_t x = middle.x, y = middle.y;
     for (int i = 0; i < 4; ++i) x += static_cast<int>(rng() % 13) - 6, y += static_cast<int>(rng() % 13) - 6;
     if (x >= 0 && x < grid.width() && y >= 0 && y < grid.height()) pixels.push_back({x, y});
   }
@@ -53,13 +53,6 @@ inline std::vector<Device> shapes() {
   return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
 }
 
-/// Gives a diagram labels that no engine would make.
-inline void write_labels(Diagram& diagram, const std::vector<std::uint32_t>& labels) {
-  BOOST_TEST_REQUIRE(labels.size() == diagram.grid().pixels());
-  BOOST_TEST_REQUIRE(diagram.device().queue().enqueueWriteBuffer(
-                         diagram.labels(), CL_TRUE, 0, labels.size() * 4, labels.data()) == CL_SUCCESS);
-}
-
 /// Labels at random, some of which name no seed: cells in many pieces.
 inline std::vector<std::uint32_t> random_labels(const Grid& grid, std::uint32_t cells, unsigned rng_seed) {
   std::mt19937 rng(rng_seed);
@@ -82,7 +75,8 @@ void each_pixel(const Grid& grid, const std::vector<std::uint32_t>& labels, Visi
   }
 }
 
-inline std::uint32_t label_at(const Grid& grid, const std::vector<std::uint32_t>& labels, int x, int y) {
+inline std::uint32_t label_at(const Grid& grid, const std::vector<std::uint32_t>& labels, std::int64_t x,
+                              std::int64_t y) {
   return labels[static_cast<std::size_t>(y) * static_cast<std::size_t>(grid.width()) +
                 static_cast<std::size_t>(x)];
 }

@@ -1,29 +1,30 @@
-// The labels of a plane's tiles as one image.
+// The labels of a grid's tiles as one image.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "brute_force.hpp"
 #include "fixture.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
 
-using Labels = std::vector<std::uint32_t>;
-
-/// The labels of all tiles, as one image of the tiling's part.
+/// The labels of all tiles, as one image of the tiling's window.
 class Image {
  public:
   explicit Image(const Tiling& tiling)
-      : part_(tiling.part()),
-        labels(static_cast<std::size_t>(part_.width * part_.height), no_label - 1),
+      : window_(tiling.window()),
+        labels(window_.pixels(), no_label - 1),
         times_(static_cast<std::size_t>(tiling.count()), 0) {}
 
   void add(const TileLabels& tile) {
     ++times_[static_cast<std::size_t>(tile.number)];
-    for (int y = 0; y < tile.tile.height; ++y) {
-      const std::int64_t to = (tile.tile.y + y - part_.y) * part_.width + tile.tile.x - part_.x;
-      std::copy_n(tile.labels + std::ptrdiff_t{y} * tile.tile.width, tile.tile.width, labels.begin() + to);
+    const Grid& grid = window_.grid();
+    const Pixel first = in_period(grid, {tile.tile.x() - window_.x(), tile.tile.y() - window_.y()});
+    for (std::int64_t y = 0; y < tile.tile.height(); ++y) {
+      const std::int64_t to = (first.y + y) * window_.width() + first.x;
+      std::copy_n(tile.labels + y * tile.tile.width(), tile.tile.width(), labels.begin() + to);
     }
   }
 
@@ -32,7 +33,7 @@ class Image {
   }
 
  private:
-  PlaneRectangle part_;
+  Window window_;
 
  public:
   Labels labels;
@@ -48,14 +49,5 @@ inline Labels labels_of(const PlaneSeeds& seeds, const Tiling& tiling, const Til
   BOOST_TEST(image.each_tile_once());
   return image.labels;
 }
-
-inline std::size_t count_differences(const Labels& a, const Labels& b) {
-  BOOST_REQUIRE(a.size() == b.size());
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differences += a[i] != b[i] ? 1 : 0;
-  return differences;
-}
-
-/// Seeds in a disc.
 
 }  // namespace vorocl

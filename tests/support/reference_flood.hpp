@@ -24,9 +24,8 @@ inline bool preferred(const Grid& grid, std::uint32_t a, std::uint32_t b, const 
 inline std::vector<std::uint32_t> reference_flood(const Grid& grid, const std::vector<Pixel>& seeds,
                                                   const Plan& plan, Metric metric,
                                                   std::vector<std::uint32_t> labels = {}) {
-  const int width = grid.width(), height = grid.height();
-  const auto at = [&](int x, int y) {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  const auto at = [&](std::int64_t x, std::int64_t y) {
+    return static_cast<std::size_t>(y * grid.width() + x);
   };
   labels.resize(grid.pixels(), no_label);
   for (std::uint32_t id = 0; id < seeds.size(); ++id) {
@@ -35,8 +34,8 @@ inline std::vector<std::uint32_t> reference_flood(const Grid& grid, const std::v
   }
   for (const Wave& wave : plan) {
     const std::vector<std::uint32_t> before = labels;
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
+    for (std::int64_t y = 0; y < grid.height(); ++y) {
+      for (std::int64_t x = 0; x < grid.width(); ++x) {
         std::uint32_t& label = labels[at(x, y)];
         for (int dy = -1; dy <= 1; ++dy) {
           for (int dx = -1; dx <= 1; ++dx) {

@@ -14,8 +14,11 @@ namespace vorocl {
 
 /// The pixel of a point (x in 0 to width, y in 0 to height, or a little outside).
 inline Pixel pixel_in(const Grid& grid, double x, double y, double width, double height) {
-  return {std::clamp(static_cast<int>(x * grid.width() / width), 0, grid.width() - 1),
-          std::clamp(static_cast<int>(y * grid.height() / height), 0, grid.height() - 1)};
+  const auto along = [](double at, double extent, std::int64_t pixels) {
+    return std::clamp<std::int64_t>(static_cast<int>(at * static_cast<double>(pixels) / extent), 0,
+                                    pixels - 1);
+  };
+  return {along(x, width, grid.width()), along(y, height, grid.height())};
 }
 
 /// The world's cities, from degrees (x in 0 to 360, y in 0 to 180) to the grid.

@@ -30,8 +30,8 @@ class SeedTree {
     std::vector<std::uint32_t> labels;
     labels.reserve(grid.pixels());
     Nearest found;
-    for (int y = 0; y < grid.height(); ++y) {
-      for (int x = 0; x < grid.width(); ++x) {
+    for (std::int64_t y = 0; y < grid.height(); ++y) {
+      for (std::int64_t x = 0; x < grid.width(); ++x) {
         found = nearest(grid, {x, y}, found.node);
         labels.push_back(found.node == nullptr ? no_label : found.node->id);
       }
@@ -58,8 +58,8 @@ class SeedTree {
 
   Nearest nearest(const Grid& grid, const Pixel& pixel, const Node* guess) const {
     std::vector<Pixel> images;
-    for (int y = grid.periodic_y() ? -1 : 0; y <= (grid.periodic_y() ? 1 : 0); ++y) {
-      for (int x = grid.periodic_x() ? -1 : 0; x <= (grid.periodic_x() ? 1 : 0); ++x) {
+    for (int y = grid.y().is_periodic() ? -1 : 0; y <= (grid.y().is_periodic() ? 1 : 0); ++y) {
+      for (int x = grid.x().is_periodic() ? -1 : 0; x <= (grid.x().is_periodic() ? 1 : 0); ++x) {
         images.push_back({pixel.x + x * grid.width(), pixel.y + y * grid.height()});
       }
     }

@@ -12,15 +12,15 @@ int main(int argc, char** argv) {
   {
     int rank = 0;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-    const vorocl::Plane plane(1000, 600);
-    vorocl::SharedSeeds seeds(MPI_COMM_WORLD, plane);
+    const vorocl::Grid grid(1000, 600);
+    vorocl::SharedSeeds seeds(MPI_COMM_WORLD, grid);
     const std::vector<vorocl::Point> points = {{100.0 + 500 * rank, 300}, {200, 100.0 + 400 * rank}};
-    seeds.add(points.data(), points.size(), 2 * static_cast<std::uint64_t>(rank));
+    seeds.add(points, 2 * static_cast<std::uint64_t>(rank));
     seeds.share();
-    const vorocl::Tiling tiling(plane, 256);
+    const vorocl::Tiling tiling(grid, 256);
     vorocl::TileCounter counter(MPI_COMM_WORLD, seeds, tiling);
     const auto count = [&](const vorocl::TileLabels& tile) {
-      const std::uint32_t* const end = tile.labels + vorocl::pixels_of(tile.tile);
+      const std::uint32_t* const end = tile.labels + tile.tile.pixels();
       labelled += static_cast<std::uint64_t>(
           std::count_if(tile.labels, end, [](std::uint32_t label) { return label < 4; }));
     };
