@@ -1,9 +1,8 @@
 /// @file
 /// VoroCL for C, and for whatever calls C: what the C++ headers of the same names do, with status codes.
 ///
-/// Covers devices, seeds and their random motion, diagrams, all methods, similarity, and the measures of
-/// cells (sums, shapes, statistics, adjacency). Distance fields, distance errors, plans of waves,
-/// simulations, Lloyd relaxation and pictures are for C++ alone.
+/// Covers devices, seeds and their motion, diagrams of windows, all methods and measures, and Lloyd
+/// relaxation. Plans of waves, simulations, planes in tiles and pictures are for C++ alone.
 ///
 /// Every function that can fail returns a status; vorocl_error_message() then says what was wrong and what to
 /// do. What a function finds is stored through its last arguments, and only if it succeeds. One that makes an
@@ -55,7 +54,8 @@ typedef enum vorocl_status {
 /// NULL.
 VOROCL_API const char* vorocl_error_message(void);
 
-/// A position in pixel units: pixel i of an axis covers [i, i + 1), y points down.
+/// A position: in the units of the data where it is a seed's point, in pixels where a function says so. Pixel
+/// i of an axis covers [i, i + 1).
 typedef struct vorocl_point {
   double x;
   double y;
@@ -79,44 +79,48 @@ VOROCL_API const char* vorocl_version(void);
 typedef int vorocl_metric;
 enum { VOROCL_EUCLIDEAN = 0, VOROCL_MANHATTAN = 1 };
 
-/// One of VOROCL_MOORE, VOROCL_VON_NEUMANN; for dynamic jump flooding alone, VOROCL_MIXED; and
-/// VOROCL_DEFAULT_NEIGHBOURHOOD, which is mixed for dynamic jump flooding and Moore for the other methods.
-typedef int vorocl_neighbourhood;
-enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAULT_NEIGHBOURHOOD = 3 };
-
-/// One of VOROCL_JFA, VOROCL_JFA_PLUS_1, VOROCL_JFA_PLUS_2, VOROCL_ONE_PLUS_JFA.
-typedef int vorocl_variant;
-enum { VOROCL_JFA = 0, VOROCL_JFA_PLUS_1 = 1, VOROCL_JFA_PLUS_2 = 2, VOROCL_ONE_PLUS_JFA = 3 };
-
-/// Where the waves of dynamic jump flooding get their reach from: see vorocl::Reach. One of
-/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER.
-typedef int vorocl_reach;
-enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1 };
-
 /// Which axes of a grid are periodic: see vorocl::Periodic. One of VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_X,
 /// VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY.
 typedef int vorocl_periodic;
 enum { VOROCL_PERIODIC_NONE = 0, VOROCL_PERIODIC_X = 1, VOROCL_PERIODIC_Y = 2, VOROCL_PERIODIC_XY = 3 };
 
-/// As vorocl::Grid. (vorocl_grid){640, 480, VOROCL_PERIODIC_NONE} is a grid of 640 x 480 pixels.
+/// @name Axes, grids, windows: see vorocl::Axis, vorocl::Grid, vorocl::Window
+/// Structs of the caller's, which are checked by the functions that take them.
+/// @{
+
+/// How many pixels there are along an axis, and which stretch of the data they cover. `from` 0 and `to` =
+/// `pixels` say that the unit is the pixel.
+typedef struct vorocl_axis {
+  int64_t pixels;   ///< 1 to 2^31 - 1
+  double from, to;  ///< in the units of the data
+  int periodic;     ///< 1 if it repeats, else 0
+  int reversed;     ///< 1 if its first pixel is at `to`, else 0
+  int closed;       ///< 1 if the coordinate `to` falls in the last pixel and not behind it, else 0
+} vorocl_axis;
+
+/// Initialises an axis whose unit is the pixel.
+#define VOROCL_AXIS_OF_PIXELS(pixels) \
+  { (pixels), 0, (pixels), 0, 0, 0 }
+
+/// The pixels that there are: x to the right, y down.
 typedef struct vorocl_grid {
-  int64_t width, height;  ///< pixels
-  vorocl_periodic periodic;
+  vorocl_axis x, y;
 } vorocl_grid;
 
-/// As vorocl::Domain: the rectangle in which the plane repeats along its periodic axes, in pixels from the
-/// grid's first one.
-typedef struct vorocl_domain {
-  int64_t x, y;           ///< the first pixel, which may be outside the grid
-  int64_t width, height;  ///< the periods, 1 to 2^31
-  vorocl_periodic periodic;
-} vorocl_domain;
+/// What a diagram covers: `width` x `height` pixels from column x and row y of the grid on. Along a periodic
+/// axis it may begin anywhere.
+typedef struct vorocl_window {
+  vorocl_grid grid;
+  int64_t x, y, width, height;
+} vorocl_window;
 
-/// What happens at the border of an axis that is not periodic: see vorocl::Border. One of VOROCL_REFLECT,
-/// VOROCL_PERIODIC.
-typedef int vorocl_border;
-enum { VOROCL_REFLECT = 0, VOROCL_PERIODIC = 1 };
+/// A grid whose unit is the pixel. Never fails: what is wrong is told by the function that takes the grid.
+VOROCL_API vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic);
 
+/// All pixels of a grid. Never fails, likewise.
+VOROCL_API vorocl_window vorocl_window_of_grid(vorocl_grid grid);
+
+/// @}
 /// @name Devices: see vorocl::Device
 /// @{
 
@@ -200,28 +204,32 @@ VOROCL_API vorocl_status vorocl_device_list_get(const vorocl_device_list* list, 
 /// @name Seeds: see vorocl::Seeds
 /// A seed's id is its index in the caller's list. Wherever points are given, `present` says which seeds there
 /// are: one byte per seed, 0 for a seed that is absent, whose point is not looked at. NULL says that all are
-/// there. Points in a caller's buffer are pairs (x, y) of float; buffers are read and checked when the device
-/// comes to it, so that VOROCL_BAD_POINT comes from the first call that waits for what was made of them.
+/// there. Points are in the units of the grid's axes.
 /// @{
 
 typedef struct vorocl_seeds vorocl_seeds;
 
-/// On a grid. Points outside it are seeds too: see vorocl::Seeds.
+/// What becomes of a point outside the grid: see vorocl::Outside. One of VOROCL_OUTSIDE_COUNTS,
+/// VOROCL_OUTSIDE_IS_ABSENT, VOROCL_OUTSIDE_IS_REFUSED.
+typedef int vorocl_outside;
+enum { VOROCL_OUTSIDE_COUNTS = 0, VOROCL_OUTSIDE_IS_ABSENT = 1, VOROCL_OUTSIDE_IS_REFUSED = 2 };
+
+/// `outside` holds for all frames.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
-                                                  size_t count, vorocl_seeds** seeds);
+                                                  size_t count, vorocl_outside outside, vorocl_seeds** seeds);
 
-/// As above, in a plane that repeats: the grid itself must not be periodic.
-VOROCL_API vorocl_status vorocl_seeds_in_domain(const vorocl_device* device, vorocl_grid grid,
-                                                vorocl_domain domain, const vorocl_point* points,
-                                                const uint8_t* present, size_t count, vorocl_seeds** seeds);
+/// What a buffer of points holds: two floats or two doubles per point. One of VOROCL_FLOAT2, VOROCL_DOUBLE2.
+typedef int vorocl_point_format;
+enum { VOROCL_FLOAT2 = 0, VOROCL_DOUBLE2 = 1 };
 
-/// From the caller's buffers, whose points must lie in the grid.
+/// From the caller's buffers. Unless points outside count, the device reads and checks them when it comes to
+/// it: VOROCL_BAD_POINT comes from the first call that waits for what was made of them.
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
-                                                  cl_mem points, cl_mem present, size_t count,
-                                                  vorocl_seeds** seeds);
+                                                  cl_mem points, vorocl_point_format format, cl_mem present,
+                                                  size_t count, vorocl_outside outside, vorocl_seeds** seeds);
 
-/// A seed for each pixel of the mask that is not 0, row-major: `count` must be width * height.
+/// A seed for each pixel of the mask that is not 0, row-major: `count` must be the grid's pixels.
 VOROCL_API vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, vorocl_grid grid,
                                                 const uint8_t* mask, size_t count, vorocl_seeds** seeds);
 
@@ -242,62 +250,84 @@ VOROCL_API vorocl_status vorocl_seeds_count(const vorocl_seeds* seeds, size_t* c
 /// The seeds that are not absent. Waits where a buffer said which are present.
 VOROCL_API vorocl_status vorocl_seeds_alive(const vorocl_seeds* seeds, size_t* alive);
 
-/// The seeds that lie outside the grid's pixels.
+/// The seeds that lie outside the grid.
 VOROCL_API vorocl_status vorocl_seeds_outside(const vorocl_seeds* seeds, size_t* outside);
 
-/// New points for the same ids. Their number may change: ids past the end are absent.
+/// The greatest way that a seed went along an axis from the last frame to this one, in pixels. May wait.
+VOROCL_API vorocl_status vorocl_seeds_displacement(const vorocl_seeds* seeds, double* displacement);
+
+/// New points for the same ids. Their number may change: ids past the end are absent. If it fails, the seeds
+/// are where they were.
 VOROCL_API vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points,
                                               const uint8_t* present, size_t count);
 
-/// As above, in a plane that repeats. The domain may be another one in each frame.
-VOROCL_API vorocl_status vorocl_seeds_move_in_domain(vorocl_seeds* seeds, vorocl_domain domain,
-                                                     const vorocl_point* points, const uint8_t* present,
+/// As above, on another grid.
+VOROCL_API vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_grid grid,
+                                                   const vorocl_point* points, const uint8_t* present,
+                                                   size_t count);
+
+/// As vorocl_seeds_move_to(), from the caller's buffers.
+VOROCL_API vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points,
+                                                     vorocl_point_format format, cl_mem present,
                                                      size_t count);
 
-/// From the caller's buffers, whose points must lie in the grid.
-VOROCL_API vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, cl_mem present,
-                                                     size_t count);
+/// What happens at the border of an axis that is not periodic: see vorocl::Border. One of VOROCL_REFLECT,
+/// VOROCL_PERIODIC.
+typedef int vorocl_border;
+enum { VOROCL_REFLECT = 0, VOROCL_PERIODIC = 1 };
 
 /// Moves each seed by up to `max_displacement` pixels along each axis at random: see vorocl::random_step().
 VOROCL_API vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displacement, vorocl_border border,
                                             uint64_t rng_seed, uint32_t frame);
 
-/// One uint32_t per seed and one more: see vorocl::Seeds::positions(). Valid until the seeds are moved.
-VOROCL_API vorocl_status vorocl_seeds_positions(const vorocl_seeds* seeds, cl_mem* positions);
-
-/// The centres of the seeds' pixels, (NaN, NaN) for a seed that is absent: `count` must be that of the seeds.
-/// Waits.
+/// The points as they were given, or the centres of their pixels where the device has placed them; (NaN, NaN)
+/// for a seed that is absent. `count` must be that of the seeds. Waits where the device has them.
 VOROCL_API vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points, size_t count);
+
+/// As above, the centres of the seeds' pixels, in pixels from the grid's first one.
+VOROCL_API vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points,
+                                                  size_t count);
 
 /// Waits until the points of a caller's buffer are checked.
 VOROCL_API vorocl_status vorocl_seeds_check(const vorocl_seeds* seeds);
 
 /// @}
 /// @name Diagrams: see vorocl::Diagram
+/// A diagram remembers the seeds, the metric and the method that its labels were made by: measures ask it for
+/// them, whatever has become of the seeds since.
 /// @{
 
 typedef struct vorocl_diagram vorocl_diagram;
 
-VOROCL_API vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_grid grid,
+VOROCL_API vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_window window,
                                                vorocl_diagram** diagram);
 
 /// The labels go to the caller's buffer of width * height uint32_t.
-VOROCL_API vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_grid grid,
+VOROCL_API vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_window window,
                                                     cl_mem labels, vorocl_diagram** diagram);
 
 VOROCL_API void vorocl_diagram_free(vorocl_diagram* diagram);
 
-VOROCL_API vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, vorocl_grid* grid);
+VOROCL_API vorocl_status vorocl_diagram_window(const vorocl_diagram* diagram, vorocl_window* window);
 
 /// The labels, row-major uint32_t, for use in OpenCL without a copy.
 VOROCL_API vorocl_status vorocl_diagram_labels(const vorocl_diagram* diagram, cl_mem* labels);
 
-/// Writes labels of the caller's, row-major: `count` must be width * height. A method that goes on from the
-/// last labels goes on from these. Waits until they are copied.
-VOROCL_API vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labels, size_t count);
+/// The metric that the labels were made by. VOROCL_BAD_ARGUMENT if there is none.
+VOROCL_API vorocl_status vorocl_diagram_metric(const vorocl_diagram* diagram, vorocl_metric* metric);
+
+/// The name of the method that made the labels, "" if none did. Valid until the diagram is filled or written.
+VOROCL_API vorocl_status vorocl_diagram_method(const vorocl_diagram* diagram, const char** name);
+
+/// Writes labels of the caller's, row-major, which name these seeds by this metric: `count` must be width *
+/// height. Without seeds (NULL), measures that need them fail, and the metric is not looked at. A method that
+/// goes on from the last labels goes on from these. Waits until they are copied.
+VOROCL_API vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labels, size_t count,
+                                              const vorocl_seeds* seeds, vorocl_metric metric);
 
 /// As above, from a buffer of the same context. Enqueues and returns.
-VOROCL_API vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels);
+VOROCL_API vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels,
+                                                     const vorocl_seeds* seeds, vorocl_metric metric);
 
 /// Completes with the labels of the last method that was to fill the diagram, and is valid until the next one
 /// is called. NULL before the first, after one that failed, and after labels were written or that failed.
@@ -314,62 +344,52 @@ VOROCL_API vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint
 /// Waits for the queue.
 VOROCL_API vorocl_status vorocl_diagram_wait(const vorocl_diagram* diagram);
 
-/// 100 x pixels with equal labels / all pixels, of two diagrams of one size and device. Waits.
-VOROCL_API vorocl_status vorocl_similarity(const vorocl_diagram* a, const vorocl_diagram* b, double* percent);
-
-/// The pixels whose labels differ, of two diagrams of one size and device. Waits.
-VOROCL_API vorocl_status vorocl_changed_pixels(const vorocl_diagram* a, const vorocl_diagram* b,
-                                               size_t* pixels);
-
-/// The pixel corners where three or more cells meet: see vorocl::count_vertices(). Waits.
-VOROCL_API vorocl_status vorocl_count_vertices(const vorocl_diagram* diagram, size_t* vertices);
-
 /// @}
 /// @name Methods: seeds in, diagram out
 /// They enqueue and return; standard flooding waits. A diagram whose filling failed counts as never filled:
 /// see vorocl::Diagram.
 /// @{
 
-/// See vorocl::standard_flooding().
-VOROCL_API vorocl_status vorocl_standard_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                                  vorocl_metric metric, vorocl_neighbourhood neighbourhood);
+/// Which pixels a wave looks at. One of VOROCL_MOORE, VOROCL_VON_NEUMANN; for dynamic jump flooding alone,
+/// VOROCL_MIXED; and VOROCL_DEFAULT_NEIGHBOURHOOD, which is mixed for dynamic jump flooding and Moore for the
+/// other methods.
+typedef int vorocl_neighbourhood;
+enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAULT_NEIGHBOURHOOD = 3 };
 
-/// See vorocl::jump_flooding().
-VOROCL_API vorocl_status vorocl_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                              vorocl_metric metric, vorocl_neighbourhood neighbourhood,
-                                              vorocl_variant variant);
+/// Where the waves of dynamic jump flooding get their reach from: see vorocl::Reach. One of
+/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER.
+typedef int vorocl_reach;
+enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1 };
 
-/// See vorocl::exact_diagram().
-VOROCL_API vorocl_status vorocl_exact_diagram(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                              vorocl_metric metric);
+/// Says that seeds have moved as far as they know: vorocl_seeds_displacement(), over all frames since the
+/// diagram was last filled.
+#define VOROCL_DISPLACEMENT_OF_SEEDS (-1.0)
 
 /// As vorocl::MethodOptions: the options of all methods. A method ignores those that it has no use for; mixed
 /// neighbourhoods are refused but for dynamic jump flooding.
 typedef struct vorocl_method_options {
   vorocl_metric metric;
   vorocl_neighbourhood neighbourhood;
-  int von_neumann_waves;  ///< of dynamic jump flooding: see vorocl::DynamicPlanOptions
-  int extra_waves;        ///< likewise
-  int refresh_interval;   ///< likewise: see vorocl::DynamicJumpFloodingOptions
-  vorocl_reach reach;     ///< likewise: see vorocl::dynamic_jump_flooding()
+  int von_neumann_waves;    ///< of dynamic jump flooding: see vorocl::DynamicPlanOptions
+  int extra_waves;          ///< likewise
+  int refresh_interval;     ///< likewise: see vorocl::DynamicJumpFloodingOptions
+  vorocl_reach reach;       ///< likewise: see vorocl::dynamic_jump_flooding()
+  double max_displacement;  ///< likewise, in pixels, or VOROCL_DISPLACEMENT_OF_SEEDS
 } vorocl_method_options;
 
 /// Initialises options; to give NULL for them means the same.
-#define VOROCL_METHOD_OPTIONS_DEFAULTS \
-  { VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, 2, 0, 0, VOROCL_REACH_MEASURED }
-
-/// See vorocl::dynamic_jump_flooding(). No seed may have moved by more than `max_displacement` pixels along
-/// an axis since the diagram was last filled.
-VOROCL_API vorocl_status vorocl_dynamic_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                                      double max_displacement,
-                                                      const vorocl_method_options* options);
+#define VOROCL_METHOD_OPTIONS_DEFAULTS                                              \
+  {                                                                                 \
+    VOROCL_EUCLIDEAN, VOROCL_DEFAULT_NEIGHBOURHOOD, 2, 0, 0, VOROCL_REACH_MEASURED, \
+        VOROCL_DISPLACEMENT_OF_SEEDS                                                \
+  }
 
 /// As vorocl::Method.
 typedef struct vorocl_method_description {
   const char* name;  ///< such as "jfa+1"; it belongs to the library
   int exact;         ///< 1 if every pixel gets its nearest seed, else 0
   int continues;     ///< 1 if it goes on from the labels that the diagram holds, else 0
-  int outer_seeds;   ///< 1 if it takes seeds outside the grid and domains, else 0: then it refuses them
+  int windows;       ///< 1 if it takes any window and seeds outside it, else 0: then it refuses them
 } vorocl_method_description;
 
 /// How many methods there are.
@@ -377,15 +397,64 @@ VOROCL_API vorocl_status vorocl_method_count(size_t* count);
 
 VOROCL_API vorocl_status vorocl_method_get(size_t index, vorocl_method_description* description);
 
-/// Fills the diagram by the method of this name. Only a method that continues looks at `max_displacement`:
-/// see vorocl_dynamic_jump_flooding().
+/// Fills the diagram by the method of this name: "exact", "jfa", "jfa+1", "jfa+2", "1+jfa",
+/// "standard-flooding" or "djfa". VOROCL_BAD_ARGUMENT, with a list, if there is none.
 VOROCL_API vorocl_status vorocl_run(const char* method, const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                    double max_displacement, const vorocl_method_options* options);
+                                    const vorocl_method_options* options);
 
-/// Builds all kernels that the method needs for so many seeds on a grid, so that the first diagram takes no
-/// longer than the next: see vorocl::prepare(). Waits.
-VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device* device, vorocl_grid grid,
+/// Builds all kernels that the method needs for so many seeds and such a window, so that the first diagram
+/// takes no longer than the next: see vorocl::prepare(). Waits.
+VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device* device, vorocl_window window,
                                         size_t seeds, const vorocl_method_options* options);
+
+/// As vorocl::Relaxation.
+typedef struct vorocl_relaxation {
+  int rounds;     ///< that were run
+  int converged;  ///< 1 if no seed would move any more, else 0
+} vorocl_relaxation;
+
+/// Moves seeds to the centroids of their cells, for at most so many rounds: see vorocl::relax(). In the end
+/// the diagram is that of the seeds. `energies` has room for `rounds` + 1 values, at the start and after each
+/// round; `moved`, the seeds that each round moved, for `rounds`; each of the three may be NULL. Waits.
+VOROCL_API vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* method,
+                                      const vorocl_method_options* options, int rounds, uint64_t* energies,
+                                      size_t* moved, vorocl_relaxation* relaxation);
+
+/// @}
+/// @name Measures that give numbers: they wait
+/// @{
+
+/// 100 x pixels with equal labels / all pixels, of two diagrams of one window and device.
+VOROCL_API vorocl_status vorocl_similarity(const vorocl_diagram* a, const vorocl_diagram* b, double* percent);
+
+/// As above, where labels are equal too if their seeds are equally far, within a tolerance in pixels.
+VOROCL_API vorocl_status vorocl_similarity_within(const vorocl_diagram* a, const vorocl_diagram* b,
+                                                  double tolerance, double* percent);
+
+/// The pixels whose labels differ, of two diagrams of one window and device.
+VOROCL_API vorocl_status vorocl_changed_pixels(const vorocl_diagram* a, const vorocl_diagram* b,
+                                               size_t* pixels);
+
+/// As vorocl::DistanceErrors.
+typedef struct vorocl_wrong_labels {
+  size_t pixels;             ///< of the diagram
+  size_t wrong_pixels;       ///< whose label is not that of a seed at the least distance
+  size_t unlabelled_pixels;  ///< of these: whose label names no seed; they have no excess distance
+  double largest_excess;     ///< how much farther than the nearest seed that of a label is, in pixels ...
+  double mean_excess;        ///< ... and the mean over all pixels
+} vorocl_wrong_labels;
+
+/// Judges a diagram by the exact one of the same seeds and metric: see vorocl::distance_errors().
+VOROCL_API vorocl_status vorocl_distance_errors(const vorocl_diagram* diagram, const vorocl_diagram* exact,
+                                                vorocl_wrong_labels* wrong);
+
+/// The sum of the squared distances of all pixels to their seeds: see vorocl::energy().
+VOROCL_API vorocl_status vorocl_energy(const vorocl_diagram* diagram, uint64_t* energy);
+
+/// The pixel corners where three or more cells meet, in pixels from the window's first one, row-major: the
+/// first `room` of them, and how many there are. With no room, `points` may be NULL. See vorocl::vertices().
+VOROCL_API vorocl_status vorocl_vertices(const vorocl_diagram* diagram, vorocl_point* points, size_t room,
+                                         size_t* count);
 
 /// @}
 /// @name Sums of cells: see vorocl::cell_sums()
@@ -400,13 +469,12 @@ VOROCL_API vorocl_status vorocl_cell_sums_create(vorocl_cell_sums** sums);
 VOROCL_API void vorocl_cell_sums_free(vorocl_cell_sums* sums);
 
 /// Enqueues and returns.
-VOROCL_API vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const vorocl_seeds* seeds,
-                                                  const vorocl_diagram* diagram);
+VOROCL_API vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const vorocl_diagram* diagram);
 
 /// The cells that were measured, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_cell_sums_count(const vorocl_cell_sums* sums, size_t* count);
 
-/// Per cell its area in pixels (uint32_t) and the sums of its pixels' columns and rows (uint64_t). Each may
+/// Per cell its area in pixels (uint32_t) and the sums of its pixels' columns and rows (int64_t). Each may
 /// be NULL. The buffers are valid until the next measurement.
 VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, cl_mem* area, cl_mem* sum_x,
                                                   cl_mem* sum_y);
@@ -415,13 +483,14 @@ VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, 
 VOROCL_API vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
                                                int64_t* sum_y, size_t count);
 
-/// The means of the centres of the cells' pixels, (NaN, NaN) of an empty cell. Waits.
+/// The means of the centres of the cells' pixels, in pixels from the window's first one; (NaN, NaN) of an
+/// empty cell. Waits.
 VOROCL_API vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,
                                                     size_t count);
 
 /// As vorocl::CellStatistics. Absent seeds do not count.
 typedef struct vorocl_cell_statistics {
-  size_t cells;           ///< seeds; of those outside the grid the ones that own pixels
+  size_t cells;           ///< seeds; of those outside the window the ones that own pixels
   size_t empty_cells;     ///< seeds without a pixel: another seed is on theirs
   uint64_t pixels;        ///< with a label
   double mean_area;       ///< 0 if there are no cells
@@ -443,14 +512,14 @@ VOROCL_API vorocl_status vorocl_cell_shapes_create(vorocl_cell_shapes** shapes);
 VOROCL_API void vorocl_cell_shapes_free(vorocl_cell_shapes* shapes);
 
 /// Enqueues and returns.
-VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes, const vorocl_seeds* seeds,
-                                                    const vorocl_diagram* diagram, vorocl_metric metric);
+VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes,
+                                                    const vorocl_diagram* diagram);
 
 VOROCL_API vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count);
 
 /// Per cell int32_t left, top, right, bottom, and its largest distance (int32_t). Either may be NULL. The
-/// buffers are valid until the next measurement. Where a seed lies so far outside the grid that distances may
-/// not fit, the second one is NULL: vorocl_cell_shapes_read() tells them.
+/// buffers are valid until the next measurement. Where a seed lies so far outside the window that distances
+/// may not fit, the second one is NULL: vorocl_cell_shapes_read() tells them.
 VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* shapes, cl_mem* boxes,
                                                     cl_mem* largest_distances);
 
@@ -458,7 +527,7 @@ VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* sh
 typedef struct vorocl_cell_shape {
   int left, top, right, bottom;  ///< the bounding box: first and last columns and rows
   int64_t largest_distance;      ///< of its pixels to its seed; squared if Euclidean
-  int touches_border;            ///< 1 if it has a pixel in the first or last row or column, else 0
+  int touches_border;            ///< 1 if it has a pixel next to a border of the window, else 0
 } vorocl_cell_shape;
 
 /// The shapes of all cells: `count` must be their number. Waits.
@@ -475,15 +544,15 @@ typedef struct vorocl_adjacency vorocl_adjacency;
 VOROCL_API vorocl_status vorocl_adjacency_create(vorocl_adjacency** adjacency);
 VOROCL_API void vorocl_adjacency_free(vorocl_adjacency* adjacency);
 
-/// Waits.
-VOROCL_API vorocl_status vorocl_adjacency_find(vorocl_adjacency* adjacency, const vorocl_seeds* seeds,
-                                               const vorocl_diagram* diagram);
+/// Enqueues and returns.
+VOROCL_API vorocl_status vorocl_adjacency_find(vorocl_adjacency* adjacency, const vorocl_diagram* diagram);
 
-/// How many pairs of cells share a pixel edge.
+/// How many pairs of cells share a pixel edge. Waits.
 VOROCL_API vorocl_status vorocl_adjacency_pairs(const vorocl_adjacency* adjacency, size_t* pairs);
 
 /// uint32_t a, b, length per pair, and per cell the cells that it shares an edge with and the pixel edges
 /// that it shares with them (uint32_t each). Each may be NULL. The buffers are valid until the next search.
+/// Waits.
 VOROCL_API vorocl_status vorocl_adjacency_buffers(const vorocl_adjacency* adjacency, cl_mem* pair_list,
                                                   cl_mem* neighbours, cl_mem* perimeters);
 
@@ -500,6 +569,47 @@ VOROCL_API vorocl_status vorocl_adjacency_read_pairs(const vorocl_adjacency* adj
 /// Per cell, by id: `count` must be that of the seeds. Either may be NULL. Waits.
 VOROCL_API vorocl_status vorocl_adjacency_read_cells(const vorocl_adjacency* adjacency, uint32_t* neighbours,
                                                      uint32_t* perimeters, size_t count);
+
+/// @}
+/// @name Images: see vorocl::Field
+/// @{
+
+/// One value per pixel, row-major, on the device, of the type of the last function that filled it. To be used
+/// frame after frame: it allocates nothing while the type and the window stay. Empty before it is filled and
+/// after that failed.
+typedef struct vorocl_field vorocl_field;
+
+VOROCL_API vorocl_status vorocl_field_create(vorocl_field** field);
+VOROCL_API void vorocl_field_free(vorocl_field* field);
+
+/// int32_t: each pixel's distance to its seed, squared if Euclidean; INT32_MAX without a label. Enqueues and
+/// returns, and so do all that follow. To read distances that do not fit is VOROCL_BAD_ARGUMENT.
+VOROCL_API vorocl_status vorocl_field_int_distances(vorocl_field* field, const vorocl_diagram* diagram);
+
+/// float: the same in pixels, not squared; infinity without a label.
+VOROCL_API vorocl_status vorocl_field_float_distances(vorocl_field* field, const vorocl_diagram* diagram);
+
+/// uint8_t: 1 for each pixel that shares an edge with a pixel of another label, else 0.
+VOROCL_API vorocl_status vorocl_field_border_mask(vorocl_field* field, const vorocl_diagram* diagram);
+
+/// uint32_t: each pixel's label, looked up in a table of `count` entries, at least one per seed;
+/// VOROCL_NO_LABEL without a label.
+VOROCL_API vorocl_status vorocl_field_map_labels(vorocl_field* field, const vorocl_diagram* diagram,
+                                                 const uint32_t* table, size_t count);
+
+/// As above, from a table of uint32_t in a buffer of the same context.
+VOROCL_API vorocl_status vorocl_field_map_labels_by_buffer(vorocl_field* field, const vorocl_diagram* diagram,
+                                                           cl_mem table);
+
+/// uint32_t: the label of each pixel at most `distance` pixels away from its seed, else VOROCL_NO_LABEL.
+VOROCL_API vorocl_status vorocl_field_expand_labels(vorocl_field* field, const vorocl_diagram* diagram,
+                                                    double distance);
+
+/// The values; NULL while the field is empty. Valid until the field is filled again.
+VOROCL_API vorocl_status vorocl_field_buffer(const vorocl_field* field, cl_mem* values);
+
+/// Copies the values to the host: `bytes` must be their size, 0 while the field is empty. Waits.
+VOROCL_API vorocl_status vorocl_field_read(const vorocl_field* field, void* values, size_t bytes);
 
 /// @}
 

@@ -31,7 +31,7 @@ simulation = vorocl.Simulation(shape, method="exact", bounds=(0, 0, width, heigh
 steps, percentiles = [], []
 for frame in universe.trajectory:
     diagram = simulation.step(frame.positions[:, :2])
-    areas = diagram.cells(simulation.seeds)["area"] * pixel
+    areas = diagram.cells()["area"] * pixel
     steps.append(frame.data["step"])
     percentiles.append(np.percentile(areas, [5, 25, 50, 75, 95]))
 

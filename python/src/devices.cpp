@@ -1,5 +1,9 @@
 // Devices, and the grids and reports that say sizes and times.
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
+
+#include <tuple>
 
 #include "module.hpp"
 
@@ -11,10 +15,27 @@ Device adopt(std::uintptr_t context, std::uintptr_t queue) {
   return {retained<cl::Context>(context), retained<cl::CommandQueue>(queue)};
 }
 
-Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool periodic_y) {
-  const Periodic periodic =
-      periodic_x ? (periodic_y ? Periodic::xy : Periodic::x) : (periodic_y ? Periodic::y : Periodic::none);
-  return {width, height, periodic};
+using Bounds = std::tuple<double, double, double, double>;
+
+/// A grid of at most as many pixels as a diagram has: here a diagram shows all of it.
+Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool periodic_y,
+               const std::optional<Bounds>& bounds, bool y_up, bool closed) {
+  Axis x(width), y(height);
+  if (bounds) {
+    const auto [x0, y0, x1, y1] = *bounds;
+    x = Axis(width, x0, x1);
+    y = Axis(height, y0, y1);
+  }
+  if (closed) x = x.closed(), y = y.closed();
+  if (periodic_x) x = x.periodic();
+  if (periodic_y) y = y.periodic();
+  if (y_up) y = y.reversed();
+  const Grid grid(x, y);
+  if (width > Window::max_side || height > Window::max_side || grid.pixels() > Window::max_pixels) {
+    throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +
+                " pixels; at most 32,768 along a side and 2^30 in all are possible");
+  }
+  return grid;
 }
 
 }  // namespace
@@ -50,11 +71,11 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"))
+           nb::arg("periodic_y"), nb::arg("bounds").none(), nb::arg("y_up"), nb::arg("closed"))
       .def_prop_ro("width", &Grid::width)
       .def_prop_ro("height", &Grid::height)
-      .def_prop_ro("periodic_x", &Grid::periodic_x)
-      .def_prop_ro("periodic_y", &Grid::periodic_y);
+      .def_prop_ro("periodic_x", [](const Grid& grid) { return grid.x().is_periodic(); })
+      .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); });
 
   nb::class_<Report>(module, "Report")
       .def_prop_ro("waves", &Report::waves)

@@ -44,23 +44,39 @@ std::uintptr_t buffer(DiagramObject& diagram) {
   return reinterpret_cast<std::uintptr_t>(diagram.diagram.labels()());
 }
 
-/// Without a displacement, seeds may have moved anywhere.
+/// A diagram that was made from a shape alone learns from its seeds which stretch of their plane it shows. It
+/// keeps its buffer. What does not fit in another way is left to the library, which says so.
+void show(Diagram& diagram, const Grid& grid) {
+  const Grid& own = diagram.window().grid();
+  const bool fits =
+      own.width() == grid.width() && own.height() == grid.height() && own.periodic() == grid.periodic();
+  if (fits && own != grid) diagram = Diagram(diagram.device(), grid, diagram.labels());
+}
+
+/// Remembers the seeds that the labels name; a clone shares their frame.
+void remember(DiagramObject& diagram, const Seeds& seeds) { diagram.seeds = seeds.clone(); }
+
 Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
             std::optional<double> max_displacement) {
   const Turns turns(diagram.mutex, seeds.mutex);
-  const double farthest = diagram.diagram.grid().longest_side();
-  return method(name).run(seeds.seeds, diagram.diagram, max_displacement.value_or(farthest),
-                          options_with(metric));
+  const Method& filling = method(name);
+  MethodOptions options = options_with(metric);
+  options.max_displacement = max_displacement;
+  diagram.seeds.reset();
+  show(diagram.diagram, seeds.seeds.grid());
+  Report report = filling.run(seeds.seeds, diagram.diagram, options);
+  remember(diagram, seeds.seeds);
+  return report;
 }
 
 template <typename T>
 T* pixels_of(const Diagram& diagram, const Array<T, nb::ndim<2>>& image) {
-  const Grid& grid = diagram.grid();
-  if (image.shape(0) != static_cast<std::size_t>(grid.height()) ||
-      image.shape(1) != static_cast<std::size_t>(grid.width())) {
+  const Window& window = diagram.window();
+  if (image.shape(0) != static_cast<std::size_t>(window.height()) ||
+      image.shape(1) != static_cast<std::size_t>(window.width())) {
     throw Error("the image has " + std::to_string(image.shape(0)) + " x " + std::to_string(image.shape(1)) +
-                " rows x columns, the diagram " + std::to_string(grid.height()) + " x " +
-                std::to_string(grid.width()));
+                " rows x columns, the diagram " + std::to_string(window.height()) + " x " +
+                std::to_string(window.width()));
   }
   return image.data();
 }
@@ -70,41 +86,52 @@ void read(DiagramObject& diagram, const Array<std::uint32_t, nb::ndim<2>>& label
   diagram.diagram.read(pixels_of(diagram.diagram, labels));
 }
 
-void write(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& labels) {
+void write(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& image) {
   const Turn turn(diagram.mutex);
-  const std::uint32_t* const first = pixels_of(diagram.diagram, labels);
-  diagram.diagram.write({first, first + labels.size()});
+  const std::uint32_t* const first = pixels_of(diagram.diagram, image);
+  diagram.seeds.reset();
+  diagram.diagram.write({first, first + image.size()});
+}
+
+/// Labels that name these seeds.
+void write_of(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& image,
+              SeedsObject& seeds, const std::string& metric) {
+  const Turns turns(diagram.mutex, seeds.mutex);
+  const std::uint32_t* const first = pixels_of(diagram.diagram, image);
+  diagram.seeds.reset();
+  show(diagram.diagram, seeds.seeds.grid());
+  diagram.diagram.write({first, first + image.size()}, seeds.seeds, metric_of(metric));
+  remember(diagram, seeds.seeds);
 }
 
 // --- measures ---
 
-void distances(DiagramObject& diagram, SeedsObject& seeds, const std::string& metric,
-               const Array<float, nb::ndim<2>>& values) {
-  const Turns turns(diagram.mutex, seeds.mutex);
+void distances(DiagramObject& diagram, const Array<float, nb::ndim<2>>& values) {
+  const Turn turn(diagram.mutex);
   float* const first = pixels_of(diagram.diagram, values);
-  distance_field(seeds.seeds, diagram.diagram, diagram.distances, metric_of(metric));
+  distance_field(diagram.diagram, diagram.distances);
   diagram.distances.read(first);
 }
 
-void squared_distances(DiagramObject& diagram, SeedsObject& seeds,
-                       const Array<std::int32_t, nb::ndim<2>>& values) {
-  const Turns turns(diagram.mutex, seeds.mutex);
-  std::int32_t* const first = pixels_of(diagram.diagram, values);
-  Field<std::int32_t> field;
-  distance_field(seeds.seeds, diagram.diagram, field);
+/// The labels of the pixels that are near enough to their seeds.
+void expand(DiagramObject& diagram, double distance, const Array<std::uint32_t, nb::ndim<2>>& labels) {
+  const Turn turn(diagram.mutex);
+  std::uint32_t* const first = pixels_of(diagram.diagram, labels);
+  Field<std::uint32_t> field;
+  expand_labels(diagram.diagram, distance, field);
   field.read(first);
 }
 
 /// One cell, as CELL in vorocl/_objects.py says it: in pixels.
-struct CellRow {
+struct Row {
   double x, y, centroid_x, centroid_y, largest_distance;
   std::uint32_t area, perimeter, neighbours;
   std::int32_t left, top, right, bottom;
   bool touches_border;
 };
 
-CellRow row_of(const std::optional<Point>& seed, const CellSums& sums, const CellShape& shape,
-               std::uint32_t perimeter, std::uint32_t neighbours, Metric metric) {
+Row row_of(const std::optional<Point>& seed, const CellSums& sums, const CellShape& shape,
+           std::uint32_t perimeter, std::uint32_t neighbours, Metric metric) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Point place = seed.value_or(Point{none, none}), centroid = sums.centroid();
   if (sums.area == 0) {
@@ -116,17 +143,24 @@ CellRow row_of(const std::optional<Point>& seed, const CellSums& sums, const Cel
           neighbours, shape.left, shape.top,  shape.right, shape.bottom, shape.touches_border};
 }
 
-nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram, SeedsObject& seeds,
-                                                        const std::string& metric_name) {
-  const Metric metric = metric_of(metric_name);
-  std::vector<CellRow> rows;
+/// The seeds that the labels name.
+const Seeds& seeds_of(const DiagramObject& diagram) {
+  if (!diagram.seeds) {
+    throw Error("the diagram knows no seeds: fill it, or write labels with the seeds that they name");
+  }
+  return *diagram.seeds;
+}
+
+nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) {
+  std::vector<Row> rows;
   {
     const nb::gil_scoped_release unlocked;
-    const Turns turns(diagram.mutex, seeds.mutex);
-    cell_sums(seeds.seeds, diagram.diagram, diagram.sums);
-    cell_shapes(seeds.seeds, diagram.diagram, diagram.shapes, metric);
-    adjacency(seeds.seeds, diagram.diagram, diagram.adjacency);
-    const auto places = seeds.seeds.read();
+    const Turn turn(diagram.mutex);
+    const auto places = seeds_of(diagram).read_pixels();
+    const Metric metric = diagram.diagram.metric();
+    cell_sums(diagram.diagram, diagram.sums);
+    cell_shapes(diagram.diagram, diagram.shapes);
+    adjacency(diagram.diagram, diagram.adjacency);
     const auto sums = diagram.sums.read();
     const auto shapes = diagram.shapes.read();
     const auto perimeters = diagram.adjacency.read_perimeters(),
@@ -140,28 +174,47 @@ nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram, 
 }
 
 /// The ids of each pair and the length of its border.
-nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> find_adjacency(DiagramObject& diagram,
-                                                                  SeedsObject& seeds) {
+nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> find_adjacency(DiagramObject& diagram) {
   std::vector<CellPair> pairs;
   {
     const nb::gil_scoped_release unlocked;
-    const Turns turns(diagram.mutex, seeds.mutex);
-    adjacency(seeds.seeds, diagram.diagram, diagram.adjacency);
+    const Turn turn(diagram.mutex);
+    adjacency(diagram.diagram, diagram.adjacency);
     pairs = diagram.adjacency.read_pairs();
   }
   return to_numpy<std::uint32_t>(std::move(pairs));
 }
 
-std::size_t vertices(DiagramObject& diagram) {
+std::size_t count_vertices(DiagramObject& diagram) {
   const Turn turn(diagram.mutex);
-  return count_vertices(diagram.diagram);
+  VerticesResult result;
+  vertices(diagram.diagram, result);
+  return result.count();
 }
 
-DistanceErrors errors(DiagramObject& diagram, SeedsObject& seeds, const std::string& metric) {
-  const Turns turns(diagram.mutex, seeds.mutex);
-  Diagram exact(diagram.diagram.device(), diagram.diagram.grid());
-  exact_diagram(seeds.seeds, exact, {metric_of(metric)});
-  return distance_errors(seeds.seeds, diagram.diagram, exact, metric_of(metric));
+nb::ndarray<nb::numpy, double, nb::ndim<2>> find_vertices(DiagramObject& diagram) {
+  std::vector<Point> corners;
+  {
+    const nb::gil_scoped_release unlocked;
+    const Turn turn(diagram.mutex);
+    VerticesResult result;
+    vertices(diagram.diagram, result);
+    corners = result.read();
+  }
+  return to_numpy<double>(std::move(corners));
+}
+
+DistanceErrors errors(DiagramObject& diagram) {
+  const Turn turn(diagram.mutex);
+  const Seeds& seeds = seeds_of(diagram);
+  const Metric metric = diagram.diagram.metric();
+  const Device& device = diagram.diagram.device();
+  Diagram exact(device, diagram.diagram.window()), judged(device, diagram.diagram.window());
+  exact_diagram(seeds, exact, {metric});
+  judged.write(diagram.diagram.labels(), seeds, metric);
+  DistanceErrorsResult result;
+  distance_errors(judged, exact, result);
+  return result.read();
 }
 
 /// Ctrl-C ends it after a round.
@@ -174,7 +227,11 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
     return true;
   };
   const Simulation::Engine fills = engine(method(name), options_with(metric));
-  return vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
+  diagram.seeds.reset();
+  show(diagram.diagram, seeds.seeds.grid());
+  Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
+  remember(diagram, seeds.seeds);
+  return done;
 }
 
 }  // namespace
@@ -211,12 +268,14 @@ void bind_diagrams(nb::module_& module) {
            nb::arg("max_displacement").none(), without_gil())
       .def("read", read, nb::arg("labels"), without_gil())
       .def("write", write, nb::arg("labels"), without_gil())
-      .def("distances", distances, nb::arg("seeds"), nb::arg("metric"), nb::arg("values"), without_gil())
-      .def("squared_distances", squared_distances, nb::arg("seeds"), nb::arg("values"), without_gil())
-      .def("cells", cells, nb::arg("seeds"), nb::arg("metric"))
-      .def("adjacency", find_adjacency, nb::arg("seeds"))
-      .def("count_vertices", vertices, without_gil())
-      .def("errors", errors, nb::arg("seeds"), nb::arg("metric"), without_gil())
+      .def("write_of", write_of, nb::arg("labels"), nb::arg("seeds"), nb::arg("metric"), without_gil())
+      .def("distances", distances, nb::arg("values"), without_gil())
+      .def("expand", expand, nb::arg("distance"), nb::arg("labels"), without_gil())
+      .def("cells", cells)
+      .def("adjacency", find_adjacency)
+      .def("count_vertices", count_vertices, without_gil())
+      .def("vertices", find_vertices)
+      .def("errors", errors, without_gil())
       .def("relax", relax, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("rounds"),
            without_gil());
 }

@@ -26,7 +26,9 @@ using without_gil = nb::call_guard<nb::gil_scoped_release>;
 /// Arrays of Python's, C-contiguous and in this machine's byte order: Python has seen to it.
 template <typename... What>
 using Array = nb::ndarray<nb::c_contig, nb::device::cpu, What...>;
-using Points = Array<const double, nb::shape<-1, 2>>;
+
+/// Rows (x, y), aligned, with any strides.
+using Rows = nb::ndarray<nb::device::cpu, const double, nb::shape<-1, 2>>;
 
 /// A new array of NumPy's that owns the rows: as many numbers T in each as fit.
 template <typename T, typename Row>
@@ -56,25 +58,13 @@ Handle retained(std::uintptr_t handle) {
   return Handle(reinterpret_cast<typename Handle::cl_type>(handle), true);
 }
 
-/// How points become pixels.
-struct Placing {
-  Grid grid;
-  std::optional<PixelMap> map;  // none: points are in pixels
-  bool y_up;                    // rows are counted from the bottom
-  bool outside_counts;          // points outside are seeds too; false for a periodic grid
-};
-
-/// Seeds, and the points of their present and last frame, so that a move allocates nothing. The library wants
-/// one thread at a time; threads of Python take turns.
+/// Seeds. The library wants one thread at a time; threads of Python take turns.
 struct SeedsObject {
-  SeedsObject(const Device& device, const Placing& of_points)
-      : placing(of_points), seeds(device, of_points.grid, std::vector<Point>()) {}
-  SeedsObject(Seeds made, const Placing& of_points) : placing(of_points), seeds(std::move(made)) {}
+  explicit SeedsObject(Seeds made) : seeds(std::move(made)) {}
 
   std::mutex mutex;
-  Placing placing;
   Seeds seeds;
-  std::vector<std::uint32_t> positions, last_positions;
+  std::vector<std::uint8_t> present;  // of the last points, so that a move allocates nothing
 };
 
 /// A diagram, and what was measured of it last, so that the next measurement allocates nothing.
@@ -83,6 +73,7 @@ struct DiagramObject {
 
   std::mutex mutex;
   Diagram diagram;
+  std::optional<Seeds> seeds;  // in the frame that its labels name; none if it is not known
   CellSumsResult sums;
   CellShapesResult shapes;
   AdjacencyResult adjacency;

@@ -119,11 +119,25 @@ def test_methods_that_flood_refuse_points_outside(method):
         vorocl.diagram([(0, 0), (-1, 2)], (4, 8), method=method)
 
 
-def test_a_periodic_grid_refuses_points_outside_along_its_other_axis():
-    with pytest.raises(vorocl.BadPoint, match="point 1 .*axis that is not periodic"):
-        vorocl.diagram([(0, 0), (3, 4)], (4, 8), periodic=(True, False))
+@pytest.mark.parametrize("periodic", [(True, False), (False, True)])
+def test_points_outside_count_along_the_other_axis_of_a_periodic_grid(periodic):
+    points = rng.uniform((-60, -45), (100, 75), (80, 2))
+    labels = vorocl.diagram(points, (30, 40), periodic=periodic)
+    inside = points % [size if axis else 2**20 for axis, size in zip(periodic, (40, 30))]
+    inside -= np.where(inside > 2**19, 2**20, 0)
+    np.testing.assert_array_equal(labels, brute_force(inside, (30, 40), periodic))
     bounded = vorocl.diagram([(0, 0), (20, 4)], (4, 8), bounds=(0, 0, 8, 4), periodic=(True, False))
     np.testing.assert_array_equal(bounded, brute_force([(0, 0), (4, 3)], (4, 8), (True, False)))
+
+
+@pytest.mark.parametrize("bounds", [None, (0, 0, 40, 30)])
+def test_points_outside_are_absent(bounds):
+    points = rng.uniform(-20, 60, (60, 2))
+    within = ((points >= 0) & (points < (40, 30))).all(axis=1)
+    labels = vorocl.diagram(points, (30, 40), bounds=bounds, outside="absent", method="jfa+2")
+    expected = brute_force(np.where(within[:, None], points, np.nan), (30, 40))
+    assert vorocl.similarity(labels, expected) > 99
+    assert vorocl.Seeds(points, (30, 40), bounds=bounds, outside="absent").alive == within.sum()
 
 
 def test_labels_go_where_they_are_wanted():
@@ -137,7 +151,13 @@ def test_labels_go_where_they_are_wanted():
 def test_points_of_all_types_and_strides(dtype):
     points = rng.integers(0, 20, (15, 2))
     expected = brute_force(points, (20, 20))
-    for layout in points, np.asfortranarray(points), points[::-1][::-1], points.repeat(2, 0)[::2], points.tolist():
+    wide = np.zeros((15, 5), points.dtype)
+    wide[:, 3::-2] = points
+    packed = np.zeros(15, [("flag", "i1"), ("xy", dtype, 2)])  # its numbers are not aligned
+    packed["xy"] = points
+    np.testing.assert_array_equal(vorocl.diagram(packed["xy"], (20, 20)), expected)
+    layouts = points, np.asfortranarray(points), points[::-1][::-1], points.repeat(2, 0)[::2], points.tolist()
+    for layout in *layouts, wide[:, 3::-2], np.ascontiguousarray(points[::-1])[::-1]:
         np.testing.assert_array_equal(vorocl.diagram(np.array(layout, dtype), (20, 20)), expected)
         np.testing.assert_array_equal(vorocl.diagram(layout, (20, 20)), expected)
     fixed = points.astype(dtype)

@@ -66,6 +66,9 @@ def test_vertices_are_as_many_as_the_device_counts(points, periodic):
     diagram = vorocl.Diagram(SHAPE, periodic=periodic)
     diagram.fill(vorocl.Seeds(points, SHAPE, periodic=periodic))
     assert len(found) == diagram.count_vertices() > 60
+    np.testing.assert_array_equal(found, diagram.vertices())
+    assert (np.lexsort((found[:, 0], found[:, 1])) == np.arange(len(found))).all()
+    assert found.min() >= 1 and (found <= SHAPE[::-1]).all()
     labels = diagram.read()
     for x, y in found.astype(int):
         around = labels[np.ix_([y - 1, y % SHAPE[0]], [x - 1, x % SHAPE[1]])]

@@ -23,7 +23,7 @@ def test_seeds_move_and_say_how_far():
     assert seeds.alive == 3
     np.testing.assert_array_equal(seeds.read(), [(39.5, 1.5), (30.5, 9.5), (7.5, 7.5)])
     with pytest.raises(vorocl.BadPoint):
-        seeds.move_to([(1, 1), (1, 21)])
+        seeds.move_to([(1, 1), (1, 2.0**31)])
     np.testing.assert_array_equal(seeds.read(), [(39.5, 1.5), (30.5, 9.5), (7.5, 7.5)])
     assert seeds.move_to([(38, 1)]) == 1 and len(seeds) == 1
 
@@ -36,9 +36,38 @@ def test_a_diagram_is_filled_read_and_written():
     assert report.waves == 6 and report.milliseconds > 0
     out = np.empty((64, 64), np.uint32)
     assert diagram.read(out) is out
-    assert diagram.errors(seeds).wrong_percent < 2
+    assert diagram.errors().wrong_percent < 2
     diagram.write(np.zeros((64, 64), np.int64))
     assert (diagram.read() == 0).all()
+
+
+def test_a_diagram_remembers_its_seeds():
+    points = rng.uniform(0, 64, (20, 2))
+    seeds, diagram = vorocl.Seeds(points, (64, 64)), vorocl.Diagram((64, 64))
+    diagram.fill(seeds, metric="manhattan")
+    expected = vorocl.cells(points, (64, 64), metric="manhattan")
+    seeds.move_to([(1, 1)])
+    np.testing.assert_array_equal(diagram.cells(), expected)
+    np.testing.assert_array_equal(diagram.distances(), vorocl.distances(points, (64, 64), metric="manhattan"))
+    assert diagram.errors().wrong_pixels == 0
+    labels = diagram.read()
+    diagram.write(labels)
+    for measure in diagram.cells, diagram.distances, diagram.adjacency, diagram.errors:
+        with pytest.raises(vorocl.BadArgument, match="seeds"):
+            measure()
+    del seeds
+    diagram.write(labels, vorocl.Seeds(points, (64, 64)), "manhattan")
+    np.testing.assert_array_equal(diagram.cells(), expected)
+
+
+def test_a_diagram_shows_what_its_seeds_are_on():
+    points, bounds = rng.uniform(-1, 1, (20, 2)), (-1, -1, 1, 1)
+    diagram = vorocl.Diagram((40, 50))
+    diagram.fill(vorocl.Seeds(points, (40, 50), bounds=bounds, y_up=True))
+    np.testing.assert_array_equal(diagram.read(), vorocl.diagram(points, (40, 50), bounds=bounds, y_up=True))
+    pixels = (points + 1) * (25, 20)
+    diagram.fill(vorocl.Seeds(pixels, (40, 50)))
+    np.testing.assert_array_equal(diagram.read(), brute_force(pixels, (40, 50)))
 
 
 def test_frames_of_a_simulation_are_right():
@@ -53,7 +82,7 @@ def test_frames_of_a_simulation_are_right():
         np.testing.assert_array_equal(labels, brute_force(now % 96, (96, 96), (True, True)))
         assert vorocl.similarity(dynamic.step(now).read(), labels) > 97
         assert dynamic.report.waves > 0
-        assert exact.diagram.cells(exact.seeds)["area"].sum() == 96 * 96
+        assert exact.diagram.cells()["area"].sum() == 96 * 96
 
 
 def test_seeds_leave_the_window_and_come_back():
@@ -143,7 +172,7 @@ def test_threads_that_share_a_diagram_take_turns():
             seeds.move_to(rng.uniform(0, 40, (int(rng.integers(1, 50)), 2)))
             diagram.fill(seeds)
             diagram.read()
-            diagram.cells(seeds)
+            diagram.cells()
 
     threads = [threading.Thread(target=work) for _ in range(3)]
     for thread in threads:

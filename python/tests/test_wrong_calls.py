@@ -114,8 +114,10 @@ def test_a_thousand_wrong_calls():
     for points in WRONG["points"]:
         calls += [(seeds.move_to, {"points": points}), (simulation.step, {"points": points})]
     for value in NO_NUMBERS + [1, RIGHT, diagram, vorocl.Seeds]:
-        measures = diagram.distances, diagram.cells, diagram.adjacency, diagram.errors
-        calls += [(call, {"seeds": value}) for call in (diagram.fill, *measures)]
+        calls += [(diagram.fill, {"seeds": value})]
+        if value is not None:
+            calls += [(diagram.write, {"labels": LABELS, "seeds": value})]
+    calls += [(diagram.write, {"labels": LABELS, "seeds": seeds, "metric": value}) for value in WRONG["metric"]]
     for name in "method", "metric", "max_displacement":
         fixed = {"seeds": seeds, "method": "djfa"}
         calls += [(diagram.fill, {**fixed, name: value}) for value in WRONG[name]]
@@ -135,6 +137,10 @@ def test_a_thousand_wrong_calls():
 def test_seeds_of_another_grid_are_refused():
     diagram = vorocl.Diagram((8, 10))
     for seeds in vorocl.Seeds(RIGHT, (10, 8)), vorocl.Seeds(RIGHT, (8, 10), periodic=(True, False)):
-        for call in diagram.fill, diagram.distances, diagram.cells, diagram.adjacency, diagram.errors:
-            with pytest.raises(vorocl.BadArgument, match="grid"):
-                call(seeds)
+        with pytest.raises(vorocl.BadArgument, match="grid"):
+            diagram.fill(seeds)
+        with pytest.raises(vorocl.BadArgument, match="grid"):
+            diagram.write(LABELS, seeds)
+        for measure in diagram.distances, diagram.cells, diagram.adjacency, diagram.errors:
+            with pytest.raises(vorocl.BadArgument, match="seeds"):
+                measure()

@@ -27,7 +27,7 @@ def shown(value: object) -> str:
 
 
 def to_points(points: ArrayLike) -> NDArray[np.float64]:
-    """(N, 2) numbers, C-contiguous; the masked rows of a masked array as NaN."""
+    """(N, 2) numbers, aligned, with strides of whole numbers; the masked rows of a masked array as NaN."""
     if isinstance(points, np.ma.MaskedArray):
         points = np.ma.filled(points.astype(np.float64), np.nan)
     try:
@@ -42,11 +42,22 @@ def to_points(points: ArrayLike) -> NDArray[np.float64]:
         raise BadArgument(f"points must be real numbers; this array has the dtype {array.dtype}")
     if len(array) > MOST_SEEDS:
         raise BadArgument(f"there are {len(array)} points; at most 2^30 are possible")
+    if array.dtype == np.float64 and array.flags.aligned and all(step % 8 == 0 for step in array.strides):
+        return array  # without a copy
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def to_grid(shape: Shape, periodic: Periodic) -> _vorocl.Grid:
-    """The grid of a shape (H, W) and of its periodic axes (x, y)."""
+def to_grid(
+    shape: Shape,
+    periodic: Periodic,
+    bounds: Optional[Bounds] = None,
+    outside: str = "count",
+    y_up: bool = False,
+) -> _vorocl.Grid:
+    """The grid of a shape (H, W), of its periodic axes (x, y), and of what it shows of the points' plane.
+
+    Points at the bounds' far ends are inside, unless what is outside them counts all round.
+    """
     try:
         height, width = (operator.index(side) for side in shape)
     except (TypeError, ValueError):
@@ -57,7 +68,9 @@ def to_grid(shape: Shape, periodic: Periodic) -> _vorocl.Grid:
         raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}") from None
     far = 2**31  # past every limit, of which the library tells
     height, width = (max(-far, min(side, far)) for side in (height, width))
-    return _vorocl.Grid(width, height, periodic_x, periodic_y)
+    corners, upwards = to_bounds(bounds), to_flag(y_up, "y_up")
+    closed = corners is not None and (to_outside(outside) != "count" or periodic_x or periodic_y)
+    return _vorocl.Grid(width, height, periodic_x, periodic_y, corners, upwards, closed)
 
 
 def shape_of(grid: _vorocl.Grid) -> Tuple[int, int]:
@@ -92,8 +105,8 @@ def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
 
 def to_outside(outside: str) -> str:
     """What is done about points outside."""
-    if not isinstance(outside, str) or outside not in ("count", "refuse"):
-        raise BadArgument(f'outside must be "count" or "refuse"; this is {shown(outside)}')
+    if not isinstance(outside, str) or outside not in ("count", "absent", "refuse"):
+        raise BadArgument(f'outside must be "count", "absent" or "refuse"; this is {shown(outside)}')
     return outside
 
 

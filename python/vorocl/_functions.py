@@ -18,7 +18,6 @@ from ._arguments import (
     shown,
     to_bounds,
     to_count,
-    to_flag,
     to_grid,
     to_image,
     to_labels,
@@ -30,6 +29,7 @@ from ._arguments import (
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._objects import Diagram, Seeds
+from ._parameters import with_parameters
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -61,16 +61,16 @@ def _filled(
     outside: str,
     y_up: bool,
     device: Optional[Device],
-) -> Tuple[Seeds, Diagram]:
-    """The seeds and their diagram, which are the thread's until its next call."""
-    grid = to_grid(shape, periodic)
+) -> Diagram:
+    """The diagram, which is the thread's until its next call."""
+    grid = to_grid(shape, periodic, bounds, outside, y_up)
     shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
-    corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
-    wanted = (shape, periodic, corners, to_outside(outside), upwards, to_device(device))
+    corners, array = to_bounds(bounds), to_points(points)
+    wanted = (shape, periodic, corners, to_outside(outside), y_up, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
         seeds = Seeds(
-            array, shape, bounds=corners, periodic=periodic, outside=outside, y_up=upwards, device=device
+            array, shape, bounds=corners, periodic=periodic, outside=outside, y_up=y_up, device=device
         )
         _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
         _workspace.made_for = wanted
@@ -80,9 +80,10 @@ def _filled(
     if method in _CONTINUING:
         made = Diagram(shape, periodic=periodic, device=device)  # or it would go on from the last call's labels
     made.fill(_workspace.seeds, method, metric)
-    return _workspace.seeds, made
+    return made
 
 
+@with_parameters
 def diagram(
     points: ArrayLike,
     shape: Shape,
@@ -104,31 +105,10 @@ def diagram(
 
     Parameters
     ----------
-    points : array_like
-        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
-        [i, i + 1). A row with a NaN is absent, and so is a row that is masked.
-    shape : (int, int)
-        The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
-    method : str, optional
-        "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa".
-    metric : {"euclidean", "manhattan"}, optional
-    bounds : (float, float, float, float), optional
-        (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-        floor((x - x0) * W / (x1 - x0)); rows likewise. Where pixels are no squares in
-        these units, the nearest point in pixels need not be the nearest in the plane.
-    periodic : (bool, bool), optional
-        Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
-    outside : {"count", "refuse"}, optional
-        What is done about points outside the grid or the bounds. "count": the grid is a window of a larger plane, and
-        they are seeds too, up to 2**31 pixels away; a method that floods refuses them, and so does a periodic grid, of
-        points that are outside along its other axis. "refuse": they are an error; a point at x1 or y1 is in the last
-        pixel then, as along the other axis of a periodic grid.
-    y_up : bool, optional
-        Whether y of the points goes up: rows of the labels are counted from the bottom then.
+    <points, shape, method, metric, bounds, periodic, outside, y_up>
     out : ndarray, optional
         Where the labels go: uint32, shape (H, W), C-contiguous. Without it, a new array.
-    device : Device, optional
-        Without it, ``Device()``.
+    <device>
 
     Returns
     -------
@@ -158,21 +138,21 @@ def diagram(
     array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
     """
     labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
-    _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    return made.read(labels)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).read(labels)
 
 
 def _of_mask(
     mask: NDArray[Any], periodic: Periodic, device: Optional[Device], method: str, metric: str
-) -> Tuple[Diagram, _vorocl.Seeds]:
+) -> Diagram:
     grid = to_grid(mask.shape, periodic)
     made = Diagram(mask.shape, periodic=periodic, device=device)
     pixels = np.ascontiguousarray(mask != 0).view(np.uint8)
     seeds = _vorocl.Seeds.from_mask(made.device._device, grid, pixels)
     made._diagram.fill(seeds, to_text(method, "method"), to_text(metric, "metric"), None)
-    return made, seeds
+    return made
 
 
+@with_parameters
 def from_mask(
     mask: ArrayLike,
     *,
@@ -188,8 +168,10 @@ def from_mask(
     ----------
     mask : array_like
         Shape (H, W), of numbers or booleans.
-    method, metric, periodic, out, device
-        As those of `diagram`.
+    <method, metric, periodic>
+    out : ndarray, optional
+        Where the labels go: uint32, shape (H, W), C-contiguous. Without it, a new array.
+    <device>
 
     Returns
     -------
@@ -213,9 +195,10 @@ def from_mask(
     if image.dtype.kind not in "biuf":
         raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
     labels = output(out, image.shape, np.uint32)
-    return _of_mask(image, periodic, device, method, metric)[0].read(labels)
+    return _of_mask(image, periodic, device, method, metric).read(labels)
 
 
+@with_parameters
 def expand_labels(
     labels: ArrayLike, distance: Optional[float] = None, *, device: Optional[Device] = None
 ) -> NDArray[Any]:
@@ -231,8 +214,7 @@ def expand_labels(
         Shape (H, W), integers; 0 is the background.
     distance : float, optional
         How far regions grow, in pixels: as far as this and no farther. Without it, until no background is left.
-    device : Device, optional
-        Without it, ``Device()``.
+    <device>
 
     Returns
     -------
@@ -257,21 +239,19 @@ def expand_labels(
     farthest = math.inf if distance is None else to_number(distance, "distance")
     if not farthest >= 0:
         raise BadArgument(f"distance must be at least 0; this is {shown(distance)}")
-    made, seeds = _of_mask(image, (False, False), device, "exact", "euclidean")
-    known = image[image != 0]
-    if len(known) == 0:
-        return np.zeros_like(image)
-    expanded: NDArray[Any] = known[made.read()]
-    if farthest < math.hypot(*image.shape):
-        squared = np.empty(image.shape, np.int32)
-        made._diagram.squared_distances(seeds, squared)
-        most = int(farthest**2) + 1
-        while math.sqrt(most) > farthest:  # the greatest square of a distance that is near enough
-            most -= 1
-        expanded[squared > most] = 0
+    made = _of_mask(image, (False, False), device, "exact", "euclidean")
+    if distance is None:
+        nearest = made.read()
+    else:
+        nearest = np.empty(image.shape, np.uint32)
+        made._diagram.expand(farthest, nearest)
+    known = np.zeros(np.count_nonzero(image) + 1, image.dtype)  # the background is the last one
+    known[:-1] = image[image != 0]
+    expanded: NDArray[Any] = known[np.minimum(nearest, len(known) - 1)]
     return expanded
 
 
+@with_parameters
 def distances(
     points: ArrayLike,
     shape: Shape,
@@ -289,10 +269,10 @@ def distances(
 
     Parameters
     ----------
-    points, shape, method, metric, bounds, periodic, outside, y_up, device
-        As those of `diagram`.
+    <points, shape, method, metric, bounds, periodic, outside, y_up>
     out : ndarray, optional
         Where the distances go: float32, shape (H, W), C-contiguous. Without it, a new array.
+    <device>
 
     Returns
     -------
@@ -311,10 +291,10 @@ def distances(
            [1., 2., 3., 4.]], dtype=float32)
     """
     values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
-    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    return made.distances(seeds, metric, values)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).distances(values)
 
 
+@with_parameters
 def cells(
     points: ArrayLike,
     shape: Shape,
@@ -331,8 +311,7 @@ def cells(
 
     Parameters
     ----------
-    points, shape, method, metric, bounds, periodic, outside, y_up, device
-        As those of `diagram`.
+    <points, shape, method, metric, bounds, periodic, outside, y_up, device>
 
     Returns
     -------
@@ -371,10 +350,10 @@ def cells(
     >>> cells[["left", "top", "right", "bottom"]][1].tolist()
     (3, 0, 7, 3)
     """
-    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    return made.cells(seeds, metric)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).cells()
 
 
+@with_parameters
 def adjacency(
     points: ArrayLike,
     shape: Shape,
@@ -394,8 +373,7 @@ def adjacency(
 
     Parameters
     ----------
-    points, shape, method, metric, bounds, periodic, outside, y_up, device
-        As those of `diagram`.
+    <points, shape, method, metric, bounds, periodic, outside, y_up, device>
 
     Returns
     -------
@@ -415,10 +393,10 @@ def adjacency(
     >>> pairs.tolist(), lengths.tolist()
     ([[0, 1], [1, 2]], [2, 2])
     """
-    seeds, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    return made.adjacency(seeds)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).adjacency()
 
 
+@with_parameters
 def vertices(
     points: ArrayLike,
     shape: Shape,
@@ -433,12 +411,9 @@ def vertices(
 ) -> NDArray[np.float64]:
     """Find the vertices: the pixel corners where three or more cells meet.
 
-    Found on the host, from the labels: some 20 ns per pixel. `Diagram.count_vertices` counts them on the device.
-
     Parameters
     ----------
-    points, shape, method, metric, bounds, periodic, outside, y_up, device
-        As those of `diagram`.
+    <points, shape, method, metric, bounds, periodic, outside, y_up, device>
 
     Returns
     -------
@@ -456,19 +431,7 @@ def vertices(
     >>> vorocl.vertices([(0, 0), (3, 0), (1, 3)], (4, 4)).tolist()
     [[2.0, 2.0]]
     """
-    _, made = _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device)
-    # The next column and row of every corner's pixel: past the last ones there are the first, or no corner.
-    grid = to_grid(shape, periodic)
-    labels = np.pad(made.read(), ((0, int(grid.periodic_y)), (0, int(grid.periodic_x))), mode="wrap")
-    a, b, c, d = labels[:-1, :-1], labels[:-1, 1:], labels[1:, :-1], labels[1:, 1:]
-    cells_there = (
-        (a != NO_LABEL).astype(np.int8)
-        + ((b != NO_LABEL) & (b != a))
-        + ((c != NO_LABEL) & (c != a) & (c != b))
-        + ((d != NO_LABEL) & (d != a) & (d != b) & (d != c))
-    )
-    rows, columns = np.nonzero(cells_there >= 3)
-    return np.column_stack([columns + 1, rows + 1]).astype(np.float64)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).vertices()
 
 
 class Relaxation(NamedTuple):
@@ -484,6 +447,7 @@ class Relaxation(NamedTuple):
     """Whether no point would move any more."""
 
 
+@with_parameters
 def relax(
     points: ArrayLike,
     shape: Shape,
@@ -498,14 +462,15 @@ def relax(
 ) -> Relaxation:
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
 
-    A round moves every point to the pixel that is nearest to its cell's centroid. Ctrl-C ends it after a round.
+    A round moves every point to the pixel that is nearest to its cell's centroid, in Euclidean diagrams. Ctrl-C ends it
+    after a round.
 
     Parameters
     ----------
-    points, shape, method, bounds, periodic, outside, y_up, device
-        As those of `diagram`. Distances are Euclidean.
+    <points, shape>
     rounds : int, optional
         How many at most. It ends before if no point moves any more.
+    <method, bounds, periodic, outside, y_up, device>
 
     Returns
     -------
@@ -527,13 +492,8 @@ def relax(
     seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
     made = Diagram(shape, periodic=periodic, device=device)
     done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
-    height, width = made.shape
-    places = seeds.read()
-    if y_up:
-        places[:, 1] = height - places[:, 1]
-    if bounds is not None:
-        x0, y0, x1, y1 = (float(corner) for corner in bounds)
-        places = (x0, y0) + places * ((x1 - x0) / width, (y1 - y0) / height)
+    places = np.empty((len(seeds), 2))
+    seeds._seeds.read(places, in_pixels=False)
     return Relaxation(
         places, np.array(done.energies, np.uint64), np.array(done.moved, np.int64), done.converged
     )
@@ -568,6 +528,7 @@ def similarity(a: ArrayLike, b: ArrayLike) -> float:
     return 100 * int(np.count_nonzero(first == second)) / first.size
 
 
+@with_parameters
 def errors(
     labels: ArrayLike,
     points: ArrayLike,
@@ -588,8 +549,7 @@ def errors(
     ----------
     labels : array_like
         Integers, shape (H, W): rows of `points`.
-    points, metric, bounds, periodic, outside, y_up, device
-        As those of `diagram`.
+    <points, metric, bounds, periodic, outside, y_up, device>
 
     Returns
     -------
@@ -613,5 +573,5 @@ def errors(
     shape = image.shape
     seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
     judged = Diagram(shape, periodic=periodic, device=device)
-    judged.write(image)
-    return judged.errors(seeds, metric)
+    judged.write(image, seeds, metric)
+    return judged.errors()

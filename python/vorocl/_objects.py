@@ -13,8 +13,6 @@ from ._arguments import (
     Shape,
     output,
     shape_of,
-    to_bounds,
-    to_flag,
     to_grid,
     to_labels,
     to_number,
@@ -24,6 +22,7 @@ from ._arguments import (
 )
 from ._device import Device, is_of_pyopencl, to_device
 from ._errors import BadArgument
+from ._parameters import with_parameters
 
 if TYPE_CHECKING:
     import pyopencl
@@ -55,6 +54,7 @@ def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
     return seeds._seeds
 
 
+@with_parameters
 class Seeds:
     """Points as seeds of a diagram, on the device: each is snapped to the pixel that holds it.
 
@@ -63,26 +63,7 @@ class Seeds:
 
     Parameters
     ----------
-    points : array_like
-        Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
-        [i, i + 1). A row with a NaN is absent, and so is a row that is masked.
-    shape : (int, int)
-        The grid, (H, W) in pixels: sides from 1 to 32,768, along a periodic axis to 32,000, and at most 2**30 pixels.
-    bounds : (float, float, float, float), optional
-        (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-        floor((x - x0) * W / (x1 - x0)); rows likewise.
-        Without it, points are in pixels.
-    periodic : (bool, bool), optional
-        Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.
-    outside : {"count", "refuse"}, optional
-        What is done about points outside the grid or the bounds. "count": the grid is a window of a larger plane, and
-        they are seeds too, up to 2**31 pixels away; a method that floods refuses them, and so does a periodic grid, of
-        points that are outside along its other axis. "refuse": they are an error; a point at x1 or y1 is in the last
-        pixel then, as along the other axis of a periodic grid.
-    y_up : bool, optional
-        Whether y of the points goes up: rows are counted from the bottom then.
-    device : Device, optional
-        Without it, ``Device()``.
+    <points, shape, bounds, periodic, outside, y_up, device>
 
     Raises
     ------
@@ -113,12 +94,10 @@ class Seeds:
         y_up: bool = False,
         device: Optional[Device] = None,
     ) -> None:
-        grid = to_grid(shape, periodic)
-        counts = to_outside(outside) == "count"
-        corners, upwards, array = to_bounds(bounds), to_flag(y_up, "y_up"), to_points(points)
+        grid = to_grid(shape, periodic, bounds, outside, y_up)
+        array = to_points(points)
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, corners, upwards, counts)
-        self._seeds.move_to(array)
+        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside))
 
     @property
     def device(self) -> Device:
@@ -148,7 +127,7 @@ class Seeds:
         -------
         int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
-            shorter way round. Seeds that appear or vanish, or are outside, do not count.
+            shorter way round. Seeds that appear or vanish do not count.
 
         Raises
         ------
@@ -164,7 +143,7 @@ class Seeds:
         2
         """
         self._seeds.move_to(to_points(points))
-        return self._seeds.displacement
+        return int(self._seeds.displacement)
 
     def read(self) -> NDArray[np.float64]:
         """Return the centres of the seeds' pixels.
@@ -175,21 +154,20 @@ class Seeds:
             Shape (N, 2), rows (x, y) in pixels, y down; NaN for a seed that is absent.
         """
         points = np.empty((len(self), 2))
-        self._seeds.read(points)
+        self._seeds.read(points, in_pixels=True)
         return points
 
 
 class Diagram:
     """A Voronoi diagram: an image of labels, kept on the device.
 
-    It keeps its working memory, so that filling it again allocates nothing. Threads that share a diagram take turns.
+    It keeps its working memory, so that filling it again allocates nothing. It remembers the metric and the seeds, where
+    they were then: measures ask it for them. Threads that share a diagram take turns.
 
     Parameters
     ----------
-    shape : (int, int)
-        As that of the seeds that it will be filled from, and so are `periodic` and `device`.
-    periodic : (bool, bool), optional
-    device : Device, optional
+    shape, periodic, device
+        Those of the seeds that it will be filled from.
     labels : pyopencl.Buffer, optional
         Where the labels are to be: at least 4 * H * W bytes of the device's context, which kernels can read and write.
 
@@ -262,7 +240,7 @@ class Diagram:
         metric : {"euclidean", "manhattan"}, optional
         max_displacement : float, optional
             For "djfa" alone: how far a seed has moved along an axis, at most, since the diagram was last filled, in
-            pixels. Without it, seeds may have moved anywhere.
+            pixels. Without it, what the seeds know of it.
 
         Returns
         -------
@@ -296,15 +274,27 @@ class Diagram:
         self._diagram.read(labels)
         return labels
 
-    def write(self, labels: ArrayLike) -> None:
+    def write(self, labels: ArrayLike, seeds: Optional[Seeds] = None, metric: str = "euclidean") -> None:
         """Write labels of the caller's, such as those that another program computed.
 
         Parameters
         ----------
         labels : array_like
             Integers of the diagram's shape. Those that are no seed's id count as none.
+        seeds : Seeds, optional
+            Which the labels name. Without them, measures that need seeds raise an error.
+        metric : {"euclidean", "manhattan"}, optional
+            By which they do.
+
+        Raises
+        ------
+        BadArgument, DeviceError
         """
-        self._diagram.write(to_labels(labels))
+        image, text = to_labels(labels), to_text(metric, "metric")
+        if seeds is None:
+            self._diagram.write(image)
+        else:
+            self._diagram.write_of(image, to_seeds(seeds), text)
 
     @property
     def buffer(self) -> pyopencl.Buffer:
@@ -316,31 +306,33 @@ class Diagram:
 
         return cast("pyopencl.Buffer", pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True))
 
-    def distances(
-        self, seeds: Seeds, metric: str = "euclidean", out: Optional[NDArray[np.float32]] = None
-    ) -> NDArray[np.float32]:
+    def distances(self, out: Optional[NDArray[np.float32]] = None) -> NDArray[np.float32]:
         """Return each pixel's distance to the seed of its label: see `vorocl.distances`."""
         values = output(out, self._shape, np.float32)
-        self._diagram.distances(to_seeds(seeds), to_text(metric, "metric"), values)
+        self._diagram.distances(values)
         return values
 
-    def cells(self, seeds: Seeds, metric: str = "euclidean") -> NDArray[Any]:
+    def cells(self) -> NDArray[Any]:
         """Measure every cell: see `vorocl.cells`."""
-        rows = self._diagram.cells(to_seeds(seeds), to_text(metric, "metric"))
+        rows = self._diagram.cells()
         return rows.view(CELL).reshape(len(rows))
 
-    def adjacency(self, seeds: Seeds) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
+    def adjacency(self) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
         """Find the cells that touch: see `vorocl.adjacency`."""
-        rows = self._diagram.adjacency(to_seeds(seeds))
+        rows = self._diagram.adjacency()
         return rows[:, :2], rows[:, 2]
 
+    def vertices(self) -> NDArray[np.float64]:
+        """Find the pixel corners where three or more cells meet: see `vorocl.vertices`."""
+        return self._diagram.vertices()
+
     def count_vertices(self) -> int:
-        """Count the pixel corners where three or more cells meet: see `vorocl.vertices`."""
+        """Count the pixel corners where three or more cells meet, on the device."""
         return self._diagram.count_vertices()
 
-    def errors(self, seeds: Seeds, metric: str = "euclidean") -> _vorocl.DistanceErrors:
+    def errors(self) -> _vorocl.DistanceErrors:
         """Judge the labels by the exact diagram: see `vorocl.errors`."""
-        return self._diagram.errors(to_seeds(seeds), to_text(metric, "metric"))
+        return self._diagram.errors()
 
 
 def _handle(buffer: pyopencl.Buffer) -> int:
@@ -349,15 +341,16 @@ def _handle(buffer: pyopencl.Buffer) -> int:
     return int(buffer.int_ptr)
 
 
+@with_parameters
 class Simulation:
     """Seeds that move, and their diagram frame by frame. Nothing is allocated on the device after the first frame.
 
     Parameters
     ----------
-    shape, bounds, periodic, outside, y_up, device
-        As those of `Seeds`.
-    method, metric : str, optional
-        As those of `Diagram.fill`. "djfa" goes on from the last frame, and is told how far seeds have moved.
+    <shape>
+    method : str, optional
+        As that of `Diagram.fill`. "djfa" goes on from the last frame.
+    <metric, bounds, periodic, outside, y_up, device>
 
     Attributes
     ----------
@@ -376,7 +369,7 @@ class Simulation:
     >>> labels = np.empty((64, 64), np.uint32)
     >>> for frame in range(3):
     ...     _ = simulation.step(points + frame).read(out=labels)
-    >>> int(simulation.diagram.cells(simulation.seeds)["area"].sum())
+    >>> int(simulation.diagram.cells()["area"].sum())
     4096
     """
 
@@ -398,7 +391,6 @@ class Simulation:
             (), shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=self.diagram.device
         )
         self.report: Optional[_vorocl.Report] = None
-        self._displacement = 0  # since the diagram was last filled
 
     def step(self, points: ArrayLike) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
@@ -419,7 +411,6 @@ class Simulation:
             The frame counts as not made then.
         BadArgument, DeviceMemoryError, DeviceError
         """
-        self._displacement += self.seeds.move_to(points)
-        self.report = self.diagram.fill(self.seeds, self._method, self._metric, self._displacement)
-        self._displacement = 0
+        self.seeds.move_to(points)
+        self.report = self.diagram.fill(self.seeds, self._method, self._metric)
         return self.diagram

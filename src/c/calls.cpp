@@ -74,17 +74,6 @@ void refuse(const char* what, int value) {
   throw Error(std::string(what) + " " + std::to_string(value) + " is unknown");
 }
 
-Periodic to_periodic(vorocl_periodic axes) {
-  if (axes < VOROCL_PERIODIC_NONE || axes > VOROCL_PERIODIC_XY) refuse("choice of periodic axes", axes);
-  return static_cast<Periodic>(axes);
-}
-
-Grid to_grid(const vorocl_grid& grid) { return Grid(grid.width, grid.height, to_periodic(grid.periodic)); }
-
-vorocl_grid to_c(const Grid& grid) {
-  return {grid.width(), grid.height(), static_cast<vorocl_periodic>(grid.periodic())};
-}
-
 Metric to_metric(vorocl_metric metric) {
   if (metric == VOROCL_EUCLIDEAN) return Metric::euclidean;
   if (metric == VOROCL_MANHATTAN) return Metric::manhattan;

@@ -102,11 +102,13 @@ const T& at(const std::vector<T>& list, std::size_t index, const char* what) {
 /// For a choice that is none of its constants.
 [[noreturn]] void refuse(const char* what, int value);
 
-Periodic to_periodic(vorocl_periodic axes);
 Grid to_grid(const vorocl_grid& grid);
+Window to_window(const vorocl_window& window);
 vorocl_grid to_c(const Grid& grid);
+vorocl_window to_c(const Window& window);
 
 Metric to_metric(vorocl_metric metric);
+MethodOptions to_options(const vorocl_method_options* options);
 vorocl_point to_c(const Point& point);
 
 }  // namespace vorocl

@@ -1,46 +1,71 @@
 // The C functions of diagrams.
+#include <vector>
+
 #include "calls.hpp"
 
 using namespace vorocl;
 
-vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_grid grid, vorocl_diagram** diagram) {
+vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_window window,
+                                    vorocl_diagram** diagram) {
   return make_object(diagram, "diagram", [&] {
-    return vorocl_diagram{Diagram(of(device), to_grid(grid)), {}};
+    return vorocl_diagram{Diagram(of(device), to_window(window)), {}};
   });
 }
 
-vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem labels,
+vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_window window, cl_mem labels,
                                          vorocl_diagram** diagram) {
   return make_object(diagram, "diagram", [&] {
     given(labels, "labels");
-    return vorocl_diagram{Diagram(of(device), to_grid(grid), retained(labels)), {}};
+    return vorocl_diagram{Diagram(of(device), to_window(window), retained(labels)), {}};
   });
 }
 
 void vorocl_diagram_free(vorocl_diagram* diagram) { delete diagram; }
 
-vorocl_status vorocl_diagram_grid(const vorocl_diagram* diagram, vorocl_grid* grid) {
-  return answer(grid, "grid", [&] { return to_c(of(diagram).grid()); });
+vorocl_status vorocl_diagram_window(const vorocl_diagram* diagram, vorocl_window* window) {
+  return answer(window, "window", [&] { return to_c(of(diagram).window()); });
 }
 
 vorocl_status vorocl_diagram_labels(const vorocl_diagram* diagram, cl_mem* labels) {
   return answer(labels, "labels", [&] { return of(diagram).labels()(); });
 }
 
-vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labels, size_t count) {
+vorocl_status vorocl_diagram_metric(const vorocl_diagram* diagram, vorocl_metric* metric) {
+  return answer(metric, "metric", [&] { return static_cast<vorocl_metric>(of(diagram).metric()); });
+}
+
+vorocl_status vorocl_diagram_method(const vorocl_diagram* diagram, const char** name) {
+  return answer(name, "name", [&] { return of(diagram).method().c_str(); });
+}
+
+namespace {
+
+template <typename Labels>
+void write(vorocl_diagram& diagram, const Labels& labels, const vorocl_seeds* seeds, vorocl_metric metric) {
+  diagram.report = {};
+  if (seeds == nullptr) {
+    diagram.diagram.write(labels);
+  } else {
+    diagram.diagram.write(labels, of(seeds), to_metric(metric));
+  }
+}
+
+}  // namespace
+
+vorocl_status vorocl_diagram_write(vorocl_diagram* diagram, const uint32_t* labels, size_t count,
+                                   const vorocl_seeds* seeds, vorocl_metric metric) {
   return guarded([&] {
-    check_count(of(diagram).grid().pixels(), "pixels", count);
+    check_count(of(diagram).window().pixels(), "pixels", count);
     const uint32_t* const first = &given(labels, "labels");
-    diagram->report = {};
-    diagram->diagram.write({first, first + count});
+    write(*diagram, std::vector<uint32_t>(first, first + count), seeds, metric);
   });
 }
 
-vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels) {
+vorocl_status vorocl_diagram_write_buffer(vorocl_diagram* diagram, cl_mem labels, const vorocl_seeds* seeds,
+                                          vorocl_metric metric) {
   return guarded([&] {
     given(labels, "labels");
-    given(diagram, "diagram").report = {};
-    diagram->diagram.write(retained(labels));
+    write(given(diagram, "diagram"), retained(labels), seeds, metric);
   });
 }
 
@@ -60,23 +85,11 @@ vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves, d
 
 vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count) {
   return guarded([&] {
-    check_count(of(diagram).grid().pixels(), "pixels", count);
+    check_count(of(diagram).window().pixels(), "pixels", count);
     of(diagram).read(&given(labels, "labels"));
   });
 }
 
 vorocl_status vorocl_diagram_wait(const vorocl_diagram* diagram) {
   return guarded([&] { of(diagram).wait(); });
-}
-
-vorocl_status vorocl_similarity(const vorocl_diagram* a, const vorocl_diagram* b, double* percent) {
-  return answer(percent, "percent", [&] { return similarity(of(a), of(b)); });
-}
-
-vorocl_status vorocl_changed_pixels(const vorocl_diagram* a, const vorocl_diagram* b, size_t* pixels) {
-  return answer(pixels, "pixels", [&] { return changed_pixels(of(a), of(b)); });
-}
-
-vorocl_status vorocl_count_vertices(const vorocl_diagram* diagram, size_t* vertices) {
-  return answer(vertices, "vertices", [&] { return count_vertices(of(diagram)); });
 }

@@ -9,6 +9,7 @@ using namespace vorocl;
 
 struct vorocl_cell_sums {
   CellSumsResult result;
+  CellStatisticsResult statistics;
 };
 
 struct vorocl_cell_shapes {
@@ -38,9 +39,8 @@ vorocl_status vorocl_cell_sums_create(vorocl_cell_sums** sums) {
 
 void vorocl_cell_sums_free(vorocl_cell_sums* sums) { delete sums; }
 
-vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const vorocl_seeds* seeds,
-                                       const vorocl_diagram* diagram) {
-  return guarded([&] { cell_sums(of(seeds), of(diagram), of(sums)); });
+vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const vorocl_diagram* diagram) {
+  return guarded([&] { cell_sums(of(diagram), of(sums)); });
 }
 
 vorocl_status vorocl_cell_sums_count(const vorocl_cell_sums* sums, size_t* count) {
@@ -83,7 +83,8 @@ vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_po
 vorocl_status vorocl_cell_sums_statistics(vorocl_cell_sums* sums, vorocl_cell_statistics* statistics) {
   return guarded([&] {
     given(statistics, "statistics");
-    const CellStatistics found = cell_statistics(of(sums));
+    cell_statistics(of(sums), sums->statistics);
+    const CellStatistics found = sums->statistics.read();
     *statistics = {found.cells, found.empty_cells, found.pixels, found.mean_area, found.area_deviation};
   });
 }
@@ -96,9 +97,8 @@ vorocl_status vorocl_cell_shapes_create(vorocl_cell_shapes** shapes) {
 
 void vorocl_cell_shapes_free(vorocl_cell_shapes* shapes) { delete shapes; }
 
-vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes, const vorocl_seeds* seeds,
-                                         const vorocl_diagram* diagram, vorocl_metric metric) {
-  return guarded([&] { cell_shapes(of(seeds), of(diagram), of(shapes), to_metric(metric)); });
+vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes, const vorocl_diagram* diagram) {
+  return guarded([&] { cell_shapes(of(diagram), of(shapes)); });
 }
 
 vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count) {
@@ -134,9 +134,8 @@ vorocl_status vorocl_adjacency_create(vorocl_adjacency** adjacency) {
 
 void vorocl_adjacency_free(vorocl_adjacency* adjacency) { delete adjacency; }
 
-vorocl_status vorocl_adjacency_find(vorocl_adjacency* adjacency, const vorocl_seeds* seeds,
-                                    const vorocl_diagram* diagram) {
-  return guarded([&] { vorocl::adjacency(of(seeds), of(diagram), of(adjacency)); });
+vorocl_status vorocl_adjacency_find(vorocl_adjacency* adjacency, const vorocl_diagram* diagram) {
+  return guarded([&] { vorocl::adjacency(of(diagram), of(adjacency)); });
 }
 
 vorocl_status vorocl_adjacency_pairs(const vorocl_adjacency* adjacency, size_t* pairs) {

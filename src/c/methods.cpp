@@ -1,4 +1,5 @@
 // The C functions that fill diagrams.
+#include <algorithm>
 #include <optional>
 
 #include "calls.hpp"
@@ -22,55 +23,23 @@ Reach to_reach(vorocl_reach reach) {
   refuse("reach", reach);
 }
 
-/// The name of a variant of jump flooding.
-const char* to_name(vorocl_variant variant) {
-  if (variant == VOROCL_JFA) return "jfa";
-  if (variant == VOROCL_JFA_PLUS_1) return "jfa+1";
-  if (variant == VOROCL_JFA_PLUS_2) return "jfa+2";
-  if (variant == VOROCL_ONE_PLUS_JFA) return "1+jfa";
-  refuse("variant", variant);
-}
-
-MethodOptions to_options(const vorocl_method_options* options) {
-  if (options == nullptr) return {};
-  return {to_metric(options->metric), to_mix(options->neighbourhood), options->von_neumann_waves,
-          options->extra_waves,       options->refresh_interval,      to_reach(options->reach)};
-}
-
-/// Runs a method and keeps its report; if it fails, there is none.
-void run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram, double max_displacement,
-         const MethodOptions& options) {
-  vorocl_diagram& to = given(diagram, "diagram");
-  to.report = {};
-  to.report = method(name).run(of(seeds), to.diagram, max_displacement, options);
+std::optional<double> to_displacement(double displacement) {
+  if (displacement == VOROCL_DISPLACEMENT_OF_SEEDS) return std::nullopt;
+  return displacement;
 }
 
 }  // namespace
 
-vorocl_status vorocl_standard_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                       vorocl_metric metric, vorocl_neighbourhood neighbourhood) {
-  return guarded([&] {
-    run("standard-flooding", seeds, diagram, 0, {to_metric(metric), to_mix(neighbourhood)});
-  });
+MethodOptions vorocl::to_options(const vorocl_method_options* options) {
+  if (options == nullptr) return {};
+  return {to_metric(options->metric),
+          to_mix(options->neighbourhood),
+          options->von_neumann_waves,
+          options->extra_waves,
+          options->refresh_interval,
+          to_reach(options->reach),
+          to_displacement(options->max_displacement)};
 }
-
-vorocl_status vorocl_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric,
-                                   vorocl_neighbourhood neighbourhood, vorocl_variant variant) {
-  return guarded([&] {
-    run(to_name(variant), seeds, diagram, 0, {to_metric(metric), to_mix(neighbourhood)});
-  });
-}
-
-vorocl_status vorocl_exact_diagram(const vorocl_seeds* seeds, vorocl_diagram* diagram, vorocl_metric metric) {
-  return guarded([&] { run("exact", seeds, diagram, 0, {to_metric(metric)}); });
-}
-
-vorocl_status vorocl_dynamic_jump_flooding(const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                                           double max_displacement, const vorocl_method_options* options) {
-  return guarded([&] { run("djfa", seeds, diagram, max_displacement, to_options(options)); });
-}
-
-// --- by name ---
 
 vorocl_status vorocl_method_count(size_t* count) {
   return answer(count, "count", [&] { return methods().size(); });
@@ -80,18 +49,43 @@ vorocl_status vorocl_method_get(size_t index, vorocl_method_description* descrip
   return guarded([&] {
     const Method& from = at(methods(), index, "methods");
     given(description, "description") = {from.name.c_str(), from.exact ? 1 : 0, from.continues ? 1 : 0,
-                                         from.outer_seeds ? 1 : 0};
+                                         from.windows ? 1 : 0};
   });
 }
 
 vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_diagram* diagram,
-                         double max_displacement, const vorocl_method_options* options) {
-  return guarded([&] { run(&given(name, "method"), seeds, diagram, max_displacement, to_options(options)); });
+                         const vorocl_method_options* options) {
+  return guarded([&] {
+    const Method& wanted = method(&given(name, "method"));
+    const MethodOptions its_options = to_options(options);
+    const Seeds& from = of(seeds);
+    vorocl_diagram& to = given(diagram, "diagram");
+    to.report = {};
+    to.report = wanted.run(from, to.diagram, its_options);
+  });
 }
 
-vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, vorocl_grid grid, size_t seeds,
-                             const vorocl_method_options* options) {
+vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, vorocl_window window,
+                             size_t seeds, const vorocl_method_options* options) {
   return guarded([&] {
-    prepare(method(&given(name, "method")), of(device), to_grid(grid), seeds, to_options(options));
+    prepare(method(&given(name, "method")), of(device), to_window(window), seeds, to_options(options));
+  });
+}
+
+vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
+                           const vorocl_method_options* options, int rounds, uint64_t* energies,
+                           size_t* moved, vorocl_relaxation* relaxation) {
+  return guarded([&] {
+    const Method& wanted = method(&given(name, "method"));
+    vorocl_diagram& to = given(diagram, "diagram");
+    const auto run = [&, its_options = to_options(options)](const Seeds& from, Diagram& filled) {
+      to.report = {};
+      to.report = wanted.run(from, filled, its_options);
+      return to.report;
+    };
+    const Relaxation done = relax(of(seeds), to.diagram, run, rounds);
+    if (energies != nullptr) std::copy(done.energies.begin(), done.energies.end(), energies);
+    if (moved != nullptr) std::copy(done.moved.begin(), done.moved.end(), moved);
+    store(relaxation, vorocl_relaxation{done.rounds(), done.converged ? 1 : 0});
   });
 }

@@ -9,21 +9,25 @@ using namespace vorocl;
 
 namespace {
 
-std::vector<std::optional<Point>> to_points(const vorocl_point* points, const uint8_t* present,
-                                            std::size_t count) {
-  if (count > 0) given(points, "points");
-  // Checked before the list is copied.
-  if (count > Grid::max_pixels)
-    throw Error(std::to_string(count) + " seeds are too many; at most 2^30 are possible");
-  std::vector<std::optional<Point>> list(count);
-  for (std::size_t id = 0; id < count; ++id) {
-    if (present == nullptr || present[id] != 0) list[id] = Point{points[id].x, points[id].y};
-  }
-  return list;
+/// A view of the caller's points.
+Points to_points(const vorocl_point* points, const uint8_t* present, std::size_t count) {
+  static_assert(sizeof(vorocl_point) == 2 * sizeof(double));
+  if (count == 0) return Points(std::vector<Point>());
+  return Points(&given(points, "points").x, &points->y, count, sizeof(vorocl_point)).marked(present);
 }
 
-Domain to_domain(const vorocl_domain& domain) {
-  return {domain.x, domain.y, domain.width, domain.height, to_periodic(domain.periodic)};
+PointBuffer to_points(cl_mem points, vorocl_point_format format, cl_mem present, std::size_t count) {
+  given(points, "points");
+  if (format != VOROCL_FLOAT2 && format != VOROCL_DOUBLE2) refuse("format of points", format);
+  return {retained(points), count, format == VOROCL_FLOAT2 ? PointFormat::float2 : PointFormat::double2,
+          retained(present)};
+}
+
+Outside to_outside(vorocl_outside outside) {
+  if (outside == VOROCL_OUTSIDE_COUNTS) return Outside::count;
+  if (outside == VOROCL_OUTSIDE_IS_ABSENT) return Outside::absent;
+  if (outside == VOROCL_OUTSIDE_IS_REFUSED) return Outside::refuse;
+  refuse("choice for points outside", outside);
 }
 
 Border to_border(vorocl_border border) {
@@ -32,30 +36,28 @@ Border to_border(vorocl_border border) {
   refuse("border", border);
 }
 
+void store(const std::vector<std::optional<Point>>& list, vorocl_point* points) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const std::optional<Point>& point : list) *points++ = to_c(point.value_or(Point{none, none}));
+}
+
 }  // namespace
 
 vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                        const vorocl_point* points, const uint8_t* present, size_t count,
-                                       vorocl_seeds** seeds) {
-  return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count))};
-  });
-}
-
-vorocl_status vorocl_seeds_in_domain(const vorocl_device* device, vorocl_grid grid, vorocl_domain domain,
-                                     const vorocl_point* points, const uint8_t* present, size_t count,
-                                     vorocl_seeds** seeds) {
+                                       vorocl_outside outside, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     return vorocl_seeds{
-        Seeds(of(device), to_grid(grid), to_points(points, present, count), to_domain(domain))};
+        Seeds(of(device), to_grid(grid), to_points(points, present, count), to_outside(outside))};
   });
 }
 
 vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem points,
-                                       cl_mem present, size_t count, vorocl_seeds** seeds) {
+                                       vorocl_point_format format, cl_mem present, size_t count,
+                                       vorocl_outside outside, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
-    given(points, "points");
-    return vorocl_seeds{Seeds(of(device), to_grid(grid), retained(points), count, retained(present))};
+    return vorocl_seeds{
+        Seeds(of(device), to_grid(grid), to_points(points, format, present, count), to_outside(outside))};
   });
 }
 
@@ -97,21 +99,23 @@ vorocl_status vorocl_seeds_outside(const vorocl_seeds* seeds, size_t* outside) {
   return answer(outside, "outside", [&] { return of(seeds).outside(); });
 }
 
+vorocl_status vorocl_seeds_displacement(const vorocl_seeds* seeds, double* displacement) {
+  return answer(displacement, "displacement", [&] { return of(seeds).displacement(); });
+}
+
 vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points, const uint8_t* present,
                                    size_t count) {
   return guarded([&] { of(seeds).move_to(to_points(points, present, count)); });
 }
 
-vorocl_status vorocl_seeds_move_in_domain(vorocl_seeds* seeds, vorocl_domain domain,
-                                          const vorocl_point* points, const uint8_t* present, size_t count) {
-  return guarded([&] { of(seeds).move_to(to_points(points, present, count), to_domain(domain)); });
+vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_grid grid, const vorocl_point* points,
+                                        const uint8_t* present, size_t count) {
+  return guarded([&] { of(seeds).move_to(to_grid(grid), to_points(points, present, count)); });
 }
 
-vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, cl_mem present, size_t count) {
-  return guarded([&] {
-    given(points, "points");
-    of(seeds).move_to(retained(points), count, retained(present));
-  });
+vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, vorocl_point_format format,
+                                          cl_mem present, size_t count) {
+  return guarded([&] { of(seeds).move_to(to_points(points, format, present, count)); });
 }
 
 vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displacement, vorocl_border border,
@@ -119,18 +123,19 @@ vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displacement, voro
   return guarded([&] { random_step(of(seeds), max_displacement, to_border(border), rng_seed, frame); });
 }
 
-vorocl_status vorocl_seeds_positions(const vorocl_seeds* seeds, cl_mem* positions) {
-  return answer(positions, "positions", [&] { return of(seeds).positions()(); });
-}
-
 vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points, size_t count) {
   return guarded([&] {
     check_count(of(seeds).size(), "seeds", count);
     if (count > 0) given(points, "points");
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    for (const std::optional<Point>& point : of(seeds).read()) {
-      *points++ = to_c(point.value_or(Point{none, none}));
-    }
+    store(of(seeds).read(), points);
+  });
+}
+
+vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points, size_t count) {
+  return guarded([&] {
+    check_count(of(seeds).size(), "seeds", count);
+    if (count > 0) given(points, "points");
+    store(of(seeds).read_pixels(), points);
   });
 }
 

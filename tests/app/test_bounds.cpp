@@ -32,7 +32,7 @@ Mapping refusing(const Bounds& bounds, bool y_up = false) {
 Pairs pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up = false) {
   Mapping mapping = refusing(bounds, y_up);
   mapping.periodic = grid.periodic();
-  return pairs_of(map_points({point}, mapping, grid).pixels);
+  return pairs_of(map_points({point}, mapping, Size(grid)).pixels);
 }
 
 }  // namespace
@@ -63,45 +63,45 @@ BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
   mapping.domain = Bounds{3.3, 0, 10.7, 1};
   for (int i = 0; i < 740; ++i) {
     const double x = 3.3 + 0.01 * i;
-    const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Grid(20, 1));
-    BOOST_TEST((mapped.view.grid == Grid(7, 1, Periodic::x)));
+    const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Size(20, 1));
+    BOOST_TEST((mapped.view.window == Window(Grid(7, 1, Periodic::x))));
     BOOST_TEST(mapped.view.x == 3);
     const double scaled = 7 + (x - 7) * 7 / 7.4;
     const double column = std::floor(scaled) < 3 ? 9 : std::floor(scaled) > 9 ? 3 : std::floor(scaled);
     if (std::abs(scaled - std::round(scaled)) < 1e-6) continue;  // on the border of a pixel
     for (const Point& pixel : mapped.pixels) BOOST_TEST(pixel.x + 3 == column + 0.5, x);
   }
-  BOOST_TEST(map_points({{5, 0.5}}, mapping, Grid(20, 1)).view.units.of_length() == std::string("data"));
+  BOOST_TEST(map_points({{5, 0.5}}, mapping, Size(20, 1)).view.units.of_length() == std::string("data"));
 }
 
 BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
   Mapping mapping;
   mapping.bounds = {0, 0, 4, 2};
-  const auto units = [&](const Grid& picture) { return map_points({}, mapping, picture).view.units; };
-  BOOST_TEST(units(Grid(8, 4)).area(12) == 3);
-  BOOST_TEST(units(Grid(8, 4)).length(3) == 1.5);
-  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("data"));
+  const auto units = [&](const Size& picture) { return map_points({}, mapping, picture).view.units; };
+  BOOST_TEST(units(Size(8, 4)).area(12) == 3);
+  BOOST_TEST(units(Size(8, 4)).length(3) == 1.5);
+  BOOST_TEST(units(Size(8, 4)).of_area() == std::string("data"));
   // Pixels of 1 by 1/2: a length has no single scale.
-  BOOST_TEST(units(Grid(4, 4)).area(12) == 6);
-  BOOST_TEST(units(Grid(4, 4)).length(3) == 3);
-  BOOST_TEST(units(Grid(4, 4)).of_length() == std::string("px"));
+  BOOST_TEST(units(Size(4, 4)).area(12) == 6);
+  BOOST_TEST(units(Size(4, 4)).length(3) == 3);
+  BOOST_TEST(units(Size(4, 4)).of_length() == std::string("px"));
   mapping.in_pixels = true;
-  BOOST_TEST(units(Grid(8, 4)).area(12) == 12);
-  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  BOOST_TEST(units(Size(8, 4)).area(12) == 12);
+  BOOST_TEST(units(Size(8, 4)).of_area() == std::string("px"));
   mapping.in_pixels = false;
   mapping.bounds = {0, 0, 4, 0};  // an axis without an extent
-  BOOST_TEST(units(Grid(8, 4)).of_area() == std::string("px"));
+  BOOST_TEST(units(Size(8, 4)).of_area() == std::string("px"));
   // A period of 7.4 pixels has 7, which are longer.
   mapping.bounds = {0, 0, 20, 1};
   mapping.periodic = Periodic::x;
   mapping.domain = Bounds{3.3, 0, 10.7, 1};
-  BOOST_TEST(units(Grid(20, 1)).area(7) == 7.4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(units(Size(20, 1)).area(7) == 7.4, boost::test_tools::tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_CASE(points_outside_are_named) {
   const double none = std::numeric_limits<double>::quiet_NaN(), far = std::numeric_limits<double>::infinity();
   const auto map = [](const Point& bad) {
-    map_points({{0, 0}, {1, 1}, bad}, refusing({0, 0, 2, 1}), Grid(4, 2));
+    map_points({{0, 0}, {1, 1}, bad}, refusing({0, 0, 2, 1}), Size(4, 2));
   };
   check_error([&] { map({2.5, 1}); }, {"point 2", "(2.5, 1)", "outside the bounds 0,0,2,1"});
   check_error([&] { map({1, -0.001}); }, {"point 2", "(1, -0.001)", "outside"});
@@ -124,15 +124,15 @@ BOOST_AUTO_TEST_CASE(bounds_are_four_numbers) {
 }
 
 BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
-  BOOST_TEST((grid_of_width({0, 0, 360, 180}, 1440) == Grid(1440, 720)));
-  BOOST_TEST((grid_of_width({0, 0, 3, 2}, 100) == Grid(100, 67)));
-  BOOST_TEST((grid_of_width({0, 0, 3, 0}, 100) == Grid(100, 1)));
-  check_error([] { grid_of_width({0, 0, 0, 1}, 100); }, {"no width", "--size"});
-  check_error([] { grid_of_width({0, 0, 1, 1000}, 100); }, {"100000", "32768"});
+  BOOST_TEST((size_of_width({0, 0, 360, 180}, 1440) == Size(1440, 720)));
+  BOOST_TEST((size_of_width({0, 0, 3, 2}, 100) == Size(100, 67)));
+  BOOST_TEST((size_of_width({0, 0, 3, 0}, 100) == Size(100, 1)));
+  check_error([] { size_of_width({0, 0, 0, 1}, 100); }, {"no width", "--size"});
+  check_error([] { size_of_width({0, 0, 1, 1000}, 100); }, {"100000", "32768"});
   for (const int width : {1, 7, 100, 101}) {
     for (const double height : {0.1, 1.0, 1.7, 33.3}) {
       const Bounds bounds = {0, 0, 3, height};
-      BOOST_TEST(has_square_pixels(bounds, grid_of_width(bounds, width)), width << " " << height);
+      BOOST_TEST(has_square_pixels(bounds, size_of_width(bounds, width).grid()), width << " " << height);
     }
   }
   BOOST_TEST(!has_square_pixels({0, 0, 360, 180}, Grid(1440, 721)));
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
 }
 
 BOOST_AUTO_TEST_CASE(sizes_are_width_x_height) {
-  BOOST_TEST((parse_size("1440x720") == Grid(1440, 720)));
+  BOOST_TEST((parse_size("1440x720") == Size(1440, 720)));
   for (const char* bad : {"", "10", "x", "10x", "x10", "10x10x10", "10X10", "1e3x10", "10.5x10", "ax10"}) {
     check_error([&] { parse_size(bad); }, {"WxH"});
   }

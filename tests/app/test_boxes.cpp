@@ -80,9 +80,9 @@ LabelImage labels_of(const TemporaryFolder& folder, const std::string& name) {
 
 /// The columns of a row that have labels, from ... up to and without.
 std::pair<int, int> labelled_columns(const LabelImage& image, int row) {
-  int begin = 0, end = image.grid.width();
-  while (begin < end && label_at(image.grid, image.labels, begin, row) == no_label) ++begin;
-  while (end > begin && label_at(image.grid, image.labels, end - 1, row) == no_label) --end;
+  int begin = 0, end = image.size.width();
+  while (begin < end && label_at(image.size.grid(), image.labels, begin, row) == no_label) ++begin;
+  while (end > begin && label_at(image.size.grid(), image.labels, end - 1, row) == no_label) --end;
   return {begin, end};
 }
 
@@ -97,12 +97,12 @@ BOOST_AUTO_TEST_CASE(labels_in_a_box_that_is_stretched_are_those_of_the_data) {
     succeeds(folder, "simulate --trajectory t.lammpstrj --width 280 --labels l%d.npy --method " + method);
     for (std::size_t frame = 0; frame < scenes.size(); ++frame) {
       const LabelImage image = labels_of(folder, fmt::format("l{}.npy", frame));
-      BOOST_TEST(image.grid.width() == 280);
-      BOOST_TEST(image.grid.height() == std::lround(280 * 10 / side));
-      const double unit = side / 280, high = 10.0 / image.grid.height();
+      BOOST_TEST(image.size.width() == 280);
+      BOOST_TEST(image.size.height() == std::lround(280 * 10 / side));
+      const double unit = side / 280, high = 10.0 / image.size.height();
       double inside = 0, equal = 0, astray = 0;
-      each_pixel(image.grid, image.labels, [&](std::uint32_t label, int x, int y) {
-        const Point place = {-side / 2 + (x + 0.5) * unit, bottom + (image.grid.height() - y - 0.5) * high};
+      each_pixel(image.size.grid(), image.labels, [&](std::uint32_t label, int x, int y) {
+        const Point place = {-side / 2 + (x + 0.5) * unit, bottom + (image.size.height() - y - 0.5) * high};
         if (!is_in(scenes[frame], place)) {
           astray += label == no_label ? 0 : 1;
           return;
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(labels_in_a_box_that_is_stretched_are_those_of_the_data) {
       });
       BOOST_TEST(equal / inside > 0.96, method << " " << frame << ": " << equal / inside);
       // A box is rounded to whole pixels: at most half a one at each side is beyond it.
-      BOOST_TEST(astray <= 280 + image.grid.height(), method << " " << frame << ": " << astray);
+      BOOST_TEST(astray <= 280 + image.size.height(), method << " " << frame << ": " << astray);
     }
   }
 }
@@ -136,9 +136,9 @@ BOOST_AUTO_TEST_CASE(measures_in_a_part_of_the_picture_are_those_of_its_pixels) 
              "--adjacency a%d.csv --method " +
                  method);
     const LabelImage picture = labels_of(folder, "l1.npy");
-    LabelImage box = {Grid(20, 24, Periodic::xy), {}};
+    LabelledGrid box = {Grid(20, 24, Periodic::xy), {}};
     for (int y = 6; y < 30; ++y) {
-      for (int x = 8; x < 28; ++x) box.labels.push_back(label_at(picture.grid, picture.labels, x, y));
+      for (int x = 8; x < 28; ++x) box.labels.push_back(label_at(picture.size.grid(), picture.labels, x, y));
     }
     BOOST_TEST(std::count(picture.labels.begin(), picture.labels.end(), no_label) == 40 * 30 - 20 * 24);
     check_adjacency_table(folder / "a1.csv", box);

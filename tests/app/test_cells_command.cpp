@@ -12,7 +12,6 @@
 #include "trajectory_text.hpp"
 
 using namespace vorocl;
-using command::LabelImage;
 using nlohmann::json;
 
 namespace {
@@ -26,8 +25,7 @@ json checked(const TemporaryFolder& folder, const std::string& arguments, const 
   json result;
   BOOST_TEST_CONTEXT(arguments) {
     result = json::parse(succeeds(folder, arguments + all_files + " --units px --json"));
-    LabelImage image = command::read_labels(folder / "l.npy");
-    image.grid = Grid(image.grid.width(), image.grid.height(), axes);  // which the file does not know
+    const LabelledGrid image = on_grid(command::read_labels(folder / "l.npy"), axes);
     check_cells_table(folder / "c.csv", image, seeds, metric);
     check_adjacency_table(folder / "a.csv", image);
     const auto distances = read_raw_npy<float>(folder / "d.npy");

@@ -6,14 +6,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <random>
 
 #include "brute_force.hpp"
 #include "formats/raster_files.hpp"
-#include "plane_brute_force.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
+using command::Size;
 using nlohmann::json;
 
 namespace {
@@ -96,26 +97,30 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
   }
   folder.file("p.csv", text);
   // Windows of 4 pixels per unit, whose labels are those of the host's brute force.
-  const auto check = [&](int x0, int y0, int x1, int y1, const std::string& options, const Domain& domain) {
-    const Grid grid(std::int64_t{4} * (x1 - x0), std::int64_t{4} * (y1 - y0));
+  const auto check = [&](int x0, int y0, int x1, int y1, const std::string& options,
+                         std::optional<std::int64_t> begin) {
+    // Of a period of 1440 pixels that begins there, counted from the window's first pixel.
+    const Size size(std::int64_t{4} * (x1 - x0), std::int64_t{4} * (y1 - y0));
+    const Grid grid(begin ? Axis(1440).periodic() : Axis(size.width()), Axis(size.height()));
+    const Window window(grid, -begin.value_or(0), 0, size.width(), size.height());
     const auto seeds = transformed(points, [&](const Point& point) {
-      return PlanePixel{std::llround(4 * (point.x - x0)), std::llround(4 * (point.y - y0))};
+      return Pixel{std::llround(4 * (point.x - x0)) - begin.value_or(0), std::llround(4 * (point.y - y0))};
     });
     const std::string line =
-        fmt::format("render --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}", grid.width(),
-                    grid.height(), x0, y0, x1, y1, options);
+        fmt::format("render --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}", size.width(),
+                    size.height(), x0, y0, x1, y1, options);
     const Result result = run(folder, line);
     BOOST_TEST(result.exit_code == 0, result.error);
     BOOST_TEST(result.error.find("of 60 points lie outside the bounds") != std::string::npos, result.error);
-    BOOST_TEST(labels_of(folder, "l.npy") == brute_force(grid, domain, seeds, Metric::euclidean), line);
+    BOOST_TEST(labels_of(folder, "l.npy") == brute_force(window, seeds, Metric::euclidean), line);
   };
   const std::string around = " --periodic x --domain -180,-90,180,90";
-  check(20, -30, 60, 10, "", {});
-  check(400, 100, 420, 110, "", {});
-  check(20, -30, 60, 10, around, {-800, 0, 1440, 1, Periodic::x});
-  check(165, -30, 195, 0, around, {0, 0, 1440, 1, Periodic::x});    // the period begins with the window
-  check(-180, -10, 180, 0, around, {0, 0, 1440, 1, Periodic::x});   // a whole period, but in y a window
-  check(-200, -20, 200, 0, around, {80, 0, 1440, 1, Periodic::x});  // beyond it there are no labels
+  check(20, -30, 60, 10, "", std::nullopt);
+  check(400, 100, 420, 110, "", std::nullopt);
+  check(20, -30, 60, 10, around, -800);
+  check(165, -30, 195, 0, around, 0);    // the period begins with the window
+  check(-180, -10, 180, 0, around, 0);   // a whole period, but in y a window
+  check(-200, -20, 200, 0, around, 80);  // beyond it there are no labels
   // Bounds that are a period but for a rounding error, and the period that begins with them.
   succeeds(folder,
            "render --points p.csv --size 300x150 --labels r.npy --bounds -27.8,-90,332.2,90" + around);
@@ -186,9 +191,9 @@ BOOST_AUTO_TEST_CASE(different_scales_of_the_axes_are_warned_of) {
 
 BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
   const TemporaryFolder folder;
-  command::write_labels(folder / "a.npy", Grid(4, 2), {1, 2, 3, 4, 5, 6, 7, 8});
-  command::write_labels(folder / "b.tif", Grid(4, 2), {1, 2, 3, 4, 5, 6, 9, 16777216});
-  command::write_labels(folder / "c.npy", Grid(2, 4), {1, 2, 3, 4, 5, 6, 7, 8});
+  command::write_labels(folder / "a.npy", command::Size(4, 2), {1, 2, 3, 4, 5, 6, 7, 8});
+  command::write_labels(folder / "b.tif", command::Size(4, 2), {1, 2, 3, 4, 5, 6, 9, 16777216});
+  command::write_labels(folder / "c.npy", command::Size(2, 4), {1, 2, 3, 4, 5, 6, 7, 8});
   const json result = json::parse(succeeds(folder, "compare a.npy b.tif --json"));
   BOOST_TEST(result.at("similarity") == 75);
   BOOST_TEST(result.at("different_pixels") == 2);

@@ -15,10 +15,10 @@ BOOST_AUTO_TEST_CASE(a_way_round_that_only_the_tilt_makes_shorter) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
-  const Grid grid(100, 50);
+  const Size picture(100, 50);
   const Bounds bounds{0, 0, 10, 5};
   const auto step = [&](const Box& box, Point from, Point to, bool y_up = false) {
-    return displacement(from, to, periods_in_pixels(box, bounds, grid, y_up));
+    return displacement(from, to, periods_in_pixels(box, bounds, picture, y_up));
   };
   const Box walls{0, 0, 10, 5, false, false, 0}, x_periodic{0, 0, 10, 5, true, false, 0},
       periodic{0, 0, 10, 5, true, true, 0}, tilted{0, 0, 10, 5, true, true, 3};

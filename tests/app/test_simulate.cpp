@@ -7,6 +7,7 @@
 
 #include "brute_force.hpp"
 #include "formats/raster_files.hpp"
+#include "read_measures.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
@@ -59,12 +60,11 @@ BOOST_AUTO_TEST_CASE(labels_equal_those_of_the_library) {
              "simulate --random 80 --rng-seed 7 --size 97x61 --frames 8 --step-length 4 --method djfa "
              "--labels l/%05d.npy " +
                  run.arguments);
-    Simulation simulation(Seeds::random(test_device(), grid, 80, 7), [&](Seeds& seeds, int frame) {
+    Simulation simulation(Seeds::random(test_device(), grid, 80, 7), [&](Seeds& seeds, Window&, int frame) {
       random_step(seeds, 4, run.border, 7, static_cast<std::uint32_t>(frame));
-      return 4.0;
     });
-    simulation.add_engine([&](const Seeds& seeds, Diagram& diagram, double max_displacement) {
-      return dynamic_jump_flooding(seeds, diagram, max_displacement, run.options);
+    simulation.add_engine([&](const Seeds& seeds, Diagram& diagram) {
+      return dynamic_jump_flooding(seeds, diagram, run.options);
     });
     for (int frame = 0; frame <= 8; ++frame) {
       simulation.step();
@@ -116,8 +116,8 @@ BOOST_AUTO_TEST_CASE(similarities_within_a_tolerance) {
   Diagram euclidean(test_device(), grid), manhattan(test_device(), grid);
   exact_diagram(seeds, euclidean);
   exact_diagram(seeds, manhattan, {Metric::manhattan});
-  BOOST_TEST(mean("") == similarity(euclidean, manhattan));
-  BOOST_TEST(mean("--tolerance 0.1") == similarity(seeds, euclidean, manhattan, 0.1));
+  BOOST_TEST(mean("") == similarity_of(euclidean, manhattan));
+  BOOST_TEST(mean("--tolerance 0.1") == similarity_of(euclidean, manhattan, 0.1));
   BOOST_TEST(mean("--tolerance 0.1 --metric euclidean") > mean("") + 0.2);
   BOOST_TEST(mean("--tolerance 2000") == 100.0);
 }
@@ -204,7 +204,10 @@ BOOST_AUTO_TEST_CASE(bench_starts_djfa_one_step_before) {
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   seeds.move_to(points);
-  dynamic_jump_flooding(seeds, diagram, 5, {Metric::euclidean, {NeighbourhoodMix::von_neumann}, 0});
+  DynamicJumpFloodingOptions options;
+  options.plan.neighbourhood = NeighbourhoodMix::von_neumann;
+  options.max_displacement = 5;
+  dynamic_jump_flooding(seeds, diagram, options);
   const Verdict verdict =
       judge(grid, now, Metric::euclidean, diagram.read(), brute_force(grid, now, Metric::euclidean));
   BOOST_TEST(verdict.wrong > 0u);

@@ -12,16 +12,16 @@
 #include "trajectory_text.hpp"
 
 using namespace vorocl;
-using command::LabelImage;
 
 namespace {
 
-LabelImage labels_of(const TemporaryFolder& folder, const std::string& name) {
-  return command::read_labels(folder / name);
+LabelledGrid labels_of(const TemporaryFolder& folder, const std::string& name,
+                       Periodic axes = Periodic::none) {
+  return on_grid(command::read_labels(folder / name), axes);
 }
 
 /// The statistics of labels, with the pixels that changed since those before.
-TableRow statistics_on_host(int frame, const LabelImage& image, const std::optional<LabelImage>& before,
+TableRow statistics_on_host(int frame, const LabelledGrid& image, const std::optional<LabelledGrid>& before,
                             const SeedsById& seeds) {
   std::map<std::uint32_t, double> areas;
   each_pixel(image.grid, image.labels, [&](std::uint32_t label, int, int) { ++areas[label]; });
@@ -70,14 +70,14 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
              "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
              "box_x0,box_y0,box_x1,box_y1");
   BOOST_TEST_REQUIRE(table.rows.size() == 7u);
-  std::optional<LabelImage> before;
+  std::optional<LabelledGrid> before;
   for (int frame = 0; frame <= 6; ++frame) {
     if (frame > 0) random_step(moving, 4, Border::reflect, 1, static_cast<std::uint32_t>(frame));
     SeedsById seeds;
     for (const Point& seed : points_of(moving)) {
       seeds[static_cast<std::uint32_t>(seeds.size())] = {static_cast<int>(seed.x), static_cast<int>(seed.y)};
     }
-    const LabelImage image = labels_of(folder, fmt::format("all{}.npy", frame));
+    const LabelledGrid image = labels_of(folder, fmt::format("all{}.npy", frame));
     check_statistics(table.rows[static_cast<std::size_t>(frame)],
                      statistics_on_host(frame, image, before, seeds));
     before = image;
@@ -179,10 +179,9 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
            "--adjacency a%d.csv --distance d%d.npy --statistics s.csv");
   const Table table = read_table(folder / "s.csv");
   BOOST_TEST_REQUIRE(table.rows.size() == frames.size());
-  std::optional<LabelImage> before;
+  std::optional<LabelledGrid> before;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    LabelImage image = labels_of(folder, fmt::format("l{}.npy", i));
-    image.grid = Grid(20, 20, Periodic::xy);  // as the box, which the file of labels does not know
+    const LabelledGrid image = labels_of(folder, fmt::format("l{}.npy", i), Periodic::xy);
     check_cells_table(folder / fmt::format("c{}.csv", i), image, frames[i], Metric::euclidean);
     check_adjacency_table(folder / fmt::format("a{}.csv", i), image);
     check_statistics(table.rows[i], statistics_on_host(static_cast<int>(i), image, before, frames[i]));

@@ -193,10 +193,10 @@ BOOST_AUTO_TEST_CASE(without_a_box_all_frames_give_the_bounds) {
   const TemporaryFolder folder;
   folder.file("t.xyz", "2\n\nA 0 0 0\nA 4 2 0\n1\n\nA 1 1 0\n");
   succeeds(folder, "simulate --trajectory t.xyz --width 8 --method jfa --labels l%d.npy");
-  BOOST_TEST(read_labels(folder / "l0.npy").grid.height() == 4);
+  BOOST_TEST(read_labels(folder / "l0.npy").size.height() == 4);
   folder.file("far.xyz", "2\n\nA 0 0 0\nA 4 2 0\n2\n\nA 1 1 0\nA 5 1 0\n");
   succeeds(folder, "simulate --trajectory far.xyz --width 10 --method jfa --labels all%d.npy");  // 5 x 2
-  BOOST_TEST(read_labels(folder / "all0.npy").grid.height() == 4);
+  BOOST_TEST(read_labels(folder / "all0.npy").size.height() == 4);
   // A pipe cannot be read twice: the first frame's.
   const std::string pipe = "simulate --trajectory /dev/stdin --width 8 --labels far%d.npy ";
   const auto fails = [&](const std::string& options, std::initializer_list<const char*> parts) {

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(a_part_has_the_labels_of_the_whole) {
   const LabelImage whole = read_npy_labels(folder / "whole.npy");
   succeeds(folder, "tiles " + plane + "--only 140,13,150,90 --tile 16 --labels part.npy -o part.png");
   const LabelImage part = read_npy_labels(folder / "part.npy");
-  BOOST_REQUIRE((part.grid == Grid(10, 77)));
+  BOOST_REQUIRE((part.size == Size(10, 77)));
   std::size_t wrong = 0;
   for (std::size_t y = 0; y < 77; ++y) {
     for (std::size_t x = 0; x < 10; ++x) {
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(far_parts_of_huge_planes_are_made) {
   BOOST_TEST(json["part"]["width"] == 47);
   BOOST_TEST(json["tiles"] == 4);
   BOOST_TEST(json["seeds"] == 1000);
-  BOOST_TEST(read_npy_labels(folder / "a.npy").grid.width() == 47);
+  BOOST_TEST(read_npy_labels(folder / "a.npy").size.width() == 47);
   BOOST_TEST(rows_of(folder / "c.csv").at(0).at("right") == "2147483646");
 }
 

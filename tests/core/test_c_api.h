@@ -28,11 +28,32 @@ static inline void check(int right, const char* what, const char* file, int line
   } while (0)
 
 /* Seed 4 has the pixel of seed 1, and seed 6 is absent: neither has a cell. */
-static const vorocl_grid grid = {61, 40, VOROCL_PERIODIC_NONE};
+static const vorocl_grid grid = {VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40)};
+static const vorocl_window window = {{VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40)}, 0, 0, 61, 40};
 enum { width = 61, height = 40, pixels = width * height, seed_count = 8 };
 static const vorocl_point points[seed_count] = {{3.5, 2.5},  {50.5, 5.5},  {20.5, 30.5}, {60.5, 39.5},
                                                 {50.9, 5.1}, {33.5, 16.5}, {30, 20},     {0, 39.9}};
 static const uint8_t present[seed_count] = {1, 1, 1, 1, 255, 1, 0, 1};
+
+/* All of a grid of this size, which is not periodic. */
+static inline vorocl_window window_of(int64_t columns, int64_t rows) {
+  return vorocl_window_of_grid(vorocl_grid_of_pixels(columns, rows, VOROCL_PERIODIC_NONE));
+}
+
+/* Seeds on the grid at the points above. */
+static inline vorocl_seeds* make_seeds(const vorocl_device* device) {
+  vorocl_seeds* seeds = NULL;
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, VOROCL_OUTSIDE_COUNTS, &seeds));
+  return seeds;
+}
+
+/* Fills a diagram by a method with the defaults of all options but one. */
+static inline vorocl_status run(const char* method, const vorocl_seeds* seeds, vorocl_diagram* diagram,
+                                vorocl_metric metric) {
+  vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
+  options.metric = metric;
+  return vorocl_run(method, seeds, diagram, &options);
+}
 
 /* A seed's pixel, as its place in row-major order. */
 static inline int pixel_of(vorocl_point point) { return (int)point.y * width + (int)point.x; }

@@ -45,31 +45,13 @@ static void count_cells(vorocl_metric metric) {
   }
 }
 
-static size_t count_vertices(void) {
-  size_t vertices = 0;
-  for (int y = 0; y + 1 < height; ++y) {
-    for (int x = 0; x + 1 < width; ++x) {
-      const uint32_t* const at = labels + y * width + x;
-      const uint32_t four[] = {at[0], at[1], at[width], at[width + 1]};
-      int different = 0;
-      for (int i = 0; i < 4; ++i) {
-        int first = 1;
-        for (int j = 0; j < i; ++j) first = first && four[i] != four[j];
-        different += first;
-      }
-      vertices += different >= 3 ? 1 : 0;
-    }
-  }
-  return vertices;
-}
-
 static void read_buffer(const vorocl_device* device, cl_mem buffer, size_t size, void* values) {
   cl_command_queue queue = NULL;
   OK(vorocl_device_queue(device, &queue));
   CHECK(clEnqueueReadBuffer(queue, buffer, CL_TRUE, 0, size, values, 0, NULL, NULL) == CL_SUCCESS);
 }
 
-static void test_sums(const vorocl_device* device, const vorocl_seeds* seeds, const vorocl_diagram* diagram) {
+static void test_sums(const vorocl_device* device, const vorocl_diagram* diagram) {
   vorocl_cell_sums* sums = NULL;
   vorocl_cell_statistics statistics;
   vorocl_point centroids[seed_count];
@@ -89,7 +71,7 @@ static void test_sums(const vorocl_device* device, const vorocl_seeds* seeds, co
   OK(vorocl_cell_sums_buffers(sums, NULL, NULL, &buffers[2]));
   CHECK(buffers[2] == NULL);
 
-  OK(vorocl_cell_sums_measure(sums, seeds, diagram));
+  OK(vorocl_cell_sums_measure(sums, diagram));
   OK(vorocl_cell_sums_count(sums, &count));
   CHECK(count == seed_count);
   OK(vorocl_cell_sums_buffers(sums, &buffers[0], &buffers[1], &buffers[2]));
@@ -124,14 +106,13 @@ static void test_sums(const vorocl_device* device, const vorocl_seeds* seeds, co
   CHECK(fabs(statistics.area_deviation - sqrt(variance)) < 1e-9);
 
   /* Another measurement goes to the same buffers. */
-  OK(vorocl_cell_sums_measure(sums, seeds, diagram));
+  OK(vorocl_cell_sums_measure(sums, diagram));
   OK(vorocl_cell_sums_buffers(sums, &same[0], &same[1], &same[2]));
   CHECK(memcmp(same, buffers, sizeof same) == 0);
   vorocl_cell_sums_free(sums);
 }
 
-static void test_shapes(const vorocl_device* device, const vorocl_seeds* seeds,
-                        const vorocl_diagram* diagram) {
+static void test_shapes(const vorocl_device* device, const vorocl_seeds* seeds, vorocl_diagram* diagram) {
   vorocl_cell_shapes* shapes = NULL;
   vorocl_cell_shape read[seed_count];
   int32_t boxes[seed_count][4], distances[seed_count];
@@ -143,7 +124,8 @@ static void test_shapes(const vorocl_device* device, const vorocl_seeds* seeds,
   OK(vorocl_cell_shapes_read(shapes, NULL, 0));
   for (vorocl_metric metric = VOROCL_EUCLIDEAN; metric <= VOROCL_MANHATTAN; ++metric) {
     count_cells(metric);
-    OK(vorocl_cell_shapes_measure(shapes, seeds, diagram, metric));
+    OK(vorocl_diagram_write(diagram, labels, pixels, seeds, metric));
+    OK(vorocl_cell_shapes_measure(shapes, diagram));
     OK(vorocl_cell_shapes_count(shapes, &count));
     CHECK(count == seed_count);
     OK(vorocl_cell_shapes_read(shapes, read, seed_count));
@@ -170,13 +152,12 @@ static void test_shapes(const vorocl_device* device, const vorocl_seeds* seeds,
   vorocl_cell_shapes_free(shapes);
 }
 
-static void test_adjacency(const vorocl_device* device, const vorocl_seeds* seeds,
-                           const vorocl_diagram* diagram) {
+static void test_adjacency(const vorocl_device* device, const vorocl_diagram* diagram) {
   vorocl_adjacency* adjacency = NULL;
   vorocl_cell_pair pairs[seed_count * seed_count], same_pairs[seed_count * seed_count];
   uint32_t neighbours[seed_count], perimeters[seed_count], same[seed_count];
   cl_mem of_pairs = NULL, of_neighbours = NULL, of_perimeters = NULL;
-  size_t count = 7, next = 0, vertices = 0;
+  size_t count = 7, next = 0;
   count_cells(VOROCL_EUCLIDEAN);
   OK(vorocl_adjacency_create(&adjacency));
   OK(vorocl_adjacency_pairs(adjacency, &count));
@@ -184,7 +165,7 @@ static void test_adjacency(const vorocl_device* device, const vorocl_seeds* seed
   OK(vorocl_adjacency_read_pairs(adjacency, NULL, 0));
   OK(vorocl_adjacency_read_cells(adjacency, NULL, NULL, 0));
 
-  OK(vorocl_adjacency_find(adjacency, seeds, diagram));
+  OK(vorocl_adjacency_find(adjacency, diagram));
   OK(vorocl_adjacency_pairs(adjacency, &count));
   CHECK(count > 0 && count <= seed_count * seed_count);
   OK(vorocl_adjacency_read_pairs(adjacency, pairs, count));
@@ -210,14 +191,10 @@ static void test_adjacency(const vorocl_device* device, const vorocl_seeds* seed
   read_buffer(device, of_perimeters, sizeof same, same);
   CHECK(memcmp(perimeters, same, sizeof same) == 0);
   vorocl_adjacency_free(adjacency);
-
-  OK(vorocl_count_vertices(diagram, &vertices));
-  CHECK(vertices == count_vertices() && vertices > 0);
 }
 
 /* What failed is empty, and what cannot be is refused. */
-static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds,
-                          const vorocl_diagram* diagram) {
+static void test_failures(const vorocl_device* device, const vorocl_diagram* diagram) {
   vorocl_cell_sums* sums = NULL;
   vorocl_cell_shapes* shapes = NULL;
   vorocl_adjacency* adjacency = NULL;
@@ -227,15 +204,14 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   vorocl_cell_shape cells_read[seed_count];
   vorocl_cell_pair pairs[seed_count];
   size_t count = 7;
-  OK(vorocl_diagram_create(device, (vorocl_grid){height, width, 0}, &other));
+  OK(vorocl_diagram_create(device, window, &other)); /* which knows no seeds */
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_cell_shapes_create(&shapes));
   OK(vorocl_adjacency_create(&adjacency));
 
   FAILS(vorocl_cell_sums_create(NULL), VOROCL_NULL_ARGUMENT, "sums is NULL");
-  FAILS(vorocl_cell_sums_measure(NULL, seeds, diagram), VOROCL_NULL_ARGUMENT, "sums is NULL");
-  FAILS(vorocl_cell_sums_measure(sums, NULL, diagram), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_cell_sums_measure(sums, seeds, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_cell_sums_measure(NULL, diagram), VOROCL_NULL_ARGUMENT, "sums is NULL");
+  FAILS(vorocl_cell_sums_measure(sums, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_cell_sums_count(NULL, &count), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_count(sums, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
   FAILS(vorocl_cell_sums_buffers(NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT, "sums is NULL");
@@ -243,50 +219,44 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   FAILS(vorocl_cell_sums_centroids(NULL, centroids, 0), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_statistics(NULL, &statistics), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_statistics(sums, NULL), VOROCL_NULL_ARGUMENT, "statistics is NULL");
-  OK(vorocl_cell_sums_measure(sums, seeds, diagram));
+  OK(vorocl_cell_sums_measure(sums, diagram));
   FAILS(vorocl_cell_sums_read(sums, NULL, NULL, NULL, 9), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_cell_sums_centroids(sums, centroids, 7), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_cell_sums_centroids(sums, NULL, 8), VOROCL_NULL_ARGUMENT, "centroids is NULL");
-  FAILS(vorocl_cell_sums_measure(sums, seeds, other), VOROCL_BAD_ARGUMENT, "61 x 40");
+  FAILS(vorocl_cell_sums_measure(sums, other), VOROCL_BAD_ARGUMENT, "seeds");
   OK(vorocl_cell_sums_count(sums, &count));
   CHECK(count == 0);
 
   FAILS(vorocl_cell_shapes_create(NULL), VOROCL_NULL_ARGUMENT, "shapes is NULL");
-  FAILS(vorocl_cell_shapes_measure(NULL, seeds, diagram, 0), VOROCL_NULL_ARGUMENT, "shapes is NULL");
-  FAILS(vorocl_cell_shapes_measure(shapes, NULL, diagram, 0), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_cell_shapes_measure(shapes, seeds, NULL, 0), VOROCL_NULL_ARGUMENT, "diagram is NULL");
-  FAILS(vorocl_cell_shapes_measure(shapes, seeds, diagram, 9), VOROCL_BAD_ARGUMENT, "metric 9");
+  FAILS(vorocl_cell_shapes_measure(NULL, diagram), VOROCL_NULL_ARGUMENT, "shapes is NULL");
+  FAILS(vorocl_cell_shapes_measure(shapes, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_cell_shapes_count(NULL, &count), VOROCL_NULL_ARGUMENT, "shapes is NULL");
   FAILS(vorocl_cell_shapes_count(shapes, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
   FAILS(vorocl_cell_shapes_buffers(NULL, NULL, NULL), VOROCL_NULL_ARGUMENT, "shapes is NULL");
   FAILS(vorocl_cell_shapes_read(NULL, cells_read, 0), VOROCL_NULL_ARGUMENT, "shapes is NULL");
-  OK(vorocl_cell_shapes_measure(shapes, seeds, diagram, VOROCL_EUCLIDEAN));
+  OK(vorocl_cell_shapes_measure(shapes, diagram));
   FAILS(vorocl_cell_shapes_read(shapes, cells_read, 7), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_cell_shapes_read(shapes, NULL, 8), VOROCL_NULL_ARGUMENT, "cells is NULL");
-  FAILS(vorocl_cell_shapes_measure(shapes, seeds, other, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "61 x 40");
+  FAILS(vorocl_cell_shapes_measure(shapes, other), VOROCL_BAD_ARGUMENT, "seeds");
   OK(vorocl_cell_shapes_count(shapes, &count));
   CHECK(count == 0);
 
   FAILS(vorocl_adjacency_create(NULL), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
-  FAILS(vorocl_adjacency_find(NULL, seeds, diagram), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
-  FAILS(vorocl_adjacency_find(adjacency, NULL, diagram), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_adjacency_find(adjacency, seeds, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_adjacency_find(NULL, diagram), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
+  FAILS(vorocl_adjacency_find(adjacency, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_adjacency_pairs(NULL, &count), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
   FAILS(vorocl_adjacency_pairs(adjacency, NULL), VOROCL_NULL_ARGUMENT, "pairs is NULL");
   FAILS(vorocl_adjacency_buffers(NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
   FAILS(vorocl_adjacency_read_pairs(NULL, pairs, 0), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
   FAILS(vorocl_adjacency_read_pairs(adjacency, pairs, 1), VOROCL_BAD_ARGUMENT, "0 pairs");
   FAILS(vorocl_adjacency_read_cells(NULL, NULL, NULL, 0), VOROCL_NULL_ARGUMENT, "adjacency is NULL");
-  OK(vorocl_adjacency_find(adjacency, seeds, diagram));
+  OK(vorocl_adjacency_find(adjacency, diagram));
   OK(vorocl_adjacency_pairs(adjacency, &count));
   FAILS(vorocl_adjacency_read_pairs(adjacency, NULL, count), VOROCL_NULL_ARGUMENT, "pairs is NULL");
   FAILS(vorocl_adjacency_read_cells(adjacency, NULL, NULL, 7), VOROCL_BAD_ARGUMENT, "8 cells");
-  FAILS(vorocl_adjacency_find(adjacency, seeds, other), VOROCL_BAD_ARGUMENT, "61 x 40");
+  FAILS(vorocl_adjacency_find(adjacency, other), VOROCL_BAD_ARGUMENT, "seeds");
   OK(vorocl_adjacency_pairs(adjacency, &count));
   CHECK(count == 0);
-
-  FAILS(vorocl_count_vertices(NULL, &count), VOROCL_NULL_ARGUMENT, "diagram is NULL");
-  FAILS(vorocl_count_vertices(diagram, NULL), VOROCL_NULL_ARGUMENT, "vertices is NULL");
   vorocl_cell_sums_free(sums);
   vorocl_cell_shapes_free(shapes);
   vorocl_adjacency_free(adjacency);
@@ -302,14 +272,14 @@ int main(void) {
   vorocl_diagram* diagram = NULL;
   OK(vorocl_device_select(NULL, &device));
   if (device == NULL) return EXIT_FAILURE;
-  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, &seeds));
-  OK(vorocl_diagram_create(device, grid, &diagram));
+  seeds = make_seeds(device);
+  OK(vorocl_diagram_create(device, window, &diagram));
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, labels);
-  OK(vorocl_diagram_write(diagram, labels, pixels));
-  test_sums(device, seeds, diagram);
+  OK(vorocl_diagram_write(diagram, labels, pixels, seeds, VOROCL_EUCLIDEAN));
+  test_sums(device, diagram);
   test_shapes(device, seeds, diagram);
-  test_adjacency(device, seeds, diagram);
-  test_failures(device, seeds, diagram);
+  test_adjacency(device, diagram);
+  test_failures(device, diagram);
   vorocl_diagram_free(diagram);
   vorocl_seeds_free(seeds);
   vorocl_device_free(device);

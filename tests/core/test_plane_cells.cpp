@@ -1,14 +1,15 @@
-// Cells of a plane that is made tile by tile, against those of the whole plane at once.
+// Cells of a grid that is made tile by tile, against those of the whole grid at once.
 #define BOOST_TEST_MODULE plane_cells
 #include <algorithm>
 #include <optional>
 
 #include "brute_force.hpp"
 #include "plane_image.hpp"
+#include "read_measures.hpp"
 
 using namespace vorocl;
 
-BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
+BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_grid) {
   for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
     for (const std::size_t count : {1u, 3u, 40u, 3000u}) {
       const Grid grid(231, 190, axes);
@@ -16,15 +17,9 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
       const Seeds seeds(test_device(), grid, points);
       Diagram diagram(test_device(), grid);
       exact_diagram(seeds, diagram);
-      CellSumsResult sums;
-      CellShapesResult shapes;
-      AdjacencyResult pairs;
-      cell_sums(seeds, diagram, sums);
-      cell_shapes(seeds, diagram, shapes);
-      adjacency(seeds, diagram, pairs);
-      const auto expected = sums.read();
-      const auto expected_shapes = shapes.read();
-      const auto expected_pairs = pairs.read_pairs();
+      const auto expected = sums_of(diagram);
+      const auto expected_shapes = shapes_of(diagram);
+      const auto expected_pairs = pairs_of(diagram);
       for (const int side : {64, 100, 231}) {
         PlaneCells cells;
         TileOptions options;
@@ -58,10 +53,10 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_plane) {
 
 BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
   for (const Periodic axes : {Periodic::none, Periodic::xy}) {
-    const Plane plane(231, 190, axes);
-    const std::vector<Point> points = centres(random_pixels(Grid(231, 190), 300, 4));
-    const PlaneSeeds seeds(plane, points);
-    const Tiling tiling(plane, 50);
+    const Grid grid(231, 190, axes);
+    const std::vector<Point> points = centres(random_pixels(grid, 300, 4));
+    const PlaneSeeds seeds(grid, points);
+    const Tiling tiling(grid, 50);
     PlaneCells whole;
     TileOptions options;
     options.cells = &whole;
@@ -106,7 +101,7 @@ BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
     std::vector<char> taken = sums.take();
     PlaneCells of_other_tiles;
     options.cells = &of_other_tiles;
-    labels_of(seeds, Tiling(plane, 64), options);
+    labels_of(seeds, Tiling(grid, 64), options);
     check_error([&] { of_other_tiles.add(taken); }, {"of other tiles"});
     taken.pop_back();
     check_error([&] { PlaneCells().add(taken); }, {"these are not the sums"});
@@ -118,14 +113,14 @@ BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
 
 // One cell of 2^62 pixels is more than can be made; some tiles of it are enough for sums past 64 bits.
 BOOST_AUTO_TEST_CASE(sums_may_pass_64_bits) {
-  const std::int64_t side = Plane::max_side;
-  const Plane plane(side, side);
-  const Tiling tiling(plane, 4096, {side - 8192, side - 4096, 8192, 4096});
+  const std::int64_t side = Axis::max_pixels;
+  const Grid grid(side, side);
+  const Tiling tiling({grid, side - 8192, side - 4096, 8192, 4096}, 4096);
   PlaneCells cells;
   TileOptions options;
   options.cells = &cells;
   exact_tiles(
-      test_device(), PlaneSeeds(plane, {{0.5, 0.5}}), tiling, [](const TileLabels&) {}, options);
+      test_device(), PlaneSeeds(grid, {{0.5, 0.5}}), tiling, [](const TileLabels&) {}, options);
   const PlaneCell cell = cells.cell(0);
   BOOST_TEST(cell.area == 8192u * 4096u);
   BOOST_TEST(cell.centroid.x == static_cast<double>(side) - 4096);

@@ -1,5 +1,5 @@
-// Planes made tile by tile: labels and the seeds that a tile needs, against the whole plane at once
-// and against brute force.
+// Grids made tile by tile: labels and the seeds that a tile needs, against the whole grid at once and against
+// brute force.
 #define BOOST_TEST_MODULE tiles
 #include <algorithm>
 #include <cmath>
@@ -27,55 +27,31 @@ std::vector<Point> disc(Point middle, double radius, std::size_t count, unsigned
   return points;
 }
 
-/// Which seed is nearest to each pixel of a part, in 64-bit integers, tie rule included.
-Labels brute_force(const Plane& plane, const std::vector<Point>& points, const PlaneRectangle& part,
-                   Metric metric) {
-  const auto away = [](std::int64_t from, std::int64_t to, bool periodic, std::int64_t period) {
-    const std::int64_t distance = std::abs(from - to);
-    return periodic ? std::min(distance, period - distance) : distance;
-  };
-  Labels labels;
-  for (std::int64_t y = part.y; y < part.y + part.height; ++y) {
-    for (std::int64_t x = part.x; x < part.x + part.width; ++x) {
-      std::uint32_t best = no_label;
-      std::int64_t least = 0, best_x = 0, best_y = 0;
-      for (std::uint32_t id = 0; id < points.size(); ++id) {
-        const auto seed_x = static_cast<std::int64_t>(std::floor(points[id].x));
-        const auto seed_y = static_cast<std::int64_t>(std::floor(points[id].y));
-        const std::int64_t dx = away(seed_x, x, has_x(plane.periodic()), plane.width());
-        const std::int64_t dy = away(seed_y, y, has_y(plane.periodic()), plane.height());
-        const std::int64_t distance = metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
-        if (best == no_label || distance < least ||
-            (distance == least && std::make_pair(seed_y, seed_x) < std::make_pair(best_y, best_x))) {
-          best = id;
-          least = distance;
-          best_x = seed_x;
-          best_y = seed_y;
-        }
-      }
-      labels.push_back(best);
-    }
-  }
-  return labels;
+Labels brute_force(const Window& window, const std::vector<Point>& points, Metric metric) {
+  return vorocl::brute_force(window, pixels_of(points), metric);
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_plane_is_cut_into_tiles) {
-  const Tiling whole({100, 70}, 32);
+BOOST_AUTO_TEST_CASE(a_grid_is_cut_into_tiles) {
+  const Grid grid(100, 70), large(2147483647, 2147483647), torus(100, 70, Periodic::xy);
+  const Tiling whole(grid, 32);
   BOOST_TEST(whole.columns() == 4u);
   BOOST_TEST(whole.rows() == 3u);
   BOOST_TEST(whole.count() == 12u);
-  const Tile last = whole.tile(11);
-  BOOST_TEST((last.x == 96 && last.y == 64 && last.width == 4 && last.height == 6));
-  const Tiling part({2147483647, 2147483647}, 1000, {2147480000, 5, 3647, 2000});
+  BOOST_TEST((whole.window() == grid));
+  BOOST_TEST((whole.tile(11) == Window(grid, 96, 64, 4, 6)));
+  const Tiling part({large, 2147480000, 5, 3647, 2000}, 1000);
   BOOST_TEST(part.count() == 8u);
-  const Tile corner = part.tile(3);
-  BOOST_TEST((corner.x == 2147483000 && corner.y == 5 && corner.width == 647 && corner.height == 1000));
+  BOOST_TEST((part.tile(3) == Window(large, 2147483000, 5, 647, 1000)));
+  const Tiling turned({torus, 90, -10, 100, 70}, 32);
+  BOOST_TEST(turned.count() == 12u);
+  BOOST_TEST((turned.tile(0) == Window(torus, 90, 60, 32, 32)));
+  BOOST_TEST((turned.tile(11) == Window(torus, 86, 54, 4, 6)));
   BOOST_TEST(default_tile_side(test_device()) >= 256);
 }
 
-BOOST_AUTO_TEST_CASE(labels_are_those_of_the_whole_plane) {
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_whole_grid) {
   std::size_t number = 0;
   for (const Case& c : all_edge_cases()) {
     const PlaneSeeds seeds(c.grid, centres(c.seeds));
@@ -119,23 +95,23 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
                                      {side / 3, side / 2}, {side / 3 + 1, side / 2 - 1}, {1.5, side / 2},
                                      {-0.5, side / 2}};
   for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
-    std::vector<Point> inside = points;
-    if (axes != Periodic::none) inside.pop_back();
-    const Plane plane(Plane::max_side, Plane::max_side, axes);
-    const PlaneSeeds seeds(plane, inside);
-    const std::int64_t last = Plane::max_side - 1, middle = last / 2;
-    for (const PlaneRectangle& part : {PlaneRectangle{0, 0, 40, 30},
-                                       {last - 39, last - 29, 40, 30},
-                                       {middle, middle, 40, 30},
-                                       {last / 3 - 20, middle - 15, 40, 30},
-                                       {0, middle - 15, 40, 30},
-                                       {last - 39, middle - 15, 40, 30},
-                                       {last / 3 * 2 - 20, 0, 40, 30},
-                                       {middle - 20, last / 4 - 15, 40, 30}}) {
+    const Grid grid(Axis::max_pixels, Axis::max_pixels, axes);
+    const PlaneSeeds seeds(grid, points);
+    const std::int64_t last = Axis::max_pixels - 1, middle = last / 2;
+    std::vector<Window> windows = {{grid, 0, 0, 40, 30},
+                                   {grid, last - 39, last - 29, 40, 30},
+                                   {grid, middle, middle, 40, 30},
+                                   {grid, last / 3 - 20, middle - 15, 40, 30},
+                                   {grid, 0, middle - 15, 40, 30},
+                                   {grid, last - 39, middle - 15, 40, 30},
+                                   {grid, last / 3 * 2 - 20, 0, 40, 30},
+                                   {grid, middle - 20, last / 4 - 15, 40, 30}};
+    if (axes == Periodic::xy) windows.push_back({grid, -20, -15, 40, 30});
+    for (const Window& window : windows) {
       for (const Metric metric : both_metrics) {
-        const Labels labels = labels_of(seeds, Tiling(plane, 17, part), {metric});
-        BOOST_TEST(count_differences(labels, brute_force(plane, inside, part, metric)) == 0u,
-                   "at (" << part.x << ", " << part.y << "), " << name_of(metric));
+        const Labels labels = labels_of(seeds, Tiling(window, 17), {metric});
+        BOOST_TEST(count_differences(labels, brute_force(window, points, metric)) == 0u,
+                   "at (" << window.x() << ", " << window.y() << "), " << name_of(metric));
       }
     }
   }
@@ -144,13 +120,14 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
 // A cluster seen from afar: what a tile needs is little of it, and that is all it needs.
 BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
   for (const Periodic axes : {Periodic::none, Periodic::xy}) {
-    const Plane plane(65536, 65536, axes);
+    const Grid grid(65536, 65536, axes);
     const std::vector<Point> points = disc({20000, 30000}, 1000, 20000, 3);
-    const PlaneSeeds seeds(plane, points);
+    const PlaneSeeds seeds(grid, points);
     std::mt19937 rng(8);
+    const auto below = [&](unsigned end) { return static_cast<std::int64_t>(rng() % end); };
     for (int i = 0; i < 6; ++i) {
-      const PlaneRectangle tile = {static_cast<std::int64_t>(rng() % 64000),
-                                   static_cast<std::int64_t>(rng() % 64000), 1024, 1024};
+      const std::int64_t left = below(64000);
+      const Window tile(grid, left, below(64000), 1024, 1024);
       for (const Metric metric : both_metrics) {
         std::vector<PlaneSeed> near;
         seeds.find_near(tile, metric, near);
@@ -158,76 +135,107 @@ BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
         std::set<std::uint32_t> ids;
         for (const PlaneSeed& seed : near) ids.insert(seed.id);
         BOOST_TEST(ids.size() == near.size());
-        const PlaneRectangle part = {tile.x + static_cast<std::int64_t>(rng() % 1000),
-                                     tile.y + static_cast<std::int64_t>(rng() % 1000), 8, 8};
-        for (const std::uint32_t label : brute_force(plane, points, part, metric)) {
-          BOOST_TEST(ids.count(label) == 1u);
-        }
-        BOOST_TEST(count_differences(labels_of(seeds, Tiling(plane, 8, part), {metric}),
-                                     brute_force(plane, points, part, metric)) == 0u);
+        const std::int64_t right = below(1000);
+        const Window part(grid, tile.x() + right, tile.y() + below(1000), 8, 8);
+        const Labels expected = brute_force(part, points, metric);
+        for (const std::uint32_t label : expected) BOOST_TEST(ids.count(label) == 1u);
+        BOOST_TEST(count_differences(labels_of(seeds, Tiling(part, 8), {metric}), expected) == 0u);
       }
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(labels_can_stay_on_the_device) {
-  const Plane plane(300, 200);
-  const std::vector<Point> points = disc({100, 100}, 90, 50, 6);
-  const PlaneSeeds seeds(plane, points);
-  const Tiling tiling(plane, 128);
-  Image image(tiling);
-  exact_tiles_on_device(test_device(), seeds, tiling, [&](const TileBuffer& tile) {
-    Labels labels(Grid(tile.tile.width, tile.tile.height).pixels());
-    test_device().queue().enqueueReadBuffer(tile.labels, CL_TRUE, 0, labels.size() * sizeof(cl_uint),
-                                            labels.data());
-    image.add({tile.number, tile.tile, labels.data()});
-  });
-  BOOST_TEST(image.each_tile_once());
-  BOOST_TEST(count_differences(image.labels, labels_of(seeds, tiling)) == 0u);
+// Also those that cross the end of a period, and begin anywhere in it.
+BOOST_AUTO_TEST_CASE(tiles_of_windows) {
+  std::mt19937_64 rng(9);
+  const auto below = [&](std::int64_t end) {
+    return static_cast<std::int64_t>(rng() % static_cast<unsigned>(end));
+  };
+  for (int number = 0; number < 40; ++number) {
+    const auto axes = static_cast<Periodic>(number % 4);
+    const std::int64_t columns = 20 + below(150);
+    const Grid grid(columns, 20 + below(150), axes);
+    const std::int64_t width = 1 + below(grid.width()), height = 1 + below(grid.height());
+    const Window window(grid, below(has_x(axes) ? 500 : grid.width() - width + 1),
+                        below(has_y(axes) ? 500 : grid.height() - height + 1), width, height);
+    // Outside too: along periodic axes they wrap.
+    std::vector<Point> points;
+    for (int i = 0; i < 60; ++i)
+      points.push_back(
+          centre({below(3 * grid.width()) - grid.width(), below(3 * grid.height()) - grid.height()}));
+    const PlaneSeeds seeds(grid, points);
+    BOOST_TEST(seeds.outside() == Seeds(test_device(), grid, points).outside());
+    const Metric metric = both_metrics[number % 2];
+    BOOST_TEST(count_differences(labels_of(seeds, Tiling(window, 1 + below(60)), {metric}),
+                                 brute_force(window, points, metric)) == 0u);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(seeds_may_come_with_ids_of_their_own) {
-  const Plane plane(300, 200);
+  const Grid grid(300, 200);
   const std::vector<Point> points = {{10, 10}, {200, 100}, {10.5, 10.5}, {250, 150}};
-  PlaneSeeds seeds(plane);
+  PlaneSeeds seeds(grid);
   const std::vector<PlaneSeed> shuffled = {{10, 10, 2}, {250, 150, 3}, {10, 10, 0}, {200, 100, 1}};
   seeds.add(shuffled.data(), shuffled.size());
-  BOOST_TEST(seeds.size() == 4u);
-  BOOST_TEST(seeds.ids() == 4u);
-  const Tiling tiling(plane, 128);
-  BOOST_TEST(count_differences(labels_of(seeds, tiling), labels_of(PlaneSeeds(plane, points), tiling)) == 0u);
+  BOOST_TEST(seeds.alive() == 4u);
+  BOOST_TEST(seeds.id_end() == 4u);
+  const Tiling tiling(grid, 128);
+  BOOST_TEST(count_differences(labels_of(seeds, tiling), labels_of(PlaneSeeds(grid, points), tiling)) == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(points_are_taken_as_by_seeds) {
+  const Grid grid(Axis(90, -180, 180).periodic(), Axis(45, -90, 90).reversed());
+  const std::vector<std::optional<Point>> points = {Point{190, 80},   std::nullopt,   Point{0, 90.1},
+                                                    Point{-700, -90}, Point{17, -17}, Point{0, -90.1}};
+  for (const Outside outside : {Outside::count, Outside::absent}) {
+    PlaneSeeds seeds(grid, outside);
+    seeds.add(Points(points));
+    seeds.add(std::vector<Point>{{100, 3}});
+    BOOST_TEST(seeds.id_end() == 7u);
+    std::vector<std::optional<Point>> all = points;
+    all.push_back(Point{100, 3});
+    const Seeds expected(test_device(), grid, all, outside);
+    BOOST_TEST(seeds.alive() == expected.alive());
+    BOOST_TEST(seeds.outside() == expected.outside());
+    Diagram diagram(test_device(), grid);
+    exact_diagram(expected, diagram);
+    BOOST_TEST(count_differences(labels_of(seeds, Tiling(grid, 32)), diagram.read()) == 0u);
+  }
+  check_error([&] { PlaneSeeds(grid, points, Outside::refuse); },
+              {"point 2", "outside the grid", "[-90, 90)"});
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
-  check_error([] { Plane(0, 5); }, {"width is 0", "2147483647"});
-  check_error([] { Plane(5, std::int64_t{1} << 31); }, {"height is 2147483648"});
-  check_error([] { Tiling({100, 100}, 40000); }, {"40000"});
-  check_error([] { Tiling({100, 100}, 10, {95, 0, 6, 5}); }, {"6 pixels", "x = 95", "100"});
-  check_error([] { Tiling({100, 100}, 10, {0, -1, 6, 5}); }, {"y = -1"});
-  check_error([] { Tiling({100, 100}, 10).tile(100); }, {"no tile 100"});
+  const Grid grid(100, 100), torus(100, 100, Periodic::x);
+  check_error([&] { Tiling(grid, 40000); }, {"40000"});
+  check_error([&] { Tiling(grid, 0); }, {"0 pixels"});
+  check_error([&] { Tiling({torus, 0, 0, 101, 5}, 10); }, {"101 pixels along x", "repeats after 100"});
+  check_error([&] { Tiling(grid, 10).tile(100); }, {"no tile 100"});
 
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  PlaneSeeds seeds({100, 100});
+  PlaneSeeds seeds(grid), periodic(torus);
   const std::vector<Point> good = {{1, 1}, {99, 99}}, bad = {{2, 2}, {nan, 3}}, far = {{3e9, 3}};
-  seeds.add(good.data(), good.size());
-  check_error([&] { seeds.add(bad.data(), bad.size()); }, {"point 3", "not finite"});
-  check_error([&] { seeds.add(far.data(), far.size()); }, {"point 2", "too far away"});
-  BOOST_TEST(seeds.size() == 2u);
-  const PlaneSeed beyond = {5, INT32_MIN, 7}, none = {5, 5, no_label};
+  seeds.add(good);
+  check_error([&] { seeds.add(bad); }, {"point 3", "not finite"});
+  check_error([&] { seeds.add(far); }, {"point 2", "too far away"});
+  BOOST_TEST(seeds.alive() == 2u);
+  const PlaneSeed beyond = {5, INT32_MIN, 7}, none = {5, 5, no_label}, wrapped = {100, 5, 7};
   check_error([&] { seeds.add(&beyond, 1); }, {"seed 7", "too far away"});
   check_error([&] { seeds.add(&none, 1); }, {"2^32 - 1"});
-  BOOST_TEST(seeds.ids() == 2u);
+  check_error([&] { periodic.add(&wrapped, 1); }, {"seed 7", "outside the grid's period"});
+  BOOST_TEST(seeds.id_end() == 2u);
   std::vector<PlaneSeed> near;
-  seeds.find_near({0, 0, 100, 100}, Metric::euclidean, near);
+  seeds.find_near(grid, Metric::euclidean, near);
   BOOST_TEST(near.size() == 2u);
-  check_error([&] { seeds.add(good.data(), 1); }, {"asked for already"});
-  const Plane other(50, 100);
-  check_error([&] { exact_tiles(test_device(), seeds, Tiling(other, 10), [](const TileLabels&) {}); },
-              {"another plane"});
+  check_error([&] { seeds.add(good); }, {"asked for already"});
+  check_error([&] { PlaneSeeds(Grid(40000, 1)).find_near(Grid(40000, 1), Metric::euclidean, near); },
+              {"40000 x 1", "32768"});
+  check_error([&] { exact_tiles(test_device(), seeds, Tiling(Grid(50, 100), 10), [](const TileLabels&) {}); },
+              {"another grid"});
 
   // What the caller's function throws comes out, and nothing more is made.
   int made = 0;
-  BOOST_CHECK_THROW(exact_tiles(test_device(), seeds, Tiling(seeds.plane(), 20),
+  BOOST_CHECK_THROW(exact_tiles(test_device(), seeds, Tiling(seeds.grid(), 20),
                                 [&](const TileLabels&) {
                                   ++made;
                                   throw std::runtime_error("enough");

@@ -14,7 +14,7 @@ using namespace vorocl::command;
 namespace {
 
 /// 5 x 3 labels, among them all that a float or a signed integer would change.
-const LabelImage example = {Grid(5, 3),
+const LabelImage example = {Size(5, 3),
                             {0, 1, 255, 256, 65535,                          //
                              65536, 16777215, 16777216, 16777217, 16777219,  //
                              2147483647u, 2147483648u, 2147483649u, 4294967294u, 4294967295u}};
@@ -24,26 +24,26 @@ const LabelImage example = {Grid(5, 3),
 BOOST_AUTO_TEST_CASE(files_keep_every_label) {
   const TemporaryFolder folder;
   for (const char* name : {"a.npy", "a.tif", "a.TIFF"}) {
-    write_labels(folder / name, example.grid, example.labels);
+    write_labels(folder / name, example.size, example.labels);
     const LabelImage read = read_labels(folder / name);
-    BOOST_TEST((read.grid == example.grid), name);
+    BOOST_TEST((read.size == example.size), name);
     BOOST_TEST(read.labels == example.labels, name);
   }
 }
 
 BOOST_AUTO_TEST_CASE(the_longest_sides_are_read) {
   const TemporaryFolder folder;
-  for (const Grid& grid : {Grid(32768, 1), Grid(1, 32768)}) {
+  for (const Size& size : {Size(32768, 1), Size(1, 32768)}) {
     for (const char* name : {"a.npy", "a.tif"}) {
       write_labels(folder / name, grid, std::vector<std::uint32_t>(grid.pixels(), 7));
-      BOOST_TEST((read_labels(folder / name).grid == grid), name);
+      BOOST_TEST((read_labels(folder / name).size == size), name);
     }
   }
 }
 
 BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.npy", example.grid, example.labels);
+  write_labels(folder / "a.npy", example.size, example.labels);
   const std::string content = content_of(folder / "a.npy");
   // As numpy.save() of version 1.24 makes it, to the byte.
   std::string expected("\x93NUMPY\x01\x00v\x00", 10);
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(npy_files_are_what_numpy_writes) {
 
 BOOST_AUTO_TEST_CASE(opencv_reads_the_tiff_files) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.tif", example.grid, example.labels);
+  write_labels(folder / "a.tif", example.size, example.labels);
   const cv::Mat image = cv::imread(folder / "a.tif", cv::IMREAD_UNCHANGED);
   BOOST_REQUIRE(image.type() == CV_32S);  // it has no unsigned type: the bits are the same
   BOOST_REQUIRE(image.size() == cv::Size(5, 3));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(tiff_files_of_others_are_read) {
 
   // Unsigned samples: of our own file, with another value of the tag 339 (little-endian: tag, type, count,
   // value).
-  write_labels(folder / "a.tif", example.grid, example.labels);
+  write_labels(folder / "a.tif", example.size, example.labels);
   std::string content = content_of(folder / "a.tif");
   const auto tag = content.find(std::string("\x53\x01\x03\x00\x01\x00\x00\x00\x02\x00", 10));
   BOOST_REQUIRE(tag != std::string::npos);
@@ -83,8 +83,8 @@ BOOST_AUTO_TEST_CASE(tiff_files_of_others_are_read) {
 
 BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   const TemporaryFolder folder;
-  write_labels(folder / "a.npy", example.grid, example.labels);
-  write_labels(folder / "a.tif", example.grid, example.labels);
+  write_labels(folder / "a.npy", example.size, example.labels);
+  write_labels(folder / "a.tif", example.size, example.labels);
   const std::string npy = content_of(folder / "a.npy"), tiff = content_of(folder / "a.tif");
   const auto refuses = [&](const std::string& name, const std::string& content,
                            std::initializer_list<std::string> parts) {
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   check_error([&] { read_labels(folder / "grey.tif"); }, {"grey.tif", "32-bit"});
   check_error([&] { read_labels(folder / "missing.npy"); }, {"missing.npy", "No such file"});
   check_error([&] { read_labels(folder / "missing.tif"); }, {"missing.tif", "No such file"});
-  check_error([&] { write_labels(folder / "labels.png", Grid(1, 1), {0}); }, {"labels.png", ".npy, .tif"});
+  check_error([&] { write_labels(folder / "labels.png", Size(1, 1), {0}); }, {"labels.png", ".npy, .tif"});
 }
 
 BOOST_AUTO_TEST_CASE(a_file_appears_whole_or_not_at_all) {

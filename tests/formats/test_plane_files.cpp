@@ -28,16 +28,16 @@ std::uint32_t label_at(std::int64_t x, std::int64_t y) {
                           : static_cast<std::uint32_t>(x / 5 + 1000 * (y / 3));
 }
 
-std::vector<std::uint32_t> labels_of(const Tile& tile) {
+std::vector<std::uint32_t> labels_of(const Window& tile) {
   std::vector<std::uint32_t> labels;
-  for (std::int64_t y = tile.y; y < tile.y + tile.height; ++y) {
-    for (std::int64_t x = tile.x; x < tile.x + tile.width; ++x) labels.push_back(label_at(x, y));
+  for (std::int64_t y = tile.y(); y < tile.y() + tile.height(); ++y) {
+    for (std::int64_t x = tile.x(); x < tile.x() + tile.width(); ++x) labels.push_back(label_at(x, y));
   }
   return labels;
 }
 
 WrittenTile write_tile(PlaneFile& file, const Tiling& tiling, std::uint64_t number) {
-  const Tile tile = tiling.tile(number);
+  const Window tile = tiling.tile(number);
   const std::vector<std::uint32_t> labels = labels_of(tile);
   return file.write({number, tile, labels.data()});
 }
@@ -79,12 +79,12 @@ void check_labels(const Tiling& tiling, const Reader& read) {
 
 const std::vector<Tiling>& tilings() {
   static const std::vector<Tiling> all = {
-      Tiling(Plane(100, 70), 32),
-      Tiling(Plane(64, 64), 32),
-      Tiling(Plane(5, 3), 16),
-      Tiling(Plane(1, 200), 16),
-      Tiling(Plane(400, 3), 64),
-      Tiling(Plane(2147483647, 2147483647), 16, {2000000000, 2147483600, 50, 40})};
+      Tiling(Grid(100, 70), 32),
+      Tiling(Grid(64, 64), 32),
+      Tiling(Grid(5, 3), 16),
+      Tiling(Grid(1, 200), 16),
+      Tiling(Grid(400, 3), 64),
+      Tiling(Window(Grid(2147483647, 2147483647), 2000000000, 2147483600, 50, 40), 16)};
   return all;
 }
 
@@ -95,10 +95,10 @@ BOOST_AUTO_TEST_CASE(npy_files_hold_every_label) {
     const TemporaryFolder folder;
     write_whole(folder / "a.npy", tiling, numbers_of(tiling));
     const LabelImage image = read_npy_labels(folder / "a.npy");
-    BOOST_TEST(image.grid.width() == tiling.part().width);
-    BOOST_TEST(image.grid.height() == tiling.part().height);
+    BOOST_TEST(image.size.width() == tiling.window().width());
+    BOOST_TEST(image.size.height() == tiling.window().height());
     check_labels(tiling, [&](std::int64_t x, std::int64_t y) {
-      return image.labels[static_cast<std::size_t>(y * image.grid.width() + x)];
+      return image.labels[static_cast<std::size_t>(y * image.size.width() + x)];
     });
     BOOST_TEST((folder.names() == std::set<std::string>{"a.npy"}));
   }
@@ -111,8 +111,8 @@ BOOST_AUTO_TEST_CASE(zarr_folders_hold_every_label) {
     const auto contents = contents_of(folder / "a.zarr");
     BOOST_TEST(contents.size() == tiling.count() + 1);
     // No chunk is larger than the array.
-    const auto width = std::min<std::int64_t>(tiling.side(), tiling.part().width);
-    const auto height = std::min<std::int64_t>(tiling.side(), tiling.part().height);
+    const auto width = std::min<std::int64_t>(tiling.side(), tiling.window().width());
+    const auto height = std::min<std::int64_t>(tiling.side(), tiling.window().height());
     const std::string shape = "\"chunks\": [" + std::to_string(height) + ", " + std::to_string(width) + "]";
     BOOST_TEST(contents.at(".zarray").find(shape) != std::string::npos, contents.at(".zarray"));
     const auto pixels = static_cast<std::size_t>(width * height);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(zarr_folders_hold_every_label) {
       return chunks.at(name)[static_cast<std::size_t>(y % height * width + x % width)];
     });
     // Beyond the plane there is the value that the array is filled with.
-    if (tiling.part().width % width != 0) {
+    if (tiling.window().width() % width != 0) {
       const auto& last = chunks.at("0." + std::to_string(tiling.columns() - 1));
       BOOST_TEST(last[static_cast<std::size_t>(width - 1)] == no_label);
     }
@@ -151,8 +151,8 @@ BOOST_AUTO_TEST_CASE(tiff_files_hold_every_label) {
     TIFFGetField(file, TIFFTAG_TILEWIDTH, &tile_width);
     TIFFGetField(file, TIFFTAG_TILELENGTH, &tile_height);
     TIFFGetField(file, TIFFTAG_SAMPLEFORMAT, &format);
-    BOOST_TEST(width == tiling.part().width);
-    BOOST_TEST(height == tiling.part().height);
+    BOOST_TEST(width == tiling.window().width());
+    BOOST_TEST(height == tiling.window().height());
     const auto side = static_cast<std::uint32_t>(tiling.side());
     BOOST_TEST(tile_width == std::min(side, (width + 15) / 16 * 16));
     BOOST_TEST(tile_height == std::min(side, (height + 15) / 16 * 16));
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(tiff_files_hold_every_label) {
 }
 
 BOOST_AUTO_TEST_CASE(the_order_of_tiles_does_not_matter) {
-  const Tiling tiling(Plane(100, 70), 16);
+  const Tiling tiling(Grid(100, 70), 16);
   std::vector<std::uint64_t> numbers = numbers_of(tiling);
   const TemporaryFolder folder;
   for (const char* const name : {"a.npy", "a.zarr"}) write_whole(folder / name, tiling, numbers);
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_tiles_does_not_matter) {
 }
 
 BOOST_AUTO_TEST_CASE(what_was_kept_is_gone_on_with) {
-  const Tiling tiling(Plane(100, 70), 32);
+  const Tiling tiling(Grid(100, 70), 32);
   for (const std::string end : {".npy", ".zarr", ".tif"}) {
     const TemporaryFolder folder;
     write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(what_was_kept_is_gone_on_with) {
 }
 
 BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
-  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  const Tiling tiling(Grid(100, 70), 32), other(Grid(30, 20), 16);
   for (const std::string end : {".npy", ".zarr", ".tif"}) {
     const TemporaryFolder folder;
     write_whole(folder / "whole" + end, tiling, numbers_of(tiling));
@@ -231,7 +231,7 @@ BOOST_AUTO_TEST_CASE(files_replace_those_that_are_there) {
 }
 
 BOOST_AUTO_TEST_CASE(links_lead_to_what_is_replaced) {
-  const Tiling tiling(Plane(100, 70), 32), other(Plane(30, 20), 16);
+  const Tiling tiling(Grid(100, 70), 32), other(Grid(30, 20), 16);
   for (const std::string end : {".npy", ".zarr", ".tif"}) {
     for (const bool resumes : {false, true}) {
       const TemporaryFolder folder;
@@ -251,7 +251,7 @@ BOOST_AUTO_TEST_CASE(links_lead_to_what_is_replaced) {
 }
 
 BOOST_AUTO_TEST_CASE(arrays_with_other_files_are_not_replaced) {
-  const Tiling tiling(Plane(100, 70), 32);
+  const Tiling tiling(Grid(100, 70), 32);
   for (const std::string other : {".zattrs", "notes.txt", "1.x", "1"}) {
     const TemporaryFolder folder;
     write_whole(folder / "a.zarr", tiling, numbers_of(tiling));
@@ -264,7 +264,7 @@ BOOST_AUTO_TEST_CASE(arrays_with_other_files_are_not_replaced) {
 }
 
 BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
-  const Tiling tiling(Plane(100, 70), 32);
+  const Tiling tiling(Grid(100, 70), 32);
   const TemporaryFolder folder;
   for (const char* const name : {"a.npy", "a.zarr", "a.tif"}) {
     const auto file = plane_file(folder / name, tiling);
@@ -277,8 +277,8 @@ BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
-  const Tiling tiling(Plane(100, 70), 32), odd(Plane(100, 70), 100),
-      huge(Plane(1000000000, 1000000000), 32768);
+  const Tiling tiling(Grid(100, 70), 32), odd(Grid(100, 70), 100),
+      huge(Grid(1000000000, 1000000000), 32768);
   const TemporaryFolder folder;
   const auto refuses = [&](const std::string& name, const Tiling& of, const std::string& part) {
     BOOST_CHECK_EXCEPTION(plane_file(folder / name, of), Error, [&](const Error& error) {
@@ -304,7 +304,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(parts_that_are_not_those_that_were_kept_are_refused) {
-  const Tiling tiling(Plane(100, 70), 32);
+  const Tiling tiling(Grid(100, 70), 32);
   for (const std::string end : {".npy", ".zarr", ".tif"}) {
     const TemporaryFolder folder;
     KeptTiles kept;

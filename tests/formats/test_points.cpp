@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(masks_count_every_colour_but_not_alpha) {
   image.at<cv::Vec4b>(1, 0) = {0, 0, 200, 0};
   cv::imwrite(folder / "m.png", image);
   const Mask mask = read_mask(folder / "m.png");
-  BOOST_TEST((mask.grid == Grid(3, 2)));
+  BOOST_TEST((mask.size == Size(3, 2)));
   std::vector<bool> set;
   for (const std::uint8_t value : mask.pixels) set.push_back(value != 0);
   BOOST_TEST((set == std::vector<bool>{false, false, true, true, false, false}));

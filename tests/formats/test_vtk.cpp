@@ -10,7 +10,7 @@ using namespace vorocl::command;
 BOOST_AUTO_TEST_CASE(images_keep_every_value_and_their_rows_go_upwards) {
   const TemporaryFolder folder;
   const std::vector<std::uint32_t> labels = {0, 1, 2147483648u, 16777217, 4294967294u, no_label};
-  write_labels(folder / "a.vti", Grid(3, 2), labels);
+  write_labels(folder / "a.vti", Size(3, 2), labels);
   const auto image = read_raw_vti<std::uint32_t>(folder / "a.vti");
   BOOST_TEST(image.type == "UInt32");
   BOOST_TEST(image.name == "label");
@@ -22,10 +22,10 @@ BOOST_AUTO_TEST_CASE(images_keep_every_value_and_their_rows_go_upwards) {
   BOOST_TEST(content.find(start) != std::string::npos);
 
   const std::vector<float> distances = {0, 1.5f, 2};
-  write_vti(folder / "d.vti", "distance", Grid(1, 3), distances);
+  write_vti(folder / "d.vti", "distance", Size(1, 3), distances);
   BOOST_TEST(read_raw_vti<float>(folder / "d.vti").values == distances, boost::test_tools::per_element());
   BOOST_TEST(read_raw_vti<float>(folder / "d.vti").name == "distance");
-  check_error([&] { write_labels(folder / "missing/a.vti", Grid(3, 2), labels); },
+  check_error([&] { write_labels(folder / "missing/a.vti", Size(3, 2), labels); },
               {"cannot write", "missing"});
 }
 

@@ -12,7 +12,7 @@ exported)
   found=$(grep -Ev '^(vorocl::|(vtable|typeinfo|typeinfo name) for vorocl::(Error|BadPoint|SeedSource)$|vorocl_[a-z_]+$)' <<<"$all" || true)
   # The library's own internals are in its namespace too.
   found+=$(grep -E '^vorocl::(Kernel|Flood|allocate|check|program_for|kernel_sources)\b' <<<"$all" || true)
-  for wanted in 'vorocl::jump_flooding(' 'vorocl_jump_flooding'; do
+  for wanted in 'vorocl::jump_flooding(' 'vorocl_run'; do
     grep -qF "$wanted" <<<"$all" || { echo "$wanted is not exported by $2"; exit 1; }
   done
   ;;

@@ -2,6 +2,7 @@
 #define BOOST_TEST_MODULE ablation
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -49,11 +50,11 @@ struct Frame {
 };
 
 std::vector<Frame> frames_of(const Grid& grid, std::size_t seeds, Stamping stamping, int frames) {
-  Simulation simulation(Seeds::random(test_device(), grid, seeds, 3), [](Seeds& moving, int frame) {
+  Simulation simulation(Seeds::random(test_device(), grid, seeds, 3), [](Seeds& moving, Window&, int frame) {
     random_step(moving, 4, Border::reflect, 3, static_cast<std::uint32_t>(frame));
-    return 4;
   });
-  simulation.add_engine(in_place_scatter(test_device(), stamping));
+  const auto record = std::make_shared<ScatterRecord>();
+  simulation.add_engine(in_place_scatter(test_device(), stamping, record));
   std::vector<Frame> made;
   for (int frame = 0; frame <= frames; ++frame) {
     simulation.step();

@@ -26,6 +26,16 @@ inline SeedsById numbered(const std::vector<Pixel>& pixels) {
   return seeds;
 }
 
+/// An image of labels with its periodic axes, which its file does not know.
+struct LabelledGrid {
+  Grid grid;
+  Labels labels;
+};
+
+inline LabelledGrid on_grid(const command::LabelImage& image, Periodic axes = Periodic::none) {
+  return {image.size.grid(axes), image.labels};
+}
+
 using TableRow = std::vector<std::optional<double>>;  // none: an empty field
 
 struct Table {
@@ -50,7 +60,7 @@ inline Table read_table(const std::string& path) {
 }
 
 /// The rows that a table of cells must have, sorted by id.
-inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, const SeedsById& seeds,
+inline std::vector<TableRow> cells_on_host(const LabelledGrid& image, const SeedsById& seeds,
                                            Metric metric) {
   struct Cell {
     double area = 0, sum_x = 0, sum_y = 0, farthest = 0, perimeter = 0;
@@ -101,7 +111,7 @@ inline std::vector<TableRow> cells_on_host(const command::LabelImage& image, con
   return rows;
 }
 
-inline std::vector<TableRow> pairs_on_host(const command::LabelImage& image) {
+inline std::vector<TableRow> pairs_on_host(const LabelledGrid& image) {
   const Grid& grid = image.grid;
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> lengths;
   each_pixel(grid, image.labels, [&](std::uint32_t label, int x, int y) {
@@ -130,7 +140,7 @@ inline void check_rows(const std::string& path, const std::vector<TableRow>& exp
   BOOST_TEST(wrong == 0u, path << ": " << wrong << " rows are wrong, the first in line " << first + 2);
 }
 
-inline void check_cells_table(const std::string& path, const command::LabelImage& image,
+inline void check_cells_table(const std::string& path, const LabelledGrid& image,
                               const SeedsById& seeds, Metric metric) {
   const Table table = read_table(path);
   BOOST_TEST(table.header ==
@@ -142,13 +152,13 @@ inline void check_cells_table(const std::string& path, const command::LabelImage
   BOOST_TEST(area == static_cast<double>(seeds.empty() ? 0 : image.grid.pixels()), path);
 }
 
-inline void check_adjacency_table(const std::string& path, const command::LabelImage& image) {
+inline void check_adjacency_table(const std::string& path, const LabelledGrid& image) {
   BOOST_TEST(read_table(path).header == "a,b,length");
   check_rows(path, pairs_on_host(image));
 }
 
 /// The number of pixels whose distance is not that to the seed of their label.
-inline std::size_t wrong_distances(const command::LabelImage& image, const std::vector<float>& distances,
+inline std::size_t wrong_distances(const LabelledGrid& image, const std::vector<float>& distances,
                                    const SeedsById& seeds, Metric metric) {
   BOOST_TEST_REQUIRE(distances.size() == image.grid.pixels());
   std::size_t wrong = 0, i = 0;

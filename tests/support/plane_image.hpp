@@ -1,4 +1,4 @@
-// The labels of a plane's tiles as one image.
+// The labels of a grid's tiles as one image.
 #pragma once
 
 #include <algorithm>

@@ -175,7 +175,7 @@ std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
 }
 
 std::vector<Point> read_npy_points(const std::string& path) {
-  NpyPoints points(path, Grid::max_pixels);
+  NpyPoints points(path, Window::max_pixels);
   return points.read(0, points.size());
 }
 
@@ -183,7 +183,7 @@ LabelImage read_npy_labels(const std::string& path) {
   std::ifstream file = open_to_read(path);
   const Header header = read_header(file, path);
   const auto& shape = header.shape;
-  constexpr std::size_t most = Grid::max_side;
+  constexpr std::size_t most = Size::max_side;
   const bool is_image =
       shape.size() == 2 && shape[0] >= 1 && shape[0] <= most && shape[1] >= 1 && shape[1] <= most;
   if (header.type != "<u4" || !is_image) {
@@ -191,22 +191,22 @@ LabelImage read_npy_labels(const std::string& path) {
                 "; labels are uint32 (<u4) of shape (height, width), with sides from 1 to " +
                 std::to_string(most));
   }
-  LabelImage image{Grid(static_cast<int>(shape[1]), static_cast<int>(shape[0])), {}};
-  find_values(file, header, image.grid.pixels(), path);
-  image.labels.resize(image.grid.pixels());
+  LabelImage image{Size(static_cast<int>(shape[1]), static_cast<int>(shape[0])), {}};
+  find_values(file, header, image.size.pixels(), path);
+  image.labels.resize(image.size.pixels());
   read_bytes(file, image.labels.data(), image.labels.size() * sizeof no_label, path);
   return image;
 }
 
 template <typename T>
-void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& values) {
-  const auto height = static_cast<std::size_t>(grid.height()), width = static_cast<std::size_t>(grid.width());
+void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values) {
+  const auto height = static_cast<std::size_t>(size.height()), width = static_cast<std::size_t>(size.width());
   write_array(file, {height, width}, values);
 }
 
-template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint8_t>&);
-template void write_npy(const OutputFile&, const Grid&, const std::vector<std::uint32_t>&);
-template void write_npy(const OutputFile&, const Grid&, const std::vector<float>&);
+template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint8_t>&);
+template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
+template void write_npy(const OutputFile&, const Size&, const std::vector<float>&);
 
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape) {

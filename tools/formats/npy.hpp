@@ -40,7 +40,7 @@ LabelImage read_npy_labels(const std::string& path);
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
 /// Error if the file cannot be written.
 template <typename T>
-void write_npy(const OutputFile& file, const Grid& grid, const std::vector<T>& values);
+void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values);
 
 /// What stands before the values (uint8, uint32, float or double) of an array of this shape.
 template <typename T>

@@ -1,6 +1,7 @@
 // Images on the host, as files hold them: labels, and where the pixels lie in the data.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -8,9 +9,48 @@
 
 namespace vorocl::command {
 
+/// The sides of an image in pixels: of one that a diagram can have.
+class Size {
+ public:
+  static constexpr int max_side = static_cast<int>(Window::max_side);
+
+  /// Throws Error unless both sides are in [1, max_side] and there are at most Window::max_pixels.
+  Size(std::int64_t width, std::int64_t height);
+
+  /// That of a window.
+  explicit Size(const Window& window) : Size(window.width(), window.height()) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int longest_side() const { return width_ > height_ ? width_ : height_; }
+  std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+  bool holds(const Point& point) const {
+    return point.x >= 0 && point.x < width_ && point.y >= 0 && point.y < height_;
+  }
+
+  /// A grid of this size.
+  Grid grid(Periodic periodic = Periodic::none) const { return {width_, height_, periodic}; }
+
+  friend bool operator==(const Size& a, const Size& b) {
+    return a.width_ == b.width_ && a.height_ == b.height_;
+  }
+  friend bool operator!=(const Size& a, const Size& b) { return !(a == b); }
+
+ private:
+  int width_, height_;
+};
+
+/// A rectangle in data units.
+struct Bounds {
+  double x0 = 0;
+  double y0 = 0;
+  double x1 = 0;
+  double y1 = 0;
+};
+
 /// An image of labels.
 struct LabelImage {
-  Grid grid;
+  Size size;
   std::vector<std::uint32_t> labels;  // row-major
 };
 
@@ -26,11 +66,11 @@ inline LabelImage with_ids(LabelImage image, const std::vector<std::uint32_t>& i
 /// The pixels of an image file, and where they lie in the data.
 struct Raster {
   /// Of data in pixels, where y = 0 is at the bottom.
-  Raster(const Grid& pixels) : grid(pixels) {}
-  Raster(const Grid& pixels, const Point& lower_left, const Point& sides_of_pixel)
-      : grid(pixels), corner(lower_left), pixel(sides_of_pixel) {}
+  Raster(const Size& pixels) : size(pixels) {}
+  Raster(const Size& pixels, const Point& lower_left, const Point& sides_of_pixel)
+      : size(pixels), corner(lower_left), pixel(sides_of_pixel) {}
 
-  Grid grid;
+  Size size;
   Point corner = {0, 0};  ///< the lower left one, where y points up
   Point pixel = {1, 1};   ///< the sides of a pixel
 };

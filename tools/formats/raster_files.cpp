@@ -31,12 +31,12 @@ void write_pixels(const OutputFile& file, const std::string& name, const Raster&
                   const std::vector<T>& values) {
   const std::string extension = extension_of(file.path());
   if (extension == ".npy") {
-    write_npy(file, raster.grid, values);
+    write_npy(file, raster.size, values);
   } else if (extension == ".vti") {
     write_vti(file, name, raster, values);
   } else if constexpr (sizeof(T) == 4) {
     check_extension(file.path(), {".npy", ".tif", ".tiff", ".vti"});
-    write_tiff(file, raster.grid, values);
+    write_tiff(file, raster.size, values);
   } else {
     check_extension(file.path(), {".npy", ".vti"});
   }

@@ -43,7 +43,7 @@ LabelImage read_tiff_labels(const std::string& path);
 /// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written,
 /// or is a pipe.
 template <typename T>
-void write_tiff(const OutputFile& file, const Grid& grid, const std::vector<T>& values);
+void write_tiff(const OutputFile& file, const Size& size, const std::vector<T>& values);
 
 /// One value per pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells
 /// are the pixels, with the raster's corner as its origin. The first row is on top as in a picture: where the

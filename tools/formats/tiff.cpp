@@ -79,10 +79,10 @@ LabelImage read_tiff_labels(const std::string& path) {
   const File file = open_tiff(path);
   if (!holds_labels(file))
     throw Error(path + " holds no labels: these are one 32-bit integer per pixel, in strips");
-  LabelImage image{checked_grid(path, header_of(file), std::filesystem::file_size(path)), {}};
-  image.labels.resize(image.grid.pixels());
-  const auto width = static_cast<std::size_t>(image.grid.width());
-  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(image.grid.height()); ++row) {
+  LabelImage image{checked_size(path, header_of(file), std::filesystem::file_size(path)), {}};
+  image.labels.resize(image.size.pixels());
+  const auto width = static_cast<std::size_t>(image.size.width());
+  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(image.size.height()); ++row) {
     if (TIFFReadScanline(file.get(), &image.labels[row * width], row) != 1) {
       throw Error(path + " is damaged: its row " + std::to_string(row) + " cannot be read");
     }
@@ -91,7 +91,7 @@ LabelImage read_tiff_labels(const std::string& path) {
 }
 
 template <typename T>
-void write_tiff(const OutputFile& output, const Grid& grid, const std::vector<T>& values) {
+void write_tiff(const OutputFile& output, const Size& size, const std::vector<T>& values) {
   static_assert(sizeof(T) == 4, "one 32-bit sample per pixel");
   constexpr std::size_t room_for_tags = 1 << 20;
   const bool big = values.size() * sizeof(T) + room_for_tags > 0xffffffffu;
@@ -102,8 +102,8 @@ void write_tiff(const OutputFile& output, const Grid& grid, const std::vector<T>
   };
   File file = create_tiff(grown, big ? "w8" : "w");
   require(file != nullptr);
-  const auto width = static_cast<std::uint32_t>(grid.width());
-  const auto height = static_cast<std::uint32_t>(grid.height());
+  const auto width = static_cast<std::uint32_t>(size.width());
+  const auto height = static_cast<std::uint32_t>(size.height());
   TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, width);
   TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, height);
   TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, 32);
@@ -115,8 +115,8 @@ void write_tiff(const OutputFile& output, const Grid& grid, const std::vector<T>
   TIFFSetField(file.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(file.get(), 0));
   std::vector<T> scanline(width);  // the library takes a pointer that it might write to
   for (std::uint32_t row = 0; row < height; ++row) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * grid.width();
-    scanline.assign(begin, begin + grid.width());
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * size.width();
+    scanline.assign(begin, begin + size.width());
     require(TIFFWriteScanline(file.get(), scanline.data(), row) == 1);
   }
   require(TIFFFlush(file.get()) == 1);
@@ -124,7 +124,7 @@ void write_tiff(const OutputFile& output, const Grid& grid, const std::vector<T>
   grown.finish();
 }
 
-template void write_tiff(const OutputFile&, const Grid&, const std::vector<std::uint32_t>&);
-template void write_tiff(const OutputFile&, const Grid&, const std::vector<float>&);
+template void write_tiff(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
+template void write_tiff(const OutputFile&, const Size&, const std::vector<float>&);
 
 }  // namespace vorocl::command

@@ -47,8 +47,8 @@ std::string escaped(const std::string& text) {
 template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values) {
-  const Grid& grid = raster.grid;
-  const std::string extent = fmt::format("0 {} 0 {} 0 0", grid.width(), grid.height());
+  const Size& size = raster.size;
+  const std::string extent = fmt::format("0 {} 0 {} 0 0", size.width(), size.height());
   const std::string start = fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
@@ -64,12 +64,12 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
       byte_order(), extent, name, type_name<T>, raster.corner.x, raster.corner.y, raster.pixel.x,
       raster.pixel.y);
   const std::uint64_t bytes = values.size() * sizeof(T);
-  const std::size_t row_bytes = static_cast<std::size_t>(grid.width()) * sizeof(T);
+  const std::size_t row_bytes = static_cast<std::size_t>(size.width()) * sizeof(T);
   GrowingFile image(file);
   image << start;
   image.write(&bytes, sizeof bytes);
-  for (int row = grid.height() - 1; row >= 0; --row) {
-    const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * grid.width();
+  for (int row = size.height() - 1; row >= 0; --row) {
+    const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * size.width();
     image.write(first, row_bytes);
   }
   image << "\n  </AppendedData>\n</VTKFile>\n";

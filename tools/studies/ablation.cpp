@@ -59,15 +59,19 @@ void measure_accuracy(Simulation simulation, const Variant& variant, int frames,
   const std::size_t one = simulation.add_engine(variant.engine),
                     again = simulation.add_engine(variant.engine),
                     exact = simulation.add_engine(engine_of("exact"));
+  SimilarityResult similar;
+  DistanceErrorsResult errors;
   for (int frame = 0; frame <= frames; ++frame) {
     simulation.step();
     made(engines_side_by_side);
     if (frame == 0) continue;
-    result.waves.add(simulation.report(one).waves());
-    result.similarity_to_exact.add(similarity(simulation.diagram(one), simulation.diagram(exact)));
-    result.differing_between_runs.add(100 - similarity(simulation.diagram(one), simulation.diagram(again)));
-    result.errors.add(
-        distance_errors(simulation.seeds(), simulation.diagram(one), simulation.diagram(exact)));
+    result.waves.add(variant.record ? variant.record->waves() : simulation.report(one).waves());
+    similarity(simulation.diagram(one), simulation.diagram(exact), similar);
+    result.similarity_to_exact.add(similar.read());
+    similarity(simulation.diagram(one), simulation.diagram(again), similar);
+    result.differing_between_runs.add(100 - similar.read());
+    distance_errors(simulation.diagram(one), simulation.diagram(exact), errors);
+    result.errors.add(errors.read());
   }
 }
 
@@ -84,7 +88,7 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
   const double length =
       std::sqrt(static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds));
   for (const int times : {1, 2, 3, 4}) {
-    const auto displacement = std::min(std::round(times * length), static_cast<double>(Grid::max_side));
+    const auto displacement = std::min(std::round(times * length), static_cast<double>(Window::max_side));
     const auto most = static_cast<int>(displacement);
     const std::string setting = std::to_string(times) + " L";
     variants.push_back({"d_max", setting + ", jfa", engine_of("jfa"), most});
@@ -104,10 +108,13 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
   variants.push_back({"waves", "gather", engine_of("djfa"), max_displacement});
   variants.push_back({"waves", "gather, one pixel per work-item", engine_of("djfa"), max_displacement,
                       Spread::uniform, true});
-  variants.push_back(
-      {"waves", "scatter in place, as printed", in_place_scatter(device, Stamping::none), max_displacement});
-  variants.push_back({"waves", "scatter in place, seeds stamped", in_place_scatter(device, Stamping::seeds),
-                      max_displacement});
+  const std::pair<const char*, Stamping> scatters[] = {{"scatter in place, as printed", Stamping::none},
+                                                       {"scatter in place, seeds stamped", Stamping::seeds}};
+  for (const auto& [name, stamping] : scatters) {
+    const auto record = std::make_shared<ScatterRecord>();
+    variants.push_back({"waves", name, in_place_scatter(device, stamping, record), max_displacement,
+                        Spread::uniform, false, record});
+  }
   return variants;
 }
 
@@ -121,9 +128,11 @@ std::vector<VariantResult> measure(const Device& device, const Configuration& co
   }
   for (int round = 0; round < settings.repeats; ++round) {
     for (std::size_t i = 0; i < variants.size(); ++i) {
-      results[i].milliseconds.add(timed_run(walk(device, configuration, settings, variants[i]),
-                                            variants[i].engine, settings.timed_frames, made)
-                                      .milliseconds);
+      const Variant& variant = variants[i];
+      if (variant.record) variant.record->take_milliseconds();
+      const RunTimes times = timed_run(walk(device, configuration, settings, variant), variant.engine,
+                                       settings.timed_frames, made);
+      results[i].milliseconds.add(variant.record ? variant.record->take_milliseconds() : times.milliseconds);
     }
   }
   return results;

@@ -3,12 +3,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/evaluation.hpp"
 #include "trials/samples.hpp"
 #include "vorocl/device.hpp"
+#include "vorocl/opencl.hpp"
 #include "vorocl/seeds.hpp"
 #include "vorocl/simulation.hpp"
 
@@ -30,10 +33,27 @@ enum class Stamping {
   seeds,  ///< the seeds' labels at their pixels
 };
 
+/// What the frames behind frame 0 were made by, of an engine whose reports do not know it.
+class ScatterRecord {
+ public:
+  void add(int waves, const cl::Event& first, const cl::Event& last);
+
+  /// Of the last frame.
+  int waves() const { return waves_; }
+
+  /// The device's time for the frames since it was taken last, as Simulation::milliseconds(). Waits.
+  double take_milliseconds();
+
+ private:
+  int waves_ = 0;
+  std::vector<std::pair<cl::Event, cl::Event>> frames_;
+};
+
 /// The paper's Algorithm 1 as it is printed, to be held against the library's waves, which gather:
 /// an engine that makes Euclidean diagrams by the waves of dJFA, each scattered in place; frame 0 is a JFA.
-/// Its results differ from run to run.
-Simulation::Engine in_place_scatter(const Device& device, Stamping stamping);
+/// Its results differ from run to run. All copies of the engine share the record.
+Simulation::Engine in_place_scatter(const Device& device, Stamping stamping,
+                                    const std::shared_ptr<ScatterRecord>& record);
 
 /// An engine with the motion that it runs on.
 struct Variant {
@@ -43,6 +63,7 @@ struct Variant {
   int max_displacement = 0;  ///< the paper's d_max
   Spread spread = Spread::uniform;
   bool one_pixel_per_work_item = false;  ///< instead of a run of them: as simple a kernel as on a GPU
+  std::shared_ptr<ScatterRecord> record = nullptr;  ///< null: the engine's reports say it
 };
 
 /// In the Euclidean metric.

@@ -40,12 +40,16 @@ class Similarities {
   double between(std::size_t a, std::size_t b) {
     if (a == b) return 100;
     const auto [entry, is_new] = found_.try_emplace(std::minmax(a, b));
-    if (is_new) entry->second = similarity(simulation_.diagram(a), simulation_.diagram(b));
+    if (is_new) {
+      similarity(simulation_.diagram(a), simulation_.diagram(b), result_);
+      entry->second = result_.read();
+    }
     return entry->second;
   }
 
  private:
   const Simulation& simulation_;
+  SimilarityResult result_;
   std::map<std::pair<std::size_t, std::size_t>, double> found_;
 };
 
@@ -60,6 +64,7 @@ std::size_t index_of(const std::vector<MethodResult>& results, const std::string
 
 void compare(const Simulation& simulation, std::vector<MethodResult>& results) {
   Similarities similarities(simulation);
+  DistanceErrorsResult errors;
   for (std::size_t i = 0; i < results.size(); ++i) {
     MethodResult& result = results[i];
     const std::size_t exact = index_of(results, "exact", result.metric);
@@ -67,8 +72,8 @@ void compare(const Simulation& simulation, std::vector<MethodResult>& results) {
         similarities.between(i, index_of(results, "jfa", Metric::euclidean)));
     result.similarity_to_jfa.add(similarities.between(i, index_of(results, "jfa", result.metric)));
     result.similarity_to_exact.add(similarities.between(i, exact));
-    result.errors.add(
-        distance_errors(simulation.seeds(), simulation.diagram(i), simulation.diagram(exact), result.metric));
+    distance_errors(simulation.diagram(i), simulation.diagram(exact), errors);
+    result.errors.add(errors.read());
   }
 }
 
@@ -79,7 +84,9 @@ void measure_accuracy(Simulation simulation, int frames, ConfigurationResult& re
     simulation.step();
     if (frame == 0) {
       const std::size_t exact = index_of(result.methods, "exact", Metric::euclidean);
-      result.coincident_seeds = cell_statistics(simulation.seeds(), simulation.diagram(exact)).empty_cells;
+      CellStatisticsResult statistics;
+      cell_statistics(simulation.diagram(exact), statistics);
+      result.coincident_seeds = statistics.read().empty_cells;
     } else {
       compare(simulation, result.methods);
     }

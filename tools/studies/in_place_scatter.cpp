@@ -1,8 +1,11 @@
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "studies/ablation.hpp"
-#include "trials/samples.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/jump_flooding.hpp"
 #include "vorocl/plan.hpp"
@@ -60,41 +63,116 @@ cl::Event enqueue(const Device& device, const cl::Kernel& kernel, cl_uint dimens
   return event;
 }
 
-/// Lets the diagram's labels go through the waves, each scattered in place.
-Report scatter(const cl::Program& program, const Seeds& seeds, Diagram& diagram, const Plan& plan,
-               Stamping stamping) {
-  const Stopwatch host;
-  const Grid& grid = diagram.grid();
-  const cl::Buffer &labels = diagram.labels(), &positions = seeds.positions();
-  const auto count = static_cast<cl_uint>(seeds.size());
-  const cl_int width = grid.width(), height = grid.height();
-  cl::Event first, last;
-  if (stamping == Stamping::seeds) {
-    const std::size_t items[] = {seeds.size()};
-    first = enqueue(seeds.device(), kernel_of(program, "stamp_labels", labels, positions, count, width), 1,
-                    items);
+cl::Buffer allocate(const Device& device, std::size_t words) {
+  cl_int code = CL_SUCCESS;
+  cl::Buffer buffer(
+      clCreateBuffer(device.context()(), CL_MEM_READ_WRITE, words * sizeof(cl_uint), nullptr, &code));
+  check(code, "allocating " + std::to_string(words) + " words");
+  return buffer;
+}
+
+/// What the kernels know of seeds: row << 16 | column of each, and behind them a seed that is not there.
+std::vector<cl_uint> packed_positions(const Seeds& seeds) {
+  constexpr cl_uint empty_bit = 0x80000000u;
+  std::vector<cl_uint> positions;
+  for (const std::optional<Point>& pixel : seeds.read_pixels()) {
+    positions.push_back(pixel ? static_cast<cl_uint>(pixel->y) << 16 | static_cast<cl_uint>(pixel->x)
+                              : empty_bit);
   }
-  for (const Wave& wave : plan) {
-    const std::size_t items[] = {static_cast<std::size_t>(width), static_cast<std::size_t>(height)};
-    const cl_int step = wave.step, stride = wave.neighbourhood == Neighbourhood::moore ? 1 : 2;
-    last =
-        enqueue(seeds.device(),
-                kernel_of(program, "scatter_in_place", labels, positions, count, width, height, step, stride),
-                2, items);
-    if (first() == nullptr) first = last;
+  positions.push_back(empty_bit);
+  return positions;
+}
+
+/// The labels that go through the waves from frame to frame, each scattered in place: apart from the diagram,
+/// which is told of them when they are made.
+class Scatter {
+ public:
+  Scatter(const Device& device, Stamping stamping, std::shared_ptr<ScatterRecord> record)
+      : program_(build(device)), stamping_(stamping), record_(std::move(record)) {}
+
+  void begin(const Seeds& seeds, const Diagram& diagram) {
+    const std::size_t pixels = diagram.window().pixels();
+    labels_ = allocate(seeds.device(), pixels);
+    positions_ = allocate(seeds.device(), seeds.size() + 1);
+    check(clEnqueueCopyBuffer(seeds.device().queue()(), diagram.labels()(), labels_(), 0, 0,
+                              pixels * sizeof(cl_uint), 0, nullptr, nullptr),
+          "copying labels");
   }
-  return {static_cast<int>(plan.size()), first, last, host.milliseconds()};
+
+  void run(const Seeds& seeds, Diagram& diagram, const Plan& plan) const {
+    const Device& device = seeds.device();
+    const std::vector<cl_uint> positions = packed_positions(seeds);
+    check(clEnqueueWriteBuffer(device.queue()(), positions_(), CL_TRUE, 0, positions.size() * sizeof(cl_uint),
+                               positions.data(), 0, nullptr, nullptr),
+          "copying the seeds' pixels");
+    const auto count = static_cast<cl_uint>(seeds.size());
+    const auto width = static_cast<cl_int>(diagram.window().width()),
+               height = static_cast<cl_int>(diagram.window().height());
+    cl::Event first, last;
+    if (stamping_ == Stamping::seeds) {
+      const std::size_t items[] = {seeds.size()};
+      first =
+          enqueue(device, kernel_of(program_, "stamp_labels", labels_, positions_, count, width), 1, items);
+    }
+    for (const Wave& wave : plan) {
+      const std::size_t items[] = {static_cast<std::size_t>(width), static_cast<std::size_t>(height)};
+      const cl_int step = wave.step, stride = wave.neighbourhood == Neighbourhood::moore ? 1 : 2;
+      last = enqueue(device,
+                     kernel_of(program_, "scatter_in_place", labels_, positions_, count, width, height, step,
+                               stride),
+                     2, items);
+      if (first() == nullptr) first = last;
+    }
+    record_->add(static_cast<int>(plan.size()), first, last);
+    diagram.write(labels_, seeds, Metric::euclidean);
+  }
+
+ private:
+  cl::Program program_;
+  Stamping stamping_;
+  std::shared_ptr<ScatterRecord> record_;
+  cl::Buffer labels_, positions_;
+};
+
+cl_ulong time_of(const cl::Event& event, cl_profiling_info what) {
+  cl_ulong nanoseconds = 0;
+  check(clGetEventProfilingInfo(event(), what, sizeof nanoseconds, &nanoseconds, nullptr),
+        "asking for the time of a wave");
+  return nanoseconds;
 }
 
 }  // namespace
 
-Simulation::Engine in_place_scatter(const Device& device, Stamping stamping) {
-  // A copy of the engine counts its own frames.
-  return [program = build(device), stamping, frame = 0](const Seeds& seeds, Diagram& diagram,
-                                                        double max_displacement) mutable {
-    if (frame++ == 0) return jump_flooding(seeds, diagram);
-    return scatter(program, seeds, diagram,
-                   dynamic_jump_flooding_plan(diagram.grid(), seeds.alive(), max_displacement), stamping);
+void ScatterRecord::add(int waves, const cl::Event& first, const cl::Event& last) {
+  waves_ = waves;
+  if (last() != nullptr) frames_.emplace_back(first, last);
+}
+
+double ScatterRecord::take_milliseconds() {
+  double all = 0;
+  for (const auto& [first, last] : frames_) {
+    check(clWaitForEvents(1, &last()), "waiting for a frame");
+    all += static_cast<double>(time_of(last, CL_PROFILING_COMMAND_END) -
+                               time_of(first, CL_PROFILING_COMMAND_START)) *
+           1e-6;
+  }
+  frames_.clear();
+  return all;
+}
+
+Simulation::Engine in_place_scatter(const Device& device, Stamping stamping,
+                                    const std::shared_ptr<ScatterRecord>& record) {
+  // A copy of the engine counts its own frames and, from the first one on, has its own labels.
+  return [scatter = Scatter(device, stamping, record), frame = 0](const Seeds& seeds,
+                                                                  Diagram& diagram) mutable {
+    if (frame++ == 0) {
+      Report report = jump_flooding(seeds, diagram);
+      scatter.begin(seeds, diagram);
+      return report;
+    }
+    scatter.run(seeds, diagram,
+                dynamic_jump_flooding_plan(diagram.window(), seeds.alive(), seeds.displacement()));
+    return Report();
   };
 }
 

@@ -22,7 +22,8 @@ class Uniform {
 /// A point of the unit square, to the point of the grid that it stands for; one beyond the border is moved to
 /// it.
 Point on(const Grid& grid, double x, double y) {
-  const auto along = [](double fraction, int side) {
+  const auto along = [](double fraction, std::int64_t pixels) {
+    const auto side = static_cast<double>(pixels);
     return std::clamp(fraction * side, 0.0, std::nextafter(side, 0.0));
   };
   return {along(x, grid.width()), along(y, grid.height())};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "formats/raster.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/version.hpp"
@@ -13,7 +14,7 @@ namespace vorocl::command {
 
 namespace {
 
-constexpr std::size_t most_seeds = Grid::max_pixels;
+constexpr std::size_t most_seeds = Window::max_pixels;
 
 std::size_t seeds_on(int side, const SeedCount& count) {
   if (!count.percent) return count.count;
@@ -29,8 +30,8 @@ std::size_t seeds_on(int side, const SeedCount& count) {
 
 int parse_side(const std::string& text) {
   const auto side = parse_number<int>(text);
-  if (!side || *side < 1 || *side > Grid::max_side) {
-    throw Error(fmt::format("\"{}\" must be a side of the grid in pixels, 1 to {}", text, Grid::max_side));
+  if (!side || *side < 1 || *side > Size::max_side) {
+    throw Error(fmt::format("\"{}\" must be a side of the grid in pixels, 1 to {}", text, Size::max_side));
   }
   return *side;
 }
@@ -84,7 +85,7 @@ void add_study_options(Command& command, StudyOptions& options, const std::strin
       .add("--step-length", settings.step_length,
            "Each seed moves at random, by up to this many pixels along x and y per frame")
       .value_name("D")
-      .in_range(0, Grid::max_side)
+      .in_range(0, Size::max_side)
       .default_is_value();
   command.add("--rng-seed", settings.rng_seed, "Seed of the random numbers")
       .value_name("R")

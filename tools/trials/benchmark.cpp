@@ -31,14 +31,15 @@ struct Contender {
 Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagram, MethodOptions options) {
   if (options.neighbourhood == NeighbourhoodMix::mixed) options.neighbourhood.reset();
   const auto run = [&method, &seeds, &diagram, options] {
-    method.run(seeds, diagram, 0, options);
+    method.run(seeds, diagram, options);
     seeds.device().finish();
   };
   return {method.name, [] {}, run, [&diagram] { return diagram.read(); }};
 }
 
 Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                            const MethodOptions& options) {
+                            MethodOptions options) {
+  options.max_displacement = max_displacement;
   const auto now = seeds.read();
   const auto moving = std::make_shared<Seeds>(seeds.clone());
   random_step(*moving, max_displacement, Border::reflect, 1, 0);
@@ -50,14 +51,14 @@ Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& d
     moving->device().finish();
   };
   const auto run = [&method, moving, &diagram, options] {
-    method.run(*moving, diagram, max_displacement, options);
+    method.run(*moving, diagram, options);
     moving->device().finish();
   };
   return {method.name, prepare, run, [&diagram] { return diagram.read(); }};
 }
 
 Contender opencv(const Seeds& seeds, Metric metric) {
-  const auto baseline = std::make_shared<OpenCvBaseline>(seeds.grid(), seeds.read(), metric);
+  const auto baseline = std::make_shared<OpenCvBaseline>(seeds.grid(), seeds.read_pixels(), metric);
   return {opencv_method().name, [] {}, [baseline] { baseline->run(); },
           [baseline] { return baseline->labels(); }};
 }
@@ -71,9 +72,9 @@ Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
 
 /// From seeds on the host to labels on the host.
 Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric) {
-  const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.grid().pixels());
+  const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.window().pixels());
   const auto run = [&seeds, points = seeds.read(), &diagram, metric, labels] {
-    const Seeds placed(seeds.device(), diagram.grid(), points);
+    const Seeds placed(seeds.device(), seeds.grid(), points);
     exact_diagram(placed, diagram, {metric});
     diagram.read(labels->data());
   };
@@ -82,14 +83,7 @@ Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric) {
 
 /// From seeds on the host, which are sorted, to labels on the host, which are there for each tile in turn.
 Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric) {
-  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid());
-  const auto points = seeds.read();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i]) continue;
-    const PlaneSeed seed = {static_cast<std::int32_t>(points[i]->x), static_cast<std::int32_t>(points[i]->y),
-                            static_cast<std::uint32_t>(i)};
-    sorted->add(&seed, 1);
-  }
+  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read());
   sorted->sort();
   const auto each_tile = [device = seeds.device(), tiling = Tiling(seeds.grid(), side), metric,
                           sorted](const std::function<void(const TileLabels&)>& use) {
@@ -98,9 +92,10 @@ Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric) {
   const auto labels = [grid = seeds.grid(), each_tile] {
     std::vector<std::uint32_t> all(grid.pixels());
     each_tile([&](const TileLabels& made) {
-      for (std::int64_t y = 0; y < made.tile.height; ++y) {
-        std::copy_n(made.labels + y * made.tile.width, made.tile.width,
-                    all.begin() + (made.tile.y + y) * grid.width() + made.tile.x);
+      const Window& tile = made.tile;
+      for (std::int64_t y = 0; y < tile.height(); ++y) {
+        std::copy_n(made.labels + y * tile.width(), tile.width(),
+                    all.begin() + (tile.y() + y) * grid.width() + tile.x());
       }
     });
     return all;
@@ -135,7 +130,7 @@ std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const
     contenders.push_back(exact_on_host(seeds, diagram, metric));
     contenders.push_back(exact_in_tiles(seeds, options.tile, metric));
   }
-  const GroundTruth truth(seeds.grid(), seeds.read(), metric);
+  const GroundTruth truth(seeds.grid(), seeds.read_pixels(), metric);
   std::vector<BenchmarkResult> results;
   for (const Contender& contender : contenders) {
     contender.prepare();

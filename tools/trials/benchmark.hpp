@@ -20,7 +20,7 @@ namespace vorocl::command {
 /// The least distances, by an exact method that shares nothing with the engines (a k-d tree).
 class GroundTruth {
  public:
-  /// `seeds` holds the points by id, as Seeds::read() gives them. Finds the least distance of every pixel:
+  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them. Finds the least distance of every pixel:
   /// about a microsecond per pixel and core, and 4 bytes per pixel.
   GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
@@ -34,7 +34,8 @@ class GroundTruth {
   };
   std::uint32_t distance(const Position& seed, int x, int y) const;
 
-  Grid grid_;
+  Size size_;
+  Periodic periodic_;
   Metric metric_;
   std::vector<std::optional<Position>> seeds_;  // by id
   std::vector<std::uint32_t> least_;            // row-major; squared if euclidean
@@ -43,7 +44,7 @@ class GroundTruth {
 /// OpenCV's labelled distance transform, as a baseline for the methods.
 class OpenCvBaseline {
  public:
-  /// `seeds` holds the points by id, as Seeds::read() gives them.
+  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them.
   OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// One cv::distanceTransform with DIST_LABEL_PIXEL from the image of the seeds to its labels, with the

@@ -40,16 +40,16 @@ int along(int offset, int size, bool periodic) {
 
 /// Calls found(x, y, a nearest seed's pixel) for every pixel, from several threads.
 template <template <class, class, class, class> class Distance, typename Found>
-void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) {
+void for_each_nearest(const Size& size, Periodic periodic, const Cloud& cloud, const Found& found) {
   using Adaptor = Distance<double, Cloud, double, std::uint32_t>;
   const nanoflann::KDTreeSingleIndexAdaptor<Adaptor, Cloud, 2> tree(2, cloud);
-  cv::parallel_for_(cv::Range(0, grid.height()), [&](const cv::Range& rows) {
+  cv::parallel_for_(cv::Range(0, size.height()), [&](const cv::Range& rows) {
     for (int y = rows.start; y < rows.end; ++y) {
-      for (int x = 0; x < grid.width(); ++x) {
+      for (int x = 0; x < size.width(); ++x) {
         std::uint32_t nearest = 0;
         double least = std::numeric_limits<double>::infinity();
-        for (const int image_y : images(y, grid.height(), grid.periodic_y())) {
-          for (const int image_x : images(x, grid.width(), grid.periodic_x())) {
+        for (const int image_y : images(y, size.height(), has_y(periodic))) {
+          for (const int image_x : images(x, size.width(), has_x(periodic))) {
             const double query[2] = {static_cast<double>(image_x), static_cast<double>(image_y)};
             std::uint32_t index = 0;
             double distance = 0;
@@ -68,7 +68,11 @@ void for_each_nearest(const Grid& grid, const Cloud& cloud, const Found& found) 
 }  // namespace
 
 GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
-    : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
+    : size_(grid),
+      periodic_(grid.periodic()),
+      metric_(metric),
+      seeds_(seeds.size()),
+      least_(size_.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     if (!seeds[id]) continue;
@@ -83,20 +87,23 @@ GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point
   if (cloud.points.empty()) throw Error("without seeds no pixel has a true label");
   const auto found = [&](int x, int y, const Point& nearest) {
     const auto i =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(grid_.width()) + static_cast<std::size_t>(x);
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width()) + static_cast<std::size_t>(x);
     least_[i] = distance({static_cast<int>(nearest.x), static_cast<int>(nearest.y)}, x, y);
   };
-  if (metric == Metric::euclidean) {
-    for_each_nearest<nanoflann::L2_Simple_Adaptor>(grid, cloud, found);
-  } else {
-    for_each_nearest<nanoflann::L1_Adaptor>(grid, cloud, found);
+  switch (metric) {
+    case Metric::euclidean:
+      for_each_nearest<nanoflann::L2_Simple_Adaptor>(size_, periodic_, cloud, found);
+      break;
+    case Metric::manhattan:
+      for_each_nearest<nanoflann::L1_Adaptor>(size_, periodic_, cloud, found);
+      break;
   }
 }
 
 std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) const {
   std::size_t wrong = 0, i = 0;
-  for (int y = 0; y < grid_.height(); ++y) {
-    for (int x = 0; x < grid_.width(); ++x, ++i) {
+  for (int y = 0; y < size_.height(); ++y) {
+    for (int x = 0; x < size_.width(); ++x, ++i) {
       const std::uint32_t label = labels.at(i);
       if (label >= seeds_.size() || !seeds_[label] || distance(*seeds_[label], x, y) > least_[i]) ++wrong;
     }
@@ -105,9 +112,15 @@ std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) 
 }
 
 std::uint32_t GroundTruth::distance(const Position& seed, int x, int y) const {
-  const int dx = along(seed.x - x, grid_.width(), grid_.periodic_x());
-  const int dy = along(seed.y - y, grid_.height(), grid_.periodic_y());
-  return static_cast<std::uint32_t>(metric_ == Metric::euclidean ? dx * dx + dy * dy : dx + dy);
+  const int dx = along(seed.x - x, size_.width(), has_x(periodic_));
+  const int dy = along(seed.y - y, size_.height(), has_y(periodic_));
+  switch (metric_) {
+    case Metric::euclidean:
+      return static_cast<std::uint32_t>(dx * dx + dy * dy);
+    case Metric::manhattan:
+      break;
+  }
+  return static_cast<std::uint32_t>(dx + dy);
 }
 
 }  // namespace vorocl::command

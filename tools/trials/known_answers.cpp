@@ -84,12 +84,12 @@ std::string to_string(const KnownAnswer& answer) {
 
 std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {
   const Grid grid = known_grid(answer);
-  Seeds moving(device, grid, {});
+  Seeds moving(device, grid, std::vector<Point>());
   Diagram diagram(device, grid);
   Hash hash;
   for (const std::vector<Point>& points : known_frames(answer)) {
     moving.move_to(points);
-    method(answer.method).run(moving, diagram, known_displacement, {answer.metric});
+    method(answer.method).run(moving, diagram, {answer.metric});
     for (const std::uint32_t label : diagram.read()) hash.add(label);
   }
   return hash.value();

@@ -14,7 +14,7 @@ cv::Point pixel_of(const Point& seed) { return {static_cast<int>(seed.x), static
 
 OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds,
                                Metric metric)
-    : seeds_(seeds), metric_(metric), image_(grid.height(), grid.width(), CV_8U, cv::Scalar(255)) {
+    : seeds_(seeds), metric_(metric), image_(Size(grid).height(), Size(grid).width(), CV_8U, cv::Scalar(255)) {
   if (grid.periodic() != Periodic::none) throw Error("opencv knows no periodic axes; leave it out");
   for (const std::optional<Point>& seed : seeds_) {
     if (seed) image_.at<std::uint8_t>(pixel_of(*seed)) = 0;
@@ -22,9 +22,15 @@ OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional
 }
 
 void OpenCvBaseline::run() {
-  const bool euclidean = metric_ == Metric::euclidean;
-  cv::distanceTransform(image_, distances_, labels_, euclidean ? cv::DIST_L2 : cv::DIST_L1,
-                        euclidean ? cv::DIST_MASK_5 : cv::DIST_MASK_3, cv::DIST_LABEL_PIXEL);
+  const auto transform = [this](int distance, int mask) {
+    cv::distanceTransform(image_, distances_, labels_, distance, mask, cv::DIST_LABEL_PIXEL);
+  };
+  switch (metric_) {
+    case Metric::euclidean:
+      return transform(cv::DIST_L2, cv::DIST_MASK_5);
+    case Metric::manhattan:
+      return transform(cv::DIST_L1, cv::DIST_MASK_3);
+  }
 }
 
 std::vector<std::uint32_t> OpenCvBaseline::labels() const {

@@ -39,7 +39,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                 {"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.periodic())},
+                {"periodic", to_string(seeds.grid().periodic())},
                 {"seeds", seeds.alive()},
                 {"repeat", options.benchmark.rounds},
                 {"results", list}});
@@ -90,7 +90,7 @@ void add_bench(CommandLine& line) {
            "seeds were "
            "sorted before")
       .value_name("N")
-      .in_range(1, Grid::max_side);
+      .in_range(1, Size::max_side);
   command.add("--repeat", options->benchmark.rounds, "Rounds after the warm-up")
       .value_name("R")
       .in_range(1, 1000000)

@@ -68,7 +68,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
     return;
   }
   print("{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, statistics.cells, view.picture.grid.width(), view.picture.grid.height(),
+        options.method.name, statistics.cells, view.picture.size.width(), view.picture.size.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
   print_empty_cells(statistics.empty_cells, statistics.cells);
   print("the mean area is {:.6g}, with a deviation of {:.6g} ({})\n", statistics.mean_area,
@@ -83,10 +83,10 @@ void run(const CellsOptions& options) {
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.view.grid);
-  const Report report = options.method.run(seeds, diagram, 0, options.method_options);
+  Diagram diagram(device, input.view.window);
+  const Report report = options.method.run(seeds, diagram, options.method_options);
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, input.view, options.method_options.metric, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, buffers);
   for (const Output& output : outputs) output.kind.write(output.file, measures);
   print_result(options, seeds, report, measures);
 }

@@ -36,7 +36,7 @@ struct CompareOptions {
   }
 };
 
-void check_grids(const std::string& a, const Grid& of_a, const std::string& b, const Grid& of_b) {
+void check_sizes(const std::string& a, const Size& of_a, const std::string& b, const Size& of_b) {
   if (of_a == of_b) return;
   throw Error(fmt::format("{} is {} x {} pixels and {} is {} x {}; only images of one size can be compared",
                           a, of_a.width(), of_a.height(), b, of_b.width(), of_b.height()));
@@ -57,7 +57,7 @@ Comparison compare(const LabelImage& a, const LabelImage& b) {
 
 Comparison compare_files(const CompareOptions& options) {
   const LabelImage a = read_labels(options.a), b = read_labels(options.b);
-  check_grids(options.a, a.grid, options.b, b.grid);
+  check_sizes(options.a, a.size, options.b, b.size);
   return compare(a, b);
 }
 
@@ -81,22 +81,24 @@ std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
 Comparison compare_with_exact(const CompareOptions& options) {
   const LabelImage image = read_labels(options.a);
   SeedOptions seed_options = options.seeds;
-  if (!seed_options.size && seed_options.width == 0) seed_options.size = image.grid;
+  if (!seed_options.size && seed_options.width == 0) seed_options.size = image.size;
   const Input input = read_input(seed_options);
   const View& view = input.view;
-  const Grid size(view.picture.grid.width(), view.picture.grid.height());
-  check_grids(options.a, image.grid, "the diagram of the seeds", size);
+  const Size& size = view.picture.size;
+  check_sizes(options.a, image.size, "the diagram of the seeds", size);
 
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram exact(device, input.view.grid);
-  Diagram diagram(device, input.view.grid);
+  Diagram exact(device, view.window);
+  Diagram diagram(device, view.window);
   exact_diagram(seeds, exact, {options.metric});
   const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids, seeds.read());
-  diagram.write(view.in_diagram(labels));
+  diagram.write(view.in_diagram(labels), seeds, options.metric);
   Comparison comparison = compare({size, labels}, {size, view.in_picture(exact.read(), no_label)});
-  comparison.errors = distance_errors(seeds, diagram, exact, options.metric);
+  DistanceErrorsResult errors;
+  distance_errors(diagram, exact, errors);
+  comparison.errors = errors.read();
   return comparison;
 }
 

@@ -73,10 +73,10 @@ Outputs open_outputs(const RelaxOptions& options) {
   return outputs;
 }
 
-/// The points of seeds none of which is absent.
-std::vector<Point> points_of(const Seeds& seeds) {
+/// The pixels of seeds none of which is absent.
+std::vector<Point> pixels_of(const Seeds& seeds) {
   std::vector<Point> points;
-  for (const std::optional<Point>& point : seeds.read()) points.push_back(point.value());
+  for (const std::optional<Point>& point : seeds.read_pixels()) points.push_back(point.value());
   return points;
 }
 
@@ -96,11 +96,11 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
                       const Interruption& interruption, FrameWriter* writer) {
   Progress progress({"rounds"});
   MeasureBuffers buffers;
-  const auto engine = [](const Seeds& at, Diagram& filled, double) { return exact_diagram(at, filled); };
+  const auto engine = [](const Seeds& at, Diagram& filled) { return exact_diagram(at, filled); };
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
     const int round = so_far.rounds();
     if (writer != nullptr) {
-      Measures measures(at, filled, input.ids, input.view, Metric::euclidean, buffers);
+      Measures measures(at, filled, input.ids, input.view, buffers);
       writer->add({round, round, stamp_of_round(round)}, measures, input.values);
     }
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
@@ -112,9 +112,9 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
 void write_end(const Outputs& outputs, const RelaxOptions& options, const Input& input, const Seeds& seeds,
                const Diagram& diagram, const Relaxation& relaxation) {
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, input.view, Metric::euclidean, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
-  if (outputs.points) write_points(*outputs.points, points_of(seeds), input.ids);
+  if (outputs.points) write_points(*outputs.points, pixels_of(seeds), input.ids);
   if (outputs.energy) write_energies(*outputs.energy, relaxation);
   if (outputs.picture) {
     const cv::Mat picture =
@@ -129,7 +129,7 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
     print_json({{"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.periodic())},
+                {"periodic", to_string(seeds.grid().periodic())},
                 {"seeds", seeds.alive()},
                 {"rounds", relaxation.rounds()},
                 {"settled", relaxation.converged},
@@ -149,11 +149,11 @@ void run(const RelaxOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
   refuse_window(input, "relax");
-  check_picture_size(options.pictures.picture, input.view.picture.grid);
+  check_picture_size(options.pictures.picture, input.view.picture.size);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
-  Diagram diagram(device, input.view.grid);
+  Diagram diagram(device, input.view.window);
   const Relaxation relaxation =
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
   write_end(outputs, options, input, seeds, diagram, relaxation);

@@ -76,7 +76,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     return;
   }
   print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, seeds.alive(), view.picture.grid.width(), view.picture.grid.height(),
+        options.method.name, seeds.alive(), view.picture.size.width(), view.picture.size.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
   print_empty_cells(statistics.empty_cells, statistics.cells);
   print_written(requested_files(options));
@@ -86,12 +86,12 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
 /// wave. Each picture is flooded anew, by the waves so far.
 void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input, const Seeds& seeds,
                 Metric metric, Painter& painter) {
-  Diagram diagram(seeds.device(), input.view.grid);
+  Diagram diagram(seeds.device(), input.view.window);
   MeasureBuffers buffers;
   Plan waves;
   for (std::size_t i = 0; i <= plan.size(); ++i) {
     flood(seeds, diagram, waves, metric);
-    Measures measures(seeds, diagram, input.ids, input.view, metric, buffers);
+    Measures measures(seeds, diagram, input.ids, input.view, buffers);
     const cv::Mat picture =
         painter.draw(measures, input.values, fmt::format("{} waves of {}", i, plan.size()));
     write_picture(files.file(static_cast<int>(i)), picture);
@@ -102,14 +102,14 @@ void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input
 void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
-  check_picture_size(options.picture, input.view.picture.grid);
+  check_picture_size(options.picture, input.view.picture.size);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.view.grid);
-  const Report report = options.method.run(seeds, diagram, 0, options.method_options);
+  Diagram diagram(device, input.view.window);
+  const Report report = options.method.run(seeds, diagram, options.method_options);
   MeasureBuffers buffers;
-  Measures measures(seeds, diagram, input.ids, input.view, options.method_options.metric, buffers);
+  Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) labels_kind().write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
@@ -118,7 +118,7 @@ void run(const RenderOptions& options) {
         painter.draw(measures, input.values, stamp_of(options.seeds.frame, input.timestep));
     if (outputs.picture) write_picture(*outputs.picture, picture);
     if (outputs.waves) {
-      const Plan plan = options.method.plan(input.view.grid, report.waves(), options.method_options);
+      const Plan plan = options.method.plan(input.view.window, report.waves(), options.method_options);
       draw_waves(*outputs.waves, plan, input, seeds, options.method_options.metric, painter);
     }
   }

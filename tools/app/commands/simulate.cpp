@@ -40,10 +40,12 @@ class Run {
         source_(source),
         interruption_(interruption),
         writer_(writer),
-        simulation_(source.place(device), [this](Seeds& moving, int) {
-          displacement_ = source_.move(moving);
-          return displacement_.value_or(0);  // engines start from nothing on another grid
-        }) {
+        simulation_(
+            source.place(device), source.view().window,
+            [this](Seeds& moving, Window& window, int) {
+              source_.move(moving, window);
+              displacement_ = source_.displacement();
+            }) {
     add_engine(options.method, options.method_options);
     if (options.compare_with) {
       // The reference: it runs with its own waves, whatever those of the first method are.
@@ -103,8 +105,12 @@ class Run {
   /// Its kernels are built before: this must not count as time of the first frames.
   void add_engine(const Method& method, const MethodOptions& options) {
     const Seeds& seeds = simulation_.seeds();
-    prepare(method, seeds.device(), seeds.grid(), seeds.size(), options);
-    simulation_.add_engine(engine(method, options));
+    prepare(method, seeds.device(), source_.view().window, seeds.size(), options);
+    simulation_.add_engine([this, run = method.run, options](const Seeds& of, Diagram& diagram) {
+      MethodOptions known = options;
+      known.max_displacement = displacement_;  // which a box may make less than the seeds know
+      return run(of, diagram, known);
+    });
   }
 
   [[noreturn]] void refuse_seeds() const {
@@ -120,7 +126,7 @@ class Run {
     if (simulation_.frame() == 0) return;
     ++course_.timed;
     if (options_.method.continues) {
-      course_.plans.add(simulation_.report(main_engine), displacement_, simulation_.seeds().grid());
+      course_.plans.add(simulation_.report(main_engine), displacement_, source_.view().window);
     }
   }
 
@@ -145,15 +151,15 @@ class Run {
   }
 
   void compare() {
-    const Seeds& seeds = simulation_.seeds();
     const Diagram& diagram = simulation_.diagram(main_engine);
     const Diagram& other = simulation_.diagram(other_engine);
-    const Metric metric = options_.method_options.metric;
-    const double percent = options_.tolerance ? similarity(seeds, diagram, other, *options_.tolerance, metric)
-                                              : similarity(diagram, other);
+    options_.tolerance ? similarity(diagram, other, *options_.tolerance, similarity_)
+                       : similarity(diagram, other, similarity_);
+    const double percent = similarity_.read();
     std::optional<DistanceErrors> errors;
     if (options_.other_is_exact()) {
-      errors = distance_errors(seeds, diagram, other, metric);
+      distance_errors(diagram, other, errors_);
+      errors = errors_.read();
       course_.errors.add(*errors);
     }
     course_.similarities.add(percent);
@@ -161,8 +167,7 @@ class Run {
   }
 
   Measures measures() {
-    return {simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(),
-            source_.view(),      options_.method_options.metric,   buffers_};
+    return {simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(), source_.view(), buffers_};
   }
 
   FrameFacts facts(double milliseconds) const {
@@ -178,12 +183,13 @@ class Run {
       std::memcpy(&bits, &value, sizeof bits);
       course_.seeds.add(bits);
     };
-    for (const std::optional<Point>& point : simulation_.seeds().read()) {
-      add(point ? point->x : -1);
-      add(point ? point->y : -1);
-    }
     const View& view = source_.view();
-    for (const int value : {view.picture.grid.width(), view.picture.grid.height(), view.x, view.y})
+    for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
+      const Point point = of_grid ? view.from_grid(*of_grid) : Point{-1, -1};
+      add(point.x);
+      add(point.y);
+    }
+    for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
       add(value);
     for (const Point& place : {view.picture.corner, view.picture.pixel}) {
       add(place.x);
@@ -201,6 +207,8 @@ class Run {
   std::optional<double> displacement_;  // of the last motion
   Simulation simulation_;
   MeasureBuffers buffers_;
+  SimilarityResult similarity_;
+  DistanceErrorsResult errors_;
   Course course_;
 };
 
@@ -209,7 +217,7 @@ void run(const SimulateOptions& options) {
   check_picture_options(options.output.picture);
   FrameWriter writer(options.output, options.other_is_exact(), options.run);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
-  check_picture_size(options.output.picture, source->view().picture.grid);
+  check_picture_size(options.output.picture, source->view().picture.size);
   const Device device = Device::select(options.device);
   const FinishAtEnd finish(device);
   Run run(options, *source, device, interruption, writer);

@@ -26,7 +26,9 @@ Json range(const Samples& samples) {
 
 /// Of the last frame.
 CellStatistics statistics(const Simulation& simulation) {
-  return cell_statistics(simulation.seeds(), simulation.diagram(main_engine));
+  CellStatisticsResult result;
+  cell_statistics(simulation.diagram(main_engine), result);
+  return result.read();
 }
 
 Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
@@ -76,7 +78,7 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
 void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                 const Course& course) {
   const Seeds& seeds = simulation.seeds();
-  const Grid& picture = source.view().picture.grid;
+  const Size& picture = source.view().picture.size;
   print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
         picture.width(), picture.height(), seeds.device().name());
   if (course.made_before > 0) print("made before: {} frames, from frame 0 on\n", course.made_before);

@@ -42,13 +42,13 @@ struct PlanSamples {
   int from_seeds = 0;     // frames that did not start from the last labels
   int jfa = 0;            // those of them in which all of JFA's waves ran
 
-  void add(const Report& report, const std::optional<double>& max_displacement, const Grid& grid) {
+  void add(const Report& report, const std::optional<double>& max_displacement, const Window& window) {
     const FloodStart& start = report.start();
     first_steps.add(start.first_step);
     waves.add(report.waves());
     if (max_displacement) displacements.add(*max_displacement);
     if (start.from_seeds) ++from_seeds;
-    if (start.from_seeds && start.first_step == first_step(grid)) ++jfa;
+    if (start.from_seeds && start.first_step == first_step(window)) ++jfa;
   }
 };
 

@@ -22,7 +22,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
     const Stopwatch writing;
     writer.add(tile);
     course.writing += writing.milliseconds();
-    course.pixels += pixels_of(tile.tile);
+    course.pixels += tile.tile.pixels();
     ++course.tiles;
     progress.show({course.tiles, share(), done_before, static_cast<double>(course.pixels) / 1e6});
     if (!interruption.came()) return;
@@ -45,11 +45,9 @@ void run(const TilesOptions& options) {
   const FinishAtEnd finish(device);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
-  PlaneSeeds seeds(tiling.plane());
+  PlaneSeeds seeds(tiling.window().grid());
   PlaneReading reading;
-  reading.add = [&](std::uint64_t, const std::vector<Point>& pixels) {
-    seeds.add(pixels.data(), pixels.size());
-  };
+  reading.add = [&](std::uint64_t, const std::vector<Point>& pixels) { seeds.add(pixels); };
   reading.reserve = [&](std::uint64_t count) { seeds.reserve(static_cast<std::size_t>(count)); };
   reading.stops = [&] { return interruption.came(); };
   const PlaneFacts facts = read_plane_seeds(options.input, reading);

@@ -19,7 +19,7 @@ namespace {
 constexpr double million = 1e6;
 
 /// "X0,Y0,X1,Y1" to the pixels from (X0, Y0) up to, and without, (X1, Y1).
-std::optional<PlaneRectangle> parse_part(const std::string& text) {
+std::optional<PlanePart> parse_part(const std::string& text) {
   const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four whole numbers with X0 < X1 and Y0 < Y1");
   std::vector<std::int64_t> values;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -30,7 +30,23 @@ std::optional<PlaneRectangle> parse_part(const std::string& text) {
     begin = comma + 1;
   }
   if (values.size() != 4 || values[0] >= values[2] || values[1] >= values[3]) throw error;
-  return PlaneRectangle{values[0], values[1], values[2] - values[0], values[3] - values[1]};
+  return PlanePart{values[0], values[1], values[2] - values[0], values[3] - values[1]};
+}
+
+/// A plane that repeats has its parts in one period too.
+void check_part(const char* axis, std::int64_t first, std::int64_t count, std::int64_t pixels) {
+  if (count <= pixels && first <= pixels - count) return;
+  throw Error(fmt::format("the part of the plane has {} pixels from {} = {} on; the plane has {} along that axis",
+                          count, axis, first, pixels));
+}
+
+Window window_of(const TilesOptions& options) {
+  const Grid plane = options.input.plane();
+  if (!options.part) return plane;
+  const PlanePart& part = *options.part;
+  check_part("x", part.x, part.width, plane.width());
+  check_part("y", part.y, part.height, plane.height());
+  return {plane, part.x, part.y, part.width, part.height};
 }
 
 std::string count_of_tiles(std::uint64_t count) {
@@ -61,7 +77,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   add_metric_option(command, options->metric);
   command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
       .value_name("N")
-      .in_range(1, Grid::max_side)
+      .in_range(1, Size::max_side)
       .default_text("what a quarter of the device's memory holds, 4096 at most");
   command
       .add_parsed("--only", options->part, parse_part,
@@ -111,9 +127,8 @@ bool is_tiff_name(const std::string& path) {
 }
 
 Tiling tiling_of(const TilesOptions& options, const Device& device) {
-  const Plane plane = options.input.plane();
   const int side = options.side > 0 ? options.side : default_tile_side(device);
-  const Tiling tiling = options.part ? Tiling(plane, side, *options.part) : Tiling(plane, side);
+  const Tiling tiling(window_of(options), side);
   constexpr std::uint64_t most = std::uint64_t{1} << 24;
   if (tiling.count() > most) {
     throw Error(
@@ -130,26 +145,26 @@ std::string run_of(const TilesOptions& options, const Tiling& tiling) {
 std::optional<Georeference> georeference(const TilesOptions& options, const Tiling& tiling) {
   const std::optional<Bounds>& bounds = options.input.seeds.bounds;
   if (!bounds) return std::nullopt;
-  const Plane& plane = tiling.plane();
-  const PlaneRectangle& part = tiling.part();
+  const Window& window = tiling.window();
+  const Grid& plane = window.grid();
   const bool y_up = points_up(options.input.seeds);
   const auto between = [](double low, double high, std::int64_t pixel, std::int64_t pixels) {
     return pixel == pixels ? high
                            : low + (high - low) * (static_cast<double>(pixel) / static_cast<double>(pixels));
   };
-  const std::int64_t bottom = part.y + part.height, height = plane.height();
-  return Georeference{{between(bounds->x0, bounds->x1, part.x, plane.width()),
-                       between(bounds->y0, bounds->y1, y_up ? height - bottom : part.y, height),
-                       between(bounds->x0, bounds->x1, part.x + part.width, plane.width()),
-                       between(bounds->y0, bounds->y1, y_up ? height - part.y : bottom, height)},
+  const std::int64_t bottom = window.y() + window.height(), height = plane.height();
+  return Georeference{{between(bounds->x0, bounds->x1, window.x(), plane.width()),
+                       between(bounds->y0, bounds->y1, y_up ? height - bottom : window.y(), height),
+                       between(bounds->x0, bounds->x1, window.x() + window.width(), plane.width()),
+                       between(bounds->y0, bounds->y1, y_up ? height - window.y() : bottom, height)},
                       y_up,
                       options.crs};
 }
 
 void print_result(const TilesOptions& options, const Device& device, const PlaneFacts& seeds,
                   const Tiling& tiling, const TilesCourse& course) {
-  const Plane& plane = tiling.plane();
-  const PlaneRectangle& part = tiling.part();
+  const Window& window = tiling.window();
+  const Grid& plane = window.grid();
   const double rate =
       course.milliseconds > 0 ? 1e3 * static_cast<double>(course.pixels) / course.milliseconds : 0;
   if (options.json) {
@@ -160,7 +175,8 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
         {"width", plane.width()},
         {"height", plane.height()},
         {"periodic", to_string(plane.periodic())},
-        {"part", Json{{"x", part.x}, {"y", part.y}, {"width", part.width}, {"height", part.height}}},
+        {"part",
+         Json{{"x", window.x()}, {"y", window.y()}, {"width", window.width()}, {"height", window.height()}}},
         {"area_unit", seeds.units.of_area()},
         {"length_unit", seeds.units.of_length()},
         {"seeds", seeds.seeds},
@@ -178,7 +194,8 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
   print("exact: {} seeds on {} x {} pixels, {} of {} x {}, on {}\n", seeds.seeds, plane.width(),
         plane.height(), count_of_tiles(course.tiles), tile.width, tile.height, device.name());
   if (options.part) {
-    print("of these pixels {} x {}, from ({}, {}) on\n", part.width, part.height, part.x, part.y);
+    print("of these pixels {} x {}, from ({}, {}) on\n", window.width(), window.height(), window.x(),
+          window.y());
   }
   if (course.made_before > 0) print("made before: {}\n", count_of_tiles(course.made_before));
   if (course.processes > 1) print("processes: {}\n", course.processes);

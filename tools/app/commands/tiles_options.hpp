@@ -13,10 +13,15 @@
 
 namespace vorocl::command {
 
+/// A rectangle of the plane's pixels.
+struct PlanePart {
+  std::int64_t x = 0, y = 0, width = 0, height = 0;
+};
+
 struct TilesOptions {
   PlaneInputOptions input;
   int side = 0;  // of tiles; 0: the device's
-  std::optional<PlaneRectangle> part;
+  std::optional<PlanePart> part;  // else all of it
   Metric metric = Metric::euclidean;
   PlaneWriterOptions output;
   std::optional<Crs> crs;
@@ -31,7 +36,8 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
 /// Whether labels of this name are written as a TIFF file.
 bool is_tiff_name(const std::string& path);
 
-/// The tiles that are asked for, on a device that is to make them. Throws Error if they are too many.
+/// The tiles that are asked for, on a device that is to make them. Throws Error if they are too many, or some
+/// are not in the plane.
 Tiling tiling_of(const TilesOptions& options, const Device& device);
 
 /// Where the part lies in the coordinates of the bounds; none without bounds.

@@ -54,7 +54,7 @@ PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Int
                       SharedSeeds& seeds) {
   PlaneReading reading;
   reading.add = [&](std::uint64_t first, const std::vector<Point>& pixels) {
-    seeds.add(pixels.data(), pixels.size(), first);
+    seeds.add(pixels, first);
   };
   reading.reserve = [&](std::uint64_t count) {
     const auto blocks = (count / block_points + 1) / static_cast<std::uint64_t>(ranks.count) + 1;
@@ -107,7 +107,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Ranks& ranks, const De
     writing_tile = tile.number;
     writer.add(tile);
     course.writing += writing.milliseconds();
-    course.pixels += pixels_of(tile.tile);
+    course.pixels += tile.tile.pixels();
     ++made;
     if (progress) progress->show({writer.known(), share(writer.known()), share(course.made_before)});
     writing_tile.reset();
@@ -151,7 +151,7 @@ void run(const TilesOptions& given) {
   const Tiling tiling = tiling_of(options, device);
   SharedPlaneWriter writer(ranks, options.output, tiling, georeference(options, tiling),
                            run_of(options, tiling));
-  SharedSeeds seeds(ranks.communicator, tiling.plane());
+  SharedSeeds seeds(ranks.communicator, tiling.window().grid());
   const PlaneFacts facts = read_slice(options, ranks, interruption, seeds);
   seeds.share();
   writer.begin(facts.name);

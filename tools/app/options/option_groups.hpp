@@ -36,8 +36,8 @@ void add_units_option(Command& command, SeedOptions& options);
 /// Adds --frames, --step-length, --fit and --border.
 void add_motion_options(Command& command, MotionOptions& options);
 
-/// "WxH" to a grid. Throws Error if it is not that, or not possible.
-Grid parse_size(const std::string& text);
+/// "WxH" to a size. Throws Error if it is not that, or not possible.
+Size parse_size(const std::string& text);
 
 /// The methods as choices of an option.
 Choices<Method> method_choices();
@@ -63,8 +63,8 @@ void refuse_picture_options(const Command& command, const std::string& files);
 /// Throws UsageError for options that contradict each other.
 void check_picture_options(const PictureOptions& options);
 
-/// Throws UsageError if the pictures of a grid would be too large.
-void check_picture_size(const PictureOptions& options, const Grid& grid);
+/// Throws UsageError if pictures of diagrams of this size would be too large.
+void check_picture_size(const PictureOptions& options, const Size& size);
 
 /// "LOW,HIGH" or "LOW%,HIGH%" to the ends of a scale. Throws Error unless these are two finite numbers, LOW <
 /// HIGH, and percentages from 0 to 100.

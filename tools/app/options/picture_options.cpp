@@ -127,12 +127,12 @@ void check_picture_options(const PictureOptions& options) {
   }
 }
 
-void check_picture_size(const PictureOptions& options, const Grid& grid) {
-  const int most = Grid::max_side / grid.longest_side();
+void check_picture_size(const PictureOptions& options, const Size& size) {
+  const int most = Size::max_side / size.longest_side();
   if (options.enlargement > most) {
     throw UsageError(
         fmt::format("--enlarge {} of {} x {} pixels makes too large a picture; at most {} is possible",
-                    options.enlargement, grid.width(), grid.height(), most));
+                    options.enlargement, size.width(), size.height(), most));
   }
 }
 

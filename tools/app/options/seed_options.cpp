@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <string_view>
@@ -91,9 +93,16 @@ std::pair<std::int64_t, std::int64_t> parse_sides(const std::string& text) {
   return {*width, *height};
 }
 
-std::optional<Plane> parse_plane(const std::string& text) {
+std::optional<Grid> parse_plane(const std::string& text) {
   const auto [width, height] = parse_sides(text);
-  return Plane(width, height);
+  const auto check = [](const char* name, std::int64_t side) {
+    if (side >= 1 && side <= Axis::max_pixels) return;
+    throw Error(fmt::format("the plane's {} is {}; it must be from 1 to {} pixels", name, side,
+                            Axis::max_pixels));
+  };
+  check("width", width);
+  check("height", height);
+  return Grid(width, height);
 }
 
 }  // namespace
@@ -101,7 +110,7 @@ std::optional<Plane> parse_plane(const std::string& text) {
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move) {
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
   if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
-  constexpr std::size_t most_seeds = Grid::max_pixels;
+  constexpr std::size_t most_seeds = Window::max_pixels;
   const Option random = add_random_option(source, options, most_seeds);
   const Option points = add_points_option(source, options);
   source.add("--mask", options.mask, "Non-zero pixels of an image, numbered in row-major order")
@@ -123,7 +132,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
            "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
            "pixels are square")
       .value_name("W")
-      .in_range(1, Grid::max_side)
+      .in_range(1, Size::max_side)
       .excludes(size);
   const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
   add_bounds_option(command, options,
@@ -192,7 +201,7 @@ void add_motion_options(Command& command, MotionOptions& options) {
       .add("--step-length", options.step_length,
            "Each seed moves at random, by up to this many pixels along x and y per frame")
       .value_name("D")
-      .in_range(0, Grid::max_side)
+      .in_range(0, Size::max_side)
       .excludes(trajectory);
   const Choices<Fit> fits = {{"all", Fit::all}, {"frame", Fit::frame}};
   command
@@ -212,7 +221,7 @@ void add_motion_options(Command& command, MotionOptions& options) {
       .excludes(trajectory);
 }
 
-Grid parse_size(const std::string& text) {
+Size parse_size(const std::string& text) {
   const auto [width, height] = parse_sides(text);
   return {width, height};
 }

@@ -56,7 +56,7 @@ void write_border_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
   std::vector<std::uint8_t> borders = view.in_picture(measures.borders(), std::uint8_t{0});
   if (extension_of(file.path()) == ".png") {
-    const cv::Mat mask(view.picture.grid.height(), view.picture.grid.width(), CV_8U, borders.data());
+    const cv::Mat mask(view.picture.size.height(), view.picture.size.width(), CV_8U, borders.data());
     write_picture(file, 255 * mask);
   } else {
     write_pixels(file, "border", view.picture, borders);

@@ -12,11 +12,11 @@
 namespace vorocl::command {
 
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
-                   const View& view, Metric metric, MeasureBuffers& buffers)
-    : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), metric_(metric), buffers_(buffers) {}
+                   const View& view, MeasureBuffers& buffers)
+    : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), buffers_(buffers) {}
 
 const LabelImage& Measures::labels() {
-  if (!labels_) labels_ = {view_.grid, diagram_.read()};
+  if (!labels_) labels_ = {view_.size(), diagram_.read()};
   return *labels_;
 }
 
@@ -27,7 +27,11 @@ const LabelImage& Measures::labels_by_id() {
 }
 
 const std::vector<std::optional<Point>>& Measures::seeds() {
-  if (!points_) points_ = seeds_.read();
+  if (points_) return *points_;
+  points_ = seeds_.read_pixels();
+  for (std::optional<Point>& point : *points_) {
+    if (point) point = view_.from_grid(*point);
+  }
   return *points_;
 }
 
@@ -43,7 +47,7 @@ std::vector<double> Measures::neighbours() {
 }
 
 std::vector<CellMeasures> Measures::cells() {
-  cell_shapes(seeds_, diagram_, buffers_.shapes, metric_);
+  cell_shapes(diagram_, buffers_.shapes);
   const std::vector<CellSums> sums = sums_result().read();
   const std::vector<CellShape> shapes = buffers_.shapes.read();
   const std::vector<std::uint32_t> neighbours = adjacency_result().read_neighbours();
@@ -52,7 +56,7 @@ std::vector<CellMeasures> Measures::cells() {
   cells.reserve(seeds_.alive());
   for (std::size_t label = 0; label < seeds_.size(); ++label) {
     const std::optional<Point>& seed = seeds()[label];
-    if (!seed || (sums[label].area == 0 && !seeds_.grid().holds(*seed))) continue;
+    if (!seed || (sums[label].area == 0 && !view_.size().holds(*seed))) continue;
     cells.push_back({id_of(label), *seed, sums[label], shapes[label], neighbours[label], perimeters[label]});
   }
   std::sort(cells.begin(), cells.end(),
@@ -73,8 +77,14 @@ std::vector<CellPair> Measures::pairs() {
 
 std::size_t Measures::pair_count() { return adjacency_result().pairs(); }
 
+std::size_t Measures::vertices() {
+  vorocl::vertices(diagram_, buffers_.vertices);
+  return buffers_.vertices.count();
+}
+
 CellStatistics Measures::statistics() {
-  CellStatistics statistics = cell_statistics(sums_result());
+  cell_statistics(sums_result(), buffers_.statistics);
+  CellStatistics statistics = buffers_.statistics.read();
   statistics.mean_area = view_.units.area(statistics.mean_area);
   statistics.area_deviation = view_.units.area(statistics.area_deviation);
   return statistics;
@@ -82,7 +92,7 @@ CellStatistics Measures::statistics() {
 
 const std::vector<float>& Measures::distances() {
   if (!distances_) {
-    distance_field(seeds_, diagram_, buffers_.distances, metric_);
+    distance_field(diagram_, buffers_.distances);
     distances_ = buffers_.distances.read();
   }
   return *distances_;
@@ -98,13 +108,13 @@ std::uint32_t Measures::id_of(std::size_t label) const {
 }
 
 const AdjacencyResult& Measures::adjacency_result() {
-  if (!has_adjacency_) adjacency(seeds_, diagram_, buffers_.adjacency);
+  if (!has_adjacency_) adjacency(diagram_, buffers_.adjacency);
   has_adjacency_ = true;
   return buffers_.adjacency;
 }
 
 CellSumsResult& Measures::sums_result() {
-  if (!has_sums_) cell_sums(seeds_, diagram_, buffers_.sums);
+  if (!has_sums_) cell_sums(diagram_, buffers_.sums);
   has_sums_ = true;
   return buffers_.sums;
 }
@@ -113,9 +123,9 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
   return {{"method", method.name},
           {"metric", to_string(metric)},
           {"device", seeds.device().name()},
-          {"width", view.picture.grid.width()},
-          {"height", view.picture.grid.height()},
-          {"periodic", to_string(seeds.periodic())},
+          {"width", view.picture.size.width()},
+          {"height", view.picture.size.height()},
+          {"periodic", to_string(seeds.grid().periodic())},
           {"area_unit", view.units.of_area()},
           {"length_unit", view.units.of_length()}};
 }

@@ -17,7 +17,9 @@ namespace vorocl::command {
 struct MeasureBuffers {
   CellSumsResult sums;
   CellShapesResult shapes;
+  CellStatisticsResult statistics;
   AdjacencyResult adjacency;
+  VerticesResult vertices;
   Field<float> distances;
   Field<std::uint8_t> borders;
 };
@@ -37,12 +39,12 @@ struct CellMeasures {
 class Measures {
  public:
   /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. `view` says
-  /// how the diagram stands in the picture. Keeps references to all but the metric.
+  /// how the diagram stands in the picture. Keeps references to all.
   Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
-           const View& view, Metric metric, MeasureBuffers& buffers);
+           const View& view, MeasureBuffers& buffers);
 
   const View& view() const { return view_; }
-  Metric metric() const { return metric_; }
+  Metric metric() const { return diagram_.metric(); }
 
   // Positions and images are in pixels of the diagram, and the view brings them into the picture.
 
@@ -50,19 +52,19 @@ class Measures {
   const LabelImage& labels();
   const LabelImage& labels_by_id();
 
-  /// By label, absent seeds included: where it is, as Seeds::read() gives it; the area of its cell, in the
-  /// view's units; the cells that share a pixel edge with that.
+  /// By label, absent seeds included: the centre of its pixel; the area of its cell, in the view's units; the
+  /// cells that share a pixel edge with that.
   const std::vector<std::optional<Point>>& seeds();
   std::vector<double> areas();
   std::vector<double> neighbours();
 
-  /// In pixels, sorted by id; no absent seeds, and of those outside the grid only those that own pixels.
+  /// In pixels, sorted by id; no absent seeds, and of those outside the diagram only those that own pixels.
   std::vector<CellMeasures> cells();
 
   /// In pixels, sorted by a and then b, a < b.
   std::vector<CellPair> pairs();
   std::size_t pair_count();
-  std::size_t vertices() const { return count_vertices(diagram_); }
+  std::size_t vertices();
 
   /// Areas in the view's units.
   CellStatistics statistics();
@@ -80,7 +82,6 @@ class Measures {
   const Diagram& diagram_;
   const std::vector<std::uint32_t>& ids_;
   const View& view_;
-  Metric metric_;
   MeasureBuffers& buffers_;
   bool has_sums_ = false;
   bool has_adjacency_ = false;

@@ -24,11 +24,11 @@ cv::Mat enlarged(const cv::Mat& image, int factor) {
   return result;
 }
 
-/// Labels or distances of a grid.
+/// Labels or distances of an image.
 template <typename T>
-std::vector<T> enlarged(std::vector<T> image, const Grid& grid, int factor) {
+std::vector<T> enlarged(std::vector<T> image, const Size& size, int factor) {
   static_assert(sizeof(T) == sizeof(std::int32_t));
-  const cv::Mat result = enlarged(cv::Mat(grid.height(), grid.width(), CV_32SC1, image.data()), factor);
+  const cv::Mat result = enlarged(cv::Mat(size.height(), size.width(), CV_32SC1, image.data()), factor);
   return {result.ptr<T>(), result.ptr<T>() + result.total()};
 }
 
@@ -39,10 +39,10 @@ std::vector<std::optional<Point>> enlarged(std::vector<std::optional<Point>> poi
   return points;
 }
 
-/// Without the seeds outside the grid.
-std::vector<std::optional<Point>> in_grid(std::vector<std::optional<Point>> points, const Grid& grid) {
+/// Without the seeds outside the diagram.
+std::vector<std::optional<Point>> in_diagram(std::vector<std::optional<Point>> points, const Size& size) {
   for (std::optional<Point>& point : points) {
-    if (point && !grid.holds(*point)) point.reset();
+    if (point && !size.holds(*point)) point.reset();
   }
   return points;
 }
@@ -84,8 +84,8 @@ std::string title_of(const Coloring& color, const Units& units) {
 /// Around the picture of a diagram it is as where there is no label.
 cv::Mat in_picture(const cv::Mat& of_diagram, const View& view, int factor) {
   if (view.fills_picture()) return of_diagram;
-  const Grid& grid = view.picture.grid;
-  cv::Mat result(grid.height() * factor, grid.width() * factor, of_diagram.type(), cv::Scalar::all(0));
+  const Size& size = view.picture.size;
+  cv::Mat result(size.height() * factor, size.width() * factor, of_diagram.type(), cv::Scalar::all(0));
   of_diagram.copyTo(result(cv::Rect({view.x * factor, view.y * factor}, of_diagram.size())));
   return result;
 }
@@ -104,16 +104,17 @@ Painter::Painter(const PictureOptions& options, bool many)
 
 cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
   const View& view = measures.view();
-  const Grid& grid = view.grid;
+  const Size size = view.size();
+  const Periodic axes = view.window.periodic();
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
   if (options_.contours)
-    draw_contour_lines(picture, enlarged(measures.distances(), grid, enlargement), grid.periodic());
+    draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);
   if (options_.edge_width > 0) {
-    draw_edges(picture, enlarged(measures.labels().labels, grid, enlargement), options_.edge_width,
-               grid.periodic());
+    draw_edges(picture, enlarged(measures.labels().labels, size, enlargement), options_.edge_width,
+               axes);
   }
-  if (options_.points_overlay) draw_points(picture, enlarged(in_grid(measures.seeds(), grid), enlargement));
+  if (options_.points_overlay) draw_points(picture, enlarged(in_diagram(measures.seeds(), size), enlargement));
   picture = in_picture(picture, view, enlargement);
   if (options_.stamp) draw_text(picture, stamp);
   if (!options_.color_bar) return picture;
@@ -133,7 +134,7 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
       const std::vector<float> distances = measures.view().units.lengths(measures.distances());
-      return color_by_distance(distances, measures.view().grid,
+      return color_by_distance(distances, measures.view().window,
                                scale([&] { return std::vector<double>(distances.begin(), distances.end()); }),
                                palette_);
     }
@@ -145,8 +146,8 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
       return color_by_values(measures.labels(), values);
     default:
       const std::vector<std::uint32_t>& ids = measures.labels_by_id().labels;
-      return options_.palette ? color_by_id(ids, measures.view().grid, palette_)
-                              : color_by_id(ids, measures.view().grid);
+      return options_.palette ? color_by_id(ids, measures.view().window, palette_)
+                              : color_by_id(ids, measures.view().window);
   }
 }
 
@@ -159,7 +160,7 @@ cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<doub
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(image.labels, image.grid, values, scale([&] { return shown(image.labels, values); }),
+  return color_by_value(image.labels, image.size.grid(), values, scale([&] { return shown(image.labels, values); }),
                         palette_);
 }
 

@@ -33,11 +33,11 @@ struct Samples {
 
 class PlaneMap : public PlaneFile {
  public:
-  PlaneMap(const std::string& path, const PlaneRectangle& part)
-      : part_(part),
-        step_((std::max(part.width, part.height) - 1) / longest_side_of_map + 1),
-        x_{part.width, step_},
-        y_{part.height, step_},
+  PlaneMap(const std::string& path, const Window& window)
+      : window_(window),
+        step_((window.longest_side() - 1) / longest_side_of_map + 1),
+        x_{window.width(), step_},
+        y_{window.height(), step_},
         output_(path),
         labels_(path, static_cast<std::uint64_t>(x_.count() * y_.count()) * sizeof no_label) {}
 
@@ -58,13 +58,13 @@ class PlaneMap : public PlaneFile {
   }
 
   WrittenTile write(const TileLabels& labels) override {
-    const Tile& tile = labels.tile;
-    const std::int64_t left = tile.x - part_.x, top = tile.y - part_.y;
-    const std::int64_t first = x_.first_from(left), end = x_.first_from(left + tile.width);
+    const Window& tile = labels.tile;
+    const std::int64_t left = tile.x() - window_.x(), top = tile.y() - window_.y();
+    const std::int64_t first = x_.first_from(left), end = x_.first_from(left + tile.width());
     std::vector<std::uint32_t> row;
-    for (std::int64_t y = y_.first_from(top); y < y_.first_from(top + tile.height); ++y) {
+    for (std::int64_t y = y_.first_from(top); y < y_.first_from(top + tile.height()); ++y) {
       row.clear();
-      const std::uint32_t* const shown = labels.labels + (y_.shown(y) - top) * tile.width;
+      const std::uint32_t* const shown = labels.labels + (y_.shown(y) - top) * tile.width();
       for (std::int64_t x = first; x < end; ++x) row.push_back(shown[x_.shown(x) - left]);
       labels_.write(static_cast<std::uint64_t>(y * x_.count() + first) * sizeof no_label, row.data(),
                     row.size() * sizeof no_label);
@@ -84,7 +84,7 @@ class PlaneMap : public PlaneFile {
   }
 
  private:
-  PlaneRectangle part_;
+  Window window_;
   std::int64_t step_;
   Samples x_, y_;
   OutputFile output_;
@@ -96,7 +96,7 @@ class PlaneMap : public PlaneFile {
 }  // namespace
 
 std::unique_ptr<PlaneFile> plane_map(const std::string& path, const Tiling& tiling) {
-  return std::make_unique<PlaneMap>(path, tiling.part());
+  return std::make_unique<PlaneMap>(path, tiling.window());
 }
 
 }  // namespace vorocl::command

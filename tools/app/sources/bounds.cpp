@@ -15,6 +15,23 @@
 
 namespace vorocl::command {
 
+void check_bounds(const Bounds& bounds, Periodic axes) {
+  const auto refuse = [&](const std::string& why) {
+    throw Error("the bounds " + to_string(bounds) + " " + why);
+  };
+  const double width = bounds.x1 - bounds.x0, height = bounds.y1 - bounds.y0;
+  // Written so that a NaN fails.
+  if (!(width >= 0 && height >= 0)) refuse("must be numbers x0 <= x1 and y0 <= y1");
+  try {
+    Axis(Axis::max_pixels, bounds.x0, bounds.x1);
+    Axis(Axis::max_pixels, bounds.y0, bounds.y1);
+  } catch (const Error&) {
+    refuse("are too far apart, or too near, to compute with");
+  }
+  if (has_x(axes) && width == 0) refuse("have no extent in x, which is to be periodic");
+  if (has_y(axes) && height == 0) refuse("have no extent in y, which is to be periodic");
+}
+
 Bounds parse_bounds(const std::string& text) {
   const Error error("\"" + text + "\" must be X0,Y0,X1,Y1: four numbers with X0 < X1 and Y0 < Y1");
   std::vector<double> values;
@@ -54,37 +71,37 @@ Bounds joined(const Bounds& a, const Bounds& b) {
   return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
-Grid grid_of_width(const Bounds& bounds, int width) {
-  check_bounds(bounds, Grid(1, 1));
+Size size_of_width(const Bounds& bounds, int width) {
+  check_bounds(bounds);
   if (bounds.x0 == bounds.x1) {
     throw Error("the bounds " + to_string(bounds) +
                 " have no width to scale by: give --size instead of --width");
   }
   const double height = std::round(width * (bounds.y1 - bounds.y0) / (bounds.x1 - bounds.x0));
-  if (height > Grid::max_side) {
+  if (height > Size::max_side) {
     throw Error(fmt::format(
         "a width of {} makes a height of {:.0f} pixels with the bounds {}; at most {} are possible", width,
-        height, to_string(bounds), Grid::max_side));
+        height, to_string(bounds), Size::max_side));
   }
-  return Grid(width, std::max(1, static_cast<int>(height)));
+  return Size(width, std::max(1, static_cast<int>(height)));
 }
 
-bool has_square_pixels(const Bounds& bounds, const Plane& plane) {
+bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
   const double x_extent = bounds.x1 - bounds.x0, y_extent = bounds.y1 - bounds.y0;
   if (x_extent == 0 || y_extent == 0) return true;
-  const auto width = static_cast<double>(plane.width()), height = static_cast<double>(plane.height());
+  const auto width = static_cast<double>(grid.width()), height = static_cast<double>(grid.height());
   const double wanted_height = std::max(1.0, width * y_extent / x_extent);
   const double wanted_width = std::max(1.0, height * x_extent / y_extent);
   return std::abs(height - wanted_height) <= 0.5 || std::abs(width - wanted_width) <= 0.5;
 }
 
-void warn_of_scales(const Bounds& bounds, const Plane& plane, const std::string& advice) {
-  if (has_square_pixels(bounds, plane)) return;
+void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice) {
+  if (has_square_pixels(bounds, grid)) return;
   print_warning(
       fmt::format("the bounds {} get different scales in x and y on {} x {} pixels, so the cells are not "
                   "Voronoi cells in data units; {}",
-                  to_string(bounds), plane.width(), plane.height(),
-                  advice.empty() ? fmt::format("--width {} keeps pixels square", plane.width()) : advice));
+                  to_string(bounds), grid.width(), grid.height(),
+                  advice.empty() ? fmt::format("--width {} keeps pixels square", grid.width()) : advice));
 }
 
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds) {

@@ -6,10 +6,15 @@
 #include <vector>
 
 #include "app/terminal/end_of_run.hpp"
+#include "formats/raster.hpp"
 #include "formats/trajectory/trajectory.hpp"
-#include "vorocl/bounds.hpp"
+#include "vorocl/grid.hpp"
 
 namespace vorocl::command {
+
+/// Throws Error unless the bounds are finite, with x0 <= x1 and y0 <= y1, have an extent along the periodic
+/// axes, and are neither so far apart nor so near that an Axis has no scale for them.
+void check_bounds(const Bounds& bounds, Periodic axes = Periodic::none);
 
 /// "X0,Y0,X1,Y1" to bounds. Throws Error unless these are four finite numbers with X0 < X1 and Y0 < Y1.
 Bounds parse_bounds(const std::string& text);
@@ -25,16 +30,16 @@ Bounds bounding_box(const std::vector<Point>& points);
 /// The least bounds that hold both.
 Bounds joined(const Bounds& a, const Bounds& b);
 
-/// The grid of this width whose pixels are square in data units, to the nearest whole height. Throws Error if
-/// the bounds have no width or the grid is not possible.
-Grid grid_of_width(const Bounds& bounds, int width);
+/// The size of this width whose pixels are square in data units, to the nearest whole height. Throws Error if
+/// the bounds have no width or the size is not possible.
+Size size_of_width(const Bounds& bounds, int width);
 
 /// True if a pixel is a square in data units, to the nearest whole number of pixels. If not, the seed that is
 /// nearest in pixels need not be the nearest in the data. An axis without extent has no scale.
-bool has_square_pixels(const Bounds& bounds, const Plane& plane);
+bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 
 /// Warns on standard error unless pixels are square.
-void warn_of_scales(const Bounds& bounds, const Plane& plane, const std::string& advice = "");
+void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice = "");
 
 /// Says on standard error how many points lie outside the bounds, if some do.
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds);

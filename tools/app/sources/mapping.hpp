@@ -6,15 +6,9 @@
 #include <vector>
 
 #include "app/sources/view.hpp"
-#include "vorocl/bounds.hpp"
+#include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
-
-/// What becomes of points outside the bounds.
-enum class Outside {
-  count,  ///< they are seeds as others, and own the pixels that are nearest to them
-  refuse
-};
 
 /// The sides of a rectangle of data. True: there is nothing beyond.
 struct Ends {
@@ -26,7 +20,7 @@ struct Mapping {
   Bounds bounds;
   bool closed = true;  ///< a point at x1 or y1 falls in the last pixel: for bounds that the points made
   bool y_up = false;
-  Outside outside = Outside::count;
+  Outside outside = Outside::count;  ///< the bounds; Outside::absent is not asked for
   Periodic periodic = Periodic::none;
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds
   Ends ends;                     ///< of the domain, along the other axes
@@ -34,22 +28,24 @@ struct Mapping {
   bool has_one_scale = true;     ///< of both axes in all frames; without it, lengths stay in pixels
 };
 
-/// Points in pixels of the diagram's grid, which is periodic itself where it is a whole period and holds all
-/// points.
+/// Points in pixels of the grid that the diagram is a window of: all of it where the picture shows that, and
+/// all points.
 struct MappedPoints {
   View view;
   std::vector<Point> pixels;
-  std::optional<Domain> domain;  ///< where the plane repeats, if the grid does not say it
-  std::size_t outside = 0;       ///< points in no pixel of the picture
+  std::size_t outside = 0;  ///< points in no pixel of the picture
+
+  /// Whether seeds lie outside the picture, or what it shows is not all of the grid.
+  bool is_window() const { return outside > 0 || !view.window.is_whole(); }
 };
 
 /// Maps points to pixels of a picture: column floor((x - x0) * W / (x1 - x0)); rows likewise, or counted from
 /// the bottom if `y_up`. Along a periodic axis points wrap; a period is a whole number of pixels, to which
 /// positions are scaled. Beyond the domain's ends the diagram has no pixels. `ids` are the names of particles
 /// in errors; without them points are counted from 0. Throws Error that names the first point that is not
-/// finite, is 2^31 pixels away or is outside where that is refused; for a period of less than a pixel or past
-/// Grid::max_period, a domain outside the bounds, and bounds that check_bounds() refuses.
-MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Grid& picture,
+/// finite, is 2^31 pixels away or is outside where that is refused; for a period of less than a pixel or more
+/// than Axis::max_pixels, a domain outside the bounds, and bounds that check_bounds() refuses.
+MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Size& picture,
                         const std::vector<std::uint32_t>& ids = {});
 
 }  // namespace vorocl::command

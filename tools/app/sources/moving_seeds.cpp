@@ -27,7 +27,8 @@ class RandomWalk : public MovingSeeds {
     ++frame_;
     return true;
   }
-  std::optional<double> move(Seeds& seeds) const override { return motion_(seeds, frame_); }
+  void move(Seeds& seeds, Window& window) const override { motion_(seeds, window, frame_); }
+  std::optional<double> displacement() const override { return motion_.step_length; }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
   const std::vector<double>& values() const override { return input_.values; }
   std::optional<Box> box() const override { return std::nullopt; }
@@ -48,23 +49,18 @@ class Trajectory : public MovingSeeds {
 
   const View& view() const override { return particles_.view(); }
   Seeds place(const Device& device) const override {
-    return command::place(device, view().grid, particles_.points(), particles_.domain());
+    return {device, view().window.grid(), particles_.points()};
   }
   bool next() override {
     if (frame_ == frames_ || !particles_.next()) return false;
     ++frame_;
     return true;
   }
-  std::optional<double> move(Seeds& seeds) const override {
-    if (particles_.has_other_grid()) {
-      seeds = place(seeds.device());
-    } else if (const auto& domain = particles_.domain()) {
-      seeds.move_to(particles_.points(), *domain);
-    } else {
-      seeds.move_to(particles_.points());
-    }
-    return particles_.max_displacement();
+  void move(Seeds& seeds, Window& window) const override {
+    window = view().window;
+    seeds.move_to(window.grid(), particles_.points());
   }
+  std::optional<double> displacement() const override { return particles_.max_displacement(); }
   const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
   const std::vector<double>& values() const override { return particles_.values(); }
   std::optional<Box> box() const override { return particles_.box(); }

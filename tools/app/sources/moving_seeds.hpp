@@ -33,9 +33,12 @@ class MovingSeeds {
   /// Makes the next motion ready; false if there is none. Throws Error if a file is bad there.
   virtual bool next() = 0;
 
-  /// Moves the seeds by it, and returns the greatest displacement along an axis, in pixels. Where the
-  /// diagram's grid changes they are other seeds, and there is no displacement.
-  virtual std::optional<double> move(Seeds& seeds) const = 0;
+  /// Moves the seeds by it, to where the frame's diagram has its window.
+  virtual void move(Seeds& seeds, Window& window) const = 0;
+
+  /// How far a seed went by it along an axis, at most, in pixels: as the box of a frame repeats, also where
+  /// the picture does not. None where the diagram's window changes.
+  virtual std::optional<double> displacement() const = 0;
 
   /// The ids that labels carry, by seed; empty: the seeds' own.
   virtual const std::vector<std::uint32_t>& ids() const = 0;

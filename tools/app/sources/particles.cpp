@@ -38,10 +38,10 @@ double shortest(double distance, double period) {
 
 }  // namespace
 
-Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Grid& grid, bool y_up) {
+Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Size& picture, bool y_up) {
   const double x_extent = bounds.x1 - bounds.x0, y_extent = bounds.y1 - bounds.y0;
-  const double x_scale = x_extent > 0 ? grid.width() / x_extent : 0;
-  const double y_scale = y_extent > 0 ? grid.height() / y_extent : 0;
+  const double x_scale = x_extent > 0 ? picture.width() / x_extent : 0;
+  const double y_scale = y_extent > 0 ? picture.height() / y_extent : 0;
   return {box.periodic_x ? (box.x1 - box.x0) * x_scale : 0, box.periodic_y ? (box.y1 - box.y0) * y_scale : 0,
           (y_up ? -box.tilt : box.tilt) * x_scale};
 }

@@ -40,7 +40,7 @@ struct Periods {
   double tilt = 0;  ///< how far the copy of the box below (at a greater row) is shifted in x
 };
 
-Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Grid& grid, bool y_up);
+Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Size& picture, bool y_up);
 
 /// How far apart two positions are along the axis where they are farther apart, by the shortest way round.
 double displacement(const Point& from, const Point& to, const Periods& periods);

@@ -68,13 +68,23 @@ class SeedsHash {
   std::uint64_t sum_ = 0;
 };
 
+/// The plane with the bounds as its axes: whole periods, where it is periodic.
+Grid grid_of(const Bounds& bounds, const Grid& plane, bool y_up, bool closed) {
+  check_bounds(bounds, plane.periodic());
+  const auto axis = [closed](std::int64_t pixels, double from, double to, bool periodic) {
+    const Axis open(pixels, from, to);
+    return periodic ? open.periodic() : closed ? open.closed() : open;
+  };
+  const Axis y = axis(plane.height(), bounds.y0, bounds.y1, plane.y().is_periodic());
+  return {axis(plane.width(), bounds.x0, bounds.x1, plane.x().is_periodic()), y_up ? y.reversed() : y};
+}
+
 /// Reads the file a second time, and adds its points as they lie in the plane.
-PlaneFacts map_points(const SeedOptions& options, const Plane& plane, const Survey& survey,
+PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Survey& survey,
                       const PlaneReading& reading) {
   const Bounds bounds = options.bounds.value_or(survey.box);
   const Outside outside = options.outside.value_or(Outside::count);
-  PixelMap map(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
-  map.repeat(plane.periodic(), bounds);
+  const Grid data = grid_of(bounds, plane, points_up(options), !options.bounds || outside == Outside::refuse);
   reading.reserve(survey.points);
   SeedsHash hash;
   std::uint64_t points_outside = 0;
@@ -83,10 +93,10 @@ PlaneFacts map_points(const SeedOptions& options, const Plane& plane, const Surv
     check_stop(reading.stops);
     pixels.clear();
     for (const Point& point : block) {
-      const Point pixel = map.pixel(point);
+      const Point pixel = {data.x().pixel(point.x) + 0.5, data.y().pixel(point.y) + 0.5};
       const bool inside = pixel.x >= 0 && pixel.x < static_cast<double>(plane.width()) && pixel.y >= 0 &&
                           pixel.y < static_cast<double>(plane.height());
-      require(outside == Outside::count || (inside && !map.is_outside(point)), options, first + pixels.size(),
+      require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)), options, first + pixels.size(),
               point, "outside the bounds " + to_string(bounds) + "; give --bounds that hold it");
       points_outside += inside ? 0 : 1;
       pixels.push_back(pixel);
@@ -114,14 +124,14 @@ PlaneFacts map_points(const SeedOptions& options, const Plane& plane, const Surv
   return {survey.points, units, hash.name(survey.points, reading)};
 }
 
-PlaneFacts read_points(const SeedOptions& options, const Plane& plane, const PlaneReading& reading) {
+PlaneFacts read_points(const SeedOptions& options, const Grid& plane, const PlaneReading& reading) {
   const SteadyFile file(options.points);
   PlaneFacts facts = map_points(options, plane, survey(options, reading), reading);
   file.check();
   return facts;
 }
 
-PlaneFacts make_random(const SeedOptions& options, const Plane& plane, const PlaneReading& reading) {
+PlaneFacts make_random(const SeedOptions& options, const Grid& plane, const PlaneReading& reading) {
   reading.reserve(options.random);
   SeedsHash hash;
   std::vector<Point> pixels;
@@ -141,7 +151,7 @@ PlaneFacts make_random(const SeedOptions& options, const Plane& plane, const Pla
 
 }  // namespace
 
-Plane PlaneInputOptions::plane() const {
+Grid PlaneInputOptions::plane() const {
   if (!size) throw UsageError("--size WxH is required");
   return {size->width(), size->height(), seeds.periodic.value_or(Periodic::none)};
 }
@@ -152,7 +162,7 @@ void check_plane_options(const PlaneInputOptions& options) {
     as_usage([&] { check_extension(seeds.points, {".csv", ".npy"}); });
     if (seeds.columns && extension_of(seeds.points) != ".csv")
       throw UsageError("--columns is for .csv files");
-    if (seeds.bounds) check_bounds(*seeds.bounds, options.plane());
+    if (seeds.bounds) check_bounds(*seeds.bounds, options.plane().periodic());
     return;
   }
   const char* const given = seeds.bounds                        ? "--bounds"

@@ -9,7 +9,6 @@
 #include "app/sources/seed_input.hpp"
 #include "app/sources/view.hpp"
 #include "formats/point_files.hpp"
-#include "vorocl/bounds.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
@@ -17,10 +16,10 @@ namespace vorocl::command {
 /// The seeds' options that a plane has (points or random ones), and its size instead of a grid's.
 struct PlaneInputOptions {
   SeedOptions seeds;
-  std::optional<Plane> size;  // as given: without periodic axes
+  std::optional<Grid> size;  // as given: without periodic axes
 
-  /// The plane itself. Throws UsageError without a size.
-  Plane plane() const;
+  /// The plane itself, in pixels. Throws UsageError without a size.
+  Grid plane() const;
 };
 
 /// What no parser can say. Throws UsageError, and Error for bounds that have no scale.

@@ -30,14 +30,13 @@ double centre_below(std::uint32_t bits, std::int64_t count) {
 
 }  // namespace
 
-Point random_pixel(const Plane& plane, std::uint32_t id, std::uint64_t rng_seed) {
+Point random_pixel(const Grid& grid, std::uint32_t id, std::uint64_t rng_seed) {
   const std::array<std::uint32_t, 2> bits = philox(id, rng_seed);
-  return {centre_below(bits[0], plane.width()), centre_below(bits[1], plane.height())};
+  return {centre_below(bits[0], grid.width()), centre_below(bits[1], grid.height())};
 }
 
-double RandomMotion::operator()(Seeds& seeds, int frame) const {
+void RandomMotion::operator()(Seeds& seeds, Window&, int frame) const {
   random_step(seeds, step_length, border, rng_seed, static_cast<std::uint32_t>(frame));
-  return step_length;
 }
 
 }  // namespace vorocl::command

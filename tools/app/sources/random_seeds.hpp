@@ -10,7 +10,7 @@
 namespace vorocl::command {
 
 /// The pixel of the seed with this id: on a grid the same as Seeds::random() gives it.
-Point random_pixel(const Plane& plane, std::uint32_t id, std::uint64_t rng_seed);
+Point random_pixel(const Grid& grid, std::uint32_t id, std::uint64_t rng_seed);
 
 /// Uniform steps: in each frame every seed moves by up to `step_length` pixels along x and y.
 struct RandomMotion {
@@ -18,8 +18,8 @@ struct RandomMotion {
   std::uint64_t rng_seed = 1;
   Border border = Border::reflect;
 
-  /// Moves the seeds to the frame, and returns the greatest displacement along an axis, in pixels.
-  double operator()(Seeds& seeds, int frame) const;
+  /// Moves the seeds to the frame, as a simulation's motion. The window stays.
+  void operator()(Seeds& seeds, Window& window, int frame) const;
 };
 
 }  // namespace vorocl::command

@@ -29,10 +29,6 @@ CsvPoints read_points(const SeedOptions& options) {
 
 Periodic axes_of(const SeedOptions& options) { return options.periodic.value_or(Periodic::none); }
 
-Grid with_axes(const Grid& size, const SeedOptions& options) {
-  return {size.width(), size.height(), axes_of(options)};
-}
-
 /// The bounds, else the domain, else the points' bounding box.
 Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points) {
   Mapping mapping;
@@ -54,9 +50,9 @@ Input input_from_points(const SeedOptions& options) {
   const auto [points, values] = read_points(options);
   try {
     const Mapping mapping = mapping_of(options, points);
-    const Grid picture = options.size ? *options.size : grid_of_width(mapping.bounds, options.width);
+    const Size picture = options.size ? *options.size : size_of_width(mapping.bounds, options.width);
     const MappedPoints mapped = map_points(points, mapping, picture);
-    warn_of_scales(mapping.bounds, picture);
+    warn_of_scales(mapping.bounds, picture.grid());
     if (mapping.periodic != Periodic::none && !options.bounds && !options.domain) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
                              to_string(mapping.bounds)));
@@ -64,11 +60,11 @@ Input input_from_points(const SeedOptions& options) {
     note_outside(mapped.outside, points.size(), mapping.bounds);
     return {mapped.view,
             [mapped](const Device& device) {
-              return place(device, mapped.view.grid, mapped.pixels, mapped.domain);
+              return Seeds(device, mapped.view.window.grid(), mapped.pixels);
             },
             {},
             values,
-            mapped.outside > 0 || mapped.domain};
+            mapped.is_window()};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -76,14 +72,14 @@ Input input_from_points(const SeedOptions& options) {
 
 Input input_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask);
-  if (options.size && *options.size != mask.grid) {
+  if (options.size && *options.size != mask.size) {
     throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough",
-                            options.mask, mask.grid.width(), mask.grid.height(), options.size->width(),
+                            options.mask, mask.size.width(), mask.size.height(), options.size->width(),
                             options.size->height()));
   }
-  const Grid grid = with_axes(mask.grid, options);
+  const Grid grid = mask.size.grid(axes_of(options));
   return {
-      {grid, grid},
+      {mask.size, grid},
       [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
       {},
       {}};
@@ -91,8 +87,8 @@ Input input_from_mask(const SeedOptions& options) {
 
 Input input_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
-  const Grid grid = with_axes(*options.size, options);
-  return {{grid, grid},
+  const Grid grid = options.size->grid(axes_of(options));
+  return {{*options.size, grid},
           [grid, options](const Device& device) {
             return Seeds::random(device, grid, options.random, options.rng_seed);
           },
@@ -104,8 +100,8 @@ Input input_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const View& view = particles.view();
   return {view,
-          [grid = view.grid, points = particles.points(), domain = particles.domain()](const Device& device) {
-            return place(device, grid, points, domain);
+          [grid = view.window.grid(), points = particles.points()](const Device& device) {
+            return Seeds(device, grid, points);
           },
           particles.ids(),
           particles.values(),

@@ -24,11 +24,11 @@ struct SeedOptions {
   std::string mask;
   std::string trajectory;
   int frame = 0;  // of the trajectory
-  std::optional<Grid> size;
+  std::optional<Size> size;
   int width = 0;
   std::optional<Bounds> bounds;
   std::optional<Bounds> domain;       // of points: what repeats along the periodic axes; else the bounds
-  std::optional<Outside> outside;     // else they count
+  std::optional<Outside> outside;     // the bounds; else they count
   std::optional<Periodic> periodic;   // else none, or what the trajectory says
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
@@ -51,19 +51,12 @@ struct Input {
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
   std::vector<double> values;      // of the value column, by seed; NaN: absent
-  bool is_window = false;          // seeds lie outside the picture, or what it shows is a part of a period
+  bool is_window = false;          // see MappedPoints
   std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
 };
 
 /// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.
 void refuse_window(const Input& input, const std::string& what);
-
-/// Seeds at these points, in a plane that repeats if there is a domain.
-template <typename MaybePoint>
-Seeds place(const Device& device, const Grid& grid, const std::vector<MaybePoint>& pixels,
-            const std::optional<Domain>& domain) {
-  return domain ? Seeds(device, grid, pixels, *domain) : Seeds(device, grid, pixels);
-}
 
 /// Checks the options, and reads and checks the files. Throws UsageError, Error if a file is bad; warns on
 /// standard error where the axes get different scales.

@@ -77,7 +77,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
 
 bool TrajectorySeeds::next() {
   if (!read()) return false;
-  take_frame(shown_bounds(), view_->picture.grid);
+  take_frame(shown_bounds(), view_->picture.size);
   return true;
 }
 
@@ -124,7 +124,7 @@ void TrajectorySeeds::check_tilt() {
   tilt_noted_ = true;
 }
 
-Grid TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
+Size TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
   if (options.size) return *options.size;
   if (!bounds) {
     throw Error(path_ +
@@ -132,7 +132,7 @@ Grid TrajectorySeeds::make_picture(const SeedOptions& options, const std::option
                 "instead of --width, or --bounds");
   }
   try {
-    return grid_of_width(*bounds, options.width);
+    return size_of_width(*bounds, options.width);
   } catch (const Error& error) {
     throw Error(path_ + ": " + error.what());
   }
@@ -158,9 +158,9 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
 
 void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) {
   if (fit_ == Fit::frame && !given_bounds_) {
-    warn_of_scales(bounds, view_->picture.grid, "--fit all has one scale for all frames");
+    warn_of_scales(bounds, view_->picture.size.grid(), "--fit all has one scale for all frames");
   } else if (!scales_checked_) {
-    warn_of_scales(bounds, view_->picture.grid);
+    warn_of_scales(bounds, view_->picture.size.grid());
   }
   note_of_growth();
   if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds);
@@ -180,9 +180,9 @@ void TrajectorySeeds::note_of_growth() {
   growth_noted_ = true;
 }
 
-void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid& picture) {
+void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size& picture) {
   check_tilt();
-  MappedPoints mapped{{picture, picture}, {}, {}};
+  MappedPoints mapped{{picture, picture.grid()}, {}};
   Periods periods;
   if (bounds) {
     try {
@@ -192,13 +192,13 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid
     }
     if (frame_.box) periods = periods_in_pixels(*frame_.box, *bounds, picture, y_up_);
   }
-  has_other_grid_ = view_ && view_->grid != mapped.view.grid;
+  const bool has_other_window = view_ && view_->window != mapped.view.window;
   view_ = mapped.view;
   if (bounds) note_of_scales(*bounds, mapped.outside);
   const std::vector<Point>& pixels = mapped.pixels;
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
-  max_displacement_ = has_other_grid_ ? std::nullopt : std::optional<double>(0);
+  max_displacement_ = has_other_window ? std::nullopt : std::optional<double>(0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const std::uint32_t slot = slots_.of_ids()[i];
     points[slot] = pixels[i];
@@ -208,8 +208,7 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Grid
     }
   }
   points_ = std::move(points);
-  domain_ = mapped.domain;
-  outside_ = mapped.outside;
+  is_window_ = mapped.is_window();
   const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
   values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());

@@ -38,17 +38,11 @@ class TrajectorySeeds {
   /// bad, or has a particle outside the bounds where that is refused.
   bool next();
 
-  /// Whether next() has changed the grid of the diagram.
-  bool has_other_grid() const { return has_other_grid_; }
-
-  /// The seeds of the frame, by slot, in pixels of the diagram's grid.
+  /// The seeds of the frame, by slot, in pixels of the grid that the diagram is a window of.
   const std::vector<std::optional<Point>>& points() const { return points_; }
 
-  /// Where the frame's box repeats, if the grid does not say it.
-  const std::optional<Domain>& domain() const { return domain_; }
-
-  /// Whether particles lie outside the picture, or there is a domain.
-  bool is_window() const { return outside_ > 0 || domain_; }
+  /// As MappedPoints.
+  bool is_window() const { return is_window_; }
 
   /// The frame's box; none in an XYZ without a lattice.
   const std::optional<Box>& box() const { return frame_.box; }
@@ -79,10 +73,10 @@ class TrajectorySeeds {
   void note_of_file() const;
   void check_tilt();
   Mapping mapping_of_frame(const Bounds& bounds) const;
-  Grid make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
+  Size make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void note_of_scales(const Bounds& bounds, std::size_t outside);
   void note_of_growth();
-  void take_frame(const std::optional<Bounds>& bounds, const Grid& picture);
+  void take_frame(const std::optional<Bounds>& bounds, const Size& picture);
 
   std::string path_;
   std::unique_ptr<TrajectoryReader> reader_;
@@ -101,11 +95,9 @@ class TrajectorySeeds {
   Frame frame_;
   int number_ = -1;
   std::optional<View> view_;  // set by the constructor
-  bool has_other_grid_ = false;
   ParticleSlots slots_;
   std::vector<std::optional<Point>> points_;
-  std::optional<Domain> domain_;
-  std::size_t outside_ = 0;  // particles of the frame
+  bool is_window_ = false;
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
   std::optional<double> max_displacement_;

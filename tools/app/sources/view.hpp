@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "formats/raster.hpp"
@@ -52,24 +53,31 @@ class Units {
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation
 /// box.
 struct View {
-  Raster picture;    ///< what files and pictures show
-  Grid grid;         ///< of the diagram
-  int x = 0, y = 0;  ///< its first pixel in the picture
+  Raster picture;                         ///< what files and pictures show
+  Window window;                          ///< of the diagram
+  int x = 0, y = 0;                       ///< its first pixel in the picture
+  std::int64_t first_x = 0, first_y = 0;  ///< the first pixel of the window's grid, from the window's first one
   Units units = {};
 
-  bool fills_picture() const {
-    return grid.width() == picture.grid.width() && grid.height() == picture.grid.height();
+  /// The diagram's.
+  Size size() const { return Size(window); }
+
+  bool fills_picture() const { return size() == picture.size; }
+
+  /// A position in pixels of the grid, in pixels of the diagram.
+  Point from_grid(const Point& of_grid) const {
+    return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y)};
   }
 
   /// The picture of values by pixel of the diagram, with another value beyond them.
   template <typename T>
   std::vector<T> in_picture(const std::vector<T>& values, T beyond) const {
     if (fills_picture()) return values;
-    const std::ptrdiff_t width = picture.grid.width();
-    std::vector<T> result(picture.grid.pixels(), beyond);
-    for (std::ptrdiff_t row = 0; row < grid.height(); ++row) {
-      const auto first = values.begin() + row * grid.width();
-      std::copy(first, first + grid.width(), result.begin() + (y + row) * width + x);
+    const std::ptrdiff_t width = picture.size.width(), own_width = size().width();
+    std::vector<T> result(picture.size.pixels(), beyond);
+    for (std::ptrdiff_t row = 0; row < size().height(); ++row) {
+      const auto first = values.begin() + row * own_width;
+      std::copy(first, first + own_width, result.begin() + (y + row) * width + x);
     }
     return result;
   }
@@ -78,12 +86,12 @@ struct View {
   template <typename T>
   std::vector<T> in_diagram(const std::vector<T>& values) const {
     if (fills_picture()) return values;
-    const std::ptrdiff_t width = picture.grid.width();
+    const std::ptrdiff_t width = picture.size.width();
     std::vector<T> result;
-    result.reserve(grid.pixels());
-    for (std::ptrdiff_t row = y; row < y + grid.height(); ++row) {
+    result.reserve(size().pixels());
+    for (std::ptrdiff_t row = y; row < y + size().height(); ++row) {
       const auto first = values.begin() + row * width + x;
-      result.insert(result.end(), first, first + grid.width());
+      result.insert(result.end(), first, first + size().width());
     }
     return result;
   }

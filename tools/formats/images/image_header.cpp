@@ -143,11 +143,11 @@ ImageHeader read_image_header(const std::string& path, const std::vector<std::ui
   return is_pnm(bytes) ? read_pnm(bytes) : read_tiff_header(path);
 }
 
-Grid checked_grid(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes) {
+Size checked_size(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes) {
   try {
-    const Grid grid(header.width, header.height);
-    const std::uint64_t bytes = grid.pixels() * header.bits_per_pixel / 8;
-    if (bytes / (header.is_compressed ? most_packed : 1) <= file_bytes) return grid;
+    const Size size(header.width, header.height);
+    const std::uint64_t bytes = size.pixels() * header.bits_per_pixel / 8;
+    if (bytes / (header.is_compressed ? most_packed : 1) <= file_bytes) return size;
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }

@@ -40,7 +40,7 @@ std::vector<std::uint8_t> read_image_file(const std::string& path) {
 
 cv::Mat read_picture(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_image_file(path);
-  checked_grid(path, read_image_header(path, bytes), bytes.size());
+  checked_size(path, read_image_header(path, bytes), bytes.size());
   cv::Mat picture = image_module().decode(bytes);
   if (picture.empty()) throw Error(path + " is no image that can be read");
   return picture;
@@ -59,7 +59,7 @@ void write_picture(const OutputFile& file, const cv::Mat& picture) {
 
 Mask read_mask(const std::string& path) {
   const cv::Mat image = read_picture(path);
-  Mask mask{Grid(image.cols, image.rows), {}};
+  Mask mask{Size(image.cols, image.rows), {}};
   cv::Mat channels = image.reshape(1, image.rows * image.cols);
   cv::Mat set;
   cv::reduce(channels != 0, set, 1, cv::REDUCE_MAX);

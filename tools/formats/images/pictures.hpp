@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "formats/output_file.hpp"
-#include "vorocl/grid.hpp"
+#include "formats/raster.hpp"
 
 namespace cv {
 class Mat;
@@ -30,9 +30,9 @@ void check_is_image(const std::string& path, const std::vector<std::uint8_t>& fi
 /// Of such a file, whose content is `bytes`. Throws Error if it is damaged.
 ImageHeader read_image_header(const std::string& path, const std::vector<std::uint8_t>& bytes);
 
-/// The grid of the image's pixels. Throws Error if there can be no such grid, or so small a file cannot hold
+/// The size of the image. Throws Error if no diagram can have it, or so small a file cannot hold
 /// so many pixels: memory is taken only for what the file has.
-Grid checked_grid(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes);
+Size checked_size(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes);
 
 /// The extensions of files that a picture can be written to.
 const std::vector<std::string>& picture_extensions();
@@ -46,7 +46,7 @@ void write_picture(const OutputFile& file, const cv::Mat& picture);
 
 /// Each pixel that is not zero is a seed.
 struct Mask {
-  Grid grid;
+  Size size;
   std::vector<std::uint8_t> pixels;  // row-major, 0 where there is no seed
 };
 

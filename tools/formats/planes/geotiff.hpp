@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "vorocl/bounds.hpp"
+#include "formats/raster.hpp"
 
 struct tiff;  // TIFF
 

@@ -10,9 +10,9 @@ namespace {
 class NpyPlane : public PlaneFile {
  public:
   NpyPlane(const std::string& path, const Tiling& tiling)
-      : part_(tiling.part()),
-        header_(npy_header<std::uint32_t>({size(part_.height), size(part_.width)})),
-        file_(path, header_.size() + size(part_.width) * size(part_.height) * sizeof no_label) {}
+      : window_(tiling.window()),
+        header_(npy_header<std::uint32_t>({size(window_.height()), size(window_.width())})),
+        file_(path, header_.size() + size(window_.width()) * size(window_.height()) * sizeof no_label) {}
 
   void open() override {
     file_.open();
@@ -28,10 +28,10 @@ class NpyPlane : public PlaneFile {
   void join() override { file_.join(); }
 
   WrittenTile write(const TileLabels& tile) override {
-    const auto width = static_cast<std::size_t>(tile.tile.width);
-    for (int row = 0; row < tile.tile.height; ++row) {
+    const auto width = size(tile.tile.width());
+    for (int row = 0; row < tile.tile.height(); ++row) {
       const std::size_t first =
-          size(tile.tile.y + row - part_.y) * size(part_.width) + size(tile.tile.x - part_.x);
+          size(tile.tile.y() + row - window_.y()) * size(window_.width()) + size(tile.tile.x() - window_.x());
       file_.write(header_.size() + first * sizeof no_label,
                   tile.labels + static_cast<std::size_t>(row) * width, width * sizeof no_label);
     }
@@ -45,7 +45,7 @@ class NpyPlane : public PlaneFile {
   static std::size_t size(std::int64_t count) { return static_cast<std::size_t>(count); }
   void write_header() { file_.write(0, header_.data(), header_.size()); }
 
-  PlaneRectangle part_;
+  Window window_;
   std::string header_;
   PlacedFile file_;
 };

@@ -44,22 +44,21 @@ std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& til
 }
 
 std::uint64_t label_bytes(const Tiling& tiling) {
-  return static_cast<std::uint64_t>(tiling.part().width) * static_cast<std::uint64_t>(tiling.part().height) *
-         sizeof no_label;
+  return tiling.window().pixels() * sizeof no_label;
 }
 
 TileShape tile_shape(const Tiling& tiling, int unit) {
   const auto side_of = [&](std::int64_t pixels) {
     return static_cast<int>(std::min<std::int64_t>(tiling.side(), (pixels + unit - 1) / unit * unit));
   };
-  return {side_of(tiling.part().width), side_of(tiling.part().height)};
+  return {side_of(tiling.window().width()), side_of(tiling.window().height())};
 }
 
 std::vector<std::uint32_t> padded(const TileLabels& tile, const TileShape& shape) {
-  const auto width = static_cast<std::size_t>(tile.tile.width),
+  const auto width = static_cast<std::size_t>(tile.tile.width()),
              length = static_cast<std::size_t>(shape.width);
   std::vector<std::uint32_t> labels(length * static_cast<std::size_t>(shape.height), no_label);
-  for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height); ++row) {
+  for (std::size_t row = 0; row < static_cast<std::size_t>(tile.tile.height()); ++row) {
     std::copy_n(tile.labels + row * width, width, labels.data() + row * length);
   }
   return labels;

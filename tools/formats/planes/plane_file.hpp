@@ -60,14 +60,14 @@ const std::vector<std::string>& plane_extensions();
 /// The path that a name says: shells put a slash behind the names of folders, such as that of a .zarr.
 std::string plane_path(const std::string& name);
 
-/// The file of a tiling's part. A TIFF file says where it lies. Throws Error if the extension is none of
+/// The file of a tiling's window. A TIFF file says where it lies. Throws Error if the extension is none of
 /// these, for tiles that the format does not have, where no file can be made, where the disk has too little
 /// space (the least that is possible of those that are compressed), and if a .zarr folder would replace
 /// something that is no such array, or holds other files too. A link leads to what is replaced.
 std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& tiling,
                                       const std::optional<Georeference>& georeference = std::nullopt);
 
-/// The bytes of the labels of a tiling's part.
+/// The bytes of the labels of a tiling's window.
 std::uint64_t label_bytes(const Tiling& tiling);
 
 /// The tiles of a file whose tiles are all of one shape.
@@ -75,7 +75,7 @@ struct TileShape {
   int width = 0, height = 0;
 };
 
-/// Their sides are those of the tiling. A part that is smaller has tiles of its own sides, rounded up to a
+/// Their sides are those of the tiling. A window that is smaller has tiles of its own sides, rounded up to a
 /// multiple of `unit`.
 TileShape tile_shape(const Tiling& tiling, int unit = 1);
 

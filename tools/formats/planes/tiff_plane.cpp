@@ -146,8 +146,8 @@ class TiffPlane : public PlaneFile {
                                seek_in_content, close_content, size_of_content, map_content, unmap_content));
     require(file_ != nullptr);
     TIFF* const file = file_.get();
-    TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(tiling_.part().width));
-    TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(tiling_.part().height));
+    TIFFSetField(file, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(tiling_.window().width()));
+    TIFFSetField(file, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(tiling_.window().height()));
     const TileShape tile = tile_shape(tiling_, side_unit);
     TIFFSetField(file, TIFFTAG_TILEWIDTH, static_cast<std::uint32_t>(tile.width));
     TIFFSetField(file, TIFFTAG_TILELENGTH, static_cast<std::uint32_t>(tile.height));
@@ -159,9 +159,9 @@ class TiffPlane : public PlaneFile {
     TIFFSetField(file, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
     TIFFSetField(file, TIFFTAG_ZIPQUALITY, level);
     if (!georeference_) return;
-    const PlaneRectangle& part = tiling_.part();
-    require(write_georeference(file, *georeference_, static_cast<double>(part.width),
-                               static_cast<double>(part.height)));
+    const Window& window = tiling_.window();
+    require(write_georeference(file, *georeference_, static_cast<double>(window.width()),
+                               static_cast<double>(window.height())));
   }
 
   OutputFile output_;

@@ -187,8 +187,8 @@ class ZarrPlane : public PlaneFile {
     "zarr_format": 2
 }}
 )",
-        chunk_shape_.height, chunk_shape_.width, level, no_label, tiling_.part().height,
-        tiling_.part().width);
+        chunk_shape_.height, chunk_shape_.width, level, no_label, tiling_.window().height(),
+        tiling_.window().width());
     write_file(folder_ + "/.zarray", text.data(), text.size());
   }
 

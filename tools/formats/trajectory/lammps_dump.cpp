@@ -165,8 +165,8 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
   }
   const double tilt = x[2];
   // The bounds in x are those of the whole parallelogram.
-  const Axis x_axis{x[0] - std::min(0.0, tilt), x[1] - std::max(0.0, tilt), sides[0]};
-  const Axis y_axis{y[0], y[1], sides[1]};
+  const BoxAxis x_axis{x[0] - std::min(0.0, tilt), x[1] - std::max(0.0, tilt), sides[0]};
+  const BoxAxis y_axis{y[0], y[1], sides[1]};
   if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
     throw lines_.error("the box is tilted in z (xz, yz); only a tilt xy can be drawn in the plane");
   }

@@ -90,9 +90,9 @@ Error cut_off(const LineReader& lines, std::size_t frame_line) {
 
 ParticleCount parse_count(const LineReader& lines) {
   const auto value = parse_number<std::uint64_t>(lines.line());
-  if (!value || *value > Grid::max_pixels) {
+  if (!value || *value > Window::max_pixels) {
     throw lines.error(fmt::format("{} stands where a number of particles, from 0 to {}, is due",
-                                  shown(trimmed(lines.line())), Grid::max_pixels));
+                                  shown(trimmed(lines.line())), Window::max_pixels));
   }
   return {*value, lines.number()};
 }

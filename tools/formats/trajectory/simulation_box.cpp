@@ -12,7 +12,7 @@ namespace vorocl::command {
 
 namespace {
 
-void check(const LineReader& lines, const Axis& axis, char name) {
+void check(const LineReader& lines, const BoxAxis& axis, char name) {
   const double length = axis.length();
   if (axis.high < axis.low || !std::isfinite(length)) {
     throw lines.error(
@@ -23,14 +23,14 @@ void check(const LineReader& lines, const Axis& axis, char name) {
   }
 }
 
-double unscaled(const Axis& axis, double scaled) {
+double unscaled(const BoxAxis& axis, double scaled) {
   const double value = axis.low + scaled * axis.length();
   // Rounding must not move a particle on a wall beyond it.
   return scaled >= 0 && scaled <= 1 ? std::clamp(value, axis.low, axis.high) : value;
 }
 
 /// Into [low, high) by whole lengths; returns how many were taken off.
-double wrap(const Axis& axis, double& value) {
+double wrap(const BoxAxis& axis, double& value) {
   if (value >= axis.low && value < axis.high) return 0;
   const double length = axis.length();
   const double distance = value - axis.low;
@@ -57,7 +57,7 @@ bool is_outside(double value, double wall, bool low) {
 
 /// Makes an axis that is not periodic hold the value: moves the box's sides if they are open, or, by no more
 /// than was lost in printing, the value.
-void hold(const LineReader& lines, std::uint32_t id, const Axis& axis, char name, double& value,
+void hold(const LineReader& lines, std::uint32_t id, const BoxAxis& axis, char name, double& value,
           double& box_low, double& box_high) {
   if (value >= axis.low && value <= axis.high) return;
   const bool low = value < axis.low;
@@ -79,7 +79,7 @@ void hold(const LineReader& lines, std::uint32_t id, const Axis& axis, char name
 
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
-SimulationBox::SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double depth, double tilt)
+SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth, double tilt)
     : x_(x), y_(y), depth_(depth), tilt_(tilt), box_{x.low,        y.low,        x.high, y.high,
                                                      x.periodic(), y.periodic(), tilt} {
   box_.open_x0 = x.sides.first == Side::open;
@@ -126,8 +126,8 @@ SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point 
           "plane and its third along z");
     }
   }
-  const Axis x_axis{origin.x, origin.x + a[0], x};
-  const Axis y_axis{origin.y, origin.y + b[1], y};
+  const BoxAxis x_axis{origin.x, origin.x + a[0], x};
+  const BoxAxis y_axis{origin.y, origin.y + b[1], y};
   return SimulationBox(lines, x_axis, y_axis, c[2], b[0]);
 }
 

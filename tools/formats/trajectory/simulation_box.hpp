@@ -16,7 +16,7 @@ enum class Side { periodic, wall, open };
 using Sides = std::pair<Side, Side>;
 
 /// One axis of a box.
-struct Axis {
+struct BoxAxis {
   double low;
   double high;
   Sides sides;
@@ -32,7 +32,7 @@ class SimulationBox {
   /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
   /// tilt where not both axes are periodic: only then a rectangle holds the same particles. `depth` is its
   /// length in z.
-  SimulationBox(const LineReader& lines, const Axis& x, const Axis& y, double depth, double tilt = 0);
+  SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth, double tilt = 0);
 
   /// A position given in lengths of the edges, in data units.
   Point from_scaled(Point scaled) const;
@@ -48,8 +48,8 @@ class SimulationBox {
   const Box& extent() const { return box_; }
 
  private:
-  Axis x_;
-  Axis y_;
+  BoxAxis x_;
+  BoxAxis y_;
   double depth_;
   double tilt_;
   Box box_;

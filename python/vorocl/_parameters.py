@@ -1,0 +1,58 @@
+"""The parameters that many functions share, described once: a decorator puts them into docstrings."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, TypeVar
+
+_TEXTS = {
+    "points": """\
+points : array_like
+    Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
+    [i, i + 1). A row with a NaN is absent, and so is a row that is masked.""",
+    "shape": """\
+shape : (int, int)
+    The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
+    flood take up to 32,000.""",
+    "method": """\
+method : str, optional
+    "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa".""",
+    "metric": """\
+metric : {"euclidean", "manhattan"}, optional
+    How far apart two pixel centres are.""",
+    "bounds": """\
+bounds : (float, float, float, float), optional
+    (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
+    floor((x - x0) * W / (x1 - x0)); rows likewise. Where pixels are no squares in these units, the nearest point in
+    pixels need not be the nearest in the plane. Without it, points are in pixels.""",
+    "periodic": """\
+periodic : (bool, bool), optional
+    Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.""",
+    "outside": """\
+outside : {"count", "absent", "refuse"}, optional
+    What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
+    seeds too, up to 2**31 pixels away; a method that floods refuses them. "absent": they have no cell. "refuse": they
+    are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
+    grid.""",
+    "y_up": """\
+y_up : bool, optional
+    Whether y of the points goes up: rows are counted from the bottom then.""",
+    "device": """\
+device : Device, optional
+    Without it, ``Device()``.""",
+}
+
+Documented = TypeVar("Documented")
+
+
+def with_parameters(documented: Documented) -> Documented:
+    """Replace lines such as ``<points, shape>`` of a function's or class's docstring by the parameters they name."""
+    text: Any = documented.__doc__
+    if text is not None:  # python -OO leaves none
+
+        def described(match: re.Match[str]) -> str:
+            lines = "\n".join(_TEXTS[name] for name in match[2].split(", ")).split("\n")
+            return "\n".join(match[1] + line for line in lines)
+
+        documented.__doc__ = re.sub(r"^( *)<([a-z_, ]+)>$", described, text, flags=re.MULTILINE)
+    return documented

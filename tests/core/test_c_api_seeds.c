@@ -1,0 +1,298 @@
+/* The C functions of axes, grids, seeds and windows, from C: against a search of every pixel. */
+#include "test_c_api.h"
+
+static int is_axis(const vorocl_axis* a, const vorocl_axis* b) {
+  return a->pixels == b->pixels && a->from == b->from && a->to == b->to && a->periodic == b->periodic &&
+         a->reversed == b->reversed && a->closed == b->closed;
+}
+
+static int is_grid(const vorocl_grid* a, const vorocl_grid* b) {
+  return is_axis(&a->x, &b->x) && is_axis(&a->y, &b->y);
+}
+
+static void test_seeds(const vorocl_device* device) {
+  vorocl_seeds *seeds = make_seeds(device), *clone = NULL, *again = NULL;
+  vorocl_diagram* diagram = NULL;
+  vorocl_point read[200], moved[200], one = {7, 7};
+  uint8_t mask[pixels] = {0};
+  uint32_t nearest[pixels];
+  size_t count = 0;
+  double displacement = -1;
+  vorocl_grid read_grid;
+  vorocl_window read_window;
+  memset(&read_grid, 0, sizeof read_grid);
+  memset(&read_window, 0, sizeof read_window);
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  OK(vorocl_diagram_create(device, window, &diagram));
+  OK(vorocl_diagram_window(diagram, &read_window));
+  CHECK(is_grid(&read_window.grid, &grid) && read_window.x == 0 && read_window.y == 0);
+  CHECK(read_window.width == width && read_window.height == height);
+
+  OK(vorocl_seeds_grid(seeds, &read_grid));
+  CHECK(is_grid(&read_grid, &grid));
+  OK(vorocl_seeds_count(seeds, &count));
+  CHECK(count == seed_count);
+  OK(vorocl_seeds_alive(seeds, &count));
+  CHECK(count == seed_count - 1);
+  OK(vorocl_seeds_check(seeds));
+  OK(vorocl_seeds_read(seeds, read, seed_count));
+  OK(vorocl_seeds_read_pixels(seeds, moved, seed_count));
+  for (int id = 0; id < seed_count; ++id) {
+    if (present[id]) {
+      CHECK(read[id].x == points[id].x && read[id].y == points[id].y);
+      CHECK(moved[id].x == floor(points[id].x) + 0.5 && moved[id].y == floor(points[id].y) + 0.5);
+    } else {
+      CHECK(isnan(read[id].x) && isnan(read[id].y) && isnan(moved[id].x) && isnan(moved[id].y));
+    }
+  }
+
+  /* A clone keeps what it was made from. */
+  OK(vorocl_seeds_clone(seeds, &clone));
+  OK(vorocl_seeds_displacement(seeds, &displacement));
+  CHECK(displacement == 0);
+  OK(vorocl_seeds_move_to(seeds, &one, NULL, 1));
+  OK(vorocl_seeds_alive(seeds, &count));
+  CHECK(count == 1);
+  OK(vorocl_seeds_displacement(seeds, &displacement));
+  CHECK(displacement == 5); /* seed 0 went from (3, 2) to (7, 7) */
+  OK(run("exact", clone, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest));
+  OK(vorocl_seeds_move_to(seeds, points, present, seed_count));
+  vorocl_seeds_free(clone);
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  vorocl_seeds_free(seeds);
+  CHECK(has_labels(diagram, nearest));
+
+  /* A mask's pixels are seeds in row-major order. */
+  mask[2] = 1;
+  mask[width] = 200;
+  mask[pixels - 1] = 1;
+  OK(vorocl_seeds_from_mask(device, grid, mask, pixels, &seeds));
+  OK(vorocl_seeds_count(seeds, &count));
+  CHECK(count == 3);
+  OK(vorocl_seeds_read(seeds, read, 3));
+  CHECK(pixel_of(read[0]) == 2 && pixel_of(read[1]) == width && pixel_of(read[2]) == pixels - 1);
+  vorocl_seeds_free(seeds);
+
+  /* Random seeds are the same for the same number, and move no farther than they may. */
+  OK(vorocl_seeds_random(device, grid, 200, 7, &seeds));
+  OK(vorocl_seeds_random(device, grid, 200, 7, &again));
+  OK(vorocl_seeds_read(seeds, read, 200));
+  OK(vorocl_seeds_read(again, moved, 200));
+  CHECK(memcmp(read, moved, sizeof read) == 0);
+  OK(vorocl_random_step(again, 3, VOROCL_REFLECT, 1, 1));
+  OK(vorocl_seeds_read(again, moved, 200));
+  CHECK(memcmp(read, moved, sizeof read) != 0);
+  for (int id = 0; id < 200; ++id) {
+    CHECK(fabs(read[id].x - moved[id].x) <= 3 && fabs(read[id].y - moved[id].y) <= 3);
+  }
+  vorocl_seeds_free(seeds);
+  vorocl_seeds_free(again);
+
+  /* No seeds are allowed. */
+  OK(vorocl_seeds_from_points(device, grid, NULL, NULL, 0, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_read(seeds, NULL, 0));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  search_all(NULL, NULL, 0, VOROCL_EUCLIDEAN, nearest);
+  CHECK(has_labels(diagram, nearest));
+  vorocl_seeds_free(seeds);
+  vorocl_diagram_free(diagram);
+}
+
+/* Points, marks and labels in the caller's buffers. */
+static void test_own_buffers(const vorocl_device* device) {
+  float pairs[2 * seed_count];
+  uint32_t labels[pixels], nearest[pixels], nearest_of_all[pixels];
+  cl_int code = CL_SUCCESS;
+  cl_context context = NULL;
+  cl_command_queue queue = NULL;
+  cl_device_id id = NULL;
+  cl_device_fp_config doubles = 0;
+  cl_mem own_points, same_points, own_marks, own_labels, same_labels = NULL;
+  cl_event uploaded = NULL;
+  vorocl_seeds* seeds = NULL;
+  vorocl_diagram* diagram = NULL;
+  vorocl_status status;
+  size_t alive = 0;
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  search_all(points, NULL, seed_count, VOROCL_EUCLIDEAN, nearest_of_all);
+  for (int i = 0; i < seed_count; ++i) {
+    pairs[2 * i] = (float)points[i].x;
+    pairs[2 * i + 1] = (float)points[i].y;
+  }
+  OK(vorocl_device_context(device, &context));
+  OK(vorocl_device_queue(device, &queue));
+  OK(vorocl_device_id(device, &id));
+  own_points = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof pairs, NULL, &code);
+  same_points = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof points, (void*)(uintptr_t)points, &code);
+  own_marks = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof present, (void*)(uintptr_t)present, &code);
+  own_labels = clCreateBuffer(context, CL_MEM_READ_WRITE, sizeof labels, NULL, &code);
+  CHECK(clEnqueueWriteBuffer(queue, own_points, CL_FALSE, 0, sizeof pairs, pairs, 0, NULL, &uploaded) ==
+        CL_SUCCESS);
+  OK(vorocl_device_wait_for(device, 1, &uploaded));
+  OK(vorocl_seeds_from_buffer(device, grid, own_points, VOROCL_FLOAT2, own_marks, seed_count,
+                              VOROCL_OUTSIDE_IS_REFUSED, &seeds));
+  OK(vorocl_seeds_alive(seeds, &alive));
+  CHECK(alive == seed_count - 1);
+  OK(vorocl_diagram_over_buffer(device, window, own_labels, &diagram));
+  OK(vorocl_diagram_labels(diagram, &same_labels));
+  CHECK(same_labels == own_labels);
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(clEnqueueReadBuffer(queue, own_labels, CL_TRUE, 0, sizeof labels, labels, 0, NULL, NULL) ==
+        CL_SUCCESS);
+  CHECK(memcmp(labels, nearest, sizeof labels) == 0);
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOAT2, NULL, seed_count));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest_of_all));
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOAT2, own_marks, seed_count));
+  clReleaseMemObject(own_points); /* retained until they are read */
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_wait(diagram));
+  CHECK(has_labels(diagram, nearest));
+
+  /* Points in doubles, where the device knows them. */
+  clGetDeviceInfo(id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
+  status = vorocl_seeds_move_to_buffer(seeds, same_points, VOROCL_DOUBLE2, NULL, seed_count);
+  CHECK(status == (doubles != 0 ? VOROCL_SUCCESS : VOROCL_BAD_ARGUMENT));
+  clReleaseMemObject(same_points);
+  clReleaseMemObject(own_marks);
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, doubles != 0 ? nearest_of_all : nearest));
+  vorocl_seeds_free(seeds);
+  vorocl_diagram_free(diagram);
+  clReleaseEvent(uploaded);
+  clReleaseMemObject(own_labels);
+}
+
+/* The points with other coordinates, along axes that say so, have the same pixels. */
+static void test_axes(const vorocl_device* device) {
+  const vorocl_axis x = {width, -1, 1, 0, 0, 1}, y = {height, 0, 8, 0, 1, 0};
+  const vorocl_grid stretched = {x, y};
+  vorocl_point list[seed_count], read[seed_count];
+  vorocl_seeds* seeds = NULL;
+  vorocl_diagram* diagram = NULL;
+  vorocl_grid read_grid;
+  uint32_t nearest[pixels];
+  memset(&read_grid, 0, sizeof read_grid);
+  search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
+  for (int id = 0; id < seed_count; ++id) {
+    list[id].x = -1 + (floor(points[id].x) + 0.25) * 2 / width;
+    list[id].y = 8 - (floor(points[id].y) + 0.75) * 8 / height;
+  }
+  list[3].x = 1; /* the last column, as the axis is closed */
+  OK(vorocl_seeds_from_points(device, stretched, list, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED,
+                              &seeds));
+  OK(vorocl_seeds_grid(seeds, &read_grid));
+  CHECK(is_grid(&read_grid, &stretched));
+  OK(vorocl_diagram_create(device, vorocl_window_of_grid(stretched), &diagram));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest));
+  OK(vorocl_seeds_read(seeds, read, seed_count));
+  CHECK(read[3].x == 1 && read[0].y == list[0].y);
+  OK(vorocl_seeds_read_pixels(seeds, read, seed_count));
+  CHECK(pixel_of(read[3]) == pixels - 1 && pixel_of(read[0]) == pixel_of(points[0]));
+
+  /* The seeds go to another grid, and a diagram of the old one is not theirs. */
+  OK(vorocl_seeds_move_to_grid(seeds, grid, points, present, seed_count));
+  OK(vorocl_seeds_grid(seeds, &read_grid));
+  CHECK(is_grid(&read_grid, &grid));
+  FAILS(run("exact", seeds, diagram, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "grid");
+  vorocl_diagram_free(diagram);
+  OK(vorocl_diagram_create(device, window, &diagram));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(diagram, nearest));
+  vorocl_diagram_free(diagram);
+  vorocl_seeds_free(seeds);
+}
+
+/* What becomes of points outside. */
+static void test_points_outside(const vorocl_device* device) {
+  const vorocl_point outside[2] = {{-0.5, 3}, {4, 1000}}, inside = {4, 4};
+  vorocl_point read[2];
+  vorocl_seeds *seeds = NULL, *few = NULL;
+  vorocl_diagram* diagram = NULL;
+  uint32_t labels[pixels];
+  size_t count = 0, index = 7;
+  OK(vorocl_diagram_create(device, window, &diagram));
+  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_outside(seeds, &count));
+  CHECK(count == 2);
+  OK(vorocl_seeds_read(seeds, read, 2));
+  CHECK(read[0].x == -0.5 && read[1].y == 1000);
+  OK(vorocl_seeds_read_pixels(seeds, read, 2));
+  CHECK(read[0].x == -0.5 && read[1].y == 1000.5);
+  FAILS(run("jfa", seeds, diagram, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "exact");
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  memset(labels, 0, sizeof labels); /* the first one is nearer everywhere */
+  CHECK(has_labels(diagram, labels));
+
+  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_ABSENT, &few));
+  OK(vorocl_seeds_alive(few, &count));
+  CHECK(count == 0);
+  OK(vorocl_seeds_move_to(few, &inside, NULL, 1));
+  OK(vorocl_seeds_alive(few, &count));
+  CHECK(count == 1);
+  vorocl_seeds_free(few);
+  FAILS(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED, &few),
+        VOROCL_BAD_POINT, "point 0 (-0.5");
+  CHECK(few == NULL);
+  OK(vorocl_bad_point(&index, NULL));
+  CHECK(index == 0);
+  vorocl_diagram_free(diagram);
+  vorocl_seeds_free(seeds);
+}
+
+/* A window shows the labels of its pixels of the grid, across the end of a period too. */
+static void test_windows(const vorocl_device* device) {
+  const vorocl_grid periodic = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_X);
+  const vorocl_window across = {periodic, -7, 5, 30, 20};
+  vorocl_window read_window;
+  vorocl_point moved[seed_count];
+  vorocl_seeds *seeds = NULL, *wrapped = NULL;
+  vorocl_diagram *diagram = NULL, *whole = NULL;
+  uint32_t labels[pixels], part[30 * 20];
+  memset(&read_window, 0, sizeof read_window);
+  memcpy(moved, points, sizeof moved);
+  for (int i = 0; i < seed_count; ++i) moved[i].x += (i % 3 - 1) * width;
+
+  OK(vorocl_seeds_from_points(device, periodic, points, present, seed_count, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_diagram_create(device, vorocl_window_of_grid(periodic), &whole));
+  OK(run("exact", seeds, whole, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_read(whole, labels, pixels));
+
+  /* Points wrap. */
+  OK(vorocl_seeds_from_points(device, periodic, moved, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED,
+                              &wrapped));
+  OK(run("exact", wrapped, whole, VOROCL_EUCLIDEAN));
+  CHECK(has_labels(whole, labels));
+
+  OK(vorocl_diagram_create(device, across, &diagram));
+  OK(vorocl_diagram_window(diagram, &read_window));
+  CHECK(read_window.x == width - 7 && read_window.y == 5);
+  CHECK(read_window.width == 30 && read_window.height == 20 && read_window.grid.x.periodic == 1);
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_read(diagram, part, sizeof part / sizeof *part));
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 30; ++x) {
+      CHECK(part[y * 30 + x] == labels[(y + 5) * width + (x + width - 7) % width]);
+    }
+  }
+  FAILS(run("jfa", seeds, diagram, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "exact");
+  vorocl_diagram_free(diagram);
+  vorocl_diagram_free(whole);
+  vorocl_seeds_free(wrapped);
+  vorocl_seeds_free(seeds);
+}
+
+int main(void) {
+  vorocl_device* device = NULL;
+  OK(vorocl_device_select(NULL, &device));
+  if (device == NULL) return EXIT_FAILURE;
+  test_seeds(device);
+  test_own_buffers(device);
+  test_axes(device);
+  test_points_outside(device);
+  test_windows(device);
+  vorocl_device_free(device);
+  return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,67 @@
+// An axis of the data on one of a picture.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl::command {
+
+/// Pixels of the picture along an axis. They may lie outside it.
+struct Stretch {
+  std::int64_t begin = 0, length = 0;
+
+  bool is_within(std::int64_t pixels) const { return begin >= 0 && begin + length <= pixels; }
+};
+
+/// What the library's Axis says of points, placed in a picture: where a period is, and where there is nothing
+/// beyond.
+class PlacedAxis {
+ public:
+  /// [low, high] of the data on all pixels of the picture, which are counted from `high` if `reversed`. If
+  /// `closed`, a point at `high` falls in the last pixel. Throws as Axis.
+  PlacedAxis(double low, double high, int pixels, bool closed, bool reversed);
+
+  /// Makes it periodic. A period is rounded to whole pixels, and positions along it are scaled to them about
+  /// its middle. It may begin anywhere: where it covers as many pixels as the picture has and does not hold
+  /// all of them, or holds none of them, it begins with the picture. Throws Error, which says the name of the
+  /// axis, if it is shorter than a pixel.
+  void repeat(double low, double high, const char* name);
+
+  /// Ends it, where it is not periodic: beyond these there is nothing. There is at least a pixel between
+  /// them.
+  void end_at(const std::optional<double>& low, const std::optional<double>& high);
+
+  /// Whether a point is outside [low, high]; none is along a periodic axis.
+  bool is_outside(double at) const { return !axis_.covers(at); }
+
+  /// The centre of a point's pixel, from the picture's first one.
+  double pixel(double at) const { return static_cast<double>(begin_) + axis_.pixel(at) + 0.5; }
+
+  /// That of a point which must not be beyond an end.
+  double held(double pixel) const;
+
+  /// The picture's pixels that there are; none if the ends lie outside.
+  Stretch shown() const;
+
+  /// All pixels that there are: one period, or what is shown of an axis that does not repeat.
+  Stretch grid() const;
+
+  /// The side of a pixel in data units: along a period, which is a whole number of pixels, a little more or
+  /// less than elsewhere.
+  double side_of_pixel() const;
+
+ private:
+  double low_, high_;
+  std::int64_t pixels_;
+  bool reversed_;
+  Axis axis_;               // of the pixels from begin_ on: a period, or all of the picture
+  std::int64_t begin_ = 0;  // in the picture
+  double period_;           // in data units
+  double first_end_ = -std::numeric_limits<double>::infinity(),
+         last_end_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace vorocl::command

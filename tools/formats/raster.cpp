@@ -1,0 +1,27 @@
+#include "formats/raster.hpp"
+
+#include <string>
+
+#include "vorocl/error.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+int checked_side(std::int64_t side, const char* name) {
+  if (side >= 1 && side <= Size::max_side) return static_cast<int>(side);
+  throw Error("the grid's " + std::string(name) + " is " + std::to_string(side) +
+              "; it must be from 1 to " + std::to_string(Size::max_side) + " pixels");
+}
+
+}  // namespace
+
+Size::Size(std::int64_t width, std::int64_t height)
+    : width_(checked_side(width, "width")), height_(checked_side(height, "height")) {
+  if (pixels() > Window::max_pixels) {
+    throw Error("a grid of " + std::to_string(width) + " x " + std::to_string(height) +
+                " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
+  }
+}
+
+}  // namespace vorocl::command
