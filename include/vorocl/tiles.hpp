@@ -11,7 +11,6 @@
 #include "vorocl/device.hpp"
 #include "vorocl/export.h"
 #include "vorocl/grid.hpp"
-#include "vorocl/opencl.hpp"
 
 namespace vorocl {
 
@@ -137,13 +136,6 @@ struct TileLabels {
   const std::uint32_t* labels = nullptr;  ///< on the host, until the function that is given them returns
 };
 
-/// As above, on the device: for commands on its queue that are enqueued before the function returns.
-struct TileBuffer {
-  std::uint64_t number = 0;
-  Tile tile;
-  cl::Buffer labels;
-};
-
 struct PlaneCellsState;
 
 /// A cell of a plane. Along a periodic axis a pixel counts where it lies the shorter way round from the seed
@@ -217,10 +209,5 @@ VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const
 VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const NextTile& next, const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});
-
-/// As above, for functions that use the labels on the device: nothing is copied to the host.
-VOROCL_API void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
-                                      const std::function<void(const TileBuffer&)>& use,
-                                      const TileOptions& options = {});
 
 }  // namespace vorocl

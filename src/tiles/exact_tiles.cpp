@@ -207,15 +207,4 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
   hand_over();
 }
 
-void exact_tiles_on_device(const Device& device, const SeedSource& seeds, const Tiling& tiling,
-                           const std::function<void(const TileBuffer&)>& use, const TileOptions& options) {
-  TileEngine engine(device, seeds, tiling, options);
-  const NextTile next = every_tile(tiling);
-  while (const std::optional<std::uint64_t> number = next()) {
-    const MadeTile made = engine.enqueue(*number);
-    if (options.cells) engine.add_measures(made, engine.map(made).wait());
-    use({made.number, made.tile, made.labels});
-  }
-}
-
 }  // namespace vorocl

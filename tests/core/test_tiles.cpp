@@ -170,22 +170,6 @@ BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(labels_can_stay_on_the_device) {
-  const Plane plane(300, 200);
-  const std::vector<Point> points = disc({100, 100}, 90, 50, 6);
-  const PlaneSeeds seeds(plane, points);
-  const Tiling tiling(plane, 128);
-  Image image(tiling);
-  exact_tiles_on_device(test_device(), seeds, tiling, [&](const TileBuffer& tile) {
-    Labels labels(Grid(tile.tile.width, tile.tile.height).pixels());
-    test_device().queue().enqueueReadBuffer(tile.labels, CL_TRUE, 0, labels.size() * sizeof(cl_uint),
-                                            labels.data());
-    image.add({tile.number, tile.tile, labels.data()});
-  });
-  BOOST_TEST(image.each_tile_once());
-  BOOST_TEST(count_differences(image.labels, labels_of(seeds, tiling)) == 0u);
-}
-
 BOOST_AUTO_TEST_CASE(seeds_may_come_with_ids_of_their_own) {
   const Plane plane(300, 200);
   const std::vector<Point> points = {{10, 10}, {200, 100}, {10.5, 10.5}, {250, 150}};
