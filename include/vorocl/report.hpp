@@ -17,6 +17,9 @@ struct FloodStart {
 class VOROCL_API Report {
  public:
   Report() = default;
+
+  /// Of a caller's own engine (Simulation::Engine): its waves, its first and its last command, and the host's
+  /// time to enqueue them.
   Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
          const FloodStart& start = {})
       : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds), start_(start) {}
@@ -38,11 +41,6 @@ class VOROCL_API Report {
   /// engine waits for the device to know what to enqueue next (standard flooding; dynamic_jump_flooding()
   /// says when), that counts.
   double host_milliseconds() const { return host_milliseconds_; }
-
-  /// One report of two engines that ran one after the other for one diagram.
-  friend Report operator+(const Report& a, const Report& b) {
-    return {a.waves_ + b.waves_, a.first_, b.last_, a.host_milliseconds_ + b.host_milliseconds_, b.start_};
-  }
 
  private:
   int waves_ = 0;
