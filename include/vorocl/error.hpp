@@ -39,12 +39,6 @@ class VOROCL_API Error : public std::runtime_error {
 /// A point that cannot be a seed's.
 class VOROCL_API BadPoint : public Error {
  public:
-  /// "point 7 (nan, 3) is not finite; ..." or "... is too far away; ..."
-  BadPoint(std::size_t index, const Point& point);
-
-  /// Of points that must lie in the grid: "... is outside the grid; ..."
-  BadPoint(std::size_t index, const Point& point, const Grid& grid);
-
   /// "point 7 (12, 3) " and what is bad about it.
   BadPoint(std::size_t index, const Point& point, const std::string& what);
 

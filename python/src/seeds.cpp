@@ -11,6 +11,7 @@
 
 #include "core/seeds_state.hpp"
 #include "module.hpp"
+#include "runtime/bad_point.hpp"
 
 namespace vorocl::python {
 
@@ -70,7 +71,7 @@ void each_pixel(const Placing& placing, const Points& points, Use use) {
     }
     if (std::isinf(point.x) || std::isinf(point.y)) refuse(row, point, placing);
     const Point pixel = pixel_of(placing, point);
-    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= far) throw BadPoint(row, point);
+    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= far) throw point_too_far(row, point);
     if (!placing.grid.holds(pixel) && !placing.outside_counts) refuse(row, point, placing);
     use(std::optional<Point>(pixel));
   }

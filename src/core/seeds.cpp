@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/seeds_state.hpp"
+#include "runtime/bad_point.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
@@ -38,7 +39,7 @@ class Snapping {
   PlanePosition operator()(std::size_t id, const Point& point) const {
     const PlanePosition at = {
         {along(id, point, point.x, grid_.width(), 0), along(id, point, point.y, grid_.height(), 1)}};
-    if (grid_.periodic() != Periodic::none && !is_inside(grid_, at)) throw BadPoint(id, point, grid_);
+    if (grid_.periodic() != Periodic::none && !is_inside(grid_, at)) throw point_outside(grid_, id, point);
     return at;
   }
 
@@ -52,7 +53,7 @@ class Snapping {
   cl_int along(std::size_t id, const Point& point, double coordinate, int pixels, std::size_t axis) const {
     constexpr double plane_side = 2147483648.0;  // 2^31
     // Written so that a NaN fails.
-    if (!(coordinate >= pixels - plane_side && coordinate < plane_side)) throw BadPoint(id, point);
+    if (!(coordinate >= pixels - plane_side && coordinate < plane_side)) throw point_too_far(id, point);
     const auto at = static_cast<std::int64_t>(std::floor(coordinate));
     return static_cast<cl_int>(wrapped(at, first_[axis], periods_[axis]));
   }

@@ -3,6 +3,7 @@
 #include <cstring>
 #include <string>
 
+#include "runtime/bad_point.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
@@ -31,7 +32,7 @@ void PointCheck::read() const {
   if (known_) return;
   const cl_uint4 found = download<cl_uint4>(device_, found_, 1).front();
   if (found.s[0] != no_label) {
-    bad_point_.emplace(found.s[0], Point{coordinate(found.s[1]), coordinate(found.s[2])}, grid_);
+    bad_point_ = point_outside(grid_, found.s[0], {coordinate(found.s[1]), coordinate(found.s[2])});
   }
   absent_ = found.s[3];
   known_ = true;

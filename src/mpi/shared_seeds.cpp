@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "mpi/agreement.hpp"
+#include "runtime/bad_point.hpp"
 #include "tiles/block_tree.hpp"
 #include "tiles/plane_axes.hpp"
 #include "vorocl/error.hpp"
@@ -290,7 +291,7 @@ void SharedSeeds::add(const Point* points, std::size_t count, std::uint64_t firs
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint64_t id = first + i;
     if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
-    if (!axes.x.reaches(points[i].x) || !axes.y.reaches(points[i].y)) throw BadPoint(id, points[i]);
+    if (!axes.x.reaches(points[i].x) || !axes.y.reaches(points[i].y)) throw point_too_far(id, points[i]);
     seeds.push_back({axes.x.pixel(points[i].x), axes.y.pixel(points[i].y), static_cast<std::uint32_t>(id)});
   }
   add(seeds.data(), count);

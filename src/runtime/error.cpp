@@ -1,7 +1,5 @@
 #include "vorocl/error.hpp"
 
-#include <cmath>
-
 #include "runtime/opencl_error.hpp"
 
 namespace vorocl {
@@ -57,11 +55,6 @@ ErrorKind kind_of(cl_int code) {
   }
 }
 
-/// What is bad about a point that is not finite, or else.
-std::string complaint(const Point& point, const char* otherwise) {
-  return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
-}
-
 }  // namespace
 
 void fail(cl_int code, const std::string& what) {
@@ -74,15 +67,5 @@ BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& wha
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}
-
-BadPoint::BadPoint(std::size_t index, const Point& point, const Grid& grid)
-    : BadPoint(index, point,
-               complaint(point, "outside the grid") + "; x must be in [0, " + std::to_string(grid.width()) +
-                   ") and y in [0, " + std::to_string(grid.height()) + ")") {}
-
-BadPoint::BadPoint(std::size_t index, const Point& point)
-    : BadPoint(index, point,
-               complaint(point, "too far away") +
-                   "; x and y must be less than 2^31 pixels from all pixels of the grid") {}
 
 }  // namespace vorocl

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/bad_point.hpp"
 #include "tiles/rim_walk.hpp"
 
 namespace vorocl {
@@ -39,7 +40,8 @@ void PlaneSeeds::add(const Point* points, std::size_t count) {
     if (count > most_ids - seeds.ids) throw Error("there are more than 2^32 - 1 seeds; ids end there");
     for (std::size_t i = 0; i < count; ++i) {
       const Point& point = points[i];
-      if (!seeds.axes.x.reaches(point.x) || !seeds.axes.y.reaches(point.y)) throw BadPoint(seeds.ids, point);
+      if (!seeds.axes.x.reaches(point.x) || !seeds.axes.y.reaches(point.y))
+        throw point_too_far(seeds.ids, point);
       seeds.tree.add(seeds.axes.x.pixel(point.x), seeds.axes.y.pixel(point.y),
                      static_cast<std::uint32_t>(seeds.ids));
       ++seeds.ids;
