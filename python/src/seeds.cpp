@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "module.hpp"
+#include "runtime/bad_point.hpp"
 
 namespace vorocl::python {
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/seeds_state.hpp"
+#include "runtime/bad_point.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/bad_point.hpp"
 #include "tiles/rim_walk.hpp"
 
 namespace vorocl {
