@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "module.hpp"
-#include "runtime/bad_point.hpp"
 
 namespace vorocl::python {
 

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/seeds_state.hpp"
-#include "runtime/bad_point.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "runtime/bad_point.hpp"
 #include "tiles/rim_walk.hpp"
 
 namespace vorocl {
