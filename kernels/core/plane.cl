@@ -1,5 +1,5 @@
-// Seeds that lie outside the grid's pixels: positions in the plane, an int2 of pixels from the grid's corner, and
-// distances to them. With the build option VOROCL_FAR some are so far away that distances take 64 bits.
+// Seeds that lie outside a window's pixels: positions in the plane, an int2 of pixels from the window's corner, and how
+// long distances to them are. With the build option VOROCL_FAR some are so far away that distances take 64 bits.
 
 #ifndef VOROCL_PLANE
 #define VOROCL_PLANE
@@ -18,20 +18,5 @@
 #define LENGTH int
 #define MOST_LENGTH INT_MAX
 #endif
-
-// The distance between a pixel and a seed, the shorter way round along axes that have a period (others have 0).
-static inline LENGTH plane_distance(int2 seed, int x, int y, uint2 periods) {
-  ulong along_x = abs_diff((long)seed.x, (long)x), along_y = abs_diff((long)seed.y, (long)y);
-  if (periods.x > 0) {
-    along_x %= periods.x;
-    along_x = min(along_x, periods.x - along_x);
-  }
-  if (periods.y > 0) {
-    along_y %= periods.y;
-    along_y = min(along_y, periods.y - along_y);
-  }
-  const LENGTH dx = (LENGTH)along_x, dy = (LENGTH)along_y;
-  return ALONG(dx) + ALONG(dy);
-}
 
 #endif

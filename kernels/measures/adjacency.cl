@@ -1,6 +1,7 @@
 // The pairs of cells that share pixel edges: found in a hash table, then put in order.
 
 #include "measures/runs.cl"
+#include "measures/seed_place.cl"
 
 #define EMPTY_SLOT 0xffffffffu
 #define MOST_PROBES 64
@@ -38,7 +39,7 @@ static inline void add_border(global const uint* labels, int width, int height, 
       return;
     }
   }
-  atomic_or(overflow, 1u);  // the host begins again with a larger table
+  atomic_or(overflow, 1u);  // the host will find all of them again in a larger table
 }
 
 // Two rows are walked at once, so that along a run the border with the row below is one piece.
@@ -67,14 +68,20 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
   }
 }
 
-// Counts each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell.
-kernel void count_neighbours(global const uint* restrict labels, int width, int height, uint slot_count,
-                             global const uint* restrict slots, global const uint* restrict lengths,
-                             global uint* restrict pairs, global uint* restrict neighbours,
-                             global uint* restrict perimeters) {
+// Writes each pair's cells into the table, the first one in place of the edge, for the labels may change later. Counts
+// each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell. Seeds that
+// are absent own nothing: their pairs leave the table.
+kernel void name_pairs(global const uint* restrict labels, global const seed_t* restrict seeds, int width, int height,
+                       uint slot_count, global uint* restrict slots, global uint* restrict seconds,
+                       global const uint* restrict lengths, global uint* restrict pairs,
+                       global uint* restrict neighbours, global uint* restrict perimeters) {
   const uint at = (uint)get_global_id(0);
   if (at >= slot_count || slots[at] == EMPTY_SLOT) return;
   const uint2 pair = pair_at(labels, width, height, slots[at]);
+  const bool is_pair = is_there(seeds[pair.s0]) && is_there(seeds[pair.s1]);
+  slots[at] = is_pair ? pair.s0 : EMPTY_SLOT;
+  if (!is_pair) return;
+  seconds[at] = pair.s1;
   atomic_inc(pairs + pair.s0);
   atomic_inc(neighbours + pair.s0);
   atomic_inc(neighbours + pair.s1);
@@ -83,15 +90,13 @@ kernel void count_neighbours(global const uint* restrict labels, int width, int 
 }
 
 // Puts each pair into the place of its first cell's pairs; `first` is where that begins in the list.
-kernel void place_pairs(global const uint* restrict labels, int width, int height, uint slot_count,
-                        global const uint* restrict slots, global const uint* restrict lengths,
-                        global const uint* restrict first, global uint* restrict placed,
-                        global uint* restrict pair_list) {
+kernel void place_pairs(uint slot_count, global const uint* restrict slots, global const uint* restrict seconds,
+                        global const uint* restrict lengths, global const uint* restrict first,
+                        global uint* restrict placed, global uint* restrict pair_list) {
   const uint at = (uint)get_global_id(0);
   if (at >= slot_count || slots[at] == EMPTY_SLOT) return;
-  const uint2 pair = pair_at(labels, width, height, slots[at]);
-  const uint place = first[pair.s0] + atomic_inc(placed + pair.s0);
-  vstore3((uint3)(pair, lengths[at]), place, pair_list);
+  const uint cell = slots[at], place = first[cell] + atomic_inc(placed + cell);
+  vstore3((uint3)(cell, seconds[at], lengths[at]), place, pair_list);
 }
 
 // The second cell of a pair of the list.

@@ -1,6 +1,7 @@
-// Sums over the pixels of each cell: area and coordinates, which give the centroid.
+// Sums over the pixels of each cell: area and coordinates, which give the centroid; and statistics of the areas.
 
 #include "measures/runs.cl"
+#include "measures/seed_place.cl"
 
 // 64-bit sums without 64-bit atomics, which OpenCL C 1.2 leaves to chance: a pair (low word, high word) and a carry.
 static inline void add_to_pair(global uint* pair, uint value) {
@@ -19,7 +20,7 @@ static inline void add_to_pair(global uint* pair, uint value) {
 #define HOME_X(sums) ((uint)((sums) >> HOME_X_SHIFT) & 0xffffffu)
 #define HOME_Y(sums) ((uint)((sums) >> HOME_Y_SHIFT))
 
-kernel void clear_sums(global const uint* restrict positions, uint count, int width, int wide, int high,
+kernel void clear_sums(global const seed_t* restrict seeds, uint count, int width, int height, int wide, int high,
                        global uint* restrict area, global uint2* restrict sum_x, global uint2* restrict sum_y,
                        global ushort* restrict home, global ulong* restrict home_sums) {
   const uint id = (uint)get_global_id(0);
@@ -28,7 +29,9 @@ kernel void clear_sums(global const uint* restrict positions, uint count, int wi
   sum_x[id] = (uint2)(0, 0);
   sum_y[id] = (uint2)(0, 0);
   home_sums[id] = 0;
-  home[id] = (ushort)block_of(packed_x(positions[id]), packed_y(positions[id]), width, wide, high);
+  // Of a seed outside the window, the block that is nearest to it.
+  const int x = clamp(seed_x(seeds[id], width), 0, width - 1), y = clamp(seed_y(seeds[id], height), 0, height - 1);
+  home[id] = (ushort)block_of(x, y, width, wide, high);
 }
 
 kernel void add_sums(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
@@ -57,11 +60,11 @@ kernel void add_sums(global const uint* restrict labels, uint count, int width, 
   }
 }
 
-// How many periods the pixels of a cell are away, in sum, from where they lie the shorter way round from its seed. For
-// grids with a periodic axis.
-kernel void add_periods(global const uint* restrict labels, global const uint* restrict positions, uint count,
-                        int width, int height, int wide, int high, global int* restrict periods_x,
-                        global int* restrict periods_y) {
+// How many periods the pixels of a cell are away, in sum, from where they lie by the rule of place. For windows that
+// show a whole period.
+kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+                        global int* restrict periods_x, global int* restrict periods_y) {
+  const window_t window = window_of(width, height, periods);
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
   for (int y = block.top; y < block.bottom; ++y) {
@@ -69,16 +72,21 @@ kernel void add_periods(global const uint* restrict labels, global const uint* r
     walk_t walk = begin_walk(row, row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
-      if (label >= count) continue;
-      const int seed_x = packed_x(positions[label]), inside_y = y - packed_y(positions[label]);
-      int sum_x = 0;
-      for (int from = walk.from, to; from < walk.to; from = to) {
-        to = piece_end(from, walk.to, seed_x, width);
-        sum_x += (shorter_way_x(from - seed_x, width) - (from - seed_x)) / width * (to - from);
+      if (label >= count || !is_there(seeds[label])) continue;
+      const seed_t seed = seeds[label];
+      if (PERIODIC_X) {
+        int sum = 0;
+        for (int from = walk.from, to; from < walk.to; from = to) {
+          const int way = way_x(seed, from, window);
+          to = piece_end(from, walk.to, way, window.period_x);
+          sum += (seed_x(seed, width) + way - from) / width * (to - from);
+        }
+        if (sum != 0) atomic_add(periods_x + label, sum);
       }
-      const int sum_y = (shorter_way_y(inside_y, height) - inside_y) / height * (walk.to - walk.from);
-      if (sum_x != 0) atomic_add(periods_x + label, sum_x);
-      if (sum_y != 0) atomic_add(periods_y + label, sum_y);
+      if (PERIODIC_Y) {
+        const int away = (seed_y(seed, height) + way_y(seed, y, window) - y) / height;
+        if (away != 0) atomic_add(periods_y + label, away * (walk.to - walk.from));
+      }
     }
   }
 }
@@ -93,12 +101,18 @@ kernel void unwrap_sums(uint count, int width, int height, global const int* res
   sum_y[id] += (long)periods_y[id] * height;
 }
 
-// Adds the home sums to the others, and turns the pairs into 64-bit numbers.
-kernel void join_sums(uint count, int width, int wide, int high, global uint* restrict area,
-                      global uint2* restrict sum_x, global uint2* restrict sum_y, global const ushort* restrict home,
-                      global const ulong* restrict home_sums) {
+// Adds the home sums to the others, and turns the pairs into 64-bit numbers. Seeds that are absent own nothing,
+// whatever labels name them.
+kernel void join_sums(global const seed_t* restrict seeds, uint count, int width, int wide, int high,
+                      global uint* restrict area, global uint2* restrict sum_x, global uint2* restrict sum_y,
+                      global const ushort* restrict home, global const ulong* restrict home_sums) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
+  if (!is_there(seeds[id])) {
+    area[id] = 0;
+    sum_x[id] = sum_y[id] = (uint2)0;
+    return;
+  }
   const ulong sums = home_sums[id];
   const uint pixels = HOME_AREA(sums);
   const uint across = blocks_across(width, wide);
@@ -106,4 +120,30 @@ kernel void join_sums(uint count, int width, int wide, int high, global uint* re
   area[id] += pixels;
   sum_x[id] = as_uint2(upsample(sum_x[id].s1, sum_x[id].s0) + (ulong)pixels * left + HOME_X(sums));
   sum_y[id] = as_uint2(upsample(sum_y[id].s1, sum_y[id].s0) + (ulong)pixels * top + HOME_Y(sums));
+}
+
+// Whether a coordinate is one of the window's, or has an image there: the positions of an axis that has a period lie
+// in one period, which may begin outside a window that is no longer.
+static inline bool is_shown(int at, int size, int period) {
+  if (at < 0 && size <= period) at += period;
+  return at >= 0 && at < size;
+}
+
+// Statistics of all cells, as partial sums over parts of their list: how many there are (of seeds outside the window
+// those that own pixels), how many of them have pixels, the areas, and their squares.
+kernel void sum_areas(SEED_PARAMETERS, global const uint* restrict area, uint cells_per_item, uint items,
+                      global ulong4* restrict partial) {
+  const window_t window = window_of(width, height, periods);
+  const uint item = (uint)get_global_id(0);
+  if (item >= items) return;
+  const uint end = min((item + 1) * cells_per_item, count);
+  ulong4 sums = (ulong4)0;
+  for (uint id = item * cells_per_item; id < end; ++id) {
+    const seed_t seed = seeds[id];
+    const ulong pixels = area[id];
+    const bool shown = is_there(seed) && is_shown(seed_x(seed, width), width, window.period_x) &&
+                       is_shown(seed_y(seed, height), height, window.period_y);
+    sums += (ulong4)(shown || pixels != 0, pixels != 0, pixels, pixels * pixels);
+  }
+  partial[item] = sums;
 }

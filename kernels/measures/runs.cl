@@ -83,12 +83,3 @@ __attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
 
 // The label of the present run.
 static inline uint run_label(const walk_t* walk) { return walk->row[walk->to - 1]; }
-
-// Along a periodic axis the ways from a seed to the pixels of a run go the shorter way round, so they may jump inside
-// it. The end of the piece of [from, to) that begins at `from` and has no jump.
-static inline int piece_end(int from, int to, int seed_x, int width) {
-  if (!PERIODIC_X) return to;
-  const int first_inside = seed_x - (width + 1) / 2 + 1, first_behind = seed_x + width / 2 + 1;
-  if (from < first_inside) return min(to, first_inside);
-  return from < first_behind ? min(to, first_behind) : to;
-}

@@ -1,25 +1,34 @@
-// The extent of each cell: bounding box and largest distance to the seed. Along a periodic axis a pixel is where it
-// lies the shorter way round from the seed, so a box may reach out of the grid.
+// The extent of each cell: its bounding box, where seed_place.cl says that its pixels lie, and the largest distance to
+// the seed.
 
 #include "measures/runs.cl"
+#include "measures/seed_place.cl"
+
+// Without 64-bit atomics a long distance is found in two passes: first the greatest upper word, then, of the distances
+// that have it, the greatest lower one. A short distance has one word.
+#ifdef VOROCL_FAR
+#define UPPER_WORD(distance) ((int)((distance) >> 32))
+#else
+#define UPPER_WORD(distance) (distance)
+#endif
 
 // A box is left, top, right, bottom.
-kernel void clear_shapes(uint count, global int4* restrict boxes, global int* restrict largest) {
+kernel void clear_shapes(uint count, global int4* restrict boxes, global int* restrict upper_words) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   boxes[id] = (int4)(INT_MAX, INT_MAX, INT_MIN, INT_MIN);
-  largest[id] = -1;
+  upper_words[id] = -1;
 }
 
-// Whether the next pixel along an axis is there, and as far from the seed as its place says: along a periodic axis the
-// way from the seed jumps half a period away from it.
-static inline bool goes_on_x(int x, int step, int seed_x, int width) {
-  if (!PERIODIC_X) return x + step >= 0 && x + step < width;
-  return shorter_way_x(wrapped_x(x + step, width) - seed_x, width) == shorter_way_x(x - seed_x, width) + step;
+// Whether the next pixel along an axis is there, and as far from the seed as its place says.
+static inline bool goes_on_in(int at, int step, int size, int shown_whole, int way, int period) {
+  return (shown_whole || (at + step >= 0 && at + step < size)) && goes_on(way, step, period);
 }
-static inline bool goes_on_y(int y, int step, int seed_y, int height) {
-  if (!PERIODIC_Y) return y + step >= 0 && y + step < height;
-  return shorter_way_y(wrapped_y(y + step, height) - seed_y, height) == shorter_way_y(y - seed_y, height) + step;
+static inline bool goes_on_x(int x, int step, int way, window_t window) {
+  return goes_on_in(x, step, window.width, PERIODIC_X, way, window.period_x);
+}
+static inline bool goes_on_y(int y, int step, int way, window_t window) {
+  return goes_on_in(y, step, window.height, PERIODIC_Y, way, window.period_y);
 }
 
 static inline bool in_one_of(global const uint* row, global const uint* above, global const uint* below, int x,
@@ -30,8 +39,9 @@ static inline bool in_one_of(global const uint* row, global const uint* above, g
 // What a row cannot decide is left to the others: a run adds to a side of its cell's box, or to the largest
 // distance, only if the pixel next to its end in the row above or below, which would add more, is not in the cell.
 // That leaves a few atomics of the many that the cells' borders would need.
-kernel void add_shapes(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
-                       int height, int wide, int high, global int* restrict boxes, global int* restrict largest) {
+kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+                       global int* restrict boxes, global int* restrict upper_words) {
+  const window_t window = window_of(width, height, periods);
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
   for (int y = block.top; y < block.bottom; ++y) {
@@ -40,31 +50,61 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
-      const int seed_x = packed_x(positions[label]), seed_y = packed_y(positions[label]);
-      const int way_y = shorter_way_y(y - seed_y, height);
-      const bool above = goes_on_y(y, -1, seed_y, height), below = goes_on_y(y, 1, seed_y, height);
+      const seed_t seed = seeds[label];
+      if (!is_there(seed)) continue;
+      const int along_y = way_y(seed, y, window), place_y = PERIODIC_Y ? seed_y(seed, height) + along_y : y;
+      const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
       global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
       global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
       global int* const box = boxes + 4 * (size_t)label;
       for (int from = walk.from, to; from < walk.to; from = to) {
-        to = piece_end(from, walk.to, seed_x, width);
-        const int first = from, last = to - 1, way_x = shorter_way_x(first - seed_x, width);
-        const int way_of_last = way_x + last - first;
-        if (!(goes_on_x(first, -1, seed_x, width) &&
+        const int along_x = way_x(seed, from, window);
+        to = piece_end(from, walk.to, along_x, window.period_x);
+        const int first = from, last = to - 1, along_x_last = along_x + last - first;
+        const int place_x = PERIODIC_X ? seed_x(seed, width) + along_x : first;
+        if (!(goes_on_x(first, -1, along_x, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(first - 1, width), label))) {
-          atomic_min(box, seed_x + way_x);
+          atomic_min(box, place_x);
         }
-        if (!(goes_on_x(last, 1, seed_x, width) &&
+        if (!(goes_on_x(last, 1, along_x_last, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(last + 1, width), label))) {
-          atomic_max(box + 2, seed_x + way_of_last);
+          atomic_max(box + 2, place_x + last - first);
         }
-        if (!(above && row_above[first] == label)) atomic_min(box + 1, seed_y + way_y);
-        if (!(below && row_below[first] == label)) atomic_max(box + 3, seed_y + way_y);
+        if (!(above && row_above[first] == label)) atomic_min(box + 1, place_y);
+        if (!(below && row_below[first] == label)) atomic_max(box + 3, place_y);
 
-        const bool ends = way_y < 0 ? !above : !below;
-        global const uint* const away = way_y < 0 ? row_above : row_below;
-        if (ends || away[first] != label) atomic_max(largest + label, (int)distance_of_offset(way_x, way_y));
-        if (ends || away[last] != label) atomic_max(largest + label, (int)distance_of_offset(way_of_last, way_y));
+        const bool ends = along_y < 0 ? !above : !below;
+        global const uint* const away = along_y < 0 ? row_above : row_below;
+        if (ends || away[first] != label) {
+          atomic_max(upper_words + label, UPPER_WORD(distance_of_ways(along_x, along_y)));
+        }
+        if (ends || away[last] != label) {
+          atomic_max(upper_words + label, UPPER_WORD(distance_of_ways(along_x_last, along_y)));
+        }
+      }
+    }
+  }
+}
+
+// The second pass over long distances.
+kernel void add_lower_words(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+                            global const int* restrict upper_words, global uint* restrict lower_words) {
+  const window_t window = window_of(width, height, periods);
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
+      if (label >= count || !is_there(seeds[label])) continue;
+      const int along_y = way_y(seeds[label], y, window);
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        const int along_x = way_x(seeds[label], from, window);
+        to = piece_end(from, walk.to, along_x, window.period_x);
+        const LENGTH farthest = max(distance_of_ways(along_x, along_y),
+                                    distance_of_ways(along_x + to - 1 - from, along_y));
+        if (UPPER_WORD(farthest) == upper_words[label]) atomic_max(lower_words + label, (uint)farthest);
       }
     }
   }

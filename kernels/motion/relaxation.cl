@@ -1,10 +1,12 @@
 // Lloyd relaxation: the energy of a diagram, and the move of its seeds to their cells' centroids.
 
 #include "measures/runs.cl"
+#include "measures/seed_place.cl"
 
 // The energy of each block's pixels: their squared distances to their seeds, run by run.
-kernel void add_energy(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
-                       int height, int wide, int high, global ulong* restrict energies) {
+kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+                       global ulong* restrict energies) {
+  const window_t window = window_of(width, height, periods);
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
   ulong energy = 0;
@@ -13,12 +15,12 @@ kernel void add_energy(global const uint* restrict labels, global const uint* re
     walk_t walk = begin_walk(row, row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
-      if (label >= count) continue;
-      const int seed_x = packed_x(positions[label]);
-      const long dy = shorter_way_y(y - packed_y(positions[label]), height);
+      if (label >= count || !is_there(seeds[label])) continue;
+      const long dy = way_y(seeds[label], y, window);
       for (int from = walk.from, to; from < walk.to; from = to) {
-        to = piece_end(from, walk.to, seed_x, width);
-        const long n = to - from, x = shorter_way_x(from - seed_x, width);
+        const int way = way_x(seeds[label], from, window);
+        to = piece_end(from, walk.to, way, window.period_x);
+        const long n = to - from, x = way;
         energy += (ulong)(n * (x * x + dy * dy) + x * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6);
       }
     }

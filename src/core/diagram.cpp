@@ -85,6 +85,7 @@ void DiagramState::read(std::uint32_t* to) {
 
 Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
     : diagram_(Internal::state(diagram)), previous_(std::exchange(diagram_.contents, std::nullopt)) {
+  ++*diagram_.fills;
   next_.placement = diagram_.place(seeds);
   next_.seeds = Internal::state(seeds).frame();
   next_.metric = checked(metric);
@@ -169,6 +170,7 @@ void write_labels(DiagramState& state, const std::vector<std::uint32_t>& labels,
                 std::to_string(state.grid.pixels()) + " pixels");
   }
   state.contents.reset();
+  ++*state.fills;
   upload(state.device, state.labels, labels);
   state.contents = std::move(contents);
 }
@@ -182,6 +184,7 @@ void write_labels(DiagramState& state, const cl::Buffer& labels, DiagramContents
     throw Error("the buffer of labels to write overlaps with the diagram's own; write them from another one");
   }
   state.contents.reset();
+  ++*state.fills;
   contents.last = copy(state.device, labels, state.labels, bytes);
   state.contents = std::move(contents);
 }

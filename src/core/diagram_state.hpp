@@ -1,6 +1,8 @@
 // What a Diagram holds besides its labels, and how an engine fills it.
 #pragma once
 
+#include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
@@ -35,6 +37,11 @@ struct DiagramState {
   PixelGrid grid;  // its pixels
   cl::Buffer labels;
   std::optional<DiagramContents> contents;  // none: it counts as never filled
+
+  /// How often labels were filled or written: a result asks whether they are still those that it measured,
+  /// perhaps after the diagram is gone.
+  std::shared_ptr<std::atomic<std::uint64_t>> fills = std::make_shared<std::atomic<std::uint64_t>>(0);
+
   KernelSet kernels;
 
   /// An engine's working memory, a struct of buffers, made empty at its first use and kept.

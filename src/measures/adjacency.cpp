@@ -1,6 +1,6 @@
 #include "vorocl/adjacency.hpp"
 
-#include <utility>
+#include <atomic>
 
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
@@ -15,8 +15,8 @@ constexpr std::size_t slots_per_seed = 8;
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
 constexpr std::size_t words_per_pair = 3;
+constexpr std::size_t word = sizeof(cl_uint);
 constexpr cl_uint empty_slot = 0xffffffffu;  // EMPTY_SLOT of adjacency.cl
-constexpr cl_uint corners_per_item = 1024;
 
 std::size_t first_slots(std::size_t seeds) {
   std::size_t slots = least_slots;
@@ -26,89 +26,136 @@ std::size_t first_slots(std::size_t seeds) {
 
 }  // namespace
 
+/// The table is made, and what it says of single cells. Whether it was large enough, and how many pairs it
+/// holds, the host asks when somebody reads.
 struct AdjacencyState : Measured {
-  std::size_t pairs = 0;
-  cl::Buffer pair_list, neighbours, perimeters;
-  cl::Buffer slots, lengths, overflow, first, placed;  // while they are made: see adjacency.cl
+  cl::Buffer slots, seconds, lengths, overflow;      // the table: see adjacency.cl
+  cl::Buffer neighbours, perimeters, pairs_of_cell;  // by cell
+  cl::Buffer first, placed, pair_list;               // the list
+  std::size_t slot_count = 0;
+  bool large_enough = false, listed = false;  // as far as was asked
+  std::size_t pairs = 0;                      // once they are listed
+
+  // To find the pairs again:
+  cl::Buffer labels;
+  std::shared_ptr<const std::atomic<std::uint64_t>> fills;
+  std::uint64_t fill_measured = 0;
+
+  /// Finds the pairs in a table of so many slots. Returns the first command and the last one.
+  std::pair<cl::Event, cl::Event> find(const MeasuredDiagram& diagram, std::size_t in_slots);
+
+  /// Sees to it that the table was large enough. Waits.
+  void settle();
+
+  /// Makes the list. Waits.
+  void list();
 };
+
+std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diagram, std::size_t in_slots) {
+  const Device& device = diagram.device;
+  const cl_uint count = diagram.count();
+  const int width = diagram.grid.width(), height = diagram.grid.height();
+  const char* const file = "measures/adjacency.cl";
+  const KernelOptions options = diagram.options_without_metric();
+  slot_count = in_slots;
+  large_enough = listed = false;
+  for (cl::Buffer* const table : {&slots, &seconds, &lengths}) make_room(*table, device, slot_count * word);
+  make_room(overflow, device, word);
+  const cl::Event begun = fill(device, slots, empty_slot, slot_count);
+  fill(device, lengths, cl_uint{0}, slot_count);
+  fill(device, overflow, cl_uint{0}, 1);
+  for (cl::Buffer* const numbers : {&neighbours, &perimeters, &pairs_of_cell}) {
+    make_room(*numbers, device, count * word);
+    if (count > 0) fill(device, *numbers, cl_uint{0}, count);
+  }
+  const Blocks blocks(device, diagram.grid);
+  blocks.run(kernels, file, "find_borders", options, labels, count, width, height, blocks.wide(),
+             blocks.high(), static_cast<cl_uint>(slot_count - 1), slots, lengths, overflow);
+  const cl::Event ended = kernels.get(device, file, "name_pairs", diagram.grid, options)
+                              .over_items(slot_count, labels, diagram.positions(), width, height,
+                                          static_cast<cl_uint>(slot_count), slots, seconds, lengths,
+                                          pairs_of_cell, neighbours, perimeters);
+  return {begun, ended};
+}
+
+void AdjacencyState::settle() {
+  of->check();
+  while (!large_enough) {
+    large_enough = download<cl_uint>(of->device, overflow, 1).front() == 0;
+    if (large_enough) return;
+    if (*fills != fill_measured) {
+      throw Error(
+          "the cells have more neighbours than a table of the usual size holds, and the diagram has been "
+          "filled or written since, so that they cannot be found again; read them before");
+    }
+    if (slot_count == most_slots) {
+      throw Error("the cells of the diagram have more neighbours than can be counted");
+    }
+    find(*of, 2 * slot_count);
+  }
+}
+
+void AdjacencyState::list() {
+  settle();
+  if (listed) return;
+  const Device& device = of->device;
+  const std::size_t cells = of->count();
+  // The list's size must come to the host in any case, to allocate it: the running sum is made there too.
+  std::vector<cl_uint> begins = download<cl_uint>(device, pairs_of_cell, cells);
+  begins.push_back(0);
+  cl_uint sum = 0;
+  for (cl_uint& entry : begins) {
+    const cl_uint here = entry;
+    entry = sum;
+    sum += here;
+  }
+  make_room(first, device, begins.size() * word);
+  make_room(placed, device, cells * word);
+  make_room(pair_list, device, sum * words_per_pair * word);
+  upload(device, first, begins);
+  if (cells > 0) fill(device, placed, cl_uint{0}, cells);
+  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
+    kernels.get(device, "measures/adjacency.cl", name, of->grid, of->options_without_metric())
+        .over_items(items, arguments...);
+  };
+  run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), slots, seconds, lengths, first, placed,
+      pair_list);
+  run("sort_pairs", cells, of->count(), first, pair_list);
+  pairs = sum;
+  listed = true;
+}
+
+// --- AdjacencyResult ---
 
 AdjacencyResult::AdjacencyResult() = default;
 AdjacencyResult::~AdjacencyResult() = default;
 AdjacencyResult::AdjacencyResult(AdjacencyResult&& other) noexcept = default;
 AdjacencyResult& AdjacencyResult::operator=(AdjacencyResult&& other) noexcept = default;
-std::size_t AdjacencyResult::pairs() const { return state_ && !state_->empty() ? state_->pairs : 0; }
-const cl::Buffer& AdjacencyResult::pair_list() const { return buffer_of(state_, &AdjacencyState::pair_list); }
+
+std::size_t AdjacencyResult::pairs() const {
+  if (!state_ || state_->empty()) return 0;
+  state_->list();
+  return state_->pairs;
+}
+
+const cl::Buffer& AdjacencyResult::pair_list() const {
+  if (state_ && !state_->empty()) state_->list();
+  return buffer_of(state_, &AdjacencyState::pair_list);
+}
+
 const cl::Buffer& AdjacencyResult::neighbours() const {
+  if (state_ && !state_->empty()) state_->settle();
   return buffer_of(state_, &AdjacencyState::neighbours);
 }
+
 const cl::Buffer& AdjacencyResult::perimeters() const {
+  if (state_ && !state_->empty()) state_->settle();
   return buffer_of(state_, &AdjacencyState::perimeters);
-}
-
-void adjacency(const Seeds& seeds, const Diagram& diagram, AdjacencyResult& result) {
-  AdjacencyState& found = Internal::result(result);
-  found.frames = {};
-  auto measured = frames_of(seeds, diagram);
-  const Device& device = diagram.device();
-  const Grid& grid = diagram.grid();
-  const std::size_t cells = seeds.size(), word = sizeof(cl_uint);
-  const auto count = static_cast<cl_uint>(cells);
-  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
-    found.kernels.get(device, "measures/adjacency.cl", name, grid).over_items(items, arguments...);
-  };
-
-  make_room(found.overflow, device, word);
-  const Blocks blocks(device, grid);
-  std::size_t slots = first_slots(cells);
-  for (;; slots *= 2) {
-    make_room(found.slots, device, slots * word);
-    make_room(found.lengths, device, slots * word);
-    fill(device, found.slots, empty_slot, slots);
-    fill(device, found.lengths, cl_uint{0}, slots);
-    fill(device, found.overflow, cl_uint{0}, 1);
-    blocks.run(found.kernels, "measures/adjacency.cl", "find_borders", {}, diagram.labels(), count,
-               grid.width(), grid.height(), blocks.wide(), blocks.high(), static_cast<cl_uint>(slots - 1),
-               found.slots, found.lengths, found.overflow);
-    if (download<cl_uint>(device, found.overflow, 1).front() == 0) break;
-    if (slots == most_slots) throw Error("the cells of the diagram have more neighbours than can be counted");
-  }
-
-  make_room(found.neighbours, device, cells * word);
-  make_room(found.perimeters, device, cells * word);
-  make_room(found.placed, device, cells * word);
-  make_room(found.first, device, (cells + 1) * word);
-  const cl::Buffer* const zeros[] = {&found.neighbours, &found.perimeters, &found.placed};
-  if (cells > 0) {
-    for (const cl::Buffer* const buffer : zeros) fill(device, *buffer, cl_uint{0}, cells);
-  }
-  fill(device, found.first, cl_uint{0}, cells + 1);
-  const auto slot_count = static_cast<cl_uint>(slots);
-  run("count_neighbours", slots, diagram.labels(), grid.width(), grid.height(), slot_count, found.slots,
-      found.lengths, found.first, found.neighbours, found.perimeters);
-
-  // The list's size must come to the host in any case, to allocate it: the running sum is made there too.
-  std::vector<cl_uint> first = download<cl_uint>(device, found.first, cells + 1);
-  cl_uint pairs = 0;
-  for (cl_uint& entry : first) {
-    const cl_uint here = entry;
-    entry = pairs;
-    pairs += here;
-  }
-  upload(device, found.first, first);
-  make_room(found.pair_list, device, pairs * words_per_pair * word);
-  run("place_pairs", slots, diagram.labels(), grid.width(), grid.height(), slot_count, found.slots,
-      found.lengths, found.first, found.placed, found.pair_list);
-  run("sort_pairs", cells, count, found.first, found.pair_list);
-  diagram.wait();
-  measured.check();
-  found.pairs = pairs;
-  found.frames = std::move(measured);
 }
 
 std::vector<CellPair> AdjacencyResult::read_pairs() const {
   if (pairs() == 0) return {};
-  const auto words =
-      download<cl_uint>(state_->frames.seeds->device, state_->pair_list, pairs() * words_per_pair);
+  const auto words = download<cl_uint>(state_->of->device, state_->pair_list, pairs() * words_per_pair);
   std::vector<CellPair> list;
   list.reserve(pairs());
   for (std::size_t i = 0; i < words.size(); i += words_per_pair) {
@@ -119,27 +166,23 @@ std::vector<CellPair> AdjacencyResult::read_pairs() const {
 
 std::vector<std::uint32_t> AdjacencyResult::read_neighbours() const {
   if (!state_ || state_->size() == 0) return {};
-  return download<std::uint32_t>(state_->frames.seeds->device, state_->neighbours, state_->size());
+  return download<std::uint32_t>(state_->of->device, neighbours(), state_->size());
 }
 
 std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
   if (!state_ || state_->size() == 0) return {};
-  return download<std::uint32_t>(state_->frames.seeds->device, state_->perimeters, state_->size());
+  return download<std::uint32_t>(state_->of->device, perimeters(), state_->size());
 }
 
-std::size_t count_vertices(const Diagram& diagram) {
-  const Device& device = diagram.device();
-  const Grid& grid = diagram.grid();
-  if (grid.width() == 1 || grid.height() == 1) return 0;
-  const cl::Buffer vertices = allocate(device, sizeof(cl_uint), "the vertices");
-  fill(device, vertices, cl_uint{0}, 1);
-  const auto columns = static_cast<std::size_t>(grid.periodic_x() ? grid.width() : grid.width() - 1);
-  const auto rows = static_cast<std::size_t>(grid.periodic_y() ? grid.height() : grid.height() - 1);
-  const std::size_t across = (columns - 1) / corners_per_item + 1;
-  Kernel(device, "measures/vertices.cl", "find_vertices", grid)
-      .over_items(across * rows, diagram.labels(), grid.width(), grid.height(), corners_per_item, vertices);
-  diagram.wait();
-  return download<cl_uint>(device, vertices, 1).front();
+Report adjacency(const Diagram& diagram, AdjacencyResult& result) {
+  Measuring<AdjacencyState> measuring(result);
+  AdjacencyState& found = measuring.state();
+  MeasuredDiagram of = cells_of(diagram);
+  found.labels = diagram.labels();
+  found.fills = Internal::state(diagram).fills;
+  found.fill_measured = *found.fills;
+  const auto [first, last] = found.find(of, first_slots(of.count()));
+  return measuring.commit(std::move(of), first, last);
 }
 
 }  // namespace vorocl

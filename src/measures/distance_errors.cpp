@@ -1,33 +1,73 @@
 #include "vorocl/distance_errors.hpp"
 
 #include <algorithm>
+#include <string>
 
-#include "measures/judged_labels.hpp"
+#include "measures/comparison.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
 
-DistanceErrors distance_errors(const Seeds& seeds, const Diagram& diagram, const Diagram& exact,
-                               Metric metric) {
-  frames_of(seeds, exact);
-  const auto measured = frames_of(seeds, diagram);
-  const Device& device = diagram.device();
-  const std::size_t items = judging_items(diagram.grid());
-  const cl::Buffer wrong = allocate(device, items * sizeof(cl_uint2), "the errors");
-  const cl::Buffer excesses = allocate(device, items * sizeof(cl_float2), "the errors");
-  enqueue_judging("judge_labels", seeds, *measured.seeds, diagram, exact, metric, wrong, excesses);
-  diagram.wait();
-  exact.wait();
-  measured.check();
+// --- two diagrams ---
 
+void check_labels_fit(const Diagram& a, const Diagram& b) {
+  if (!a.device().same_as(b.device())) throw Error("the diagrams belong to different devices");
+  if (a.window() != b.window()) throw Error("diagrams of different windows cannot be compared");
+}
+
+MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
+  check_labels_fit(a, b);
+  MeasuredDiagram one = cells_of(a);
+  const MeasuredDiagram other = cells_of(b);
+  if (one.metric != other.metric)
+    throw Error("diagrams of different metrics cannot be compared by distances");
+  // Clones of seeds have frames of their own, but share where they lie.
+  if (one.placement != other.placement) {
+    throw Error("the diagrams are of different frames of seeds, and cannot be compared by distances");
+  }
+  return one;
+}
+
+// --- errors ---
+
+struct DistanceErrorsState : Compared {
+  cl::Buffer wrong, excesses;  // of each work-item: see comparison.cl
+};
+
+DistanceErrorsResult::DistanceErrorsResult() = default;
+DistanceErrorsResult::~DistanceErrorsResult() = default;
+DistanceErrorsResult::DistanceErrorsResult(DistanceErrorsResult&& other) noexcept = default;
+DistanceErrorsResult& DistanceErrorsResult::operator=(DistanceErrorsResult&& other) noexcept = default;
+
+Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErrorsResult& result) {
+  Measuring<DistanceErrorsState> measuring(result);
+  DistanceErrorsState& found = measuring.state();
+  MeasuredDiagram of = cells_of_both(diagram, exact);
+  const std::size_t items = comparing_items(of.grid);
+  make_room(found.wrong, of.device, items * sizeof(cl_uint2));
+  make_room(found.excesses, of.device, items * sizeof(cl_float2));
+  const cl::Event judged =
+      found.kernels.get(of.device, "measures/comparison.cl", "judge_labels", of.grid, of.options())
+          .over_items(items, diagram.labels(), exact.labels(), of.positions(), of.count(), of.periods(),
+                      of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item), found.wrong,
+                      found.excesses);
+  found.other = labels_of(exact).seeds;
+  return measuring.commit(std::move(of), judged, judged);
+}
+
+DistanceErrors DistanceErrorsResult::read() const {
   DistanceErrors errors;
-  errors.pixels = diagram.grid().pixels();
-  for (const cl_uint2& some : download<cl_uint2>(device, wrong, items)) {
+  if (!state_ || state_->empty()) return errors;
+  state_->check();
+  const MeasuredDiagram& of = *state_->of;
+  const std::size_t items = comparing_items(of.grid);
+  errors.pixels = of.grid.pixels();
+  for (const cl_uint2& some : download<cl_uint2>(of.device, state_->wrong, items)) {
     errors.wrong_pixels += some.s[0];
     errors.unlabelled_pixels += some.s[1];
   }
   double sum = 0;
-  for (const cl_float2& some : download<cl_float2>(device, excesses, items)) {
+  for (const cl_float2& some : download<cl_float2>(of.device, state_->excesses, items)) {
     sum += some.s[0];
     errors.largest_excess = std::max(errors.largest_excess, static_cast<double>(some.s[1]));
   }

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "core/seeds_state.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/opencl_info.hpp"
 
@@ -48,34 +47,29 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   buffer = allocate(device, bytes, "the measures of a diagram");
 }
 
-void MeasuredFrames::check() const {
-  if (seeds) seeds->check();
-  if (labels) labels->check();
+MeasuredDiagram labels_of(const Diagram& diagram) {
+  const DiagramState& state = Internal::state(diagram);
+  MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
+  if (!state.contents) return measured;
+  measured.seeds = state.contents->seeds;
+  measured.placement = state.contents->placement;
+  measured.metric = state.contents->metric;
+  return measured;
 }
 
-MeasuredFrames frames_of(const Diagram& diagram) {
-  const std::optional<DiagramContents>& contents = Internal::state(diagram).contents;
-  return {nullptr, contents ? contents->seeds : nullptr};
+MeasuredDiagram cells_of(const Diagram& diagram) {
+  MeasuredDiagram measured = labels_of(diagram);
+  if (measured.seeds) return measured;
+  throw Error(
+      "the diagram knows no seeds to measure it by; run a method, or write labels with their seeds and "
+      "metric");
 }
 
-MeasuredFrames frames_of(const Seeds& seeds, const Diagram& diagram) {
-  Internal::state(diagram).check_fits(seeds);
-  MeasuredFrames frames = frames_of(diagram);
-  frames.seeds = Internal::state(seeds).frame();
-  return frames;
-}
-
-Blocks::Blocks(const Device& device, const Grid& grid)
+Blocks::Blocks(const Device& device, const PixelGrid& grid)
     : device_(with_groups_for_blocks(device)),
       grid_(grid),
       wide_(shape_of_blocks(device).wide),
       high_(shape_of_blocks(device).high),
       count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
-
-Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
-                 const cl::Event& last) {
-  check(clFlush(device.queue()()), "starting a measurement");
-  return {0, first, last, stopwatch.milliseconds()};
-}
 
 }  // namespace vorocl

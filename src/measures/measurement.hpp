@@ -1,8 +1,10 @@
-// What the measurements of a diagram share: their buffers, and the blocks that their work-items
-// walk through (see runs.cl).
+// What the measures of a diagram share: what they remember of it, their results, and the blocks that their
+// work-items walk through (see runs.cl).
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "core/diagram_state.hpp"
 #include "vorocl/opencl.hpp"
@@ -13,27 +15,77 @@ namespace vorocl {
 /// Makes the buffer of a result, unless there is one of this device that is large enough.
 void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes);
 
-/// The frames that a measurement depends on: a bad point in either makes it wrong.
-struct MeasuredFrames {
-  std::shared_ptr<const SeedsFrame> seeds;   // that were measured; null where a measurement takes none
-  std::shared_ptr<const SeedsFrame> labels;  // that the diagram was made from; null if no engine made it
+/// A diagram as a measure sees it and its result remembers it: the seeds may move on, and the diagram may be
+/// filled again or destroyed.
+struct MeasuredDiagram {
+  Device device;
+  Window window;
+  PixelGrid grid;                              // its pixels, periodic along axes that it shows whole
+  std::shared_ptr<const SeedsFrame> seeds;     // null: the labels name none
+  std::shared_ptr<const Placement> placement;  // null likewise
+  Metric metric;
 
-  /// Throws BadPoint if either had one. May wait for the device.
-  void check() const;
+  // What kernels get of the seeds: SEED_PARAMETERS of seed_place.cl, and the options that they are built
+  // for. Only where there are seeds.
+  const cl::Buffer& positions() const { return outer() ? outer()->seeds : *placement->positions; }
+  cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
+  cl_uint2 periods() const { return outer() ? outer()->periods : cl_uint2{}; }
+  KernelOptions options() const { return {metric, Neighbourhood::moore, extent()}; }
+  KernelOptions options_without_metric() const { return {{}, Neighbourhood::moore, extent()}; }
+
+  /// Whether distances may take more than 32 bits.
+  bool is_far() const { return extent() == Extent::far; }
+
+  /// Throws BadPoint if the seeds had one. May wait for the device.
+  void check() const {
+    if (seeds) seeds->check();
+  }
+
+ private:
+  const OuterSeeds* outer() const { return placement->outer.get(); }
+  Extent extent() const { return outer() ? outer()->extent : Extent::grid; }
 };
 
-/// Those of a diagram, and of seeds that fit it. Throws Error if they do not.
-MeasuredFrames frames_of(const Diagram& diagram);
-MeasuredFrames frames_of(const Seeds& seeds, const Diagram& diagram);
+/// A diagram for a measure that looks at labels alone.
+MeasuredDiagram labels_of(const Diagram& diagram);
 
-/// What all results of cells hold: the frames that were measured, and the kernels that measured them. There
-/// are no frames before the first measurement, and while one is being made: a result that failed is empty.
+/// A diagram for a measure that needs its seeds. Throws Error if it knows none.
+MeasuredDiagram cells_of(const Diagram& diagram);
+
+/// What every result holds. It is empty before the first measurement and while one is being made: a
+/// measurement that failed leaves it so.
 struct Measured {
-  MeasuredFrames frames;
+  std::optional<MeasuredDiagram> of;  // none: it is empty
   KernelSet kernels;
 
-  bool empty() const { return !frames.seeds; }
-  std::size_t size() const { return empty() ? 0 : frames.seeds->size; }
+  bool empty() const { return !of; }
+
+  /// The cells.
+  std::size_t size() const { return of && of->seeds ? of->seeds->size : 0; }
+};
+
+/// One measurement into a result, which it empties: a measure then checks its arguments, allocates and
+/// enqueues, and commits at the end.
+template <typename State>
+class Measuring {
+ public:
+  template <typename Result>
+  explicit Measuring(Result& result) : state_(Internal::result(result)) {
+    state_.of.reset();
+  }
+
+  State& state() { return state_; }
+
+  /// Says that the result holds what was enqueued, of this diagram. Starts it, and reports it.
+  Report commit(MeasuredDiagram&& of, const cl::Event& first, const cl::Event& last) {
+    check(clFlush(of.device.queue()()), "starting a measurement");
+    state_.of = std::move(of);
+    return Internal::report(0, first, last, stopwatch_.milliseconds());
+  }
+
+ private:
+  Stopwatch stopwatch_;
+  State& state_;
 };
 
 /// A buffer of a result, null if it is empty.
@@ -46,7 +98,7 @@ const cl::Buffer& buffer_of(const std::unique_ptr<State>& state, cl::Buffer Stat
 /// The blocks of a grid, one per work-item.
 class Blocks {
  public:
-  Blocks(const Device& device, const Grid& grid);
+  Blocks(const Device& device, const PixelGrid& grid);
 
   /// Blocks have 2^wide columns and 2^high rows.
   int wide() const { return wide_; }
@@ -62,13 +114,9 @@ class Blocks {
 
  private:
   Device device_;
-  Grid grid_;
+  PixelGrid grid_;
   int wide_, high_;
   std::size_t count_;
 };
-
-/// Starts what was enqueued since the stopwatch was made, and reports it.
-Report report_of(const Stopwatch& stopwatch, const Device& device, const cl::Event& first,
-                 const cl::Event& last);
 
 }  // namespace vorocl

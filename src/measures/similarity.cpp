@@ -1,34 +1,45 @@
 #include "vorocl/similarity.hpp"
 
 #include <cmath>
+#include <string>
 
-#include "measures/judged_labels.hpp"
+#include "measures/comparison.hpp"
 #include "runtime/buffer.hpp"
-#include "vorocl/cells.hpp"
 
 namespace vorocl {
 
+struct SimilarityState : Compared {
+  cl::Buffer differences;
+};
+
+SimilarityResult::SimilarityResult() = default;
+SimilarityResult::~SimilarityResult() = default;
+SimilarityResult::SimilarityResult(SimilarityResult&& other) noexcept = default;
+SimilarityResult& SimilarityResult::operator=(SimilarityResult&& other) noexcept = default;
+const cl::Buffer& SimilarityResult::differences() const {
+  return buffer_of(state_, &SimilarityState::differences);
+}
+
 namespace {
+
 double percentage(std::size_t differences, std::size_t pixels) {
   return 100.0 * static_cast<double>(pixels - differences) / static_cast<double>(pixels);
 }
 
-/// A counter on the device, which is 0.
-cl::Buffer no_differences(const Device& device) {
-  cl::Buffer counter = allocate(device, sizeof(cl_uint), "the similarity");
-  fill(device, counter, cl_uint{0}, 1);
-  return counter;
+/// Counts differences by a kernel, which gets the labels, these arguments, and the counter.
+template <typename... Arguments>
+Report count(Measuring<SimilarityState>& measuring, MeasuredDiagram&& of, const Diagram& a, const Diagram& b,
+             const char* kernel, const KernelOptions& options, const Arguments&... arguments) {
+  SimilarityState& found = measuring.state();
+  make_room(found.differences, of.device, sizeof(cl_uint));
+  const cl::Event first = fill(of.device, found.differences, cl_uint{0}, 1);
+  const cl::Event last =
+      found.kernels.get(of.device, "measures/comparison.cl", kernel, of.grid, options)
+          .over_items(comparing_items(of.grid), a.labels(), b.labels(), arguments..., found.differences);
+  found.other = labels_of(b).seeds;
+  return measuring.commit(std::move(of), first, last);
 }
 
-/// What the counter says. Waits.
-std::size_t counted(const cl::Buffer& differences, const Device& device) {
-  return download<cl_uint>(device, differences, 1).front();
-}
-
-void check_pair(const Diagram& a, const Diagram& b) {
-  if (!a.device().same_as(b.device())) throw Error("the diagrams belong to different devices");
-  if (a.grid() != b.grid()) throw Error("diagrams of different grids cannot be compared");
-}
 }  // namespace
 
 double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
@@ -41,35 +52,39 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
   return percentage(differences, a.size());
 }
 
-std::size_t changed_pixels(const Diagram& a, const Diagram& b) {
-  check_pair(a, b);
-  const cl::Buffer differences = no_differences(a.device());
-  Kernel(a.device(), "measures/similarity.cl", "count_differences", a.grid())
-      .over_items(judging_items(a.grid()), a.labels(), b.labels(), static_cast<cl_uint>(a.grid().pixels()),
-                  static_cast<cl_uint>(judged_per_item), differences);
-  a.wait();
-  b.wait();
-  return counted(differences, a.device());
+Report similarity(const Diagram& a, const Diagram& b, SimilarityResult& result) {
+  Measuring<SimilarityState> measuring(result);
+  check_labels_fit(a, b);
+  MeasuredDiagram of = labels_of(a);
+  const auto pixels = static_cast<cl_uint>(of.grid.pixels());
+  return count(measuring, std::move(of), a, b, "count_differences", {}, pixels,
+               static_cast<cl_uint>(pixels_per_item));
 }
 
-double similarity(const Diagram& a, const Diagram& b) {
-  return percentage(changed_pixels(a, b), a.grid().pixels());
-}
-
-double similarity(const Seeds& seeds, const Diagram& a, const Diagram& b, double tolerance, Metric metric) {
+Report similarity(const Diagram& a, const Diagram& b, double tolerance, SimilarityResult& result) {
+  Measuring<SimilarityState> measuring(result);
   if (!(tolerance >= 0 && std::isfinite(tolerance))) {
     throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
   }
-  check_pair(a, b);
-  const MeasuredFrames of_a = frames_of(seeds, a), of_b = frames_of(seeds, b);
-  const cl::Buffer differences = no_differences(a.device());
-  enqueue_judging("count_distant", seeds, *of_a.seeds, a, b, metric, static_cast<cl_float>(tolerance),
-                  differences);
-  a.wait();
-  b.wait();
-  of_a.check();
-  of_b.check();
-  return percentage(counted(differences, a.device()), a.grid().pixels());
+  MeasuredDiagram of = cells_of_both(a, b);
+  const cl::Buffer positions = of.positions();
+  const KernelOptions options = of.options();
+  const cl_uint cells = of.count();
+  const cl_uint2 periods = of.periods();
+  const int width = of.grid.width(), height = of.grid.height();
+  return count(measuring, std::move(of), a, b, "count_distant", options, positions, cells, periods, width,
+               height, static_cast<cl_uint>(pixels_per_item), static_cast<cl_float>(tolerance));
+}
+
+std::size_t SimilarityResult::read_differences() const {
+  if (!state_ || state_->empty()) return 0;
+  state_->check();
+  return download<cl_uint>(state_->of->device, state_->differences, 1).front();
+}
+
+double SimilarityResult::read() const {
+  if (!state_ || state_->empty()) return 100;
+  return percentage(read_differences(), state_->of->grid.pixels());
 }
 
 }  // namespace vorocl

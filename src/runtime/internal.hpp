@@ -22,6 +22,9 @@ struct Internal {
     return {waves, first, last, host_milliseconds, start};
   }
 
+  /// The first command of what a report is of.
+  static const cl::Event& first(const Report& report) { return report.first_; }
+
   /// Seeds of which there are none yet: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);
 
@@ -30,6 +33,12 @@ struct Internal {
   static auto& result(Result& result) {
     if (!result.state_) result.state_ = std::make_unique<typename decltype(result.state_)::element_type>();
     return *result.state_;
+  }
+
+  /// The same of a result that is not to be changed; null before its first use.
+  template <typename Result>
+  static const auto* held(const Result& result) {
+    return result.state_.get();
   }
 };
 

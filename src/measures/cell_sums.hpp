@@ -1,0 +1,14 @@
+// What cell_sums() leaves on the device, which the statistics take.
+#pragma once
+
+#include "measures/measurement.hpp"
+#include "vorocl/cells.hpp"
+
+namespace vorocl {
+
+struct CellSumsState : Measured {
+  cl::Buffer area, sum_x, sum_y;
+  cl::Buffer home, home_sums, periods_x, periods_y;  // while the sums are made: see cells.cl
+};
+
+}  // namespace vorocl

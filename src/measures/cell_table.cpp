@@ -1,0 +1,48 @@
+#include "measures/measurement.hpp"
+#include "vorocl/adjacency.hpp"
+#include "vorocl/cells.hpp"
+
+namespace vorocl {
+
+namespace {
+
+double length_of_pixel(const Axis& axis) {
+  return (axis.to() - axis.from()) / static_cast<double>(axis.pixels());
+}
+
+/// A position in pixels from a window's first one, in the units of the data.
+Point point_in(const Window& window, const Point& position) {
+  return window.grid().point(
+      {position.x + static_cast<double>(window.x()), position.y + static_cast<double>(window.y())});
+}
+
+}  // namespace
+
+std::vector<CellRow> cell_table(const Diagram& diagram) {
+  CellSumsResult sums_of_cells;
+  CellShapesResult shapes_of_cells;
+  AdjacencyResult pairs;
+  cell_sums(diagram, sums_of_cells);
+  cell_shapes(diagram, shapes_of_cells);
+  adjacency(diagram, pairs);
+  const std::vector<CellSums> sums = sums_of_cells.read();
+  const std::vector<CellShape> shapes = shapes_of_cells.read();
+  const std::vector<std::uint32_t> neighbours = pairs.read_neighbours();
+
+  const MeasuredDiagram of = cells_of(diagram);
+  const Window& window = of.window;
+  const Grid& grid = window.grid();
+  const double area_of_pixel = length_of_pixel(grid.x()) * length_of_pixel(grid.y());
+  const std::vector<PlanePosition> pixels = of.seeds->read_pixels();
+  std::vector<CellRow> rows;
+  for (std::uint32_t id = 0; id < pixels.size(); ++id) {
+    if (is_absent(pixels[id])) continue;
+    const Point centre = {pixels[id].s[0] + 0.5, pixels[id].s[1] + 0.5};
+    const Point seed = of.seeds->given ? (*of.seeds->given)[id] : grid.point(centre);
+    rows.push_back({id, seed, sums[id].area, sums[id].area * area_of_pixel,
+                    point_in(window, sums[id].centroid()), shapes[id].touches_border, neighbours[id]});
+  }
+  return rows;
+}
+
+}  // namespace vorocl
