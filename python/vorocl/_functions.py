@@ -247,7 +247,7 @@ def expand_labels(
         made._diagram.expand(farthest, nearest)
     known = np.zeros(np.count_nonzero(image) + 1, image.dtype)  # the background is the last one
     known[:-1] = image[image != 0]
-    expanded: NDArray[Any] = known[np.minimum(nearest, len(known) - 1)]
+    expanded: NDArray[Any] = known.take(np.minimum(nearest, len(known) - 1))
     return expanded
 
 
