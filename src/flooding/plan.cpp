@@ -39,12 +39,12 @@ int dynamic_first_step(const Window& window, std::size_t seeds, double max_displ
   return step;
 }
 
+}  // namespace
+
 void append_extra_waves(Plan& plan, int waves, Neighbourhood neighbourhood) {
   if (waves == 2) plan.push_back({2, neighbourhood});
   if (waves >= 1) plan.push_back({1, neighbourhood});
 }
-
-}  // namespace
 
 int first_step(const Window& window) {
   const PixelGrid grid(window);
