@@ -37,11 +37,11 @@ struct DynamicJumpFloodingOptions {
 /// - If a buffer said which seeds are present, it asks how many they are, on which the waves depend.
 ///
 /// Reach::measured: as close to the exact diagram as JFA for any seeds and any motion. The pass over the
-/// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on, JFA's
-/// waves run from a step that covers that distance. `max_displacement` may be less than what was: the
-/// distance shows it. Evenly spread seeds get the paper's plan, and its labels. Cost: as above, at most JFA's
-/// waves and a pass over the labels. Waits, once the labels are measured: each frame is enqueued when the
-/// device has come to it.
+/// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on
+/// (docs/moving_seeds.md says when), JFA's waves run from a step that covers that distance.
+/// `max_displacement` may be less than what was: the distance shows it. Evenly spread seeds get the paper's
+/// plan, and its labels. Cost: as above, at most JFA's waves and a pass over the labels. Waits, once the
+/// labels are measured: each frame is enqueued when the device has come to it.
 ///
 /// 13 bytes of device memory per pixel. Throws as jump_flooding(), and if an option is out of its range.
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,

@@ -5,12 +5,14 @@
 
 // A coordinate's pixel on an axis of `size` pixels, which wraps if the axis is periodic; -1 if there is none.
 static inline int snapped(float at, int size, int periodic) {
-  // Written so that a NaN fails.
-  if (!(at >= -0x1p31f && at < 0x1p31f)) return -1;
-  const int pixel = (int)floor(at);
-  if (!periodic) return pixel >= 0 && pixel < size ? pixel : -1;
-  const int rest = pixel % size;
-  return rest < 0 ? rest + size : rest;
+  // Both conditions are written so that a NaN fails.
+  if (periodic) {
+    if (!(fabs(at) < INFINITY)) return -1;
+    const int pixel = (int)floor(fmod(at, (float)size));
+    return pixel < 0 ? pixel + size : pixel;
+  }
+  if (!(at >= 0 && at < (float)size)) return -1;
+  return (int)at;
 }
 
 // Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and

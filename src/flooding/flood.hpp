@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/diagram_state.hpp"
-#include "vorocl/plan.hpp"
+#include "flooding/reaching_plan.hpp"
 
 namespace vorocl {
 

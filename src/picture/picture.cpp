@@ -60,11 +60,16 @@ void for_each_run(const std::vector<std::uint32_t>& labels, OnRun on_run) {
   }
 }
 
+int rows_of(const Window& window) { return static_cast<int>(window.height()); }
+int columns_of(const Window& window) { return static_cast<int>(window.width()); }
+
+cv::Mat empty_picture(const Window& window) { return {rows_of(window), columns_of(window), CV_8UC3}; }
+
 /// A picture with color(label) in each pixel, and black where there is no label.
 template <typename Color>
-cv::Mat color_by_label(const std::vector<std::uint32_t>& labels, const Grid& grid, Color color) {
-  check_count(labels.size(), "labels", grid.width(), grid.height());
-  cv::Mat picture(grid.height(), grid.width(), CV_8UC3);
+cv::Mat color_by_label(const std::vector<std::uint32_t>& labels, const Window& window, Color color) {
+  check_count(labels.size(), "labels", columns_of(window), rows_of(window));
+  cv::Mat picture = empty_picture(window);
   auto* const pixels = picture.ptr<cv::Vec3b>();
   for_each_run(labels, [&](std::size_t begin, std::size_t end) {
     const cv::Vec3b of_run = labels[begin] == no_label ? black : color(labels[begin]);
@@ -187,32 +192,32 @@ std::optional<Scale> range_of(const std::vector<float>& distances) {
   return range.scale();
 }
 
-cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid) {
+cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window) {
   std::unordered_map<std::uint32_t, cv::Vec3b> colors;  // making one takes long
-  return color_by_label(labels, grid, [&](std::uint32_t label) {
+  return color_by_label(labels, window, [&](std::uint32_t label) {
     const auto found = colors.find(label);
     return found != colors.end() ? found->second : colors.emplace(label, color_of(label)).first->second;
   });
 }
 
-cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Grid& grid, Palette palette) {
+cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window, Palette palette) {
   if (!is_categorical(palette)) throw Error("ids are coloured by a categorical palette, such as okabe_ito");
-  return color_by_label(labels, grid, categorical_color);
+  return color_by_label(labels, window, categorical_color);
 }
 
-cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Grid& grid,
+cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Window& window,
                        const std::vector<double>& values, const Scale& scale, Palette palette) {
   const Colors colors(scale, palette);
-  return color_by_label(labels, grid, [&](std::uint32_t label) { return colors(value_of(label, values)); });
+  return color_by_label(labels, window, [&](std::uint32_t label) { return colors(value_of(label, values)); });
 }
 
-cv::Mat color_by_distance(const std::vector<float>& distances, const Grid& grid, const Scale& scale,
+cv::Mat color_by_distance(const std::vector<float>& distances, const Window& window, const Scale& scale,
                           Palette palette) {
-  check_count(distances.size(), "distances", grid.width(), grid.height());
   if (is_categorical(palette))
     throw Error("distances are coloured by a palette of quantities, such as viridis");
   const Colors colors(scale, palette);
-  cv::Mat picture(grid.height(), grid.width(), CV_8UC3);
+  check_count(distances.size(), "distances", columns_of(window), rows_of(window));
+  cv::Mat picture = empty_picture(window);
   std::transform(distances.begin(), distances.end(), picture.begin<cv::Vec3b>(), [&](float distance) {
     return std::isinf(distance) ? black : colors(static_cast<double>(distance));
   });

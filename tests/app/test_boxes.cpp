@@ -127,7 +127,8 @@ BOOST_AUTO_TEST_CASE(measures_in_a_part_of_the_picture_are_those_of_its_pixels) 
   for (std::uint32_t id = 0; id < 9; ++id) {
     const Pixel pixel = {static_cast<int>(random() % 20), static_cast<int>(random() % 24)};
     seeds[id] = pixel;
-    part.points.push_back({2 + (pixel.x + 0.5) / 4, (23 - pixel.y + 0.5) / 4});
+    const Point at = centre(pixel);
+    part.points.push_back({2 + at.x / 4, (24 - at.y) / 4});
   }
   folder.file("t.lammpstrj", text_of({all, part}, "pp pp pp"));
   for (const std::string method : {"exact", "djfa"}) {

@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
   const std::string path = VOROCL_SAMPLES "/lj-clusters.lammpstrj";
   std::vector<command::Frame> frames;
   command::read_frames(path, frames);
-  const Grid grid(170, 142);
+  const command::Size size(170, 142);
   for (const std::size_t number : {std::size_t{0}, std::size_t{7}}) {
     const command::Frame& frame = frames.at(number);
     SeedsById seeds;
@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
       const command::Box& box = *frame.box;
       const Point& at = frame.positions[i];
       seeds[frame.ids[i]] = {
-          static_cast<int>(std::floor((at.x - box.x0) * grid.width() / (box.x1 - box.x0))),
-          static_cast<int>(std::floor((at.y - box.y0) * grid.height() / (box.y1 - box.y0)))};
+          static_cast<int>(std::floor((at.x - box.x0) * size.width() / (box.x1 - box.x0))),
+          static_cast<int>(std::floor((at.y - box.y0) * size.height() / (box.y1 - box.y0)))};
     }
     BOOST_TEST(seeds.begin()->first == 1u);  // not an index
     const json result =

@@ -15,7 +15,8 @@ using namespace vorocl::command;
 
 namespace {
 
-const Grid grid(90, 70);
+const Size size(90, 70);
+const Grid grid = size.grid();
 const double absent = std::numeric_limits<double>::quiet_NaN();
 
 /// A diagram with everything that its pictures need, kept for as long as they are drawn.
@@ -36,8 +37,8 @@ struct Drawn {
   cv::Mat by(Painter& painter) const {
     MeasureBuffers buffers;
     const std::vector<std::uint32_t> no_ids;
-    const View view = {grid, grid};
-    Measures measures(seeds, diagram, no_ids, view, metric, buffers);
+    const View view = {size, grid};
+    Measures measures(seeds, diagram, no_ids, view, buffers);
     return painter.draw(measures, values);
   }
   cv::Mat with(const PictureOptions& options) const {
@@ -163,7 +164,7 @@ BOOST_AUTO_TEST_CASE(columns_colour_the_cells_of_their_seeds) {
   const cv::Mat picture = drawn.with(options_for(Quantity::column, "c"));
   const std::uint8_t levels[] = {0, 96, 0, 255, 191};  // of viridis, from -1 to 3
   for (std::size_t id = 0; id < pixels.size(); ++id) {
-    const auto& color = picture.at<cv::Vec3b>(pixels[id].y, pixels[id].x);
+    const auto& color = picture.at<cv::Vec3b>(static_cast<int>(pixels[id].y), static_cast<int>(pixels[id].x));
     if (id == 2) {
       BOOST_TEST((color[0] == color[1] && color[1] == color[2] && color[0] > 180));
     } else {
@@ -197,7 +198,7 @@ BOOST_AUTO_TEST_CASE(a_film_keeps_its_scale_and_size) {
     options.color_bar = true;
     Painter with_bar(options, true);
     const cv::Mat bar = few.by(with_bar), later = many.by(with_bar);
-    const cv::Rect strip(grid.width(), 0, bar.cols - grid.width(), bar.rows);
+    const cv::Rect strip(size.width(), 0, bar.cols - size.width(), bar.rows);
     BOOST_TEST(bar.size() == later.size());
     BOOST_TEST(same(bar(strip), later(strip)));
   }
@@ -236,7 +237,7 @@ BOOST_AUTO_TEST_CASE(pictures_without_values_are_possible_and_bars_are_not) {
     PictureOptions options = options_for(quantity, "c");
     options.contours = true;
     const cv::Mat picture = empty.with(options);
-    BOOST_TEST(same(picture, cv::Mat(grid.height(), grid.width(), CV_8UC3, cv::Scalar::all(0))));
+    BOOST_TEST(same(picture, cv::Mat(size.height(), size.width(), CV_8UC3, cv::Scalar::all(0))));
   }
   PictureOptions options = options_for(Quantity::column, "c");
   Painter film(options, true);

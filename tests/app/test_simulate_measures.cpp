@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
     std::vector<std::string> rows;
     rows.reserve(seeds.size());
     for (const auto& [id, pixel] : seeds) {
-      rows.push_back(fmt::format("{} {} {}", id, (pixel.x + 0.5) / 2, (pixel.y + 0.5) / 2));
+      rows.push_back(fmt::format("{} {} {}", id, centre(pixel).x / 2, centre(pixel).y / 2));
     }
     text += command::dump(command::periodic_box, "id x y", rows);
   }

@@ -33,11 +33,12 @@ std::string frame_text(const Particles& particles, const std::string& box = peri
 
 /// The exact labels of a box of 10 x 10, whose y axis points up, as ids of particles.
 std::vector<std::uint32_t> exact_labels(const Particles& particles, const Grid& grid) {
+  const command::Size size(grid);
   std::vector<Pixel> pixels;
   std::vector<std::uint32_t> ids;
   for (const auto& [id, at] : particles) {
-    pixels.push_back({static_cast<int>(std::floor(at.x * grid.width() / 10)),
-                      grid.height() - 1 - static_cast<int>(std::floor(at.y * grid.height() / 10))});
+    pixels.push_back({static_cast<int>(std::floor(at.x * size.width() / 10)),
+                      size.height() - 1 - static_cast<int>(std::floor(at.y * size.height() / 10))});
     ids.push_back(id);
   }
   std::vector<std::uint32_t> labels = brute_force(grid, pixels, Metric::euclidean);

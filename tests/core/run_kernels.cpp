@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "all_measures.hpp"
 #include "brute_force.hpp"
 #include "list_length.hpp"
 #include "reference.hpp"
@@ -54,19 +55,19 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
   Diagram diagram(device, grid);
   for (const Method& method : methods()) {
     for (const auto mix : {NeighbourhoodMix::moore, NeighbourhoodMix::von_neumann}) {
-      method.run(seeds, diagram, 0, {metric, mix});
+      method.run(seeds, diagram, {metric, mix});
     }
   }
   reference_labels(seeds, metric);
   DynamicJumpFloodingOptions options;
   options.metric = metric;
   random_step(seeds, 2, Border::reflect, 1, 1);
-  dynamic_jump_flooding(seeds, diagram, 2, options);
-  seeds.move_to({Point{1, 1}, std::nullopt, Point{2, 2}});
-  dynamic_jump_flooding(seeds, diagram, 40, options);
+  dynamic_jump_flooding(seeds, diagram, options);
+  seeds.move_to(std::vector<std::optional<Point>>{Point{1, 1}, std::nullopt, Point{2, 2}});
+  dynamic_jump_flooding(seeds, diagram, options);
   options.reach = Reach::paper;  // which looks for pixels that seeds which vanish leave without a label
-  seeds.move_to({Point{1, 1}});
-  dynamic_jump_flooding(seeds, diagram, 2, options);
+  seeds.move_to({{1, 1}});
+  dynamic_jump_flooding(seeds, diagram, options);
   diagram.wait();
 }
 
@@ -84,39 +85,39 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   }
 }
 
-/// A window with seeds in and around it, at a distance, and a zoom into a periodic domain. The right and the
-/// lower part of the grid are outside the domain.
-void make_windows(const Device& device, const Grid& grid, Metric metric) {
-  Diagram diagram(device, grid), by_short_lists(with_lists(device, ListLength::two_entries), grid);
-  for (const int distance : {40, 100000}) {
-    std::vector<Point> points = {{3, 4}, {30, 8}};
-    for (int i = 0; i < 90; ++i)
-      points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
-    Seeds seeds(device, grid, points);
-    const auto measure_labels = [&] {
+/// Windows with seeds in and around them, at a distance: all of a grid, a part of a period, and more than
+/// one, whose right and lower parts have no labels.
+void make_windows(const Device& device, Metric metric) {
+  const Grid plain(40, 25);
+  for (const Window& window : {Window(plain), Window(Grid(50, 38, Periodic::xy), 20, 20, 40, 25),
+                               Window(Grid(30, 18, Periodic::xy), -3, -2, 40, 25)}) {
+    Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
+    for (const int distance : {40, 100000}) {
+      std::vector<Point> points = {{3, 4}, {30, 8}};
+      for (int i = 0; i < 90; ++i)
+        points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
+      const Seeds seeds(device, window.grid(), points);
       exact_diagram(seeds, by_short_lists, {metric});
       exact_diagram(seeds, diagram, {metric});
-      CellShapesResult shapes;
-      cell_shapes(seeds, diagram, shapes, metric);
-      Field<float> floats;
-      distance_field(seeds, diagram, floats, metric);
-      Field<std::int32_t> integers;
-      if (distance < 1000) distance_field(seeds, diagram, integers, metric);
-      distance_errors(seeds, diagram, diagram, metric);
+      AllMeasures measures;
+      measures.take(diagram, by_short_lists);
+      if (distance < 1000) measures.read();  // farther, whole numbers are too short
       device.finish();
-    };
-    measure_labels();
-    seeds.move_to(points, {-20, -20, 50, 38, Periodic::xy});
-    measure_labels();
+    }
   }
 }
 
+/// In buffers: good points, good ones that have moved, and a bad one.
 void make_seeds(const Device& device, const Grid& grid) {
   Seeds::random(device, grid, 5, 1).read();
-  const std::vector<cl_float2> points = {{{1, 2}}, {{2, 400}}};
-  const cl::Buffer buffer(device.queue(), points.begin(), points.end(), true);
+  const auto points_in = [&](const std::vector<cl_float2>& points) {
+    return PointBuffer(cl::Buffer(device.queue(), points.begin(), points.end(), true), points.size());
+  };
+  Seeds seeds(device, grid, points_in({{{1, 2}}, {{2, 4}}}));
+  seeds.move_to(points_in({{{2, 2}}, {{2, 8}}}));
+  if (seeds.displacement() != 4) throw Error("the seeds' way is wrong");
   try {
-    Seeds(device, grid, buffer, points.size()).check();
+    Seeds(device, grid, points_in({{{1, 2}}, {{2, 400}}})).check();
   } catch (const BadPoint&) {
     return;
   }
@@ -126,41 +127,31 @@ void make_seeds(const Device& device, const Grid& grid) {
 void measure(const Device& device, const Grid& grid, Metric metric) {
   Seeds seeds(device, grid, centres(random_pixels(grid, 9, 2)));
   Diagram diagram(device, grid), other(device, grid);
-  const auto engine = [&](const Seeds& moved, Diagram& filled, double) {
+  const auto engine = [&](const Seeds& moved, Diagram& filled) {
     return jump_flooding(moved, filled, {metric});
   };
   relax(seeds, diagram, engine, 1);
   exact_diagram(seeds, other, {metric});
-  similarity(diagram, other);
-  similarity(seeds, diagram, other, 0.5, metric);
-  distance_errors(seeds, diagram, other, metric);
-  cell_statistics(seeds, diagram);
-  CellShapesResult shapes;
-  cell_shapes(seeds, diagram, shapes, metric);
-  AdjacencyResult pairs;
-  adjacency(seeds, diagram, pairs);
-  count_vertices(diagram);
-  Field<std::int32_t> integers;
-  Field<float> floats;
-  Field<std::uint8_t> mask;
-  distance_field(seeds, diagram, integers, metric);
-  distance_field(seeds, diagram, floats, metric);
-  border_mask(diagram, mask);
-  device.finish();
+  jump_flooding(seeds, diagram, {metric});
+  AllMeasures measures;
+  measures.take(diagram, other);
+  measures.read();
 }
 
 /// Three parts of the list of cells, where a work-group has two items: one item is past the last part.
 void measure_many_cells(const Device& device, const Grid& grid) {
   const Device in_twos = device.with_tuning({1, 2, 1, Shape::vector, 32});
-  const Seeds seeds = Seeds::random(in_twos, grid, 2100, 1);
   Diagram diagram(in_twos, grid);
-  jump_flooding(seeds, diagram);
-  cell_statistics(seeds, diagram);
+  jump_flooding(Seeds::random(in_twos, grid, 2100, 1), diagram);
+  CellStatisticsResult statistics;
+  cell_statistics(diagram, statistics);
+  statistics.read();
 }
 
 void make_tiles(const Device& device, Metric metric) {
-  const PlaneSeeds seeds(Plane(40, 25), {{3, 3}, {30, 20}, {17, 9}});
-  exact_tiles(device, seeds, Tiling(seeds.plane(), 16), [](const TileLabels&) {}, {metric});
+  const Grid grid(40, 25);
+  exact_tiles(device, PlaneSeeds(grid, {{3, 3}, {30, 20}, {17, 9}}), Tiling(grid, 16),
+              [](const TileLabels&) {}, {metric});
   device.finish();
 }
 
@@ -179,7 +170,7 @@ int main() {
       }
       make_exact_diagrams(shaped, Grid(176, 90), metric);
       make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
-      make_windows(shaped, Grid(40, 25), metric);
+      make_windows(shaped, metric);
       make_tiles(shaped, metric);
       for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
         measure(shaped, grid, metric);

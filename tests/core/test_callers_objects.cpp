@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {
   Diagram diagram(test_device(), grid, part);
   BOOST_TEST(diagram.read().front() == mark);  // nothing is written before an engine runs
   for (int frame = 0; frame < 2; ++frame) {
-    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram, 0);
+    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram);
     BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), 0)));
   }
   BOOST_TEST((content_of(whole, 0, before / 4) == std::vector<std::uint32_t>(before / 4, mark)));
@@ -103,14 +103,14 @@ BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
   const cl::Buffer points(test_device().queue(), values.begin(), values.end(), true);
   const cl::Buffer marks = make_buffer(2), labels = make_buffer(bytes);
   test_device().queue().enqueueFillBuffer(marks, cl_uchar{1}, 0, 2);
-  Seeds seeds(test_device(), grid, points, 2, marks);
+  const Seeds seeds(test_device(), grid, PointBuffer(points, 2, PointFormat::float2, marks));
   CellSumsResult sums;
   Field<float> field;
   {
     Diagram diagram(test_device(), grid, labels);
     exact_diagram(seeds, diagram);
-    cell_sums(seeds, diagram, sums);
-    distance_field(seeds, diagram, field);
+    cell_sums(diagram, sums);
+    distance_field(diagram, field);
     diagram.wait();
   }
   BOOST_TEST(sums.read()[0].area + sums.read()[1].area == grid.pixels());
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
 }
 
 BOOST_AUTO_TEST_CASE(write_only_points_are_refused) {
-  check_error([] { Seeds(test_device(), grid, make_buffer(80, CL_MEM_WRITE_ONLY), 10); },
+  check_error([] { Seeds(test_device(), grid, PointBuffer(make_buffer(80, CL_MEM_WRITE_ONLY), 10)); },
               {"10 points", "write-only"});
 }
 
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(the_device_waits_for_the_callers_events) {
 
   device.wait_for({});
   device.wait_for({uploaded});
-  const Seeds seeds(device, grid, points, 2);
+  const Seeds seeds(device, grid, PointBuffer(points, 2));
   Diagram diagram(device, grid);
   const Report report = jump_flooding(seeds, diagram);
   BOOST_TEST(report.event().getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE);

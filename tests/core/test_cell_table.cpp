@@ -53,11 +53,9 @@ std::vector<Row> rows_on_host(const Grid& grid, const std::vector<Pixel>& pixels
 }
 
 void check_table(const Grid& grid, const std::vector<std::optional<Point>>& points, Metric metric) {
-  std::vector<Pixel> pixels;
-  for (const std::optional<Point>& point : points) {
-    pixels.push_back(point ? Pixel{pixel_along(grid.x(), point->x), pixel_along(grid.y(), point->y)}
-                           : Pixel{0, 0});
-  }
+  const auto pixels = transformed(points, [&](const std::optional<Point>& point) {
+    return point ? Pixel{pixel_along(grid.x(), point->x), pixel_along(grid.y(), point->y)} : Pixel{0, 0};
+  });
   const Seeds seeds(test_device(), grid, points);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram, {metric});

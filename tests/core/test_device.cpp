@@ -110,6 +110,8 @@ BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {
   const Seeds seeds(test_device(), Grid(10, 20), {{1, 1}});
   Diagram other_grid(test_device(), Grid(20, 10));
   check_error([&] { jump_flooding(seeds, other_grid); }, {"10 x 20", "20 x 10"});
+  Diagram other_units(test_device(), Grid(Axis(10, 0, 1), Axis(20)));
+  check_error([&] { jump_flooding(seeds, other_units); }, {"10 x 20 pixels", "other stretches of the data"});
   Diagram other_device(Device::select(), Grid(10, 20));
   check_error([&] { jump_flooding(seeds, other_device); }, {"different devices"});
 }
@@ -125,7 +127,10 @@ BOOST_AUTO_TEST_CASE(a_diagram_larger_than_the_device_is_refused) {
 BOOST_AUTO_TEST_CASE(a_build_failure_shows_device_options_and_log) {
   // A vector width that does not exist makes the kernel's types unknown.
   check_error(
-      [] { program_for(test_device(), "flooding/jump_flooding.cl", "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16"); },
+      [] {
+        program_for(test_device(), "flooding/jump_flooding.cl",
+                    "-DVOROCL_WIDTH=5 -DVOROCL_GUARD=16 -DVOROCL_EUCLIDEAN");
+      },
       {"flooding/jump_flooding.cl", test_device().name(), "-DVOROCL_WIDTH=5", "vector.cl:", "uint5"});
 }
 

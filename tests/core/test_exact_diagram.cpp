@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_the_reference) {
 
 BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
   std::mt19937 rng(1);
-  const auto below = [&](int n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); };
+  const auto below = [&](std::int64_t n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); };
   for (int i = 0; i < (long_tests ? 100000 : 3000); ++i) {
     // Some are large enough for rows across the border of a period.
     const int most_pixels = i % 32 == 0 ? 160 : 64;
@@ -235,14 +235,15 @@ BOOST_AUTO_TEST_CASE(frame_after_frame_in_one_diagram) {
 }
 
 BOOST_AUTO_TEST_CASE(bad_input) {
-  Diagram diagram(test_device(), {20, 10});
-  const Seeds seeds(test_device(), {10, 20}, std::vector<Point>{{1, 1}});
+  const Grid grid(20, 10);
+  Diagram diagram(test_device(), grid);
+  const Seeds seeds(test_device(), {10, 20}, {{1, 1}});
   check_error([&] { exact_diagram(seeds, diagram); }, {"10 x 20", "20 x 10"});
   // A point in a device buffer that turns out bad leaves no seed, and is named at the next wait.
   const std::vector<cl_float2> points = {{{3, 3}}, {{7, 70}}};
   cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE, sizeof(cl_float2) * points.size());
   test_device().queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, sizeof(cl_float2) * points.size(),
                                            points.data());
-  exact_diagram(Seeds(test_device(), {20, 10}, buffer, points.size()), diagram);
+  exact_diagram(Seeds(test_device(), grid, PointBuffer(buffer, points.size())), diagram);
   check_error([&] { diagram.read(); }, {"point 1", "outside"});
 }

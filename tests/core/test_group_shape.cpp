@@ -51,15 +51,15 @@ void check_lists(const Case& c, Metric metric, const std::vector<ListLength>& le
   }
 }
 
-int below(std::mt19937& rng, int n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); }
+int below(std::mt19937& rng, std::int64_t n) { return static_cast<int>(rng() % static_cast<unsigned>(n)); }
 
 /// Seeds at so many places round a circle, in the middle of the grid.
 std::vector<Pixel> circle(const Grid& grid, int seeds, double radius) {
   std::vector<Pixel> pixels;
   for (int i = 0; i < seeds; ++i) {
     const double angle = 2 * 3.14159265358979 * i / seeds;
-    pixels.push_back({static_cast<int>(grid.width() / 2.0 + radius * std::cos(angle)),
-                      static_cast<int>(grid.height() / 2.0 + radius * std::sin(angle))});
+    pixels.push_back({static_cast<int>(static_cast<double>(grid.width()) / 2 + radius * std::cos(angle)),
+                      static_cast<int>(static_cast<double>(grid.height()) / 2 + radius * std::sin(angle))});
   }
   return pixels;
 }

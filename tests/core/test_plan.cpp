@@ -1,6 +1,7 @@
 // Plans: the steps of the waves, against the paper's formula.
 #define BOOST_TEST_MODULE plan
 #include "fixture.hpp"
+#include "flooding/reaching_plan.hpp"
 
 using namespace vorocl;
 

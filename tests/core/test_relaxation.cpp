@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(bad_calls_and_nothing_to_do) {
   check_error([&] { energy(diagram); }, {"outside"});
   check_error([&] { relax(seeds, diagram, {}, 1); }, {"engine"});
   BOOST_TEST(relax(seeds, diagram, exactly, 0).rounds() == 0);
-  BOOST_TEST(points_of(seeds).front().x == 5.5);
+  BOOST_TEST(points_of(seeds).front().x == 5);  // where it was put, for nothing moved it
   Seeds none(test_device(), grid, std::vector<Point>{});
   const Relaxation nothing = relax(none, diagram, exactly, 5);
   BOOST_TEST(nothing.converged);

@@ -64,7 +64,7 @@ void make_frames(unsigned number, int frames, std::atomic<int>& wrong, std::atom
       return pixel ? std::optional(centre(*pixel)) : std::nullopt;
     }));
     if (frame % 2 == 1) {
-      dynamic_jump_flooding(seeds, diagram, grid.longest_side(), {metric});
+      dynamic_jump_flooding(seeds, diagram, {metric});
       continue;
     }
     exact_diagram(seeds, diagram, {metric});

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(the_longest_sides_are_read) {
   const TemporaryFolder folder;
   for (const Size& size : {Size(32768, 1), Size(1, 32768)}) {
     for (const char* name : {"a.npy", "a.tif"}) {
-      write_labels(folder / name, grid, std::vector<std::uint32_t>(grid.pixels(), 7));
+      write_labels(folder / name, size, std::vector<std::uint32_t>(size.pixels(), 7));
       BOOST_TEST((read_labels(folder / name).size == size), name);
     }
   }

@@ -65,14 +65,15 @@ std::map<std::string, std::string> contents_of(const std::string& path) {
   return contents;
 }
 
-/// What a reader gives for each pixel of the part.
+/// What a reader gives for each pixel of the window.
 using Reader = std::function<std::uint32_t(std::int64_t x, std::int64_t y)>;
 
 void check_labels(const Tiling& tiling, const Reader& read) {
-  const PlaneRectangle& part = tiling.part();
+  const Window& part = tiling.window();
   std::size_t wrong = 0;
-  for (std::int64_t y = 0; y < part.height; ++y) {
-    for (std::int64_t x = 0; x < part.width; ++x) wrong += read(x, y) != label_at(part.x + x, part.y + y);
+  for (std::int64_t y = 0; y < part.height(); ++y) {
+    for (std::int64_t x = 0; x < part.width(); ++x)
+      wrong += read(x, y) != label_at(part.x() + x, part.y() + y);
   }
   BOOST_TEST(wrong == 0u);
 }
@@ -288,7 +289,7 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
   };
   refuses("a.vti", tiling, "the name must end in one of .npy, .zarr, .tif, .tiff");
   refuses("a.tif", odd, "multiples of 16, not 100");
-  refuses("a.tif", Tiling(huge.plane(), 16), "at most 2^32 - 1 tiles");
+  refuses("a.tif", Tiling(huge.window(), 16), "at most 2^32 - 1 tiles");
   for (const char* const name : {"a.npy", "a.zarr", "a.tif"}) {
     refuses(name, huge, "of disk space at least");
     refuses(std::string("none/") + name, tiling, "none does not exist");

@@ -53,6 +53,15 @@ BOOST_AUTO_TEST_CASE(ids_near_each_other_are_easily_told_apart) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_window_has_the_colours_of_its_labels) {
+  const Window window(Grid(2000000000, 1000), 1999999998, 7, 2, 3);
+  const std::vector<std::uint32_t> labels = {4, no_label, 2, 2, 9, 0};
+  const cv::Mat picture = color_by_id(labels, window);
+  BOOST_TEST((picture.cols == 2 && picture.rows == 3));
+  BOOST_TEST(cv::norm(picture, color_by_id(labels, Grid(2, 3)), cv::NORM_INF) == 0);
+  check_error([&] { color_by_id(labels, window.grid()); }, {"6 labels"});
+}
+
 BOOST_AUTO_TEST_CASE(neighbours_in_a_diagram_are_told_apart) {
   const Grid grid(120, 90);
   const std::vector<std::uint32_t> labels = brute_force(grid, random_pixels(grid, 300, 5), Metric::euclidean);

@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read_or_refuse([&] { require(!read_npy_points(path).empty()); });
   read_or_refuse([&] {
     const LabelImage image = read_npy_labels(path);
-    require(image.labels.size() == image.grid.pixels());
+    require(image.labels.size() == image.size.pixels());
   });
   return 0;
 }

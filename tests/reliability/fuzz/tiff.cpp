@@ -9,7 +9,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = input_file(data, size, ".tif");
   read_or_refuse([&] {
     const LabelImage image = read_tiff_labels(path);
-    require(image.labels.size() == image.grid.pixels());
+    require(image.labels.size() == image.size.pixels());
   });
   read_or_refuse([&] { read_tiff_header(path); });
   return 0;
