@@ -21,7 +21,8 @@ namespace {
 using Labels = std::vector<std::uint32_t>;
 
 Plan plan_of(const std::string& method, const Grid& grid) {
-  if (method == "standard-flooding") return Plan(static_cast<std::size_t>(Window(grid).longest_side()));  // enough
+  if (method == "standard-flooding")
+    return Plan(static_cast<std::size_t>(Window(grid).longest_side()));  // enough
   const std::map<std::string, JumpFloodingVariant> variants = {{"jfa", JumpFloodingVariant::jfa},
                                                                {"djfa", JumpFloodingVariant::jfa},
                                                                {"jfa+1", JumpFloodingVariant::jfa_plus_1},

@@ -278,8 +278,7 @@ BOOST_AUTO_TEST_CASE(nothing_stays_of_what_is_not_finished) {
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_written_is_refused) {
-  const Tiling tiling(Grid(100, 70), 32), odd(Grid(100, 70), 100),
-      huge(Grid(1000000000, 1000000000), 32768);
+  const Tiling tiling(Grid(100, 70), 32), odd(Grid(100, 70), 100), huge(Grid(1000000000, 1000000000), 32768);
   const TemporaryFolder folder;
   const auto refuses = [&](const std::string& name, const Tiling& of, const std::string& part) {
     BOOST_CHECK_EXCEPTION(plane_file(folder / name, of), Error, [&](const Error& error) {

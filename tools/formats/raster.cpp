@@ -10,8 +10,8 @@ namespace {
 
 int checked_side(std::int64_t side, const char* name) {
   if (side >= 1 && side <= Size::max_side) return static_cast<int>(side);
-  throw Error("the grid's " + std::string(name) + " is " + std::to_string(side) +
-              "; it must be from 1 to " + std::to_string(Size::max_side) + " pixels");
+  throw Error("the grid's " + std::string(name) + " is " + std::to_string(side) + "; it must be from 1 to " +
+              std::to_string(Size::max_side) + " pixels");
 }
 
 }  // namespace

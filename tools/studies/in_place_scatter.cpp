@@ -117,10 +117,10 @@ class Scatter {
     for (const Wave& wave : plan) {
       const std::size_t items[] = {static_cast<std::size_t>(width), static_cast<std::size_t>(height)};
       const cl_int step = wave.step, stride = wave.neighbourhood == Neighbourhood::moore ? 1 : 2;
-      last = enqueue(device,
-                     kernel_of(program_, "scatter_in_place", labels_, positions_, count, width, height, step,
-                               stride),
-                     2, items);
+      last = enqueue(
+          device,
+          kernel_of(program_, "scatter_in_place", labels_, positions_, count, width, height, step, stride), 2,
+          items);
       if (first() == nullptr) first = last;
     }
     record_->add(static_cast<int>(plan.size()), first, last);
@@ -163,17 +163,17 @@ double ScatterRecord::take_milliseconds() {
 Simulation::Engine in_place_scatter(const Device& device, Stamping stamping,
                                     const std::shared_ptr<ScatterRecord>& record) {
   // A copy of the engine counts its own frames and, from the first one on, has its own labels.
-  return [scatter = Scatter(device, stamping, record), frame = 0](const Seeds& seeds,
-                                                                  Diagram& diagram) mutable {
-    if (frame++ == 0) {
-      Report report = jump_flooding(seeds, diagram);
-      scatter.begin(seeds, diagram);
-      return report;
-    }
-    scatter.run(seeds, diagram,
-                dynamic_jump_flooding_plan(diagram.window(), seeds.alive(), seeds.displacement()));
-    return Report();
-  };
+  return
+      [scatter = Scatter(device, stamping, record), frame = 0](const Seeds& seeds, Diagram& diagram) mutable {
+        if (frame++ == 0) {
+          Report report = jump_flooding(seeds, diagram);
+          scatter.begin(seeds, diagram);
+          return report;
+        }
+        scatter.run(seeds, diagram,
+                    dynamic_jump_flooding_plan(diagram.window(), seeds.alive(), seeds.displacement()));
+        return Report();
+      };
 }
 
 }  // namespace command

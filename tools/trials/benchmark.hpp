@@ -20,8 +20,8 @@ namespace vorocl::command {
 /// The least distances, by an exact method that shares nothing with the engines (a k-d tree).
 class GroundTruth {
  public:
-  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them. Finds the least distance of every pixel:
-  /// about a microsecond per pixel and core, and 4 bytes per pixel.
+  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them. Finds the least distance of every
+  /// pixel: about a microsecond per pixel and core, and 4 bytes per pixel.
   GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.

@@ -68,11 +68,7 @@ void for_each_nearest(const Size& size, Periodic periodic, const Cloud& cloud, c
 }  // namespace
 
 GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
-    : size_(grid),
-      periodic_(grid.periodic()),
-      metric_(metric),
-      seeds_(seeds.size()),
-      least_(size_.pixels()) {
+    : size_(grid), periodic_(grid.periodic()), metric_(metric), seeds_(seeds.size()), least_(size_.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     if (!seeds[id]) continue;

@@ -14,7 +14,9 @@ cv::Point pixel_of(const Point& seed) { return {static_cast<int>(seed.x), static
 
 OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional<Point>>& seeds,
                                Metric metric)
-    : seeds_(seeds), metric_(metric), image_(Size(grid).height(), Size(grid).width(), CV_8U, cv::Scalar(255)) {
+    : seeds_(seeds),
+      metric_(metric),
+      image_(Size(grid).height(), Size(grid).width(), CV_8U, cv::Scalar(255)) {
   if (grid.periodic() != Periodic::none) throw Error("opencv knows no periodic axes; leave it out");
   for (const std::optional<Point>& seed : seeds_) {
     if (seed) image_.at<std::uint8_t>(pixel_of(*seed)) = 0;

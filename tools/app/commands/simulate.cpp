@@ -40,12 +40,10 @@ class Run {
         source_(source),
         interruption_(interruption),
         writer_(writer),
-        simulation_(
-            source.place(device), source.view().window,
-            [this](Seeds& moving, Window& window, int) {
-              source_.move(moving, window);
-              displacement_ = source_.displacement();
-            }) {
+        simulation_(source.place(device), source.view().window, [this](Seeds& moving, Window& window, int) {
+          source_.move(moving, window);
+          displacement_ = source_.displacement();
+        }) {
     add_engine(options.method, options.method_options);
     if (options.compare_with) {
       // The reference: it runs with its own waves, whatever those of the first method are.
@@ -150,10 +148,19 @@ class Run {
     ++course_.frames;
   }
 
+  /// The other method's labels, as ones by the first method's metric.
+  const Diagram& in_one_metric(const Diagram& other) {
+    const Metric metric = options_.method_options.metric;
+    if (options_.other_metric() == metric) return other;
+    if (!judged_ || judged_->window() != other.window()) judged_.emplace(other.device(), other.window());
+    judged_->write(other.labels(), simulation_.seeds(), metric);
+    return *judged_;
+  }
+
   void compare() {
     const Diagram& diagram = simulation_.diagram(main_engine);
     const Diagram& other = simulation_.diagram(other_engine);
-    options_.tolerance ? similarity(diagram, other, *options_.tolerance, similarity_)
+    options_.tolerance ? similarity(diagram, in_one_metric(other), *options_.tolerance, similarity_)
                        : similarity(diagram, other, similarity_);
     const double percent = similarity_.read();
     std::optional<DistanceErrors> errors;
@@ -208,6 +215,7 @@ class Run {
   Simulation simulation_;
   MeasureBuffers buffers_;
   SimilarityResult similarity_;
+  std::optional<Diagram> judged_;  // see in_one_metric()
   DistanceErrorsResult errors_;
   Course course_;
 };

@@ -36,8 +36,9 @@ std::optional<PlanePart> parse_part(const std::string& text) {
 /// A plane that repeats has its parts in one period too.
 void check_part(const char* axis, std::int64_t first, std::int64_t count, std::int64_t pixels) {
   if (count <= pixels && first <= pixels - count) return;
-  throw Error(fmt::format("the part of the plane has {} pixels from {} = {} on; the plane has {} along that axis",
-                          count, axis, first, pixels));
+  throw Error(
+      fmt::format("the part of the plane has {} pixels from {} = {} on; the plane has {} along that axis",
+                  count, axis, first, pixels));
 }
 
 Window window_of(const TilesOptions& options) {

@@ -20,7 +20,7 @@ struct PlanePart {
 
 struct TilesOptions {
   PlaneInputOptions input;
-  int side = 0;  // of tiles; 0: the device's
+  int side = 0;                   // of tiles; 0: the device's
   std::optional<PlanePart> part;  // else all of it
   Metric metric = Metric::euclidean;
   PlaneWriterOptions output;

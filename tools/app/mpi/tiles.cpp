@@ -53,9 +53,7 @@ void check_files(const TilesOptions& options, const Ranks& ranks) {
 PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Interruption& interruption,
                       SharedSeeds& seeds) {
   PlaneReading reading;
-  reading.add = [&](std::uint64_t first, const std::vector<Point>& pixels) {
-    seeds.add(pixels, first);
-  };
+  reading.add = [&](std::uint64_t first, const std::vector<Point>& pixels) { seeds.add(pixels, first); };
   reading.reserve = [&](std::uint64_t count) {
     const auto blocks = (count / block_points + 1) / static_cast<std::uint64_t>(ranks.count) + 1;
     seeds.reserve(static_cast<std::size_t>(std::min(blocks * block_points, count)));

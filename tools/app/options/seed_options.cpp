@@ -97,8 +97,8 @@ std::optional<Grid> parse_plane(const std::string& text) {
   const auto [width, height] = parse_sides(text);
   const auto check = [](const char* name, std::int64_t side) {
     if (side >= 1 && side <= Axis::max_pixels) return;
-    throw Error(fmt::format("the plane's {} is {}; it must be from 1 to {} pixels", name, side,
-                            Axis::max_pixels));
+    throw Error(
+        fmt::format("the plane's {} is {}; it must be from 1 to {} pixels", name, side, Axis::max_pixels));
   };
   check("width", width);
   check("height", height);

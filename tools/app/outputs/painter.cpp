@@ -108,13 +108,12 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, con
   const Periodic axes = view.window.periodic();
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
-  if (options_.contours)
-    draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);
+  if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);
   if (options_.edge_width > 0) {
-    draw_edges(picture, enlarged(measures.labels().labels, size, enlargement), options_.edge_width,
-               axes);
+    draw_edges(picture, enlarged(measures.labels().labels, size, enlargement), options_.edge_width, axes);
   }
-  if (options_.points_overlay) draw_points(picture, enlarged(in_diagram(measures.seeds(), size), enlargement));
+  if (options_.points_overlay)
+    draw_points(picture, enlarged(in_diagram(measures.seeds(), size), enlargement));
   picture = in_picture(picture, view, enlargement);
   if (options_.stamp) draw_text(picture, stamp);
   if (!options_.color_bar) return picture;
@@ -160,8 +159,8 @@ cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<doub
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(image.labels, image.size.grid(), values, scale([&] { return shown(image.labels, values); }),
-                        palette_);
+  return color_by_value(image.labels, image.size.grid(), values,
+                        scale([&] { return shown(image.labels, values); }), palette_);
 }
 
 Scale Painter::scale(const std::function<std::vector<double>()>& values) {

@@ -28,8 +28,7 @@ void PlacedAxis::repeat(double low, double high, const char* name) {
   const double scale = static_cast<double>(pixels_) / (high_ - low_);
   constexpr double rounding = 1e-9;
   if (!(period_ * scale >= 1 - rounding)) {
-    throw Error(
-        fmt::format("the period in {} is {:g}, less than a pixel: take more pixels", name, period_));
+    throw Error(fmt::format("the period in {} is {:g}, less than a pixel: take more pixels", name, period_));
   }
   const std::int64_t length = std::llround(period_ * scale);
   // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
@@ -42,8 +41,7 @@ void PlacedAxis::repeat(double low, double high, const char* name) {
   const double shift =
       first - static_cast<double>(begin) + (period_ * scale - static_cast<double>(length)) / 2;
   const bool is_shifted = std::abs(shift) >= rounding;
-  const double from =
-      (moves ? low_ : low) - (is_shifted ? shift * period_ / static_cast<double>(length) : 0);
+  const double from = (moves ? low_ : low) - (is_shifted ? shift * period_ / static_cast<double>(length) : 0);
   const double to = moves || is_shifted ? from + period_ : high;
   axis_ = directed(Axis(length, from, to).periodic(), reversed_);
   begin_ = reversed_ ? pixels_ - begin - length : begin;
@@ -70,9 +68,7 @@ Stretch PlacedAxis::shown() const {
   return {static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end - begin)};
 }
 
-Stretch PlacedAxis::grid() const {
-  return axis_.is_periodic() ? Stretch{begin_, axis_.pixels()} : shown();
-}
+Stretch PlacedAxis::grid() const { return axis_.is_periodic() ? Stretch{begin_, axis_.pixels()} : shown(); }
 
 double PlacedAxis::side_of_pixel() const { return period_ / static_cast<double>(axis_.pixels()); }
 

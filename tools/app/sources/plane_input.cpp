@@ -96,8 +96,9 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
       const Point pixel = {data.x().pixel(point.x) + 0.5, data.y().pixel(point.y) + 0.5};
       const bool inside = pixel.x >= 0 && pixel.x < static_cast<double>(plane.width()) && pixel.y >= 0 &&
                           pixel.y < static_cast<double>(plane.height());
-      require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)), options, first + pixels.size(),
-              point, "outside the bounds " + to_string(bounds) + "; give --bounds that hold it");
+      require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)),
+              options, first + pixels.size(), point,
+              "outside the bounds " + to_string(bounds) + "; give --bounds that hold it");
       points_outside += inside ? 0 : 1;
       pixels.push_back(pixel);
     }

@@ -58,13 +58,12 @@ Input input_from_points(const SeedOptions& options) {
                              to_string(mapping.bounds)));
     }
     note_outside(mapped.outside, points.size(), mapping.bounds);
-    return {mapped.view,
-            [mapped](const Device& device) {
-              return Seeds(device, mapped.view.window.grid(), mapped.pixels);
-            },
-            {},
-            values,
-            mapped.is_window()};
+    return {
+        mapped.view,
+        [mapped](const Device& device) { return Seeds(device, mapped.view.window.grid(), mapped.pixels); },
+        {},
+        values,
+        mapped.is_window()};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }

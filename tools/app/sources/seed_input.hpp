@@ -49,9 +49,9 @@ bool in_pixels(const SeedOptions& options);
 struct Input {
   View view;
   std::function<Seeds(const Device&)> place;
-  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
-  std::vector<double> values;      // of the value column, by seed; NaN: absent
-  bool is_window = false;          // see MappedPoints
+  std::vector<std::uint32_t> ids;                       // that labels carry, by seed; empty: the seeds' own
+  std::vector<double> values;                           // of the value column, by seed; NaN: absent
+  bool is_window = false;                               // see MappedPoints
   std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
 };
 

@@ -53,10 +53,11 @@ class Units {
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation
 /// box.
 struct View {
-  Raster picture;                         ///< what files and pictures show
-  Window window;                          ///< of the diagram
-  int x = 0, y = 0;                       ///< its first pixel in the picture
-  std::int64_t first_x = 0, first_y = 0;  ///< the first pixel of the window's grid, from the window's first one
+  Raster picture;    ///< what files and pictures show
+  Window window;     ///< of the diagram
+  int x = 0, y = 0;  ///< its first pixel in the picture
+  std::int64_t first_x = 0,
+               first_y = 0;  ///< the first pixel of the window's grid, from the window's first one
   Units units = {};
 
   /// The diagram's.

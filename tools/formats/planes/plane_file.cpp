@@ -43,9 +43,7 @@ std::unique_ptr<PlaneFile> plane_file(const std::string& path, const Tiling& til
   return tiff_plane(path, tiling, georeference);
 }
 
-std::uint64_t label_bytes(const Tiling& tiling) {
-  return tiling.window().pixels() * sizeof no_label;
-}
+std::uint64_t label_bytes(const Tiling& tiling) { return tiling.window().pixels() * sizeof no_label; }
 
 TileShape tile_shape(const Tiling& tiling, int unit) {
   const auto side_of = [&](std::int64_t pixels) {

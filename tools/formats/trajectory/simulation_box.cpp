@@ -79,7 +79,8 @@ void hold(const LineReader& lines, std::uint32_t id, const BoxAxis& axis, char n
 
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
-SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth, double tilt)
+SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth,
+                             double tilt)
     : x_(x), y_(y), depth_(depth), tilt_(tilt), box_{x.low,        y.low,        x.high, y.high,
                                                      x.periodic(), y.periodic(), tilt} {
   box_.open_x0 = x.sides.first == Side::open;
