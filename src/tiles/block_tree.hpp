@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "tiles/box_tree.hpp"
 #include "tiles/seed_tree.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -37,7 +36,7 @@ class BlockTree {
 
   Plane plane_;
   std::vector<SeedBlock> blocks_;
-  BoxTree tree_;
+  SeedBoxes tree_;
   SeedTree samples_;  // one seed of each block
 };
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "tiles/box_tree.hpp"
+#include "core/box_tree.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
