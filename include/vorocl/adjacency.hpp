@@ -40,15 +40,19 @@ class VOROCL_API AdjacencyResult {
   AdjacencyResult(AdjacencyResult&& other) noexcept;
   AdjacencyResult& operator=(AdjacencyResult&& other) noexcept;
 
-  /// How many pairs of cells share a pixel edge. Waits.
+  /// How many pairs of cells share a pixel edge. Waits. Throws BadPoint if the frame of the seeds had one; so
+  /// do all of these. 0 while the result is empty.
   std::size_t pairs() const;
 
   /// uint32 a, b, length of each pair, sorted by a and then b; each pair once, a < b. Waits, as the size of
   /// the list is the device's.
   const cl::Buffer& pair_list() const;
 
-  const cl::Buffer& neighbours() const;  ///< uint32 per cell: the cells it shares an edge with
-  const cl::Buffer& perimeters() const;  ///< uint32 per cell: the pixel edges it shares with them
+  /// uint32 per cell: the cells it shares an edge with. Waits, as the device says whether all were found.
+  const cl::Buffer& neighbours() const;
+
+  /// uint32 per cell: the pixel edges it shares with them. Waits likewise.
+  const cl::Buffer& perimeters() const;
 
   std::vector<CellPair> read_pairs() const;
   std::vector<std::uint32_t> read_neighbours() const;
@@ -60,7 +64,7 @@ class VOROCL_API AdjacencyResult {
 };
 
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
-/// label belong to no cell, and the window's edge is no border.
+/// label, or with that of an absent seed, belong to no cell, and the window's edge is no border.
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
@@ -78,10 +82,11 @@ class VOROCL_API VerticesResult {
   VerticesResult(VerticesResult&& other) noexcept;
   VerticesResult& operator=(VerticesResult&& other) noexcept;
 
-  /// How many there are; 0 while the result is empty. Waits.
+  /// How many there are; 0 while the result is empty. Waits. Throws BadPoint if the frame of the seeds had
+  /// one.
   std::size_t count() const;
 
-  /// Their positions, in pixels from the window's first one, in row-major order. Waits.
+  /// Their positions, in pixels from the window's first one, in row-major order. As count().
   std::vector<Point> read() const;
 
  private:
@@ -90,8 +95,9 @@ class VOROCL_API VerticesResult {
 };
 
 /// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the window's
-/// edge do not count, unless it shows a whole period. Enqueues and returns. Throws Error if the device has
-/// too little memory.
+/// edge do not count, but where it shows a whole period: those across its end are at its right and its lower
+/// edge. Labels alone are looked at. Memory: a bit per pixel. Enqueues and returns. Throws Error if the
+/// device has too little memory.
 VOROCL_API Report vertices(const Diagram& diagram, VerticesResult& result);
 
 }  // namespace vorocl

@@ -20,7 +20,7 @@ struct CellStatisticsState;
 /// What cell_sums() knows of a cell: exact integers, the same on every device. Along an axis of which the
 /// diagram's window shows one whole period (Window::periodic()) each pixel counts where it lies the shorter
 /// way round from the seed (half a period away: behind it), which may be outside the window. Along other axes
-/// it counts where the window shows it.
+/// it counts where the window shows it. Labels that name absent seeds count nowhere.
 struct CellSums {
   std::uint32_t area = 0;  ///< pixels
   std::int64_t sum_x = 0;  ///< of the pixels' columns, from the window's first one on ...

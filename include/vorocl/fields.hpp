@@ -68,16 +68,18 @@ VOROCL_API Report distance_field(const Diagram& diagram, Field<float>& field);
 VOROCL_API Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask);
 
 /// Each pixel's label, looked up in a table of uint32 on the device with one entry per seed: ids of the
-/// caller's own, classes, colours. no_label where a pixel has no label. Enqueues and returns. Throws Error if
-/// the diagram knows no seeds, or the buffer has too few entries or cannot be read by its kernels.
+/// caller's own, classes, colours. no_label where a pixel has no label, or that of an absent seed. Enqueues
+/// and returns. Throws Error if the diagram knows no seeds, or the buffer has too few entries or cannot be
+/// read by kernels.
 VOROCL_API Report map_labels(const Diagram& diagram, const cl::Buffer& table, Field<std::uint32_t>& field);
 
-/// As above, from a table on the host, which is copied.
+/// As above, from a table on the host, which is copied to a new buffer.
 VOROCL_API Report map_labels(const Diagram& diagram, const std::vector<std::uint32_t>& table,
                              Field<std::uint32_t>& field);
 
-/// The label of each pixel that is at most so many pixels away from its seed, by the diagram's metric, and
-/// no_label farther away: cells that grow to a width and no farther. Enqueues and returns. Throws Error if
+/// The label of each pixel that is at most so many pixels away from its seed, by the diagram's metric (a root
+/// as double has it: std::sqrt(13) takes in what is 2 and 3 pixels away), and no_label farther away: cells
+/// that grow to a width and no farther. Enqueues and returns. Throws Error if
 /// the diagram knows no seeds, or the distance is negative or NaN.
 VOROCL_API Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_t>& field);
 

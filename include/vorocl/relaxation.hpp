@@ -29,8 +29,8 @@ using RelaxationObserver =
     std::function<bool(const Seeds& seeds, const Diagram& diagram, const Relaxation& so_far)>;
 
 /// The sum of the squared Euclidean distances of all pixels with a label to their seeds, in 64-bit integers.
-/// Waits. Throws Error if the diagram knows no seeds, or some lie outside its window, and BadPoint if they
-/// had a bad point.
+/// Waits. Throws Error if the diagram knows no seeds, or some lie outside its window or across the ends of
+/// its periods, and BadPoint if they had a bad point.
 VOROCL_API std::uint64_t energy(const Diagram& diagram);
 
 /// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").
@@ -43,8 +43,8 @@ VOROCL_API std::uint64_t energy(const Diagram& diagram);
 ///
 /// With an exact Euclidean engine the energy falls with every round, so the end is sure to come; an
 /// approximate engine may make it rise now and then. Seeds that come to share a pixel leave the higher id
-/// without a cell. Waits in every round. Throws Error if `rounds` is negative or seeds lie outside the grid,
-/// and as the engine does.
+/// without a cell. Waits in every round. Throws Error if `rounds` is negative, seeds lie outside the grid, or
+/// the diagram's window is not the whole grid, with periods of at most 32,000 pixels; and as the engine does.
 VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
                             const RelaxationObserver& observer = {});
 

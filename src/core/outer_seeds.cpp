@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/box_tree.hpp"
 #include "core/z_order.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
@@ -12,6 +13,8 @@
 namespace vorocl {
 
 namespace {
+
+static_assert(sizeof(Box) == sizeof(cl_int4), "a node of the tree is a box");
 
 /// A position of 64 bits, for sums that do not overflow.
 struct Place {
@@ -181,40 +184,24 @@ std::vector<Entry> ordered_entries(const Region& region, const Periods& periods,
   return entries;
 }
 
-cl_int4 joined(const cl_int4& a, const cl_int4& b) {
-  return {{std::min(a.s[0], b.s[0]), std::min(a.s[1], b.s[1]), std::max(a.s[2], b.s[2]),
-           std::max(a.s[3], b.s[3])}};
-}
-
-/// The boxes around each OUTER_FAN of a level's boxes.
-std::vector<cl_int4> level_above(const std::vector<cl_int4>& boxes) {
-  std::vector<cl_int4> above;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    if (i % OUTER_FAN == 0) {
-      above.push_back(boxes[i]);
-    } else {
-      above.back() = joined(above.back(), boxes[i]);
-    }
-  }
-  return above;
-}
-
 void make_tree(OuterSeeds& outer, const Device& device, const std::vector<Entry>& entries) {
   std::vector<cl_int2> places;
   std::vector<cl_uint> ids;
-  std::vector<cl_int4> level, nodes;
   for (const Entry& entry : entries) {
     places.push_back(entry.place);
     ids.push_back(entry.id);
-    level.push_back({{entry.place.s[0], entry.place.s[1], entry.place.s[0], entry.place.s[1]}});
   }
-  outer.top = -1;
-  do {
-    level = level_above(level);
-    ++outer.top;
+  BoxTree<OUTER_FAN_BITS> tree;
+  tree.make(places.size(), [&](std::size_t i) {
+    const auto& [x, y] = places[i].s;
+    return Box{x, y, x, y};
+  });
+  std::vector<Box> nodes;
+  for (const std::vector<Box>& level : tree.levels()) {
     outer.top_start = static_cast<cl_uint>(nodes.size());
     nodes.insert(nodes.end(), level.begin(), level.end());
-  } while (level.size() > 1);
+  }
+  outer.top = static_cast<cl_int>(tree.levels().size()) - 1;
   outer.count = static_cast<cl_uint>(entries.size());
   outer.places = allocate_with(device, places, "seeds outside the grid");
   outer.ids = allocate_with(device, ids, "seeds outside the grid");

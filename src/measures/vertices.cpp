@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
 #include "vorocl/adjacency.hpp"
@@ -6,36 +8,55 @@ namespace vorocl {
 
 namespace {
 
-constexpr int word_bits = 32;  // WORD_BITS of vertices.cl
-constexpr int words_per_item = 32;
+constexpr int vectors_of_chunk = 32;  // VECTORS_OF_CHUNK of vertices.cl
+constexpr int corners_of_item = 1024;
 
-/// The corners between pixels, in rows of words, one bit each.
+/// The corners between pixels, row by row, as vertices.cl marks them for a vector width.
 struct Corners {
-  explicit Corners(const PixelGrid& grid)
-      : columns(grid.width() == 1   ? 0
+  Corners(const PixelGrid& grid, int vector_width)
+      : width(vector_width),
+        columns(grid.width() == 1   ? 0
                 : grid.periodic_x() ? grid.width()
                                     : grid.width() - 1),
         rows(grid.height() == 1  ? 0
              : grid.periodic_y() ? grid.height()
                                  : grid.height() - 1) {}
 
+  int width;          // words of a chunk
   int columns, rows;  // one pixel has no corner between it and itself
 
   bool none() const { return columns == 0 || rows == 0; }
-  int words_of_row() const { return (columns - 1) / word_bits + 1; }
-  std::size_t words() const {
-    return static_cast<std::size_t>(words_of_row()) * static_cast<std::size_t>(rows);
+  int chunk() const { return vectors_of_chunk * width; }
+  int chunks_of_row() const { return (columns - 1) / chunk() + 1; }
+  int chunks_of_item() const { return std::max(corners_of_item / chunk(), 1); }
+  std::size_t words() const { return of_rows(chunks_of_row() * width); }
+  std::size_t items() const { return of_rows((chunks_of_row() - 1) / chunks_of_item() + 1); }
+
+  /// Calls a function with the column and row of each vertex, in row-major order.
+  template <typename Use>
+  void each_vertex(const std::vector<std::uint32_t>& marks, Use use) const {
+    const std::uint32_t* words = marks.data();
+    for (int y = 0; y < rows; ++y) {
+      for (int first = 0; first < columns; first += chunk(), words += width) {
+        if (std::all_of(words, words + width, [](std::uint32_t word) { return word == 0; })) continue;
+        for (int i = 0; i < chunk(); ++i) {
+          if ((words[i % width] >> i / width & 1) != 0) use(first + i, y);
+        }
+      }
+    }
   }
-  std::size_t items() const {
-    const int across = (words_of_row() - 1) / words_per_item + 1;
-    return static_cast<std::size_t>(across) * static_cast<std::size_t>(rows);
+
+ private:
+  std::size_t of_rows(int of_one) const {
+    return static_cast<std::size_t>(of_one) * static_cast<std::size_t>(rows);
   }
 };
 
 }  // namespace
 
 struct VerticesState : Measured {
-  cl::Buffer words, count;
+  cl::Buffer words, count;  // see vertices.cl
+  int vector_width = 1;     // that it was built for
 };
 
 VerticesResult::VerticesResult() = default;
@@ -50,12 +71,13 @@ Report vertices(const Diagram& diagram, VerticesResult& result) {
   make_room(found.count, of.device, sizeof(cl_uint));
   const cl::Event first = fill(of.device, found.count, cl_uint{0}, 1);
   cl::Event last = first;
-  const Corners corners(of.grid);
+  Kernel& kernel = found.kernels.get(of.device, "measures/vertices.cl", "find_vertices", of.grid);
+  found.vector_width = static_cast<int>(kernel.vector_width());
+  const Corners corners(of.grid, found.vector_width);
   if (!corners.none()) {
     make_room(found.words, of.device, corners.words() * sizeof(cl_uint));
-    last = found.kernels.get(of.device, "measures/vertices.cl", "find_vertices", of.grid)
-               .over_items(corners.items(), diagram.labels(), of.grid.width(), of.grid.height(),
-                           cl_int{words_per_item}, found.words, found.count);
+    last = kernel.over_items(corners.items(), diagram.labels(), of.grid.width(), of.grid.height(),
+                             corners.chunks_of_item(), found.words, found.count);
   }
   return measuring.commit(std::move(of), first, last);
 }
@@ -71,16 +93,11 @@ std::vector<Point> VerticesResult::read() const {
   const std::size_t number = count();
   if (number == 0) return points;
   points.reserve(number);
-  const Corners corners(state_->of->grid);
-  const int words_of_row = corners.words_of_row();
-  int x = 0, y = 0;  // of a word's first corner
-  for (std::uint32_t word : download<std::uint32_t>(state_->of->device, state_->words, corners.words())) {
-    for (int bit = 0; word != 0; ++bit, word >>= 1) {
-      if ((word & 1) != 0) points.push_back({x + bit + 1.0, y + 1.0});
-    }
-    x += word_bits;
-    if (x == words_of_row * word_bits) x = 0, ++y;
-  }
+  const Corners corners(state_->of->grid, state_->vector_width);
+  corners.each_vertex(download<std::uint32_t>(state_->of->device, state_->words, corners.words()),
+                      [&](int x, int y) {
+                        points.push_back({x + 1.0, y + 1.0});
+                      });
   return points;
 }
 

@@ -42,7 +42,7 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
   };
   double seeds = 0;
   const auto judge = [&](const Box& box) {
-    return meets(rectangle, box) ? BoxTree::Verdict::enter : BoxTree::Verdict::pass;
+    return meets(rectangle, box) ? SeedBoxes::Verdict::enter : SeedBoxes::Verdict::pass;
   };
   tree_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
     for (std::size_t i = first; i < end; ++i) {
@@ -101,7 +101,7 @@ bool BlockTree::find_between(const PlanePoint& a, const SeedImage& at_a, const P
       return (to_a <= at_a.distance || to_b <= of_a_at_b) && (to_a <= of_b_at_a || to_b <= at_b.distance);
     };
     const auto judge = [&](const Box& box) {
-      return may_win(box) ? BoxTree::Verdict::enter : BoxTree::Verdict::pass;
+      return may_win(box) ? SeedBoxes::Verdict::enter : SeedBoxes::Verdict::pass;
     };
     all = all && tree_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
       for (std::size_t i = first; i < end; ++i) {

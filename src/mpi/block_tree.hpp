@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "tiles/box_tree.hpp"
 #include "tiles/plane_distance.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -41,7 +40,7 @@ class BlockTree {
 
   Grid grid_;
   std::vector<SeedBlock> blocks_;
-  BoxTree tree_;
+  SeedBoxes tree_;
 };
 
 }  // namespace vorocl

@@ -7,12 +7,15 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "core/box_tree.hpp"
 #include "core/z_order.hpp"
 #include "runtime/metric.hpp"
-#include "tiles/box_tree.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
+
+/// Boxes around seeds, or around blocks of them.
+using SeedBoxes = BoxTree<4>;
 
 /// A point of the plane in pixels, or an offset.
 struct PlanePoint {

@@ -116,7 +116,7 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
     const auto judge = [&](const Box& box) {
       const bool counts = !holds(rectangle, box) && !of_b_at_a.wins(first_in(box, distance(from_a, box))) &&
                           !of_a_at_b.wins(first_in(box, distance(from_b, box)));
-      return counts ? BoxTree::Verdict::enter : BoxTree::Verdict::pass;
+      return counts ? SeedBoxes::Verdict::enter : SeedBoxes::Verdict::pass;
     };
     all = all && boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
       for (std::size_t i = first; i < end; ++i) {

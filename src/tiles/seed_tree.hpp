@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/box_tree.hpp"
 #include "core/z_order.hpp"
-#include "tiles/box_tree.hpp"
 #include "tiles/plane_distance.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/tiles.hpp"
@@ -55,7 +55,7 @@ class SeedTree {
 
   std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, their ranks
   std::vector<std::uint32_t> ids_;
-  BoxTree boxes_;
+  SeedBoxes boxes_;
 };
 
 }  // namespace vorocl

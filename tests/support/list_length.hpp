@@ -26,7 +26,8 @@ constexpr const char* short_lists =
 /// lists are for groups of all sizes: none has more items than the tuning says.
 inline Device with_lists(const Device& device, ListLength lists) {
   if (lists == ListLength::full) return device;
-  static std::map<std::pair<cl_command_queue, std::size_t>, Device> devices;  // with programs of their own
+  // With programs of their own. Never destroyed: at the end of the process a driver may be gone before.
+  static auto& devices = *new std::map<std::pair<cl_command_queue, std::size_t>, Device>;
   const Tuning& tuning = device.tuning();
   const std::size_t most = std::max(tuning.patch_items, tuning.group_width * tuning.group_height);
   const auto [found, is_new] =

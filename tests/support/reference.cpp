@@ -26,9 +26,10 @@ std::string options_for(const PixelGrid& grid, Metric metric) {
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "");
 }
 
-/// Built once for each context and set of options.
+/// Built once for each context and set of options. Never destroyed: at the end of the process a driver may be
+/// gone before.
 const cl::Program& program_for_reference(const Device& device, const std::string& options) {
-  static std::map<std::pair<cl_context, std::string>, cl::Program> programs;
+  static auto& programs = *new std::map<std::pair<cl_context, std::string>, cl::Program>;
   const auto [found, is_new] = programs.try_emplace({device.context()(), options});
   if (is_new) {
     found->second = cl::Program(device.context(), source_of_reference());

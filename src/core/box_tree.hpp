@@ -60,7 +60,8 @@ inline bool meets(const PlaneRectangle& rectangle, const Box& box) {
          box.top - rectangle.y < rectangle.height;
 }
 
-/// Boxes around each 16 items, around each 16 of those boxes, and so on up to one.
+/// Boxes around each 2^fan_bits items, around as many of those boxes, and so on up to one.
+template <int fan_bits>
 class BoxTree {
  public:
   /// Of so many items, with a function that gives the box of each.
@@ -75,6 +76,9 @@ class BoxTree {
       add_level(below.size(), [&](std::size_t i) { return below[i]; });
     }
   }
+
+  /// The boxes by level, the finest ones first. None of no items.
+  const std::vector<std::vector<Box>>& levels() const { return levels_; }
 
   enum class Verdict { pass, enter, take };
 
@@ -107,7 +111,6 @@ class BoxTree {
   }
 
  private:
-  static constexpr int fan_bits = 4;
   static constexpr std::size_t fan = std::size_t{1} << fan_bits;
 
   template <typename BoxOf>
@@ -165,7 +168,7 @@ class BoxTree {
   }
 
   std::size_t items_ = 0;
-  std::vector<std::vector<Box>> levels_;  // the finest one first
+  std::vector<std::vector<Box>> levels_;
 };
 
 }  // namespace vorocl
