@@ -60,8 +60,7 @@ inline Table read_table(const std::string& path) {
 }
 
 /// The rows that a table of cells must have, sorted by id.
-inline std::vector<TableRow> cells_on_host(const LabelledGrid& image, const SeedsById& seeds,
-                                           Metric metric) {
+inline std::vector<TableRow> cells_on_host(const LabelledGrid& image, const SeedsById& seeds, Metric metric) {
   struct Cell {
     double area = 0, sum_x = 0, sum_y = 0, farthest = 0, perimeter = 0;
     std::int64_t left = 1 << 20, top = 1 << 20, right = -(1 << 20), bottom = -(1 << 20);
@@ -140,8 +139,8 @@ inline void check_rows(const std::string& path, const std::vector<TableRow>& exp
   BOOST_TEST(wrong == 0u, path << ": " << wrong << " rows are wrong, the first in line " << first + 2);
 }
 
-inline void check_cells_table(const std::string& path, const LabelledGrid& image,
-                              const SeedsById& seeds, Metric metric) {
+inline void check_cells_table(const std::string& path, const LabelledGrid& image, const SeedsById& seeds,
+                              Metric metric) {
   const Table table = read_table(path);
   BOOST_TEST(table.header ==
              "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
