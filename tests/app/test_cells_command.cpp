@@ -87,6 +87,22 @@ BOOST_AUTO_TEST_CASE(cells_reach_across_periodic_borders) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_whole_period_is_measured_across_its_ends_wherever_seeds_are) {
+  const TemporaryFolder folder;
+  // Two of them are above and below the picture, and own pixels.
+  const SeedsById seeds =
+      numbered({{3, 20}, {57, 11}, {30, 35}, {12, -4}, {50, 44}, {58, 30}, {1, 5}, {22, 18}});
+  std::string text = "x,y\n";
+  for (const auto& [id, pixel] : seeds) text += fmt::format("{},{}\n", centre(pixel).x, centre(pixel).y);
+  folder.file("p.csv", text);
+  run(folder,
+      "cells --points p.csv --bounds 0,0,60,40 --size 60x40 --periodic x --cells c.csv --adjacency a.csv "
+      "--labels l.npy");
+  const LabelledGrid image = on_grid(command::read_labels(folder / "l.npy"), Periodic::x);
+  check_cells_table(folder / "c.csv", image, seeds, Metric::euclidean);
+  check_adjacency_table(folder / "a.csv", image);
+}
+
 BOOST_AUTO_TEST_CASE(cities_some_of_which_share_a_pixel) {
   const TemporaryFolder folder;
   const json result =

@@ -205,6 +205,15 @@ BOOST_AUTO_TEST_CASE(compare_counts_pixels) {
   refuses(folder, "compare a.npy b.tif --random 3", usage, {"another label file"});
 }
 
+BOOST_AUTO_TEST_CASE(a_period_may_be_as_long_as_a_diagram) {
+  const TemporaryFolder folder;
+  const std::string seeds = " --random 9 --size 32768x3 --periodic x --labels ";
+  succeeds(folder, "render" + seeds + "a.npy");
+  const auto pixels = pixels_of(points_of(Seeds::random(test_device(), Grid(32768, 3, Periodic::x), 9, 1)));
+  BOOST_TEST(labels_of(folder, "a.npy") ==
+             brute_force(Grid(32768, 3, Periodic::x), pixels, Metric::euclidean));
+}
+
 BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {
   const TemporaryFolder folder;
   const Grid grid(70, 50);

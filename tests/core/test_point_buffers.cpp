@@ -274,7 +274,11 @@ BOOST_AUTO_TEST_CASE(a_mask_gives_ids_in_row_major_order) {
   const Grid in_units(Axis(4, 0, 8), Axis(3, 0, 9).reversed());
   BOOST_TEST(points_of(Seeds::from_mask(test_device(), in_units, mask))[0].x == 3);
   BOOST_TEST(points_of(Seeds::from_mask(test_device(), in_units, mask))[0].y == 7.5);
-  check_error([&] { Seeds::from_mask(test_device(), grid, std::vector<std::uint8_t>{1, 0}); }, {"2 pixels", "12"});
+  check_error(
+      [&] {
+        Seeds::from_mask(test_device(), grid, std::vector<std::uint8_t>{1, 0});
+      },
+      {"2 pixels", "12"});
   check_error([&] { Seeds::from_mask(test_device(), {5, 3}, buffer_of(mask)); }, {"mask", "12 bytes", "15"});
   check_error(
       [&] {

@@ -26,25 +26,25 @@ std::vector<MeasuredWindow> measured_windows() {
   std::vector<MeasuredWindow> windows;
   windows.push_back({plain, between({-60, -60}, {120, 100}, 60)});
   windows.push_back({plain, between({-20000, -20000}, {20000, 20000}, 60)});
-  windows.push_back({plain, between({-2000000000, -2000000000}, {-1999990000, 0}, 30)});
+  windows.push_back({plain, between({-2000000000, -2000000000}, {-1999990000, 0}, 60)});
   windows.push_back({{Grid(200, 100), 90, 30, 61, 47}, between({0, 0}, {199, 99}, 60)});
   windows.push_back({{Grid(80, 70, Periodic::xy), 40, 30, 61, 47}, between({0, 0}, {79, 69}, 12)});
-  windows.push_back({{Grid(30, 25, Periodic::xy), -10, -5, 61, 47}, between({0, 0}, {29, 24}, 9)});
-  windows.push_back({{Grid(30, 90000, Periodic::xy), -10, 50000, 61, 47}, between({0, 0}, {29, 89999}, 9)});
-  windows.push_back({{Grid(50, 47, Periodic::x), -1, 0, 61, 47}, between({0, -90}, {49, 90}, 20)});
+  windows.push_back({{Grid(30, 25, Periodic::xy), -10, -5, 61, 47}, between({0, 0}, {29, 24}, 12)});
+  windows.push_back({{Grid(30, 90000, Periodic::xy), -10, 50000, 61, 47}, between({0, 0}, {29, 89999}, 12)});
+  windows.push_back({{Grid(50, 47, Periodic::x), -1, 0, 61, 47}, between({0, -90}, {49, 90}, 60)});
   windows.push_back({torus, between({0, 0}, {60, 46}, 12)});
   windows.push_back({{torus, 20, 30, 61, 47}, between({0, 0}, {60, 46}, 12)});
-  windows.push_back({{torus, 20, 30, 61, 11}, between({0, 0}, {60, 46}, 12)});
-  windows.push_back({cylinder, between({0, -90}, {60, 90}, 20)});
-  windows.push_back({{cylinder, -7, 3, 61, 40}, between({0, 0}, {60, 46}, 3)});
-  windows.push_back({Grid(32011, 9, Periodic::x), between({0, 0}, {32010, 8}, 40)});
+  windows.push_back({{Grid(61, 70, Periodic::xy), 20, 30, 61, 47}, between({0, 0}, {60, 69}, 12)});
+  windows.push_back({cylinder, between({0, -90}, {60, 90}, 60)});
+  windows.push_back({{Grid(61, 60, Periodic::x), -7, 3, 61, 47}, between({0, 0}, {60, 59}, 12)});
+  windows.push_back({Grid(32011, 9, Periodic::x), between({0, 0}, {32010, 8}, 60)});
   return windows;
 }
 
-/// The engines for a window. Where kernels go round themselves, they are built anew for the axes: so only
-/// one.
+/// The engines for a window. Kernels of measures are built anew for the axes along which it shows one whole
+/// period: so only one.
 std::vector<Engine> engines_for(const Window& window, Metric metric) {
-  if (!window.is_whole() || window.periodic() == Periodic::none) return engines();
+  if (window.periodic() == Periodic::none) return engines();
   return {engines()[metric == Metric::euclidean ? 0 : 2]};
 }
 

@@ -34,7 +34,13 @@ std::optional<T> parse_number(std::string_view text) {
 
 /// The name that options, tables and JSON give it.
 inline std::string to_string(Metric metric) {
-  return metric == Metric::euclidean ? "euclidean" : "manhattan";
+  switch (metric) {
+    case Metric::euclidean:
+      return "euclidean";
+    case Metric::manhattan:
+      break;
+  }
+  return "manhattan";
 }
 
 /// 64-bit FNV-1a (Fowler, Noll, Vo) of whole numbers, byte by byte from the lowest one.

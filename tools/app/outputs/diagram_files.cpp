@@ -18,6 +18,17 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, view.picture, view.in_picture(measures.labels_by_id().labels, no_label));
 }
 
+/// In pixels, of what CellShape has.
+double distance_of(std::int64_t distance, Metric metric) {
+  switch (metric) {
+    case Metric::euclidean:
+      return std::sqrt(static_cast<double>(distance));
+    case Metric::manhattan:
+      break;
+  }
+  return static_cast<double>(distance);
+}
+
 std::string row_of(const CellMeasures& cell, const View& view, Metric metric) {
   const Units& units = view.units;
   std::string extent = ",,,,,", distance;
@@ -26,8 +37,7 @@ std::string row_of(const CellMeasures& cell, const View& view, Metric metric) {
     const CellShape& shape = cell.shape;
     extent = fmt::format("{},{},{},{},{},{}", centroid.x + view.x, centroid.y + view.y, shape.left + view.x,
                          shape.top + view.y, shape.right + view.x, shape.bottom + view.y);
-    const auto largest = static_cast<double>(shape.largest_distance);
-    distance = fmt::format("{}", units.length(metric == Metric::euclidean ? std::sqrt(largest) : largest));
+    distance = fmt::format("{}", units.length(distance_of(shape.largest_distance, metric)));
   }
   return fmt::format("{},{},{},{},{},{},{},{},{}\n", cell.id, cell.seed.x + view.x, cell.seed.y + view.y,
                      units.area(cell.sums.area), extent, units.length(cell.perimeter), cell.neighbours,
