@@ -72,7 +72,7 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
     walk_t walk = begin_walk(row, row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
-      if (label >= count || !is_there(seeds[label])) continue;
+      if (label >= count) continue;
       const seed_t seed = seeds[label];
       if (PERIODIC_X) {
         int sum = 0;
@@ -93,10 +93,10 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
 
 // Moves the sums there.
 kernel void unwrap_sums(uint count, int width, int height, global const int* restrict periods_x,
-                        global const int* restrict periods_y, global long* restrict sum_x,
-                        global long* restrict sum_y) {
+                        global const int* restrict periods_y, global const uint* restrict area,
+                        global long* restrict sum_x, global long* restrict sum_y) {
   const uint id = (uint)get_global_id(0);
-  if (id >= count) return;
+  if (id >= count || area[id] == 0) return;
   sum_x[id] += (long)periods_x[id] * width;
   sum_y[id] += (long)periods_y[id] * height;
 }

@@ -13,10 +13,12 @@
 #endif
 
 // A box is left, top, right, bottom.
+#define EMPTY_BOX ((int4)(INT_MAX, INT_MAX, INT_MIN, INT_MIN))
+
 kernel void clear_shapes(uint count, global int4* restrict boxes, global int* restrict upper_words) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  boxes[id] = (int4)(INT_MAX, INT_MAX, INT_MIN, INT_MIN);
+  boxes[id] = EMPTY_BOX;
   upper_words[id] = -1;
 }
 
@@ -51,7 +53,6 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
-      if (!is_there(seed)) continue;
       const int along_y = way_y(seed, y, window), place_y = PERIODIC_Y ? seed_y(seed, height) + along_y : y;
       const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
       global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
@@ -84,6 +85,15 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       }
     }
   }
+}
+
+// Seeds that are absent own nothing, whatever labels name them. (To ask before every addition would cost a tenth.)
+kernel void clear_absent(global const seed_t* restrict seeds, uint count, global int4* restrict boxes,
+                         global int* restrict upper_words) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || is_there(seeds[id])) return;
+  boxes[id] = EMPTY_BOX;
+  upper_words[id] = -1;
 }
 
 // The second pass over long distances.

@@ -41,6 +41,10 @@ Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
                       other);
   };
   cl::Event last = run("add_shapes", shapes.boxes, words);
+  if (of.seeds->may_lack_some() && count > 0) {
+    last = shapes.kernels.get(of.device, file, "clear_absent", of.grid, of.options())
+               .over_items(count, of.positions(), count, shapes.boxes, words);
+  }
   if (of.is_far()) {
     make_room(shapes.lower_words, of.device, count * sizeof(cl_uint));
     if (count > 0) fill(of.device, shapes.lower_words, cl_uint{0}, count);

@@ -53,8 +53,8 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
     }
     blocks.run(sums.kernels, file, "add_periods", options, diagram.labels(), of.positions(), count,
                of.periods(), width, height, wide, high, sums.periods_x, sums.periods_y);
-    last = run_over_cells("unwrap_sums", count, width, height, sums.periods_x, sums.periods_y, sums.sum_x,
-                          sums.sum_y);
+    last = run_over_cells("unwrap_sums", count, width, height, sums.periods_x, sums.periods_y, sums.area,
+                          sums.sum_x, sums.sum_y);
   }
   return measuring.commit(std::move(of), count > 0 ? first : added, count > 0 ? last : added);
 }

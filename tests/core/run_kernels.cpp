@@ -125,7 +125,10 @@ void make_seeds(const Device& device, const Grid& grid) {
 }
 
 void measure(const Device& device, const Grid& grid, Metric metric) {
-  Seeds seeds(device, grid, centres(random_pixels(grid, 9, 2)));
+  const std::vector<Point> points = centres(random_pixels(grid, 9, 2));
+  std::vector<std::optional<Point>> one_absent(points.begin(), points.end());
+  one_absent.push_back(std::nullopt);
+  Seeds seeds(device, grid, one_absent);
   Diagram diagram(device, grid), other(device, grid);
   const auto engine = [&](const Seeds& moved, Diagram& filled) {
     return jump_flooding(moved, filled, {metric});

@@ -1,5 +1,6 @@
 // Sums, shapes and statistics of cells, against straight host code.
 #define BOOST_TEST_MODULE cells
+#include "all_measures.hpp"
 #include "measured_cases.hpp"
 #include "read_measures.hpp"
 #include "vorocl/cells.hpp"
@@ -166,6 +167,36 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   BOOST_TEST(spread.mean_area == 7);
   BOOST_TEST(spread.empty_cells == 30000 - areas.size());
   BOOST_TEST(spread.area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
+}
+
+// Labels that name an absent seed are as good as none to all measures that know seeds.
+BOOST_AUTO_TEST_CASE(absent_seeds_own_nothing) {
+  for (const Device& device : shapes()) {
+    for (const Grid& grid : {Grid(83, 47), Grid(83, 47, Periodic::xy)}) {
+      // Near, far away, and of the window's own.
+      for (const double beside : {0.0, 20.0, 3e6}) {
+        if (beside > 0 && grid.periodic() != Periodic::none) continue;
+        std::vector<std::optional<Point>> points;
+        for (const Point& point : centres(random_pixels(grid, 30, 1))) points.push_back(point);
+        points[3]->x -= beside;
+        points[7].reset();
+        points[11].reset();
+        const Seeds seeds(device, grid, points);
+        const std::vector<std::uint32_t> labels = random_labels(grid, 30, 2);
+        std::vector<std::uint32_t> without = labels;
+        for (std::uint32_t& label : without) label = label == 7 || label == 11 ? no_label : label;
+        Diagram diagram(device, grid), expected(device, grid);
+        diagram.write(labels, seeds, Metric::euclidean);
+        expected.write(without, seeds, Metric::euclidean);
+        AllMeasures a, b;
+        a.take(diagram, diagram);
+        b.take(expected, expected);
+        const std::vector<double> found = a.read_of_cells(), right = b.read_of_cells();
+        BOOST_TEST(found == right, boost::test_tools::per_element());
+        BOOST_TEST((table_of(diagram) == table_of(expected)));
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_cells) {

@@ -49,6 +49,26 @@ class AllMeasures {
 
   std::vector<double> read() const {
     Numbers numbers;
+    add_those_of_cells(numbers);
+    for (const Point& vertex : vertices_.read()) numbers.add(vertex.x, vertex.y);
+    numbers.add_all(squares_.read());
+    numbers.add_all(mask_.read());
+    numbers.add(same_labels_.read(), same_labels_.read_differences(), same_distances_.read());
+    const DistanceErrors errors = errors_.read();
+    numbers.add(errors.pixels, errors.wrong_pixels, errors.unlabelled_pixels, errors.largest_excess,
+                errors.mean_excess);
+    return numbers.all();
+  }
+
+  /// Those that ask which seed a label names.
+  std::vector<double> read_of_cells() const {
+    Numbers numbers;
+    add_those_of_cells(numbers);
+    return numbers.all();
+  }
+
+ private:
+  void add_those_of_cells(Numbers& numbers) const {
     for (const CellSums& cell : sums_.read()) numbers.add(cell.area, cell.sum_x, cell.sum_y);
     for (const CellShape& cell : shapes_.read()) {
       numbers.add(cell.left, cell.top, cell.right, cell.bottom, cell.largest_distance, cell.touches_border);
@@ -58,20 +78,11 @@ class AllMeasures {
     for (const CellPair& pair : adjacency_.read_pairs()) numbers.add(pair.a, pair.b, pair.length);
     numbers.add_all(adjacency_.read_neighbours());
     numbers.add_all(adjacency_.read_perimeters());
-    for (const Point& vertex : vertices_.read()) numbers.add(vertex.x, vertex.y);
-    numbers.add_all(squares_.read());
     numbers.add_all(distances_.read());
-    numbers.add_all(mask_.read());
     numbers.add_all(mapped_.read());
     numbers.add_all(expanded_.read());
-    numbers.add(same_labels_.read(), same_labels_.read_differences(), same_distances_.read());
-    const DistanceErrors errors = errors_.read();
-    numbers.add(errors.pixels, errors.wrong_pixels, errors.unlabelled_pixels, errors.largest_excess,
-                errors.mean_excess);
-    return numbers.all();
   }
 
- private:
   CellSumsResult sums_;
   CellShapesResult shapes_;
   CellStatisticsResult statistics_;
