@@ -44,12 +44,12 @@ GROUP = ["test_group_shape", "test_exact_diagram --run_test=random*,lowest*,fram
 EXACT = ["check", "test_window", "test_exact_diagram --run_test=random*,lowest*,frame*"]
 FLOODING = ["check", "test_jump_flooding", "test_standard_flooding", "test_dynamic_jump_flooding"]
 MEASURES = ["test_c_api_measures", "test_similarity", "test_window_measures", "test_fields", "test_cells",
-            "test_relaxation", "test_adjacency", "test_distance_errors"]
+            "test_relaxation", "test_adjacency", "test_distance_errors", "test_cell_table", "test_diagram_memory"]
 KERNEL_TESTS = [
     ("exact/group/*", GROUP), ("exact/*", EXACT),
     ("flooding/dynamic_jump_flooding.cl", FLOODING + ["test_any_motion"]), ("flooding/*", FLOODING),
     ("core/position.cl", FLOODING + ["test_window"] + MEASURES),
-    ("core/vector.cl", FLOODING + MEASURES), ("core/seeds.cl", FLOODING + ["test_seeds", "test_method"]),
+    ("core/vector.cl", FLOODING + MEASURES), ("core/seeds.cl", FLOODING + ["test_seeds", "test_method", "test_displacement", "test_point_buffers"]),
     ("core/philox.cl", ["test_seeds", "test_motion"]), ("motion/motion.cl", ["test_motion", "test_seeds"]),
     ("core/plane.cl", ["test_window", "test_window_measures"]),
     ("measures/seed_place.cl", ["test_window_measures"] + MEASURES),
@@ -60,7 +60,9 @@ KERNEL_TESTS = [
 
 # By source: names of tests.
 HOST_TESTS = [
-    ("src/flooding/*plan.cpp", ["plan"]), ("src/core/bounds.cpp", ["bounds"]), ("src/core/grid.cpp", ["grid", "plan"]),
+    ("src/flooding/*plan.cpp", ["plan"]), ("src/core/grid.cpp", ["axis", "grid", "plan"]),
+    ("src/core/snapping.hpp", ["axis", "seeds", "tiles"]), ("src/core/seeds*.cpp", ["seeds", "displacement", "point_buffers"]),
+    ("src/core/placement.cpp", ["window", "seeds"]), ("tools/app/sources/placed_axis.cpp", ["bounds", "boxes"]),
     ("src/picture/palette.cpp", ["colors", "color_bar", "painter"]), ("src/picture/picture.cpp", ["colors", "picture"]),
     ("src/picture/color_bar.cpp", ["color_bar"]), ("src/core/outer_seeds.cpp", ["window", "window_measures"]),
     ("tools/formats/csv.cpp", ["points"]), ("tools/formats/npy.cpp", ["points", "label_files"]),
