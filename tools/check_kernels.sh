@@ -37,6 +37,11 @@ strict_compile() {
       for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
         compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes
       done
+      if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, in outer positions
+        for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FAR'; do
+          compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $axes
+        done
+      fi
       if [[ $kernel == kernels/exact/* ]]; then
         compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $short_lists
         compile "$kernel" -DVOROCL_WIDTH=$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $short_lists

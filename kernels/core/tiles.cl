@@ -1,8 +1,9 @@
-// Labels of a tile: from places in the list of its seeds to the seeds' ids.
+// Labels that are looked up in a list: of a tile, from places in the list of its seeds to the seeds' ids; of a diagram,
+// in a table of the caller's.
 
 #include "core/vector.cl"
 
-// The list has NO_LABEL behind its last id, for pixels that have none.
+// The list has NO_LABEL behind its last entry, for pixels that have no label.
 VECTOR_KERNEL void name_labels(global const uint* restrict labels, global const uint* restrict ids, uint count,
                                int width, int height, global uint* restrict named) {
   if (!has_vector(width, height)) return;

@@ -28,8 +28,9 @@ double percentage(std::size_t differences, std::size_t pixels) {
 
 /// Counts differences by a kernel, which gets the labels, these arguments, and the counter.
 template <typename... Arguments>
-Report count(Measuring<SimilarityState>& measuring, MeasuredDiagram&& of, const Diagram& a, const Diagram& b,
-             const char* kernel, const KernelOptions& options, const Arguments&... arguments) {
+Report count(Measuring<SimilarityState>& measuring, const MeasuredDiagram& of, const Diagram& a,
+             const Diagram& b, const char* kernel, const KernelOptions& options,
+             const Arguments&... arguments) {
   SimilarityState& found = measuring.state();
   make_room(found.differences, of.device, sizeof(cl_uint));
   const cl::Event first = fill(of.device, found.differences, cl_uint{0}, 1);
@@ -37,7 +38,7 @@ Report count(Measuring<SimilarityState>& measuring, MeasuredDiagram&& of, const 
       found.kernels.get(of.device, "measures/comparison.cl", kernel, of.grid, options)
           .over_items(comparing_items(of.grid), a.labels(), b.labels(), arguments..., found.differences);
   found.other = labels_of(b).seeds;
-  return measuring.commit(std::move(of), first, last);
+  return measuring.commit(MeasuredDiagram(of), first, last);
 }
 
 }  // namespace
@@ -55,10 +56,9 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
 Report similarity(const Diagram& a, const Diagram& b, SimilarityResult& result) {
   Measuring<SimilarityState> measuring(result);
   check_labels_fit(a, b);
-  MeasuredDiagram of = labels_of(a);
+  const MeasuredDiagram of = labels_of(a);
   const auto pixels = static_cast<cl_uint>(of.grid.pixels());
-  return count(measuring, std::move(of), a, b, "count_differences", {}, pixels,
-               static_cast<cl_uint>(pixels_per_item));
+  return count(measuring, of, a, b, "count_differences", {}, pixels, static_cast<cl_uint>(pixels_per_item));
 }
 
 Report similarity(const Diagram& a, const Diagram& b, double tolerance, SimilarityResult& result) {
@@ -66,14 +66,10 @@ Report similarity(const Diagram& a, const Diagram& b, double tolerance, Similari
   if (!(tolerance >= 0 && std::isfinite(tolerance))) {
     throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
   }
-  MeasuredDiagram of = cells_of_both(a, b);
-  const cl::Buffer positions = of.positions();
-  const KernelOptions options = of.options();
-  const cl_uint cells = of.count();
-  const cl_uint2 periods = of.periods();
-  const int width = of.grid.width(), height = of.grid.height();
-  return count(measuring, std::move(of), a, b, "count_distant", options, positions, cells, periods, width,
-               height, static_cast<cl_uint>(pixels_per_item), static_cast<cl_float>(tolerance));
+  const MeasuredDiagram of = cells_of_both(a, b);
+  return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.periods(),
+               of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item),
+               static_cast<cl_float>(tolerance));
 }
 
 std::size_t SimilarityResult::read_differences() const {
