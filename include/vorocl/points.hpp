@@ -67,7 +67,7 @@ class VOROCL_API Points {
 /// What a buffer of points holds.
 enum class PointFormat {
   float2,   ///< two floats per point
-  double2,  ///< two doubles per point; the device must know double
+  double2,  ///< two doubles per point
 };
 
 /// Points in the caller's buffer on the device, in the units of the data.

@@ -53,13 +53,14 @@ class VOROCL_API Seeds {
         Outside outside = Outside::count);
 
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
-  /// small, of another context or not readable by kernels, the points' buffer is null, or the device lacks
-  /// the double precision that points in doubles, or in other units than pixels, need.
+  /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
-  /// Outside::refuse and Outside::absent return at once where the grid is no larger than a diagram: the
-  /// points are checked on the device, and the BadPoint that names a bad one comes at the wait of every
-  /// diagram and result that is made from this frame. Outside::count, and a larger grid, wait for the points,
-  /// for the host must know which lie outside.
+  /// Points in floats and in units of pixels, on a grid that is no larger than a diagram, stay on the device
+  /// with Outside::refuse and Outside::absent. The call returns at once then, and the BadPoint that names a
+  /// bad one comes at the wait of every diagram and result that is made from this frame.
+  ///
+  /// All other points are read by the host, which snaps them: the call waits for them, and throws BadPoint
+  /// itself.
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse);
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
@@ -100,9 +101,9 @@ class VOROCL_API Seeds {
   /// How many seeds lie outside the grid.
   std::size_t outside() const;
 
-  /// The greatest way that a seed, present in both, went along an axis from the last frame to this one, in
-  /// pixels, the shorter way round along a periodic axis: the paper's d_max. 0 in the first frame. After
-  /// random_step() its bound. May wait for the device where points came in a buffer.
+  /// The greatest way of a seed that is in the last frame and in this one, along an axis, in pixels, the
+  /// shorter way round along a periodic axis: the paper's d_max. 0 in the first frame and after a move to
+  /// another grid. After random_step() its bound. May wait where points came in a buffer.
   double displacement() const;
 
   /// The points as they were given, or the centres of their pixels where they were made or moved on the

@@ -170,8 +170,8 @@ void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, con
                 " seeds lie outside the diagram's window, which " + what +
                 " cannot take; only exact diagrams do");
   }
-  throw Error("the diagram's window is not one whole period of at most 32,000 pixels, which " +
-              std::string(what) + " cannot take; only exact diagrams do");
+  throw Error("the diagram's window is not the whole of its grid, with periods of at most 32,000 pixels: " +
+              std::string(what) + " cannot take that; only exact diagrams do");
 }
 
 }  // namespace vorocl

@@ -47,10 +47,10 @@ std::vector<std::optional<Point>> read_points(const Device& device, const PointB
   points.reserve(from.count);
   if (from.format == PointFormat::float2) {
     for (const cl_float2& point : download<cl_float2>(device, from.points, from.count))
-      points.push_back(Point{static_cast<double>(point.s[0]), static_cast<double>(point.s[1])});
+      points.emplace_back(Point{static_cast<double>(point.s[0]), static_cast<double>(point.s[1])});
   } else {
     for (const cl_double2& point : download<cl_double2>(device, from.points, from.count))
-      points.push_back(Point{point.s[0], point.s[1]});
+      points.emplace_back(Point{point.s[0], point.s[1]});
   }
   if (from.present() == nullptr) return points;
   const auto marks = download<cl_uchar>(device, from.present, from.count);
@@ -222,7 +222,7 @@ std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
   const PixelGrid pixels{Window(grid())};
   const std::shared_ptr<const Placement> placement = frame_->place_in(grid(), pixels);
   refuse_outer_seeds(*placement, *frame_, what);
-  const std::shared_ptr<cl::Buffer> positions = room_for_positions(size());
+  std::shared_ptr<cl::Buffer> positions = room_for_positions(size());
   copy(device, *placement->positions, *positions, (size() + 1) * sizeof(std::uint32_t));
   return positions;
 }

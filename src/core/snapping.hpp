@@ -33,7 +33,9 @@ class Snapping {
   /// seeds are absent. Throws BadPoint for a point that is not finite, too far away, or outside where that is
   /// refused.
   PlanePosition operator()(std::size_t id, const Point& point) const {
-    const PlanePosition at = {{along(grid_.x(), id, point, point.x), along(grid_.y(), id, point, point.y)}};
+    const double x = grid_.x().pixel(point.x), y = grid_.y().pixel(point.y);
+    if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y)) return far(id, point);
+    const PlanePosition at = {{static_cast<cl_int>(x), static_cast<cl_int>(y)}};
     if (outside_ == Outside::count || is_inside(at)) return at;
     if (outside_ == Outside::refuse) throw outside_the_grid(id, point, grid_);
     return {{absent_coordinate, 0}};
@@ -47,15 +49,15 @@ class Snapping {
   }
 
  private:
-  cl_int along(const Axis& axis, std::size_t id, const Point& point, double coordinate) const {
-    const double pixel = axis.pixel(coordinate);
-    // Written so that a NaN fails.
-    if (!(pixel >= static_cast<double>(axis.pixels()) - 2147483648.0 && pixel < 2147483648.0))
-      fail(id, point);
-    return static_cast<cl_int>(pixel);
+  /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.
+  static bool is_near(const Axis& axis, double pixel) {
+    return pixel >= static_cast<double>(axis.pixels()) - 2147483648.0 && pixel < 2147483648.0;
   }
 
-  [[noreturn]] static void fail(std::size_t id, const Point& point) {
+  /// What becomes of a point that is not finite or too far away.
+  PlanePosition far(std::size_t id, const Point& point) const {
+    const bool is_finite = std::isfinite(point.x) && std::isfinite(point.y);
+    if (is_finite && outside_ == Outside::absent) return {{absent_coordinate, 0}};
     throw BadPoint(id, point,
                    complaint(point, "too far away") +
                        "; x and y must be less than 2^31 pixels from all pixels of the grid");

@@ -63,7 +63,7 @@ void for_each_run(const std::vector<std::uint32_t>& labels, OnRun on_run) {
 int rows_of(const Window& window) { return static_cast<int>(window.height()); }
 int columns_of(const Window& window) { return static_cast<int>(window.width()); }
 
-cv::Mat empty_picture(const Window& window) { return {rows_of(window), columns_of(window), CV_8UC3}; }
+cv::Mat empty_picture(const Window& window) { return cv::Mat(rows_of(window), columns_of(window), CV_8UC3); }
 
 /// A picture with color(label) in each pixel, and black where there is no label.
 template <typename Color>
