@@ -59,8 +59,7 @@ class VOROCL_API Seeds {
   /// with Outside::refuse and Outside::absent. The call returns at once then, and the BadPoint that names a
   /// bad one comes at the wait of every diagram and result that is made from this frame.
   ///
-  /// All other points are read by the host, which snaps them: the call waits for them, and throws BadPoint
-  /// itself.
+  /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse);
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
