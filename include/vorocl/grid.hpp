@@ -151,7 +151,7 @@ class VOROCL_API Grid {
 /// A rectangle of a grid's pixels: what a diagram covers, or a tile of it.
 ///
 /// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
-/// than the period shows each pixel once, where the grid has it, and no labels beside it.
+/// than the period shows each pixel at most once, where the grid has it, and no labels beside.
 class VOROCL_API Window {
  public:
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long

@@ -32,9 +32,9 @@ enum class Outside {
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
 /// whole grid and holds all seeds, and periods of at most 32,000 pixels.
 ///
-/// Memory: on the device 4 bytes per seed, 8 from the second frame on, and more where a diagram's window does
-/// not hold all of them: 8 per seed, and up to 15 for each outer seed and image that may own a pixel, which
-/// the host finds and sorts. On the host 24 bytes per seed whose point came from the host.
+/// Memory: on the device 4 bytes per seed and frame that is remembered, 12 in a loop over frames, and where a
+/// diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that may own a
+/// pixel, which the host finds and sorts. On the host about 50 bytes per seed whose point came from there.
 ///
 /// Threads: one thread at a time.
 ///
@@ -46,8 +46,8 @@ enum class Outside {
 class VOROCL_API Seeds {
  public:
   /// From points on the host. `outside` holds for all frames. Throws BadPoint naming the first point that is
-  /// NaN, infinite, 2^31 pixels or more away from a pixel of the grid along an axis, or refused, before any
-  /// device work. No points at all are allowed.
+  /// NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid along an
+  /// axis, before any device work. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
         Outside outside = Outside::count);
@@ -55,9 +55,9 @@ class VOROCL_API Seeds {
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
   /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
-  /// Points in floats and in units of pixels, on a grid that is no larger than a diagram, stay on the device
-  /// with Outside::refuse and Outside::absent. The call returns at once then, and the BadPoint that names a
-  /// bad one comes at the wait of every diagram and result that is made from this frame.
+  /// Points in floats, on a grid as Grid(width, height) makes it of which a flood takes a diagram, stay on
+  /// the device with Outside::refuse and Outside::absent. The call returns at once then, and the BadPoint
+  /// that names a bad one comes at the wait of every diagram and result that is made from this frame.
   ///
   /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse);

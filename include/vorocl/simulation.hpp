@@ -16,8 +16,8 @@ namespace vorocl {
 /// motion. Nothing is allocated on the device after frame 1 (while the seeds' number and grid stay). Nothing
 /// waits unless an engine, the motion or the caller reads, or the queue is full (see Device).
 ///
-/// After step() has thrown, the next one goes on: with the same frame if the motion threw, with the next
-/// frame if an engine did.
+/// After step() has thrown, the next one goes on: with the same frame if the motion threw, or diagrams of a
+/// new window could not be made; with the next frame if an engine did.
 ///
 /// Threads: one thread at a time.
 ///
@@ -47,7 +47,7 @@ class VOROCL_API Simulation {
   void step();
 
   /// Moves the seeds on to the next frame without its diagrams: these stay those of an earlier frame. Throws
-  /// what the motion throws, and then nothing has changed.
+  /// what the motion throws, and then only what that did to the seeds has changed.
   void skip();
 
   /// The frame that the last step() made or skip() passed, -1 before the first.

@@ -107,7 +107,8 @@ double Axis::unreversed_pixel(double coordinate) const {
     return coordinate < from_ ? -1 : count;
   }
   const double pixel = floor_of(in_pixels_ ? coordinate : (coordinate - from_) * count / (to_ - from_));
-  return closed_ && coordinate <= to_ ? std::min(pixel, count - 1) : pixel;
+  // What is just below the end can be rounded up to it.
+  return coordinate < to_ || (closed_ && coordinate == to_) ? std::min(pixel, count - 1) : pixel;
 }
 
 double Axis::mapped_pixel(double coordinate) const {

@@ -54,8 +54,9 @@ double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
 PointCheck::PointCheck(const Device& device, const Grid& grid)
     : device_(device), grid_(grid), found_(allocate(device, sizeof(cl_uint4), "the check of the points")) {}
 
-void PointCheck::reset() {
+void PointCheck::reset(const Grid& grid) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  grid_ = grid;
   fill(device_, found_, cl_uint4{{no_label, 0, 0, 0}}, 1);
   known_ = false;
   bad_point_.reset();
@@ -105,7 +106,8 @@ void SeedsFrame::check() const {
 }
 
 double SeedsFrame::way_from(const SeedsFrame& earlier) const {
-  const bool known = earlier.owner == owner && earlier.way.stretch == way.stretch;
+  // A seed that was absent between may have gone any way.
+  const bool known = earlier.owner == owner && earlier.way.stretch == way.stretch && earlier.losses == losses;
   if (known) return way.all - earlier.way.all;
   if (earlier.grid != grid || !device.same_as(earlier.device)) {
     return static_cast<double>(std::max(grid.width(), grid.height()));
@@ -137,18 +139,23 @@ class Placements {
   template <typename Make>
   std::shared_ptr<const Placement> get(const Window& window, const PixelGrid& shown, Make make) {
     const std::lock_guard<std::mutex> lock(mutex_);
+    const auto is_gone = [](const Known& known) { return known.placement.expired(); };
+    known_.erase(std::remove_if(known_.begin(), known_.end(), is_gone), known_.end());
     for (const Known& known : known_) {
-      if (known.window == window && known.shown == shown) return known.placement;
+      if (known.window == window && known.shown == shown) {
+        if (std::shared_ptr<const Placement> placement = known.placement.lock()) return placement;
+      }
     }
-    known_.push_back({window, shown, make()});
-    return known_.back().placement;
+    std::shared_ptr<const Placement> placement = make();
+    known_.push_back({window, shown, placement});
+    return placement;
   }
 
  private:
   struct Known {
     Window window;
     PixelGrid shown;
-    std::shared_ptr<const Placement> placement;
+    std::weak_ptr<const Placement> placement;  // of diagrams and results: a frame may see many windows
   };
   std::mutex mutex_;
   std::vector<Known> known_;

@@ -26,8 +26,8 @@ class PointCheck {
   /// how many seeds are absent.
   const cl::Buffer& found() const { return found_; }
 
-  /// Enqueues that nothing is found yet.
-  void reset();
+  /// Enqueues that nothing is found yet, of points on a grid.
+  void reset(const Grid& grid);
 
   /// The bad point, if there is one. Waits for the device at its first call.
   const std::optional<BadPoint>& bad_point() const;

@@ -190,7 +190,7 @@ void SeedsState::place_on_the_device(const PointBuffer& points) {
   way_is_unknown(next);
   auto made = std::make_shared<const SeedsFrame>(std::move(next));
   std::vector<bool> there(points.count, true);
-  check->reset();
+  check->reset(grid());
   kernels.get(device, "core/seeds.cl", "snap_points", pixels)
       .over_items(points.count + 1, points.points, marked ? points.present : points.points, cl_int{marked},
                   cl_int{outside == Outside::absent}, *positions, static_cast<cl_uint>(points.count),
@@ -210,7 +210,7 @@ void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Bu
 std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
   const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
   for (std::shared_ptr<cl::Buffer>& room : rooms_) {
-    if (room.use_count() > 1) continue;
+    if (is_used(room)) continue;
     if (size_of(*room) < bytes) *room = allocate(device, bytes, "the seeds");
     return room;
   }
@@ -248,7 +248,7 @@ void SeedsState::copy_from(const SeedsState& other) {
 
 std::shared_ptr<PointCheck> SeedsState::unused_check() {
   for (const std::shared_ptr<PointCheck>& check : checks_) {
-    if (check.use_count() == 1) return check;
+    if (!is_used(check)) return check;
   }
   checks_.push_back(std::make_shared<PointCheck>(device, grid()));
   return checks_.back();

@@ -1,6 +1,7 @@
 // What a Seeds object holds.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -11,6 +12,14 @@
 
 namespace vorocl {
 
+/// Whether a frame still has what a pool shares with it. Another thread may have let go of it last.
+template <typename T>
+bool is_used(const std::shared_ptr<T>& shared) {
+  if (shared.use_count() > 1) return true;
+  std::atomic_thread_fence(std::memory_order_acquire);
+  return false;
+}
+
 /// Lists that frames share: a loop over frames makes two or three in all, so that their memory is not taken
 /// from the system anew each time.
 template <typename T>
@@ -19,7 +28,7 @@ class Recycled {
   /// An empty list.
   std::shared_ptr<std::vector<T>> take() {
     for (const std::shared_ptr<std::vector<T>>& list : lists_) {
-      if (list.use_count() > 1) continue;
+      if (is_used(list)) continue;
       list->clear();
       return list;
     }

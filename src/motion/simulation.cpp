@@ -2,6 +2,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "vorocl/error.hpp"
 
@@ -25,17 +26,24 @@ std::size_t Simulation::add_engine(Engine engine) {
 }
 
 void Simulation::skip() {
+  Window window = window_;
   if (frame_ >= 0) {
     const bool follows = window_ == Window(seeds_.grid());
-    Window window = window_;
     motion_(seeds_, window, frame_ + 1);
     // A window of the whole grid stays one when the grid changes.
-    window_ = follows && window == window_ ? Window(seeds_.grid()) : window;
+    if (follows && window == window_) window = Window(seeds_.grid());
   }
-  ++frame_;
+  std::vector<Diagram> diagrams;  // all of them, before anything changes
+  for (const Track& track : tracks_) {
+    if (track.diagram.window() != window) diagrams.emplace_back(seeds_.device(), window);
+  }
   for (Track& track : tracks_) {
-    if (track.diagram.window() != window_) track.diagram = Diagram(seeds_.device(), window_);
+    if (track.diagram.window() == window) continue;
+    track.diagram = std::move(diagrams.back());
+    diagrams.pop_back();
   }
+  window_ = window;
+  ++frame_;
 }
 
 void Simulation::step() {

@@ -70,13 +70,16 @@ class TakenReader {
 
   template <typename T>
   std::vector<T> next(std::uint64_t count) {
-    if (static_cast<std::size_t>(end_ - at_) / sizeof(T) < count) {
-      throw Error("these are not the sums of a plane's cells that were given away");
-    }
+    if (static_cast<std::size_t>(end_ - at_) / sizeof(T) < count) refuse();
     std::vector<T> values(count);
     if (count > 0) std::memcpy(static_cast<void*>(values.data()), at_, count * sizeof(T));
     at_ += count * sizeof(T);
     return values;
+  }
+
+  bool at_end() const { return at_ == end_; }
+  [[noreturn]] static void refuse() {
+    throw Error("these are not the sums of a plane's cells that were given away");
   }
 
  private:
@@ -124,16 +127,26 @@ void PlaneCellsState::add(const std::vector<char>& taken) {
   const Grid grid(head.width, head.height, static_cast<Periodic>(head.periodic));
   const Tiling tiling(Window(grid, head.window_x, head.window_y, head.window_width, head.window_height),
                       head.side);
-  if (tiling_.empty()) begin(head.ids, tiling);
-  if (head.ids != ids || !is_same(tiling, tiling_.front())) {
+  if (!tiling_.empty() && (head.ids != ids || !is_same(tiling, tiling_.front()))) {
     throw Error("these sums are of the cells of another plane, or of other tiles");
   }
-  for (const CellRecord& record : reader.next<CellRecord>(head.cells)) cells.add(record);
-  for (const PairRecord& record : reader.next<PairRecord>(head.pairs)) pairs.add(record);
+  // All is read before anything is added.
+  const auto added_cells = reader.next<CellRecord>(head.cells);
+  const auto added_pairs = reader.next<PairRecord>(head.pairs);
+  std::vector<std::pair<Seam, std::vector<std::uint32_t>>> rims;
   for (std::uint64_t i = 0; i < head.rims; ++i) {
     const TakenRim rim = reader.next<TakenRim>(1).front();
-    meet({rim.row, rim.column, rim.is_right != 0}, reader.next<std::uint32_t>(rim.labels));
+    if (rim.row >= tiling.rows() || rim.column >= tiling.columns()) reader.refuse();
+    const Window tile = tiling.tile(rim.row * tiling.columns() + rim.column);
+    const auto side = static_cast<std::uint64_t>(rim.is_right != 0 ? tile.height() : tile.width());
+    if (rim.labels != side) reader.refuse();
+    rims.emplace_back(Seam(rim.row, rim.column, rim.is_right != 0), reader.next<std::uint32_t>(rim.labels));
   }
+  if (!reader.at_end()) reader.refuse();
+  if (tiling_.empty()) begin(head.ids, tiling);
+  for (const CellRecord& record : added_cells) cells.add(record);
+  for (const PairRecord& record : added_pairs) pairs.add(record);
+  for (auto& [seam, labels] : rims) meet(seam, std::move(labels));
 }
 
 void PlaneCellsState::add(const TileLabels& tile, const TileMeasures& measures) {

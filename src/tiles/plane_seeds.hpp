@@ -34,7 +34,8 @@ struct PlaneSeedsState {
   }
 
   void sort() {
-    if (!sorted) tree.sort();
+    if (sorted) return;
+    tree.sort();
     sorted = true;
   }
 

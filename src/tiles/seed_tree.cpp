@@ -56,11 +56,13 @@ void SeedTree::sort() {
     }
   }
   shorten(kept);
+  boxes_.make(places_.size(), [&](std::size_t i) {
+    const std::int32_t x = x_of_z_order(places_[i]), y = y_of_z_order(places_[i]);
+    return Box{x, y, x, y};
+  });
   for (std::uint64_t& place : places_) {
     place = static_cast<std::uint64_t>(gather_bits(place >> 1)) << 32 | gather_bits(place);
   }
-
-  boxes_.make(places_.size(), [&](std::size_t i) { return Box{x_of(i), y_of(i), x_of(i), y_of(i)}; });
 }
 
 void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const {
