@@ -1,7 +1,6 @@
 #include "vorocl/dynamic_jump_flooding.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -49,19 +48,15 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
 
   const bool refresh =
       options.refresh_interval > 0 && previous && previous->age + 1 >= options.refresh_interval;
-  const auto plan_of_run = [&]() -> DynamicPlan {
-    if (options.reach == Reach::paper) {
-      return {false, options.alive || all_labels_live(*previous, flood.seeds()), plan};
-    }
-    const double length = std::sqrt(static_cast<double>(window.pixels()) / static_cast<double>(alive));
-    return reaching_plan(window, alive, max_displacement, flood.label_distances(length), options.metric,
-                         options.plan);
-  };
   if (refresh || alive == 0 || !previous) {
     flood.run(full);
     return flood.commit(full.size());
   }
-  const DynamicPlan run = plan_of_run();
+  const DynamicPlan run =
+      options.reach == Reach::measured
+          ? reaching_plan(window, alive, max_displacement, flood.label_distances(alive), options.metric,
+                          options.plan)
+          : DynamicPlan{false, options.alive || all_labels_live(*previous, flood.seeds()), plan};
   if (run.from_seeds) {
     flood.run(run.waves);
   } else {

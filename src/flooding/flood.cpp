@@ -62,7 +62,7 @@ void Flood::advance_labels() {
       .over_items(count_, positions_, count_, memory_.front, grid_.width());
 }
 
-LabelDistances Flood::label_distances(double length) {
+LabelDistances Flood::label_distances(std::size_t alive) {
   const int width = grid_.width(), height = grid_.height(), rows = row_interval * rows_of_item;
   constexpr std::size_t words = 4;
   diagram_.reserve(memory_.found, words * sizeof(cl_uint));
@@ -71,8 +71,9 @@ LabelDistances Flood::label_distances(double length) {
   const bool named = previous()->seeds != nullptr;
   const cl::Buffer& before = named ? *previous()->placement->positions : positions_;
   const cl_uint count_before = named ? static_cast<cl_uint>(previous()->seeds->size) : count_;
+  const double pixels_per_seed = static_cast<double>(grid_.pixels()) / static_cast<double>(alive);
   const auto in_lengths = [&](double lengths) {
-    return as_word(radius_of_area(metric_, lengths * length * lengths * length));
+    return as_word(radius_of_area(metric_, lengths * lengths * pixels_per_seed));
   };
   const cl_uint enough = in_lengths(2);
   Kernel& kernel = filling_.kernel("flooding/dynamic_jump_flooding.cl", "measure_labels");

@@ -38,9 +38,9 @@ class Flood {
   void advance_labels();
 
   /// How far the labels that the diagram holds are from their seeds, in every eighth row: that is enough to
-  /// tell how evenly the seeds are spread. `length` is L; if no label is farther than 2 L, that counts as the
-  /// greatest distance. Waits.
-  LabelDistances label_distances(double length);
+  /// tell how evenly the seeds are spread. So many of them are there, on which L depends: if no label is
+  /// farther than 2 L, that counts as the greatest distance. Waits.
+  LabelDistances label_distances(std::size_t alive);
 
   void wave(const Wave& wave);
 
