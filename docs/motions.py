@@ -46,8 +46,26 @@ def motions():
             cleared = (np.hypot(*(at - centre).T) < 150) & (frame % 10 < 5)
             yield np.where(cleared[:, None], np.nan, at)
 
+    def holes(radius, centres):
+        seeds = uniform(0, SIDE, (10000, 2))
+        return walk(seeds[np.all([np.hypot(*(seeds - centre).T) >= radius for centre in centres], axis=0)], 5)
+
+    def turnover(each):
+        """So many seeds vanish in each frame, and as many that were not there appear anywhere."""
+        alive = np.arange(11000) < 10000
+        for at in walk(uniform(0, SIDE, (11000, 2)), 5):
+            yield np.where(alive[:, None], at, np.nan)
+            changed = [rng.choice(np.flatnonzero(which), each, False) for which in (alive, ~alive)]
+            alive[np.concatenate(changed)] ^= True
+
     lattice = np.stack(np.meshgrid(np.arange(32, SIDE, 64), np.arange(32, SIDE, 64)), -1).reshape(-1, 2)
-    lines = np.stack(np.meshgrid(np.arange(0, SIDE, 2), np.arange(32, SIDE, 64)), -1).reshape(-1, 2)
+
+    def clusters_of(count):
+        return walk(np.repeat(lattice, count, 0) + rng.normal(0, 3, (256 * count, 2)), 4)
+
+    def lines(apart):
+        return np.stack(np.meshgrid(np.arange(0, SIDE, 2), np.arange(apart // 2, SIDE, apart)), -1).reshape(-1, 2)
+
     turn = uniform(0, 2 * np.pi, 3000)
     clusters = np.repeat(uniform(0, SIDE, (16, 2)), 625, 0) + rng.normal(0, SIDE / 50, (10000, 2))
     corners = np.concatenate([uniform(0, 60, (5000, 2)), uniform(SIDE - 60, SIDE, (5000, 2))])
@@ -58,12 +76,19 @@ def motions():
     yield "a line of 1,000 seeds, step 2", walk(np.stack([np.arange(SIDE), np.full(SIDE, 500)], 1), 2)
     yield "a blob that sweeps 20 pixels per frame", sweep()
     yield "3 seeds that jump anywhere", (np.floor(uniform(0, SIDE, (3, 2))) for _ in range(FRAMES + 1))
-    yield "a lattice of clusters of 40, 64 apart, step 4", walk(np.repeat(lattice, 40, 0) + rng.normal(0, 3, (10240, 2)), 4)
-    yield "lines 64 apart, step 2", walk(lines, 2)
+    yield "a lattice of clusters of 40, 64 apart, step 4", clusters_of(40)
+    yield "lines 64 apart, step 2", walk(lines(64), 2)
     yield "a gradient, step 5", walk(np.stack([SIDE * np.sqrt(uniform(0, 1, 10000)), uniform(0, SIDE, 10000)], 1), 5)
     yield "a ring of 3,000 seeds, step 3", walk(500 + 400 * np.stack([np.cos(turn), np.sin(turn)], 1), 3)
     yield "seeds that appear in empty space", appear()
     yield "discs that are cleared and refilled", discs()
+    yield "10,000 seeds less three holes of radius 75, step 5", holes(75, [(200, 200), (750, 300), (450, 780)])
+    yield "10,000 seeds less a hole of radius 60, step 5", holes(60, [(500, 400)])
+    yield "10,000 seeds, of which one vanishes per frame and one appears, step 5", turnover(1)
+    yield "10,000 seeds, of which ten vanish per frame and ten appear, step 5", turnover(10)
+    yield "a lattice of clusters of 3, 64 apart, step 4", clusters_of(3)
+    yield "a lattice of clusters of 6, 64 apart, step 4", clusters_of(6)
+    yield "lines 24 apart, step 1", walk(lines(24), 1)
 
 
 def write_trajectory(frames, path):
@@ -74,14 +99,29 @@ def write_trajectory(frames, path):
                        f"0 {SIDE}\n0 {SIDE}\n0 1\nITEM: ATOMS id x y z\n" + "".join(rows))
 
 
+def far_pixels(at):
+    """The percentages of pixels (one in 8 x 8) that are farther than L, and than 1.5 L, from their nearest seed."""
+    import numpy as np
+
+    seeds = at[at[:, 0] == at[:, 0]]
+    x = np.arange(0, SIDE, 8)
+    nearest = [((seeds[None] - np.stack([x, np.full_like(x, y)], -1)[:, None]) ** 2).sum(-1).min(1) for y in x]
+    squared_length = SIDE * SIDE / len(seeds)
+    return [f"{100 * np.mean(np.array(nearest) > factor * squared_length):.2f}" for factor in (1, 2.25)]
+
+
 def measure(command, path):
+    import numpy as np
+
     with open(path, "w", newline="", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["motion", "method", "similarity_mean", "similarity_least", "waves_least", "waves_greatest",
-                        "frames_from_seeds", "jfa_frames"])
+                        "frames_from_seeds", "jfa_frames", "farther_than_l", "farther_than_1.5_l"])
         for name, frames in motions():
             trajectory = os.path.join(folder, "motion.lammpstrj")
+            frames = [np.array(at) for at in frames]
             write_trajectory(frames, trajectory)
+            far = far_pixels(frames[0])
             for method, options in METHODS.items():
                 done = subprocess.run([command, "simulate", "--trajectory", trajectory, "--width", str(SIDE), "--method",
                                        *options, "--compare-with", "exact", "--json"],
@@ -91,15 +131,15 @@ def measure(command, path):
                 plans = result.get("plans", {"waves": waves, "frames_from_seeds": FRAMES, "jfa_frames": FRAMES})
                 table.writerow([name, method, f"{similarity['mean']:.4f}", f"{similarity['least']:.4f}",
                                 *(int(plans["waves"][which]) for which in ("least", "greatest")),
-                                plans["frames_from_seeds"], plans["jfa_frames"]])
+                                plans["frames_from_seeds"], plans["jfa_frames"], *far])
                 file.flush()
 
 
 def write_table(path, document):
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines = ["| motion | paper's plan | measured | JFA | waves: paper's plan, measured, JFA | frames from the seeds |",
-             "| --- | --- | --- | --- | --- | --- |"]
+    lines = ["| motion | paper's plan | measured | JFA | waves: paper's plan, measured, JFA | frames from the seeds | "
+             "farther than L, 1.5 L (%) |", "| --- | --- | --- | --- | --- | --- | --- |"]
     for name in dict.fromkeys(row["motion"] for row in rows):
         of = {row["method"]: row for row in rows if row["motion"] == name}
         percents = [f"{of[m]['similarity_mean']}, {of[m]['similarity_least']}" for m in ("paper", "measured", "jfa")]
@@ -107,7 +147,8 @@ def write_table(path, document):
         for row in (of["paper"], of["measured"], of["jfa"]):
             least, greatest = row["waves_least"], row["waves_greatest"]
             waves.append(least if least == greatest else f"{least} to {greatest}")
-        lines.append(f"| {name} | {' | '.join(percents)} | {'; '.join(waves)} | {of['measured']['frames_from_seeds']} |")
+        far = f"{of['jfa']['farther_than_l']}, {of['jfa']['farther_than_1.5_l']}"
+        lines.append(f"| {name} | {' | '.join(percents)} | {'; '.join(waves)} | {of['measured']['frames_from_seeds']} | {far} |")
     with open(document, encoding="utf-8") as file:
         text = file.read()
     begin, end = "<!-- table motions -->\n", "<!-- end -->"

@@ -1,6 +1,7 @@
 // Dynamic jump flooding (dJFA): the diagram of seeds that moved, from the one they had before.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "vorocl/diagram.hpp"
@@ -18,8 +19,14 @@ struct DynamicJumpFloodingOptions {
   Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is the paper's
 
   /// No seed has moved farther along an axis since the diagram was last filled, in pixels: the paper's d_max.
-  /// None: what the seeds know of it (Seeds::displacement(), over all frames since then).
+  /// None: what the seeds know of it (Seeds::displacement(), over all frames since then). A seed that is
+  /// reborn under its id is a new one, which has not moved; but if the diagram was not filled while it was
+  /// away, it has moved from where it was then.
   std::optional<double> max_displacement = {};
+
+  /// How many seeds are there: for points in the caller's buffer, so that the device is not asked. The waves
+  /// depend on it, and Reach::paper then does not look whether they reach all pixels. None: Seeds::alive().
+  std::optional<std::size_t> alive = {};
 };
 
 /// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
@@ -29,19 +36,20 @@ struct DynamicJumpFloodingOptions {
 /// Reach::paper: close to JFA where seeds are spread evenly and move little (the paper's assumption), worse,
 /// without a word, where they are not. A label of a vanished seed counts as none, and if a pixel is left
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels. Enqueues and
-/// returns, with three exceptions, in which it waits for all that was enqueued before:
-/// - After a seed may have vanished, or if the labels are of other seeds or were written by the caller, it
-///   looks whether pixels are left.
-/// - If the last frame's points came in the caller's buffer, it looks whether one was bad, which would have
-///   left holes in the labels: then a JFA runs.
-/// - If a buffer said which seeds are present, it asks how many they are, on which the waves depend.
+/// returns, with exceptions for points in the caller's buffer and for seeds that vanish, in which it waits
+/// for all that was enqueued before:
+/// - Unless it is told `max_displacement`, it asks how far points in the buffer have moved.
+/// - Unless it is told how many seeds are `alive`, it asks so where a buffer said which are present, and
+///   whether the last frame had a bad point. If it had, if a seed may have vanished, or if the labels are of
+///   other seeds or were written by the caller, it looks whether pixels are left.
 ///
-/// Reach::measured: as close to the exact diagram as JFA for any seeds and any motion. The pass over the
-/// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on
-/// (docs/moving_seeds.md says when), JFA's waves run from a step that covers that distance.
-/// `max_displacement` may be less than what was: the distance shows it. Evenly spread seeds get the paper's
-/// plan, and its labels. Cost: as above, at most JFA's waves and a pass over the labels. Waits, once the
-/// labels are measured: each frame is enqueued when the device has come to it.
+/// Reach::measured: for any seeds and any motion about as close to the exact diagram as JFA
+/// (docs/moving_seeds.md: how close, and the worst that is known). One row in eight of the labels shows how
+/// far they are from their seeds, and where the paper's plan cannot be relied on, JFA's waves run from a step
+/// that covers that distance. `max_displacement` may be less than what was: the distance shows it. Seeds that
+/// are spread evenly and move by less than 2 L get the paper's plan, and its labels. Cost: as above, or at
+/// most JFA's waves and the extra ones. Waits, once the labels are measured: each frame is enqueued when the
+/// device has come to it.
 ///
 /// 13 bytes of device memory per pixel. Throws as jump_flooding(), and if an option is out of its range.
 VOROCL_API Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,

@@ -100,12 +100,11 @@ Kernel& Filling::kernel(const Device& device, const char* file, const char* name
   return diagram_.kernels.get(device, file, name, placement().grid, {next_.metric});
 }
 
-Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age, bool far_counted,
+Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last, int age,
                        const FloodStart& start) {
   check(clFlush(diagram_.device.queue()()), "starting the diagram");
   next_.last = last;
   next_.age = age;
-  next_.far_counted = far_counted;
   diagram_.contents = next_;
   return Internal::report(waves, first, last, stopwatch_.milliseconds(), start);
 }

@@ -26,7 +26,6 @@ struct DiagramContents {
   std::string method;                          // empty: the caller wrote them
   cl::Event last;                              // the command that finished them
   int age = 0;                                 // frames since they were last made from nothing
-  bool far_counted = false;                    // the flood that made them counted pixels far from their seeds
 };
 
 struct DiagramState {
@@ -98,7 +97,7 @@ class Filling {
   /// Says that the diagram holds the labels of the seeds, `age` frames after they were last made from
   /// nothing. Starts what was enqueued, and reports it.
   Report commit(int waves, const cl::Event& first, const cl::Event& last, int age = 0,
-                bool far_counted = false, const FloodStart& start = {});
+                const FloodStart& start = {});
 
  private:
   Stopwatch stopwatch_;

@@ -11,14 +11,6 @@ namespace vorocl {
 
 namespace {
 
-/// Whether waves may start from what the diagram held: it was filled, and from no bad point, which would have
-/// left holes. Waits for the check of points that came in the caller's buffer.
-bool is_sound(const std::optional<DiagramContents>& contents) {
-  if (!contents) return false;
-  const SeedsFrame* const seeds = contents->seeds.get();
-  return seeds == nullptr || !seeds->points || !seeds->points->bad_point();
-}
-
 /// How far seeds went since the diagram was filled; as far as they can where the diagram does not know.
 double way_since(const std::optional<DiagramContents>& previous, const SeedsFrame& now) {
   if (!previous) return 0;
@@ -26,10 +18,12 @@ double way_since(const std::optional<DiagramContents>& previous, const SeedsFram
   return static_cast<double>(std::max(now.grid.width(), now.grid.height()));
 }
 
-/// Whether every label names a seed that is still there.
+/// Whether every pixel has the label of a seed that is still there. Waits for the check of points that came
+/// in the caller's buffer: a bad one may have left pixels without a label.
 bool all_labels_live(const DiagramContents& contents, const SeedsFrame& now) {
-  return contents.seeds && contents.seeds->owner == now.owner && contents.seeds->losses == now.losses &&
-         contents.seeds->alive() > 0;
+  const SeedsFrame* const seeds = contents.seeds.get();
+  return seeds != nullptr && seeds->owner == now.owner && seeds->losses == now.losses && seeds->alive() > 0 &&
+         !(seeds->points && seeds->points->bad_point());
 }
 
 }  // namespace
@@ -43,7 +37,7 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
                 " frames is not possible; give 0 or more");
   }
   const std::optional<DiagramContents>& previous = flood.previous();
-  const std::size_t alive = seeds.alive();
+  const std::size_t alive = options.alive ? *options.alive : seeds.alive();
   const double max_displacement =
       options.max_displacement ? *options.max_displacement : way_since(previous, flood.seeds());
   const Plan plan = dynamic_jump_flooding_plan(window, alive, max_displacement, options.plan);
@@ -54,30 +48,25 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
 
   const bool refresh =
       options.refresh_interval > 0 && previous && previous->age + 1 >= options.refresh_interval;
-  const bool measured = options.reach == Reach::measured;
-  const auto commit = [&](std::size_t waves, int age) {
-    if (measured && alive > 0) flood.count_far_pixels();
-    return flood.commit(waves, age);
-  };
-  if (refresh || alive == 0 || !is_sound(previous)) {
+  if (refresh || alive == 0 || !previous) {
     flood.run(full);
-    return commit(full.size(), 0);
+    return flood.commit(full.size());
   }
-  if (measured) {
-    const DynamicPlan reaching = reaching_plan(
-        window, alive, max_displacement, flood.label_distances(reach_of(plan)), options.metric, options.plan);
-    if (reaching.from_seeds) {
-      flood.run(reaching.waves);
-      return commit(reaching.waves.size(), previous->age + 1);
+  const DynamicPlan run =
+      options.reach == Reach::measured
+          ? reaching_plan(window, alive, max_displacement, flood.label_distances(alive), options.metric,
+                          options.plan)
+          : DynamicPlan{false, options.alive || all_labels_live(*previous, flood.seeds()), plan};
+  if (run.from_seeds) {
+    flood.run(run.waves);
+  } else {
+    flood.run_from_labels(run.waves);
+    if (!run.fills && flood.some_unlabelled()) {
+      flood.run(full);
+      return flood.commit(run.waves.size() + full.size());
     }
   }
-  flood.run_from_labels(plan);
-  const bool all_labelled = all_labels_live(*previous, flood.seeds());
-  if (!all_labelled && flood.some_unlabelled()) {
-    flood.run(full);
-    return commit(plan.size() + full.size(), 0);
-  }
-  return commit(plan.size(), previous->age + 1);
+  return flood.commit(run.waves.size(), previous->age + 1);
 }
 
 }  // namespace vorocl

@@ -1,7 +1,6 @@
 #include "flooding/flood.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "runtime/buffer.hpp"
@@ -11,16 +10,13 @@ namespace vorocl {
 
 namespace {
 
-constexpr int row_interval = 8;                          // of the rows in which far pixels are counted
-constexpr std::uint32_t farther_than_any = 0x80000000u;  // the distance to an empty label, at least
+constexpr int row_interval = 8;  // of the rows in which labels are measured
+constexpr int rows_of_item = 8;  // how many of those one work-item takes
 
-std::size_t measured_rows(const PixelGrid& grid) {
-  return static_cast<std::size_t>((grid.height() + row_interval - 1) / row_interval);
-}
+/// As kernels compare it; less than the distance to an empty label.
+cl_uint as_word(double compared) { return static_cast<cl_uint>(std::min(compared, 2147483647.0)); }
 
-std::uint32_t as_distance(int pixels, Metric metric) {
-  return static_cast<std::uint32_t>(std::min(as_compared(metric, pixels), farther_than_any - 1.0));
-}
+std::size_t divided_up(int number, int by) { return static_cast<std::size_t>((number + by - 1) / by); }
 
 }  // namespace
 
@@ -66,39 +62,29 @@ void Flood::advance_labels() {
       .over_items(count_, positions_, count_, memory_.front, grid_.width());
 }
 
-cl::Event Flood::measure_labels(std::uint32_t near) {
-  const std::size_t rows = measured_rows(grid_);
-  for (cl::Buffer* const buffer : {&memory_.greatest, &memory_.far_pixels}) {
-    diagram_.reserve(*buffer, rows * sizeof(std::uint32_t));
-    begins_with(fill(diagram_.device, *buffer, cl_uint{0}, rows));
-  }
-  return filling_.kernel("flooding/dynamic_jump_flooding.cl", "measure_labels")
-      .over_grid(diagram_.labels, positions_, count_, grid_.width(), grid_.height(), row_interval, near,
-                 memory_.greatest, memory_.far_pixels);
-}
-
-LabelDistances Flood::label_distances(int enough) {
-  const std::size_t rows = measured_rows(grid_);
-  LabelDistances distances;
-  distances.margin = row_interval;
-  // Of labels that no flood made, those of now have to do.
-  if (!previous()->far_counted) count_far_pixels();
-  const auto far_pixels = download<std::uint32_t>(diagram_.device, memory_.far_pixels, rows);
-  distances.far = std::accumulate(far_pixels.begin(), far_pixels.end(), 0.0) /
-                  static_cast<double>(rows * static_cast<std::size_t>(grid_.width()));
-  measure_labels(as_distance(enough, metric_));
-  const auto greatest = download<std::uint32_t>(diagram_.device, memory_.greatest, rows);
-  const std::uint32_t most = *std::max_element(greatest.begin(), greatest.end());
-  if (most < farther_than_any) {
-    distances.greatest = most == 0 ? enough : in_pixels(metric_, most);
-  }
-  return distances;
-}
-
-void Flood::count_far_pixels() {
-  const double pixels_per_seed = static_cast<double>(grid_.pixels()) / static_cast<double>(seeds().alive());
-  last_event_ = measure_labels(static_cast<std::uint32_t>(radius_of_area(metric_, pixels_per_seed)));
-  far_counted_ = true;
+LabelDistances Flood::label_distances(std::size_t alive) {
+  const int width = grid_.width(), height = grid_.height(), rows = row_interval * rows_of_item;
+  constexpr std::size_t words = 4;
+  diagram_.reserve(memory_.found, words * sizeof(cl_uint));
+  begins_with(fill(diagram_.device, memory_.found, cl_uint{0}, words));
+  // Of labels that name no seeds, those of now have to do.
+  const bool named = previous()->seeds != nullptr;
+  const cl::Buffer& before = named ? *previous()->placement->positions : positions_;
+  const cl_uint count_before = named ? static_cast<cl_uint>(previous()->seeds->size) : count_;
+  const double pixels_per_seed = static_cast<double>(grid_.pixels()) / static_cast<double>(alive);
+  const auto in_lengths = [&](double lengths) {
+    return as_word(radius_of_area(metric_, lengths * lengths * pixels_per_seed));
+  };
+  const cl_uint enough = in_lengths(2);
+  Kernel& kernel = filling_.kernel("flooding/dynamic_jump_flooding.cl", "measure_labels");
+  kernel.over_items(divided_up(width, static_cast<int>(kernel.vector_width())) * divided_up(height, rows),
+                    diagram_.labels, before, count_before, positions_, count_, width, height, row_interval,
+                    rows, enough, in_lengths(LabelDistances::far_lengths),
+                    in_lengths(LabelDistances::farther_lengths), memory_.found);
+  const auto found = download<cl_uint>(diagram_.device, memory_.found, words);
+  const double measured = static_cast<double>(divided_up(height, row_interval)) * width;
+  const double greatest = in_pixels(metric_, std::max(found[0], enough));
+  return {greatest, found[2] / measured, found[3] / measured, found[1], row_interval};
 }
 
 void Flood::wave(const Wave& wave) {
@@ -153,7 +139,7 @@ void Flood::run_from_labels(const Plan& plan) {
 }
 
 Report Flood::commit(std::size_t waves, int age) {
-  return filling_.commit(static_cast<int>(waves), first_event_, last_event_, age, far_counted_, start_);
+  return filling_.commit(static_cast<int>(waves), first_event_, last_event_, age, start_);
 }
 
 }  // namespace vorocl

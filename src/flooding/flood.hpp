@@ -8,12 +8,12 @@
 
 namespace vorocl {
 
-/// The working memory of flooding: 9 bytes per pixel, and 1 per row.
+/// The working memory of flooding: 9 bytes per pixel.
 struct FloodWorkspace {
-  cl::Buffer front, back;           // images of packed positions, which change places with every wave
-  cl::Buffer seeded;                // a byte per pixel: whether it holds a seed
-  cl::Buffer flag;                  // one word, for kernels that report
-  cl::Buffer greatest, far_pixels;  // by measured row: see measure_labels()
+  cl::Buffer front, back;  // images of packed positions, which change places with every wave
+  cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
+  cl::Buffer flag;         // one word, for kernels that report
+  cl::Buffer found;        // four words: see measure_labels()
 };
 
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
@@ -37,13 +37,10 @@ class Flood {
   /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
   void advance_labels();
 
-  /// How far the labels that the diagram holds are from their seeds. If none is farther than `enough` pixels,
-  /// that counts as the greatest distance. Waits.
-  LabelDistances label_distances(int enough);
-
-  /// Behind the last wave: counts the pixels that are far from their seeds (see LabelDistances), for the next
-  /// frame. Every eighth row is enough to tell how evenly the seeds are spread. Needs a seed that is there.
-  void count_far_pixels();
+  /// How far the labels that the diagram holds are from their seeds, in every eighth row: that is enough to
+  /// tell how evenly the seeds are spread. So many of them are there, on which L depends: if no label is
+  /// farther than 2 L, that counts as the greatest distance. Waits.
+  LabelDistances label_distances(std::size_t alive);
 
   void wave(const Wave& wave);
 
@@ -72,9 +69,6 @@ class Flood {
  private:
   void begins_with(const cl::Event& event);
 
-  /// Enqueues measure_labels(), for a squared distance, or in the Manhattan metric a distance.
-  cl::Event measure_labels(std::uint32_t near);
-
   DiagramState& diagram_;
   Filling filling_;
   const PixelGrid& grid_;
@@ -84,7 +78,6 @@ class Flood {
   FloodWorkspace& memory_;
   cl::Event first_event_, last_event_;
   FloodStart start_;
-  bool far_counted_ = false;
 };
 
 }  // namespace vorocl

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 
 #include "vorocl/plan.hpp"
 
@@ -11,30 +10,35 @@ namespace vorocl {
 
 /// What a diagram's labels say of a new frame of seeds.
 struct LabelDistances {
-  /// The greatest distance of a measured pixel from its label's seed, where that is now, in pixels; infinite
-  /// if one has no label whose seed is there. No measured pixel is farther from its nearest seed.
-  double greatest = std::numeric_limits<double>::infinity();
+  /// The greatest distance of a measured pixel from its label's seed, where that is now, in pixels. No such
+  /// pixel is farther from its nearest seed.
+  double greatest = 0;
 
-  /// The share of pixels that were far from their seed when the labels were made: farther than L, or in the
-  /// Manhattan metric than the distance that as many pixels are within. exp(-pi) = 0.043 of them are, where
-  /// seeds are spread evenly; 1 if it is not known.
-  double far = 1;
+  /// The shares of measured pixels that were farther from their seed than L, and than 1.5 L, when the labels
+  /// were made; in the Manhattan metric than the distance that as many pixels are within. Where seeds are
+  /// spread evenly, exp(-pi) = 0.043 and exp(-1.5^2 pi) = 0.0009 of them are.
+  static constexpr double far_lengths = 1, farther_lengths = 1.5;
+  double far = 0, farther = 0;
 
-  /// How much farther pixels may be that were not measured.
-  double margin = 0;
+  /// How many measured pixels have no label whose seed is there now.
+  std::size_t missing = 0;
+
+  /// One row in so many was measured, from the first on.
+  int row_interval = 1;
 };
 
 /// Waves, and what they start from.
 struct DynamicPlan {
   bool from_seeds;  ///< as JFA; else from the last labels, at the seeds' new pixels
+  bool fills;       ///< no pixel of the last labels can be left without one
   Plan waves;
 };
 
 /// The waves of dynamic jump flooding whose reach follows from the last labels. The paper's plan, where it
 /// can be relied on: the square that it reaches holds the greatest distance, at most a tenth of the pixels
-/// were far from their seeds, and seeds moved by less than 2 L, or by less than L / 2 if it begins with JFA's
-/// first step. Else JFA's waves from the least step whose plan covers that distance, and the extra waves: as
-/// good as JFA, and never longer. docs/moving_seeds.md says why old labels are no start there. Throws as
+/// were farther than L and a hundredth farther than 1.5 L from their seeds, and seeds moved by less than 2 L,
+/// or by less than L / 2 if it begins with JFA's first step. Else JFA's waves from the least step whose plan
+/// covers that distance, and the extra waves. docs/moving_seeds.md gives the reasons. Throws as
 /// dynamic_jump_flooding_plan().
 DynamicPlan reaching_plan(const Window& window, std::size_t seeds, double max_displacement,
                           const LabelDistances& distances, Metric metric,

@@ -153,6 +153,24 @@ const std::vector<Motion>& motions() {
        [](Frame& points, int frame, Random& r) {
          points[299 + static_cast<std::size_t>(frame)] = anywhere(r);
        }},
+      {"evenly spread but for a hole",
+       [](Random& r) {
+         Frame points = evenly(2621, r);
+         const auto in_hole = [](const std::optional<Point>& at) {
+           return std::hypot(at->x - 120, at->y - 110) < 36;
+         };
+         points.erase(std::remove_if(points.begin(), points.end(), in_hole), points.end());
+         return points;
+       },
+       walk(2)},
+      {"one seed dies in each frame, one is born", [](Random& r) { return evenly(655, r); },
+       [](Frame& points, int frame, Random& r) {
+         const auto last = static_cast<std::size_t>(frame) % points.size();
+         if (frame > 1) points[last - 1] = anywhere(r);
+         points[last].reset();
+         for (auto& point : points)
+           if (point) point = inside(point->x + r.below(11) - 5, point->y + r.below(11) - 5);
+       }},
       {"discs that are cleared and refilled", [](Random& r) { return evenly(655, r); },
        [](Frame& points, int frame, Random& r) {
          for (auto& point : points) {

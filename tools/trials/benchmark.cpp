@@ -6,7 +6,6 @@
 
 #include "trials/samples.hpp"
 #include "vorocl/exact_diagram.hpp"
-#include "vorocl/jump_flooding.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/tiles.hpp"
 
@@ -14,9 +13,8 @@ namespace vorocl::command {
 
 namespace {
 
-/// How far seeds have moved along an axis, at most, since the diagram that djfa starts from (as in the
-/// paper).
-constexpr int max_displacement = 5;
+/// How far seeds move along an axis, at most, from the diagram that djfa starts from (as in the paper).
+constexpr int step_length = 5;
 
 /// A method as it is measured: `run` is what is timed, after `prepare`; `labels` are those of its last run.
 struct Contender {
@@ -37,16 +35,18 @@ Contender other_method(const Method& method, const Seeds& seeds, Diagram& diagra
   return {method.name, [] {}, run, [&diagram] { return diagram.read(); }};
 }
 
+/// As frame 1 of a simulation: what is prepared is its frame 0, which starts from nothing.
 Contender continuing_method(const Method& method, const Seeds& seeds, Diagram& diagram,
-                            MethodOptions options) {
-  options.max_displacement = max_displacement;
+                            const MethodOptions& options) {
   const auto now = seeds.read();
   const auto moving = std::make_shared<Seeds>(seeds.clone());
-  random_step(*moving, max_displacement, Border::reflect, 1, 0);
+  random_step(*moving, step_length, Border::reflect, 1, 0);
   const auto before = moving->read();
-  const auto prepare = [moving, before, now, &diagram, options] {
+  MethodOptions anew = options;
+  anew.refresh_interval = 1;
+  const auto prepare = [&method, moving, before, now, &diagram, anew] {
     moving->move_to(before);
-    jump_flooding(*moving, diagram, {options.metric});
+    method.run(*moving, diagram, anew);
     moving->move_to(now);
     moving->device().finish();
   };
