@@ -15,7 +15,7 @@ struct DynamicJumpFloodingOptions {
   Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
   DynamicPlanOptions plan = {};       ///< the waves
   int refresh_interval = 0;           ///< every how many frames a full JFA runs instead; 0: only for frame 0
-  Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is the paper's
+  Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is fixed
 
   /// No seed has moved farther along an axis since the diagram was last filled, in pixels: the paper's d_max.
   /// None: what the seeds know of it (Seeds::displacement(), over all frames since then).
@@ -35,6 +35,8 @@ struct DynamicJumpFloodingOptions {
 /// - If the last frame's points came in the caller's buffer, it looks whether one was bad, which would have
 ///   left holes in the labels: then a JFA runs.
 /// - If a buffer said which seeds are present, it asks how many they are, on which the waves depend.
+///
+/// Reach::authors: the same with a wave less, and several times as many wrong pixels.
 ///
 /// Reach::measured: as close to the exact diagram as JFA for any seeds and any motion. The pass over the
 /// labels also finds how far they are from their seeds, and where the paper's plan cannot be relied on

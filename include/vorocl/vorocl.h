@@ -357,9 +357,9 @@ typedef int vorocl_neighbourhood;
 enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAULT_NEIGHBOURHOOD = 3 };
 
 /// Where the waves of dynamic jump flooding get their reach from: see vorocl::Reach. One of
-/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER.
+/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER, VOROCL_REACH_AUTHORS.
 typedef int vorocl_reach;
-enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1 };
+enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1, VOROCL_REACH_AUTHORS = 2 };
 
 /// Says that seeds have moved as far as they know: vorocl_seeds_displacement(), over all frames since the
 /// diagram was last filled.

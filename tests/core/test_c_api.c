@@ -214,6 +214,11 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_run("djfa", seeds, diagram, &options));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6);
+  options.reach = VOROCL_REACH_AUTHORS;
+  OK(vorocl_run("djfa", seeds, diagram, &options));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 5);
+  options.reach = VOROCL_REACH_PAPER;
 
   /* A call that fails has no report, and that of an earlier one is gone. */
   options.von_neumann_waves = 3;
