@@ -398,7 +398,7 @@ VOROCL_API vorocl_status vorocl_method_count(size_t* count);
 VOROCL_API vorocl_status vorocl_method_get(size_t index, vorocl_method_description* description);
 
 /// Fills the diagram by the method of this name: "exact", "jfa", "jfa+1", "jfa+2", "1+jfa",
-/// "standard-flooding" or "djfa". VOROCL_BAD_ARGUMENT, with a list, if there is none.
+/// "standard-flooding", "djfa" or "low-resolution". VOROCL_BAD_ARGUMENT, with a list, if there is none.
 VOROCL_API vorocl_status vorocl_run(const char* method, const vorocl_seeds* seeds, vorocl_diagram* diagram,
                                     const vorocl_method_options* options);
 

@@ -11,6 +11,7 @@ static const struct {
                     {"jfa+2", 0, 0, 0, 8},
                     {"1+jfa", 0, 0, 0, 7},
                     {"djfa", 0, 1, 0, 6},
+                    {"low-resolution", 0, 0, 0, 0},
                     {"exact", 1, 0, 1, 0}};
 
 static void test_devices(const vorocl_device* device) {

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
-# similarities, plans, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
+# similarities, plans, resolution, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 vorocl=$(realpath "${1:-build/tools/vorocl}")
 study=$vorocl-study
 shift || true
-parts=" ${*:-pictures lengths evaluation large similarities plans ablation tables} "
+parts=" ${*:-pictures lengths evaluation large similarities plans resolution ablation tables} "
 out=$PWD/docs/evaluation
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -118,6 +118,23 @@ print(run["waves"], run["milliseconds"] / run["frames"], run["errors"]["wrong_pe
     done
   } >"$work/plans.csv"
   mv "$work/plans.csv" "$out/"
+fi
+if wants resolution; then
+  /usr/bin/python3 docs/hurtful_sets.py "$work"
+  {
+    echo "seeds,round,method,milliseconds,wrong_pixels"
+    for seeds in 256 4096 65536 262144 five-clusters ring; do
+      for round in 1 2 3; do
+        input=(--random "$seeds" --rng-seed "$round")
+        [ ! -e "$work/$seeds.npy" ] || input=(--points "$work/$seeds.npy" --bounds 0,0,2048,2048)
+        "$vorocl" bench "${input[@]}" --size 2048x2048 --methods jfa,low-resolution,exact --repeat 5 --json | python3 -c "
+import json, sys
+for row in json.load(sys.stdin)['results']:
+    print('$seeds', $round, row['method'], row['min_ms'], row['wrong_pixels'], sep=',')"
+      done
+    done
+  } >"$work/resolution.csv"
+  mv "$work/resolution.csv" "$out/"
 fi
 if wants ablation; then
   "$study" ablation -o "$work/ablation.csv"
