@@ -5,6 +5,7 @@
 #include "vorocl/error.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/jump_flooding.hpp"
+#include "vorocl/low_resolution.hpp"
 #include "vorocl/standard_flooding.hpp"
 
 namespace vorocl {
@@ -40,6 +41,11 @@ Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, const Met
   return dynamic_jump_flooding(
       seeds, diagram,
       {options.metric, plan, options.refresh_interval, options.reach, options.max_displacement});
+}
+
+Report run_low_resolution(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
+  refuse_mixed(options);
+  return low_resolution(seeds, diagram, {options.metric});
 }
 
 Report run_exact(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
@@ -79,6 +85,7 @@ const std::vector<Method>& methods() {
       of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
       of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
       {"djfa", false, true, false, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
+      {"low-resolution", false, false, false, run_low_resolution, nullptr},
       {"exact", true, false, true, run_exact, nullptr},
   };
   return all;

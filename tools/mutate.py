@@ -42,7 +42,8 @@ OPERATORS = [
 # `vorocl devices --check`.
 GROUP = ["test_group_shape", "test_exact_diagram --run_test=random*,lowest*,frame* -- group"]
 EXACT = ["check", "test_window", "test_exact_diagram --run_test=random*,lowest*,frame*"]
-FLOODING = ["check", "test_jump_flooding", "test_standard_flooding", "test_dynamic_jump_flooding"]
+FLOODING = ["check", "test_jump_flooding", "test_standard_flooding", "test_dynamic_jump_flooding",
+            "test_low_resolution"]
 MEASURES = ["test_c_api_measures", "test_similarity", "test_window_measures", "test_fields", "test_cells",
             "test_relaxation", "test_adjacency", "test_distance_errors", "test_cell_table", "test_diagram_memory"]
 KERNEL_TESTS = [

@@ -16,7 +16,7 @@ struct DynamicJumpFloodingOptions {
   Metric metric = Metric::euclidean;  ///< Euclidean is the paper's dJFAe, Manhattan its dJFAm
   DynamicPlanOptions plan = {};       ///< the waves
   int refresh_interval = 0;           ///< every how many frames a full JFA runs instead; 0: only for frame 0
-  Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is the paper's
+  Reach reach = Reach::measured;      ///< whether the plan follows from the labels too, or is fixed
 
   /// No seed has moved farther along an axis since the diagram was last filled, in pixels: the paper's d_max.
   /// None: what the seeds know of it (Seeds::displacement(), over all frames since then). A seed that is
@@ -43,6 +43,8 @@ struct DynamicJumpFloodingOptions {
 ///   whether the last frame had a bad point. If it had, if a seed may have vanished, or if the labels are of
 ///   other seeds or were written by the caller, it looks whether pixels are left.
 ///
+  /// Reach::authors: the same with a wave less, and several times as many wrong pixels.
+  ///
 /// Reach::measured: for any seeds and any motion about as close to the exact diagram as JFA
 /// (docs/moving_seeds.md: how close, and the worst that is known). One row in eight of the labels shows how
 /// far they are from their seeds, and where the paper's plan cannot be relied on, JFA's waves run from a step

@@ -55,18 +55,23 @@ struct DynamicPlanOptions {
   int extra_waves = 0;        ///< 0, 1 or 2: one more wave of step 1, or two of steps 2 and 1
 };
 
-/// The waves of dynamic jump flooding for a number of seeds that are alive and have moved by at most
-/// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
-/// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
-/// seeds), from 1 to first_step(window). Throws Error if the displacement or an option is out of its range.
-VOROCL_API Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
-                                           const DynamicPlanOptions& options = {});
-
 /// Where the waves of dynamic jump flooding get their reach from.
 enum class Reach {
   measured,  ///< how far the last labels are from their seeds: see dynamic_jump_flooding()
   paper,     ///< the seeds' mean density and d_max alone: dynamic_jump_flooding_plan(), the paper's Eq. 4
+  authors,   ///< the same, rounded down where Eq. 4 rounds up, as the program of the paper's authors does
 };
+
+/// The waves of dynamic jump flooding for a number of seeds that are alive and have moved by at most
+/// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
+/// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
+/// seeds), from 1 to first_step(window). Of Reach::authors, delta_1 = 2^floor(log2(max(2 L, d_max))), so
+/// there is a wave less: docs/evaluation.md says what that is worth. Of Reach::measured it is the plan that
+/// runs where the labels allow it, which is the paper's. Throws Error if the displacement or an option is out
+/// of its range.
+VOROCL_API Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
+                                           const DynamicPlanOptions& options = {},
+                                           Reach reach = Reach::paper);
 
 /// The steps, each von Neumann wave marked: "32v 16v 8 4 2 1".
 VOROCL_API std::string to_string(const Plan& plan);

@@ -357,9 +357,9 @@ typedef int vorocl_neighbourhood;
 enum { VOROCL_MOORE = 0, VOROCL_VON_NEUMANN = 1, VOROCL_MIXED = 2, VOROCL_DEFAULT_NEIGHBOURHOOD = 3 };
 
 /// Where the waves of dynamic jump flooding get their reach from: see vorocl::Reach. One of
-/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER.
+/// VOROCL_REACH_MEASURED, VOROCL_REACH_PAPER, VOROCL_REACH_AUTHORS.
 typedef int vorocl_reach;
-enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1 };
+enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1, VOROCL_REACH_AUTHORS = 2 };
 
 /// Says that seeds have moved as far as they know: vorocl_seeds_displacement(), over all frames since the
 /// diagram was last filled.
@@ -398,7 +398,7 @@ VOROCL_API vorocl_status vorocl_method_count(size_t* count);
 VOROCL_API vorocl_status vorocl_method_get(size_t index, vorocl_method_description* description);
 
 /// Fills the diagram by the method of this name: "exact", "jfa", "jfa+1", "jfa+2", "1+jfa",
-/// "standard-flooding" or "djfa". VOROCL_BAD_ARGUMENT, with a list, if there is none.
+/// "standard-flooding", "djfa" or "low-resolution". VOROCL_BAD_ARGUMENT, with a list, if there is none.
 VOROCL_API vorocl_status vorocl_run(const char* method, const vorocl_seeds* seeds, vorocl_diagram* diagram,
                                     const vorocl_method_options* options);
 

@@ -10,6 +10,7 @@
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/jump_flooding.hpp"
+#include "vorocl/low_resolution.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/plan.hpp"

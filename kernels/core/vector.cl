@@ -115,6 +115,23 @@ DEFINE_LOOK_UP(look_up_in_2, look_up_in_1, 2)
 DEFINE_LOOK_UP(look_up_in_3, look_up_in_2, 3)
 DEFINE_LOOK_UP(look_up_in_4, look_up_in_3, 4)
 
+// The values of a table at a vector of indices.
+#define LANE(i) table[at.s##i]
+static inline uint looked_up_1(global const uint* table, uint at) { return table[at]; }
+static inline uint2 looked_up_2(global const uint* table, uint2 at) { return (uint2)(LANE(0), LANE(1)); }
+static inline uint4 looked_up_4(global const uint* table, uint4 at) {
+  return (uint4)(LANE(0), LANE(1), LANE(2), LANE(3));
+}
+static inline uint8 looked_up_8(global const uint* table, uint8 at) {
+  return (uint8)(LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7));
+}
+static inline uint16 looked_up_16(global const uint* table, uint16 at) {
+  return (uint16)(LANE(0), LANE(1), LANE(2), LANE(3), LANE(4), LANE(5), LANE(6), LANE(7), LANE(8), LANE(9), LANE(a),
+                  LANE(b), LANE(c), LANE(d), LANE(e), LANE(f));
+}
+#undef LANE
+#define looked_up JOIN(looked_up_, VOROCL_WIDTH)
+
 // The sum of a vector's lanes.
 static inline uint lane_sum_1(uint values) { return values; }
 static inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }

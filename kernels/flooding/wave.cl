@@ -55,9 +55,9 @@ static inline uint_v best_label(const uint_v* label, uint_v pixel, uint period) 
   return best;
 }
 
-// The labels of the vector at (x, y) after a wave.
-static inline uint_v nearest_label(global const uint* image, int x, int y, int width, int height, int step) {
-  uint_v label[VOROCL_NEIGHBOURS];
+// The labels that the vector at (x, y) may take in a wave: its own and its neighbours'.
+static inline void load_neighbours(uint_v* label, global const uint* image, int x, int y, int width, int height,
+                                   int step) {
   const int step_x = step_along(step, width, PERIODIC_X), step_y = step_along(step, height, PERIODIC_Y);
   if (x >= step_x && x + VOROCL_WIDTH + step_x <= width && y >= step_y && y + step_y < height) {
     // All neighbours are inside the grid: without the tests a wave of a small step takes an eighth less time.
@@ -72,5 +72,11 @@ static inline uint_v nearest_label(global const uint* image, int x, int y, int w
       label[i] = load_labels(image, x + neighbour_x[i] * step_x, y + neighbour_y[i] * step_y, width, height);
     }
   }
+}
+
+// The labels of the vector at (x, y) after a wave.
+static inline uint_v nearest_label(global const uint* image, int x, int y, int width, int height, int step) {
+  uint_v label[VOROCL_NEIGHBOURS];
+  load_neighbours(label, image, x, y, width, height, step);
   return best_label(label, vector_positions(x, y), periods(width, height));
 }

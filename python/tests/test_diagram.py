@@ -27,7 +27,9 @@ def test_the_k_d_tree_finds_nothing_nearer(periodic, metric):
     assert_nearest(vorocl.diagram(points, (300, 511), periodic=periodic, metric=metric), points, periodic, metric)
 
 
-@pytest.mark.parametrize("method", ["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa"])
+@pytest.mark.parametrize(
+    "method", ["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution"]
+)
 def test_methods_that_flood_are_nearly_right(method):
     points = rng.uniform(0, 128, (60, 2))
     vorocl.diagram(rng.uniform(0, 128, (60, 2)), (128, 128), method=method)

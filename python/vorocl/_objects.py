@@ -236,7 +236,7 @@ class Diagram:
             Of the diagram's shape, periodic axes and device.
         method : str, optional
             "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1",
-            "jfa+2", "1+jfa", "djfa". "djfa" goes on from the labels that the diagram holds.
+            "jfa+2", "1+jfa", "djfa", "low-resolution". "djfa" goes on from the labels that the diagram holds.
         metric : {"euclidean", "manhattan"}, optional
         max_displacement : float, optional
             For "djfa" alone: how far a seed has moved along an axis, at most, since the diagram was last filled, in

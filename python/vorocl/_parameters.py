@@ -16,7 +16,8 @@ shape : (int, int)
     flood take up to 32,000.""",
     "method": """\
 method : str, optional
-    "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa".""",
+    "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",
+    "low-resolution".""",
     "metric": """\
 metric : {"euclidean", "manhattan"}, optional
     How far apart two pixel centres are.""",

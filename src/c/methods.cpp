@@ -20,6 +20,7 @@ std::optional<NeighbourhoodMix> to_mix(vorocl_neighbourhood neighbourhood) {
 Reach to_reach(vorocl_reach reach) {
   if (reach == VOROCL_REACH_MEASURED) return Reach::measured;
   if (reach == VOROCL_REACH_PAPER) return Reach::paper;
+  if (reach == VOROCL_REACH_AUTHORS) return Reach::authors;
   refuse("reach", reach);
 }
 

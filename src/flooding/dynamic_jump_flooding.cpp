@@ -40,7 +40,7 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
   const std::size_t alive = options.alive ? *options.alive : seeds.alive();
   const double max_displacement =
       options.max_displacement ? *options.max_displacement : way_since(previous, flood.seeds());
-  const Plan plan = dynamic_jump_flooding_plan(window, alive, max_displacement, options.plan);
+  const Plan plan = dynamic_jump_flooding_plan(window, alive, max_displacement, options.plan, options.reach);
   // A full JFA has the neighbourhood of a plan that is not mixed.
   const bool von_neumann = options.plan.neighbourhood == NeighbourhoodMix::von_neumann;
   const Plan full = jump_flooding_plan(window, JumpFloodingVariant::jfa,

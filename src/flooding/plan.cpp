@@ -26,16 +26,19 @@ void check_options(double max_displacement, const DynamicPlanOptions& options) {
   }
 }
 
-/// The least power of two that is at least 2 L and max_displacement, or the window's first step if that is
-/// less. 2 L is compared in integers: step >= 2 sqrt(pixels / seeds), squared.
-int dynamic_first_step(const Window& window, std::size_t seeds, double max_displacement) {
+/// 2 L and max_displacement, the longer one, rounded up to a power of two, or for the authors' plan down;
+/// from 1 to the window's first step. 2 L is compared in integers: step and 2 sqrt(pixels / seeds), both
+/// squared.
+int dynamic_first_step(const Window& window, std::size_t seeds, double max_displacement, Reach reach) {
   const int most = std::max(first_step(window), 1);
-  const auto covers = [&](int step) {
-    const auto square = static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(step);
-    return square * seeds >= 4 * static_cast<std::uint64_t>(window.pixels()) && step >= max_displacement;
+  const std::uint64_t length = 4 * static_cast<std::uint64_t>(window.pixels());
+  const auto squared = [&](int step) {
+    return static_cast<std::uint64_t>(step) * static_cast<std::uint64_t>(step) * seeds;
   };
+  const auto is_shorter = [&](int step) { return squared(step) < length || step < max_displacement; };
+  const auto is_longer = [&](int step) { return squared(step) > length && step > max_displacement; };
   int step = 1;
-  while (step < most && !covers(step)) step *= 2;
+  while (step < most && (reach == Reach::authors ? !is_longer(2 * step) : is_shorter(step))) step *= 2;
   return step;
 }
 
@@ -64,13 +67,13 @@ Plan jump_flooding_plan(const Window& window, JumpFloodingVariant variant, Neigh
 }
 
 Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
-                                const DynamicPlanOptions& options) {
+                                const DynamicPlanOptions& options, Reach reach) {
   check_options(max_displacement, options);
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan;
   if (first_step(window) == 0) return plan;
-  for (int step = dynamic_first_step(window, seeds, max_displacement); step >= 1; step /= 2)
+  for (int step = dynamic_first_step(window, seeds, max_displacement, reach); step >= 1; step /= 2)
     plan.push_back({step, rest});
   append_extra_waves(plan, options.extra_waves, rest);
   if (options.neighbourhood == NeighbourhoodMix::mixed) {

@@ -242,6 +242,7 @@ BOOST_AUTO_TEST_CASE(the_plans_of_a_run_are_told) {
                       {"frames_from_seeds", 0},
                       {"jfa_frames", 0}};
   BOOST_TEST(plans_of("--reach paper") == paper);
+  BOOST_TEST(plans_of("--reach authors").at("first_step").at("greatest") == 32);
   const json measured = {{"first_step", {{"least", 128.0}, {"greatest", 128.0}}},
                          {"waves", {{"least", 8.0}, {"greatest", 8.0}}},
                          {"max_displacement", {{"least", 0.0}, {"greatest", 0.0}}},

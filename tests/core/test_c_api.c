@@ -11,6 +11,7 @@ static const struct {
                     {"jfa+2", 0, 0, 0, 8},
                     {"1+jfa", 0, 0, 0, 7},
                     {"djfa", 0, 1, 0, 6},
+                    {"low-resolution", 0, 0, 0, 0},
                     {"exact", 1, 0, 1, 0}};
 
 static void test_devices(const vorocl_device* device) {
@@ -214,6 +215,11 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_run("djfa", seeds, diagram, &options));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6);
+  options.reach = VOROCL_REACH_AUTHORS;
+  OK(vorocl_run("djfa", seeds, diagram, &options));
+  OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
+  CHECK(waves == 5);
+  options.reach = VOROCL_REACH_PAPER;
 
   /* A call that fails has no report, and that of an earlier one is gone. */
   options.von_neumann_waves = 3;

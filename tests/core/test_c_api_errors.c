@@ -334,7 +334,7 @@ static void test_bad_methods(const vorocl_device* device) {
   vorocl_diagram *diagram = NULL, *other = NULL;
   vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
   vorocl_method_description method;
-  const char* const names[] = {"standard-flooding", "jfa", "djfa", "exact"};
+  const char* const names[] = {"standard-flooding", "jfa", "djfa", "low-resolution", "exact"};
   OK(vorocl_diagram_create(device, window, &diagram));
   OK(vorocl_diagram_create(device, window_of(height, width), &other));
   for (size_t i = 0; i < sizeof names / sizeof *names; ++i) {

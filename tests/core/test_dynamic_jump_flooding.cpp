@@ -33,10 +33,11 @@ Simulation random_walk(const Grid& grid, std::size_t count, int most, Border bor
   });
 }
 
-/// With the paper's plans.
-Simulation::Engine djfa(Metric metric, DynamicPlanOptions plan = {}, int refresh_interval = 0) {
+/// With the paper's plans, or its authors'.
+Simulation::Engine djfa(Metric metric, DynamicPlanOptions plan = {}, int refresh_interval = 0,
+                        Reach reach = Reach::paper) {
   return [=](const Seeds& seeds, Diagram& diagram) {
-    return dynamic_jump_flooding(seeds, diagram, {metric, plan, refresh_interval, Reach::paper});
+    return dynamic_jump_flooding(seeds, diagram, {metric, plan, refresh_interval, reach});
   };
 }
 
@@ -66,15 +67,16 @@ BOOST_AUTO_TEST_CASE(every_frame_equals_a_reference) {
     for (const Grid& grid : {Grid(61, 47), Grid(16, 33), Grid(130, 3), Grid(1, 1)}) {
       for (const NeighbourhoodMix mix : mixes) {
         for (const int extra_waves : {0, 1, 2}) {
+          const Reach reach = extra_waves == 1 ? Reach::authors : Reach::paper;
           const DynamicPlanOptions plan = {mix, 2, extra_waves};
           Simulation simulation = random_walk(grid, 60, 3);
-          simulation.add_engine(djfa(metric, plan));
+          simulation.add_engine(djfa(metric, plan, 0, reach));
           simulation.step();
           auto expected = simulation.diagram().read();
           for (int frame = 1; frame <= 5; ++frame) {
             simulation.step();
             const auto seeds = pixels_of(points_of(simulation.seeds()));
-            const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), 3, plan);
+            const Plan waves = dynamic_jump_flooding_plan(grid, seeds.size(), 3, plan, reach);
             expected = reference_flood(grid, seeds, waves, metric, owners(expected, seeds));
             BOOST_TEST((simulation.diagram().read() == expected),
                        grid.width() << " x " << grid.height() << ", " << name_of(metric) << ", waves "

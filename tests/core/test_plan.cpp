@@ -1,5 +1,7 @@
 // Plans: the steps of the waves, against the paper's formula.
 #define BOOST_TEST_MODULE plan
+#include <cmath>
+
 #include "fixture.hpp"
 #include "flooding/reaching_plan.hpp"
 
@@ -57,6 +59,28 @@ BOOST_AUTO_TEST_CASE(dynamic_plans_follow_the_formula_of_the_paper) {
   BOOST_TEST(plan(Grid(1000, 1000), 10000, 33) == "64v 32v 16 8 4 2 1");
   BOOST_TEST(plan(Grid(1000, 1000), 10000, 32) == "32v 16v 8 4 2 1");
   BOOST_TEST(plan(Grid(1, 1), 1).empty());
+}
+
+BOOST_AUTO_TEST_CASE(plans_of_the_authors_program_round_down) {
+  const auto plan = [](const Grid& grid, std::size_t seeds, double max_displacement = 0) {
+    return to_string(dynamic_jump_flooding_plan(grid, seeds, max_displacement, {}, Reach::authors));
+  };
+  // Their first step is 2^max(int(log2(d_max)), int(log2(L)) + 1), from 1 to JFA's.
+  for (const std::size_t seeds : {1, 90, 250, 1000, 3906, 15625, 62499, 62500, 250000}) {
+    for (const double most : {1.0, 6.0, 31.0, 32.0, 700.0}) {
+      const double length = std::sqrt(1e6 / static_cast<double>(seeds));
+      const int power = std::max(static_cast<int>(std::log2(most)), static_cast<int>(std::log2(length)) + 1);
+      const Plan waves = dynamic_jump_flooding_plan(Grid(1000, 1000), seeds, most, {}, Reach::authors);
+      BOOST_TEST(waves.front().step == std::min(1 << power, 512), seeds << " seeds, d_max " << most);
+    }
+  }
+  BOOST_TEST(plan(Grid(1000, 1000), 10000) == "16v 8v 4 2 1");
+  BOOST_TEST(plan(Grid(1000, 1000), 10000, 33) == "32v 16v 8 4 2 1");
+  // Where 2 L is a power of two, it is the paper's plan.
+  BOOST_TEST(plan(Grid(1024, 1024), 4096) == "32v 16v 8 4 2 1");
+  BOOST_TEST(plan(Grid(1024, 1024), 4097) == "16v 8v 4 2 1");
+  BOOST_TEST(plan(Grid(8, 8), 1) == "4v 2v 1");
+  BOOST_TEST(plan(Grid(64, 64), 16384) == "1");
 }
 
 // Whether a plan starts from the seeds, and its waves.

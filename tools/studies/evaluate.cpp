@@ -32,8 +32,8 @@ std::vector<int> sides_of(const EvaluateOptions& options) {
   return {500, 1000, 2000};
 }
 
-/// The paper's range with --full, n^2 / (100 i) for i from 100 to 1: 10,000 to 100 pixels per seed. Without
-/// it, from 20,000 to 16.
+/// The range of the authors' notebook with --full, n^2 / (100 i) for i from 100 to 1: 10,000 to 100 pixels
+/// per seed. Without it, from 20,000 to 16.
 std::vector<SeedCount> seeds_of(const EvaluateOptions& options) {
   if (!options.study.seeds.empty()) return options.study.seeds;
   const std::vector<const char*> usual = {"0.005%", "0.01%", "0.05%", "0.1%", "0.5%", "1%", "3%", "6.25%"};
@@ -173,7 +173,8 @@ void add_evaluate(CommandLine& line) {
       .required();
   command.add("--resume", options->resume, "Continue the file if it exists");
   command.add("--full", options->full,
-              "The paper's range, for a GPU: grids of 1000 to 20000 pixels a side, 0.01% to 1% seeds, timed "
+              "The range of the paper's authors, for a GPU: grids of 1000 to 20000 pixels a side, 0.01% to "
+              "1% seeds, timed "
               "over all frames");
   add_study_options(command, options->study, "500,1000,2000", "eight from 0.005% to 6.25%");
   add_device_option(command, options->device);

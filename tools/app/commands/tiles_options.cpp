@@ -74,7 +74,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   Command command =
       line.add("tiles", "Make the diagram of a plane that is larger than a device, tile by tile");
   add_plane_options(command, options->input);
-  add_units_option(command, options->input.seeds);
+  add_units_option(command, options->input.seeds, "points");
   add_metric_option(command, options->metric);
   command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
       .value_name("N")

@@ -60,11 +60,15 @@ void add_method_options(Command& command, MethodOptions& options) {
       .value_name("R")
       .in_range(0, 1000000000)
       .default_is_value();
-  const Choices<Reach> reaches = {{"measured", Reach::measured}, {"paper", Reach::paper}};
-  command.add_choice(
-      "--reach", options.reach, reaches,
-      "djfa: the waves follow from how far the last labels are from their seeds, or, as in the "
-      "paper, from the mean density and the greatest displacement alone");
+  const Choices<Reach> reaches = {
+      {"measured", Reach::measured}, {"paper", Reach::paper}, {"authors", Reach::authors}};
+  command
+      .add_choice(
+          "--reach", options.reach, reaches,
+          "djfa: the waves follow from how far the last labels are from their seeds, or, as in the "
+          "paper, from the mean density and the greatest displacement alone; authors: likewise, with a "
+          "first step rounded down, as in the program of the paper's authors")
+      .default_text("measured");
 }
 
 void check_method_options(const Command& command, const std::vector<Method>& methods,

@@ -31,7 +31,9 @@ void add_plane_options(Command& command, PlaneInputOptions& options);
 void add_frame_option(Command& command, SeedOptions& options);
 
 /// Adds --units, for the subcommands that measure.
-void add_units_option(Command& command, SeedOptions& options);
+/// The help says which input has units of its own.
+void add_units_option(Command& command, SeedOptions& options,
+                      const std::string& with_data = "points and trajectories");
 
 /// Adds --frames, --step-length, --fit and --border.
 void add_motion_options(Command& command, MotionOptions& options);

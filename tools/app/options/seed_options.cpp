@@ -182,13 +182,13 @@ void add_frame_option(Command& command, SeedOptions& options) {
       .needs("--trajectory");
 }
 
-void add_units_option(Command& command, SeedOptions& options) {
+void add_units_option(Command& command, SeedOptions& options, const std::string& with_data) {
   const Choices<std::optional<MeasureUnits>> units = {{"data", MeasureUnits::data},
                                                       {"px", MeasureUnits::pixels}};
   command
       .add_choice("--units", options.units, units,
                   "Units of areas, lengths and distances: those of the data, or pixels")
-      .default_text("data for points and trajectories, else px");
+      .default_text("data for " + with_data + ", else px");
 }
 
 void add_motion_options(Command& command, MotionOptions& options) {

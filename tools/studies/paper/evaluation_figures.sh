@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
-# similarities, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
+# similarities, plans, resolution, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
 set -euo pipefail
 cd "$(dirname "$0")/../../.."
 vorocl=$(realpath "${1:-build/tools/vorocl}")
 study=$vorocl-study
 shift || true
-parts=" ${*:-pictures lengths evaluation large similarities ablation tables} "
+parts=" ${*:-pictures lengths evaluation large similarities plans resolution ablation tables} "
 out=$PWD/docs/evaluation
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -76,12 +76,13 @@ if wants similarities; then
   # The mean similarity of a simulation with these options.
   similarity() { "$vorocl" simulate "$@" --json | python3 -c 'import json, sys; print(json.load(sys.stdin)["similarity"]["mean"])'; }
   {
-    echo "n,seeds,extra_waves,compare_with,similarity"
+    echo "n,seeds,reach,extra_waves,compare_with,tolerance,similarity"
     for seeds in 2000 20000 40000; do
-      for way in "0 jfa" "2 jfa" "2 jfa+2"; do
-        read -r extra_waves other <<<"$way"
-        echo "2000,$seeds,$extra_waves,$other,$(similarity --random "$seeds" --size 2000x2000 --frames 20 --step-length 5 \
-          --method djfa --reach paper --extra-waves "$extra_waves" --compare-with "$other")"
+      for way in "paper 0 jfa" "paper 2 jfa" "paper 2 jfa+2" "authors 2 jfa+2 0.2"; do
+        read -r reach extra_waves other tolerance <<<"$way"
+        echo "2000,$seeds,$reach,$extra_waves,$other,$tolerance,$(similarity --random "$seeds" --size 2000x2000 --frames 20 \
+          --step-length 5 --method djfa --reach "$reach" --extra-waves "$extra_waves" --compare-with "$other" \
+          ${tolerance:+--tolerance "$tolerance"})"
       done
     done
   } >"$work/extra_waves.csv"
@@ -94,6 +95,46 @@ if wants similarities; then
     done
   } >"$work/tolerance.csv"
   mv "$work"/{extra_waves,tolerance}.csv "$out/"
+fi
+if wants plans; then
+  # A row: the waves, the milliseconds per frame and the wrong pixels of a simulation with these options.
+  row_of() {
+    "$vorocl" simulate "$@" --frames 20 --step-length 5 --compare-with exact --json | python3 -c '
+import json, sys
+run = json.load(sys.stdin)
+print(run["waves"], run["milliseconds"] / run["frames"], run["errors"]["wrong_percent_mean"], sep=",")'
+  }
+  {
+    echo "n,seeds,method,reach,extra_waves,round,waves,milliseconds,wrong_percent"
+    for seeds in 400 4000 40000 200000; do
+      for round in 1 2 3; do
+        echo "2000,$seeds,jfa,,,$round,$(row_of --random "$seeds" --size 2000x2000 --method jfa)"
+        for way in "paper 0" "authors 0" "authors 1" "authors 2"; do
+          read -r reach extra_waves <<<"$way"
+          echo "2000,$seeds,djfa,$reach,$extra_waves,$round,$(row_of --random "$seeds" --size 2000x2000 --method djfa \
+            --reach "$reach" --extra-waves "$extra_waves")"
+        done
+      done
+    done
+  } >"$work/plans.csv"
+  mv "$work/plans.csv" "$out/"
+fi
+if wants resolution; then
+  /usr/bin/python3 docs/hurtful_sets.py "$work"
+  {
+    echo "seeds,round,method,milliseconds,wrong_pixels"
+    for seeds in 256 4096 65536 262144 five-clusters ring; do
+      for round in 1 2 3; do
+        input=(--random "$seeds" --rng-seed "$round")
+        [ ! -e "$work/$seeds.npy" ] || input=(--points "$work/$seeds.npy" --bounds 0,0,2048,2048)
+        "$vorocl" bench "${input[@]}" --size 2048x2048 --methods jfa,low-resolution,exact --repeat 5 --json | python3 -c "
+import json, sys
+for row in json.load(sys.stdin)['results']:
+    print('$seeds', $round, row['method'], row['min_ms'], row['wrong_pixels'], sep=',')"
+      done
+    done
+  } >"$work/resolution.csv"
+  mv "$work/resolution.csv" "$out/"
 fi
 if wants ablation; then
   "$study" ablation -o "$work/ablation.csv"

@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Writes the tables of docs/evaluation.md between their marks, from the tables that the commands have written:
 evaluation_tables.py DOCUMENT FOLDER, with evaluation.csv, ablation.csv and lengths.csv (and evaluation-10000.csv,
-extra_waves.csv and tolerance.csv, where they are there) in the folder."""
+extra_waves.csv, plans.csv, resolution.csv and tolerance.csv, where they are there) in the folder."""
 
 import argparse
 import csv
+import math
 import os
 import re
 import sys
@@ -52,6 +53,8 @@ class Evaluation:
 
 
 JFA, DJFAE, DJFAM, EXACT = ("jfa", "euclidean"), ("djfa", "euclidean"), ("djfa", "manhattan"), ("exact", "euclidean")
+JFAM = ("jfa", "manhattan")
+PUBLISHED_SIMILARITIES = {2000: 99.9955, 20000: 99.9921, 40000: 99.9935}  # by seeds on 2,000 x 2,000: V2ER2K
 
 
 def table(head, rows):
@@ -152,80 +155,130 @@ def range_verdict(values, low, high):
     return "agrees" if inside == len(values) else f"{inside} of {len(values)} within it"
 
 
-WAVES = "the waves' ratio is {:.2f}; see section 8"
+
+def ratio_of_their_waves(n, seeds):
+    """Of the authors' program: JFA's waves over those of dJFA, whose first step is 2 L_avg rounded down."""
+    return (int(math.log2(n)) + 1) / (int(math.log2(2 * n / math.sqrt(seeds))) + 1)
+
 
 
 def published_table(evaluation, large, lengths):
-    head = ["published", "value", "ours", "verdict", "why"]
+    head = ["published", "source", "value", "ours", "verdict", "why"]
     rows = []
 
-    def add(name, value, ours, says, why=""):
-        rows.append([name, value, ours, says, why])
+    def add(name, source, value, ours, says, why=""):
+        rows.append([name, source, value, ours, says, why])
 
     under = {row["length"]: number(row, "percent_under_2_l_avg") for row in lengths}
     for length, percent in under.items():
         why = "" if percent > 98.5 else "a convex region's box is longer than the root of its area"
-        add(f"regions shorter than 2 L_avg ({length})", "about 99 %", shown(percent, 2, " %"),
+        add(f"regions shorter than 2 L_avg ({length})", "text", "about 99 %", shown(percent, 2, " %"),
             "agrees" if percent > 98.5 else "less", why)
     for n, seeds, published in [(1000, 100, 1.2), (1000, 10000, 2.1), (10000, 1000000, 4.3), (20000, 4000000, 4.7)]:
         source = large if n >= 10000 else evaluation
         ours = source.speedup(n, seeds, JFA, DJFAE) if source else None
         waves = [source.value(n, seeds, "waves", method) for method in ("jfa", "djfa")] if source else [None]
-        why = WAVES.format(waves[0] / waves[1]) if ours is not None else "for a GPU: `evaluate --full`"
-        add(f"speedup of dJFAe, {n:,}², {n * n // seeds:,} pixels per seed", f"{published} ×", shown(ours, 2, " ×"),
-            verdict(ours, published, 0.1), why)
-    add("speedup of dJFAm, 20,000², 100 pixels per seed", "5.1 ×", "not run", "not run here", "for a GPU: `evaluate --full`")
+        here = f"{waves[0] / waves[1]:.2f} here, " if ours is not None else ""
+        why = f"the waves' ratio is {here}{ratio_of_their_waves(n, seeds):.2f} there; see section 8"
+        add(f"speedup of dJFAe, {n:,}², {n * n // seeds:,} pixels per seed", "notebook", f"{published} ×",
+            shown(ours, 2, " ×"), verdict(ours, published, 0.1), why)
+    add("speedup of dJFAm, 20,000², 100 pixels per seed", "notebook", "5.1 ×", "not run", "not run here", "for a GPU: `evaluate --full`")
     of_djfae, of_djfam = evaluation.speedups(JFA, DJFAE), evaluation.speedups(JFA, DJFAM)
     between = evaluation.speedups(DJFAE, DJFAM)
-    for name, published, ratios in [
-        ("greatest speedup of dJFAe", 4.5, of_djfae),
-        ("greatest speedup of dJFAm", 5.0, of_djfam),
-        ("greatest speedup of all (abstract)", 5.3, of_djfae + of_djfam),
-        ("greatest T_dJFAe / T_dJFAm", 1.2, between),
+    for name, source, published, ratios in [
+        ("greatest speedup of dJFAe", "text", 4.5, of_djfae),
+        ("greatest speedup of dJFAm, over the Euclidean JFA", "text", 5.0, of_djfam),
+        ("greatest speedup of dJFAm, over the Manhattan JFA", "", None, evaluation.speedups(JFAM, DJFAM)),
+        ("greatest speedup of all", "abstract", 5.3, of_djfae + of_djfam),
+        ("greatest T_dJFAe / T_dJFAm", "text", 1.2, between),
     ]:
         best, n, seeds = max(ratios)
-        says = verdict(best, published, 0.1)
+        says = verdict(best, published, 0.1) if published else ""
         reason = (
             "a squared distance costs no more than a Manhattan one here" if ratios is between
             else "grids up to 2,000², where JFA has 11 waves (15 on 20,000²); see section 8"
         )
-        add(name, f"{published} ×", f"{best:.2f} × ({n:,}², {seeds:,} seeds)", says, reason if says == "less" else "")
+        add(name, source, f"{published} ×" if published else "not given", f"{best:.2f} × ({n:,}², {seeds:,} seeds)", says,
+            reason if says == "less" else "")
     slower = [
         evaluation.value(n, seeds, "waves", "jfa") / evaluation.value(n, seeds, "waves")
         for value, n, seeds in of_djfae + of_djfam if value < 1
     ]
     count = 2 * len(evaluation.configurations)
-    add("dJFA takes less time than JFA", "always", f"in {count - len(slower)} of {count} cases",
+    add("dJFA takes less time than JFA", "text", "always", f"in {count - len(slower)} of {count} cases",
         "not always" if slower else "agrees",
         f"where it does not, JFA has at most {max(slower):.2f} times as many waves" if slower else "")
-    for seeds, published in [(200, 99.997), (2000, 99.968), (20000, 99.796)]:
+    for seeds, published in PUBLISHED_SIMILARITIES.items():
         ours = evaluation.value(2000, seeds, "similarity_to_euclidean_jfa_mean")
-        says = "not run here" if ours is None else "agrees" if abs(ours - published) < 0.002 else "nearer" if ours > published else "less near"
-        add(f"similarity of dJFAe, 2,000², {seeds:,} seeds", f"{published} %", shown(ours, 4, " %"), says,
-            "see below" if says == "nearer" else "")
+        says = "not run here" if ours is None else "nearer" if ours > published else "less near"
+        add(f"similarity of dJFAe, 2,000², {seeds:,} seeds", "notebook", f"{published} %", shown(ours, 4, " %"), says,
+            "not measured alike: see below")
     values = [value for value, _, _ in evaluation.all("similarity_to_euclidean_jfa_mean", metric="manhattan")]
-    add("similarity of dJFAm to the Euclidean JFA", "88 to 92 %", f"{min(values):.2f} to {max(values):.2f} %",
+    add("similarity of dJFAm to the Euclidean JFA", "text", "88 to 92 %", f"{min(values):.2f} to {max(values):.2f} %",
         range_verdict(values, 88, 92), "")
     values = [value for value, _, _ in evaluation.all("similarity_to_jfa_mean", metric="manhattan")]
-    add("similarity of dJFAm to its own JFA", "not given", f"{min(values):.4f} to {max(values):.4f} %", "",
+    add("similarity of dJFAm to its own JFA", "", "not given", f"{min(values):.4f} to {max(values):.4f} %", "",
         "what is missing above is the metrics' difference")
     return table(head, rows)
 
 
 def extra_waves_table(rows):
-    """Of each number of seeds: the published similarity of V2ER*, and ours by the waves and what they are held against."""
-    published = {2000: 99.9955, 20000: 99.9921, 40000: 99.9935}
-    ours = {(int(row["seeds"]), row["extra_waves"], row["compare_with"]): number(row, "similarity") for row in rows}
-    head = ["seeds on 2,000 x 2,000", "published", "no extra waves, to JFA", "`--extra-waves 2`, to JFA", "`--extra-waves 2`, to JFA+2"]
-    ways = [("0", "jfa"), ("2", "jfa"), ("2", "jfa+2")]
+    """Of each number of seeds: the notebook's similarity, and ours by the plan and what it is held against."""
+    ours = {
+        (int(row["seeds"]), row["reach"], row["extra_waves"], row["compare_with"]): number(row, "similarity") for row in rows
+    }
+    head = [
+        "seeds on 2,000 x 2,000", "notebook", "`--reach paper`, to JFA", "`--extra-waves 2`, to JFA",
+        "`--extra-waves 2`, to JFA+2", "`--reach authors --extra-waves 2`, to JFA+2, within 1e-4 n",
+    ]
+    ways = [("paper", "0", "jfa"), ("paper", "2", "jfa"), ("paper", "2", "jfa+2"), ("authors", "2", "jfa+2")]
     return table(head, [
-        [f"{seeds:,}", shown(value, 4)] + [shown(ours[seeds, *way], 4) for way in ways] for seeds, value in published.items()
+        [f"{seeds:,}", shown(value, 4)] + [shown(ours[seeds, *way], 4) for way in ways]
+        for seeds, value in PUBLISHED_SIMILARITIES.items()
     ])
+
+
+def plans_table(rows):
+    """Of each number of seeds JFA and dJFA's plans: the least time of the runs, also as a share of JFA's."""
+    runs = {}
+    for row in rows:
+        runs.setdefault((int(row["n"]), int(row["seeds"]), row["method"], row["reach"], row["extra_waves"]), []).append(row)
+    times = {key: min(number(row, "milliseconds") for row in of) for key, of in runs.items()}
+    head = ["pixels per seed", "plan", "waves", "ms per frame", "of JFA's", "wrong pixels"]
+    lines, before = [], None
+    for (n, seeds, method, reach, extra_waves), of in runs.items():
+        time = times[n, seeds, method, reach, extra_waves]
+        plan = "JFA" if method == "jfa" else f"`--reach {reach}" + (f" --extra-waves {extra_waves}`" if extra_waves != "0" else "`")
+        lines.append([
+            f"{n * n // seeds:,}" if seeds != before else "", plan, of[0]["waves"], shown(time, 2),
+            shown(time / times[n, seeds, "jfa", "", ""], 2), shown(number(of[0], "wrong_percent"), 4, " %"),
+        ])
+        before = seeds
+    return table(head, lines)
+
+
+def resolution_table(rows):
+    """Of each kind of seeds on 2048 x 2048: the least times, and the wrong pixels of all rounds' seeds."""
+    runs = {}
+    for row in rows:
+        runs.setdefault(row["seeds"], {}).setdefault(row["method"], []).append(row)
+    head = ["seeds", "pixels per seed", "JFA: ms", "wrong pixels", "low resolution: ms", "of JFA's", "wrong pixels", "exact: ms"]
+    lines = []
+    for seeds, methods in runs.items():
+        time = {name: min(number(row, "milliseconds") for row in of) for name, of in methods.items()}
+        wrong = {name: f"{sum(int(row['wrong_pixels']) for row in of) / len(of):,.0f}" for name, of in methods.items()}
+        counted = seeds.isdigit()
+        lines.append([
+            f"{int(seeds):,}" if counted else seeds.replace("-", " "), f"{2048**2 // int(seeds):,}" if counted else "",
+            shown(time["jfa"], 1), wrong["jfa"], shown(time["low-resolution"], 1),
+            shown(time["low-resolution"] / time["jfa"], 2), wrong["low-resolution"], shown(time["exact"], 1),
+        ])
+    return table(head, lines)
 
 
 def tolerance_table(rows):
     published = {(1000, 100): 90.2, (2000, 100): 90.8, (4000, 100): 92.5}
-    head = ["n", "pixels per seed", "equal labels", "distances within 1e-4 n", "published"]
+    head = ["n", "pixels per seed", "equal labels", "distances within 1e-4 n", "notebook"]
     return table(head, [
         [f"{n:,}", f"{n * n // int(row['seeds']):,}", shown(number(row, "strict"), 2), shown(number(row, "tolerant"), 2),
          shown(published[n, n * n // int(row["seeds"])], 1) if (n, n * n // int(row["seeds"])) in published else ""]
@@ -247,7 +300,11 @@ def tables(folder):
     large = Evaluation(read(folder, "evaluation-10000.csv")) if os.path.exists(large_path) else None
     similarities = {
         name: made(read(folder, file))
-        for name, file, made in (("extra waves", "extra_waves.csv", extra_waves_table), ("tolerance", "tolerance.csv", tolerance_table))
+        for name, file, made in (
+            ("extra waves", "extra_waves.csv", extra_waves_table), ("plans", "plans.csv", plans_table),
+            ("resolution", "resolution.csv", resolution_table),
+            ("tolerance", "tolerance.csv", tolerance_table),
+        )
         if os.path.exists(os.path.join(folder, file))
     }
     return {
