@@ -109,14 +109,33 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
 
 bool TrajectorySeeds::next() {
   if (!read()) return false;
+  read_ahead();
   take_frame(shown_bounds(), view_->picture.size);
   return true;
 }
 
+TrajectorySeeds::Read TrajectorySeeds::read_into(Frame room) const {
+  Read read;
+  read.frame = std::move(room);
+  read.is_there = reader_->next(read.frame);
+  read.bytes_left = reader_->bytes_left();
+  return read;
+}
+
 bool TrajectorySeeds::read() {
-  if (!reader_->next(frame_)) return false;
+  Read read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
+  if (!read.is_there) return false;
+  room_ = std::exchange(frame_, std::move(read.frame));
+  bytes_left_ = read.bytes_left;
   ++number_;
   return true;
+}
+
+void TrajectorySeeds::read_ahead() {
+  // Not from a pipe, where the next frame may never come.
+  if (!bytes_left_) return;
+  ahead_ = std::async(std::launch::async,
+                      [this, room = std::move(room_)]() mutable { return read_into(std::move(room)); });
 }
 
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {
