@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "formats/values.hpp"
@@ -150,8 +151,8 @@ void ParticleRows::clear() {
   positions_.clear();
   values_.clear();
   order_.clear();
-  lowest_z_ = INFINITY;
-  highest_z_ = -INFINITY;
+  lowest_z_ = std::numeric_limits<double>::infinity();
+  highest_z_ = -lowest_z_;
 }
 
 void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const ParticleCount& count,
