@@ -1,6 +1,9 @@
 // How far particles have moved, by the shorter way round a periodic box.
 #define BOOST_TEST_MODULE periodic_step
+#include <algorithm>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <random>
 
 #include "app/sources/particles.hpp"
 
@@ -30,4 +33,24 @@ BOOST_AUTO_TEST_CASE(steps_go_the_shorter_way_round) {
   BOOST_TEST(step(tilted, {60.5, 48.5}, {30.5, 1.5}) == 3);
   BOOST_TEST(step(tilted, {60.5, 1.5}, {30.5, 48.5}, true) == 3);
   BOOST_TEST(step(periodic, {60.5, 48.5}, {30.5, 1.5}) == 30);
+}
+
+BOOST_AUTO_TEST_CASE(no_other_way_round_is_shorter) {
+  std::mt19937 bits(1);
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(bits);
+  };
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double width = uniform(50, 100), height = uniform(50, 100);  // not flat: see above
+    const Periods periods{width, height, trial % 3 == 0 ? 0 : uniform(-width / 2, width / 2)};
+    const Point from{uniform(0, width), uniform(0, height)}, to{uniform(0, width), uniform(0, height)};
+    double least = INFINITY;
+    for (int turns_y = -3; turns_y <= 3; ++turns_y) {
+      for (int turns_x = -5; turns_x <= 5; ++turns_x) {
+        const double x = to.x - from.x - turns_x * width - turns_y * periods.tilt;
+        least = std::min(least, std::max(std::abs(x), std::abs(to.y - from.y - turns_y * height)));
+      }
+    }
+    BOOST_TEST(displacement(from, to, periods) == least, boost::test_tools::tolerance(1e-9));
+  }
 }

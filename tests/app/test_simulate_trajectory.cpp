@@ -108,6 +108,25 @@ BOOST_AUTO_TEST_CASE(of_particles_on_one_pixel_the_lowest_id_has_the_cell) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(of_a_crowd_the_lowest_ids_have_the_cells) {
+  const TemporaryFolder folder;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> anywhere(0, 10);
+  std::vector<Particles> frames(3);
+  std::string text;
+  for (Particles& particles : frames) {
+    while (particles.size() < 900)
+      particles[static_cast<std::uint32_t>(random() % 100'000)] = {anywhere(random), anywhere(random)};
+    text += frame_text(particles);
+  }
+  folder.file("t.lammpstrj", text);
+  succeeds(folder, "simulate --trajectory t.lammpstrj --size 30x30 --labels l%d.npy");
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) ==
+               exact_labels(frames[i], Grid(30, 30, Periodic::xy)));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(each_frame_is_seen_in_its_own_box_and_one_frame_can_be_rendered) {
   const TemporaryFolder folder;
   const std::string twice = "pp pp pp\n-10 10\n-10 10\n-1 1";

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "fixture.hpp"
@@ -222,6 +223,51 @@ BOOST_AUTO_TEST_CASE(ids_sort_the_rows_and_rows_are_the_ids_where_there_are_none
   const auto without = frames_of(dump(periodic_box, "x y", {"3 1", "2 1", "1 1"})).at(0);
   BOOST_TEST(without.ids == (std::vector<std::uint32_t>{0, 1, 2}), boost::test_tools::per_element());
   BOOST_TEST(without.positions[0].x == 3);
+}
+
+BOOST_AUTO_TEST_CASE(many_rows_in_any_order_are_sorted_with_all_that_they_hold) {
+  for (const std::uint32_t greatest : {300u, 70'000u, 4'294'967'294u}) {
+    std::map<std::uint32_t, int> by_id;
+    while (by_id.size() < 200) {
+      by_id.emplace(static_cast<std::uint32_t>(uniform(0, greatest)), static_cast<int>(by_id.size()));
+    }
+    std::vector<std::string> rows;
+    for (const auto& [id, number] : by_id)
+      rows.push_back(fmt::format("{} 7 {} {}", number, id, number / 100.0));
+    std::shuffle(rows.begin(), rows.end(), random_bits);
+    const Frame frame = frames_of(dump(periodic_box, "n y id x", rows), "n").at(0);
+    BOOST_REQUIRE_EQUAL(frame.ids.size(), by_id.size());
+    std::size_t i = 0;
+    for (const auto& [id, number] : by_id) {
+      BOOST_TEST((frame.ids[i] == id && frame.values[i] == number && frame.positions[i].x == number / 100.0));
+      ++i;
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(boxes_can_be_read_without_the_particles) {
+  const std::string grown_box = "ss ff pp\n0 10\n0 10\n-0.5 0.5";
+  const std::string text = dump(periodic_box, "id x y", {"2 1 1", "1 2 2"}) +
+                           dump(grown_box, "id x y", {"2 -3 1", "1 12 2"}) +
+                           dump(walled_box, "id x y", {"7 3 3"}) + dump(periodic_box, "id x y", {});
+  const auto all = frames_of(text), boxes = frames_of(text, "", Wanted::box);
+  BOOST_REQUIRE_EQUAL(boxes.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Box &box = *boxes[i].box, &same = *all[i].box;
+    BOOST_TEST((box.x0 == same.x0 && box.y0 == same.y0 && box.x1 == same.x1 && box.y1 == same.y1));
+  }
+  BOOST_TEST(boxes[0].positions.empty());
+  BOOST_TEST(boxes[1].box->x0 == -3);
+  // Rows that the box does not depend on are not looked at; they must be there.
+  const std::string bad = dump(periodic_box, "id x y", {"1 x", "1 1"});
+  BOOST_TEST(frames_of(bad + text, "", Wanted::box).size() == 5u);
+  check_error([&] { frames_of(bad.substr(0, bad.size() - 4), "", Wanted::box); }, {":10: ", "cut off"});
+  check_error([&] { frames_of(bad + "2 2 2\n" + text, "", Wanted::box); }, {":12: ", "more atoms"});
+  const std::string lattice = "2\nLattice=\"4 0 0 0 5 0 0 0 1\"\nH 9 9 9\nH\n", plain = "1\n\nH 1 2 3\n";
+  const auto xyz = frames_of(lattice + plain + lattice, "", Wanted::box);
+  BOOST_REQUIRE_EQUAL(xyz.size(), 3u);
+  BOOST_TEST(
+      (xyz[0].box->x1 == 4 && xyz[0].ids.empty() && xyz[1].positions.size() == 1 && xyz[2].box->y1 == 5));
 }
 
 BOOST_AUTO_TEST_CASE(headers_vary) {

@@ -11,16 +11,17 @@ namespace vorocl::command {
 
 /// Adds the frames to the list one by one, so that those before an Error are there.
 inline void read_frames(const std::string& path, std::vector<Frame>& frames,
-                        const std::string& value_column = "") {
-  const auto reader = open_trajectory(path, value_column);
+                        const std::string& value_column = "", Wanted wanted = Wanted::all) {
+  const auto reader = open_trajectory(path, value_column, wanted);
   Frame frame;
   while (reader->next(frame)) frames.push_back(frame);
 }
 
-inline std::vector<Frame> frames_of(const std::string& text, const std::string& value_column = "") {
+inline std::vector<Frame> frames_of(const std::string& text, const std::string& value_column = "",
+                                    Wanted wanted = Wanted::all) {
   const TemporaryFolder folder;
   std::vector<Frame> frames;
-  read_frames(folder.file("trajectory", text), frames, value_column);
+  read_frames(folder.file("trajectory", text), frames, value_column, wanted);
   return frames;
 }
 

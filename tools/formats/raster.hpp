@@ -54,15 +54,6 @@ struct LabelImage {
   std::vector<std::uint32_t> labels;  // row-major
 };
 
-/// The image with ids[label] for each label; without ids as it is. no_label stays.
-inline LabelImage with_ids(LabelImage image, const std::vector<std::uint32_t>& ids) {
-  if (ids.empty()) return image;
-  for (std::uint32_t& label : image.labels) {
-    if (label != no_label) label = ids.at(label);
-  }
-  return image;
-}
-
 /// The pixels of an image file, and where they lie in the data.
 struct Raster {
   /// Of data in pixels, where y = 0 is at the bottom.

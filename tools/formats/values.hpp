@@ -13,11 +13,12 @@
 
 namespace vorocl::command {
 
+inline bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
 inline std::string_view trimmed(std::string_view text) {
-  const char* const blanks = " \t\r";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 /// The number that the text is, without the blanks around it; "nan" and "inf" are numbers too. None if it is

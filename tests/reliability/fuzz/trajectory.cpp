@@ -11,8 +11,10 @@ using namespace vorocl::command;
 namespace {
 
 void read_all(const std::string& path, const std::string& column) {
-  const auto reader = open_trajectory(path, column);
-  for (Frame frame; reader->next(frame);) {
+  const auto reader = open_trajectory(path, column), boxes = open_trajectory(path, column, Wanted::box);
+  for (Frame frame, other; reader->next(frame);) {
+    require(boxes->next(other) && frame.box.has_value() == other.box.has_value());
+    if (frame.box) require(frame.box->x0 == other.box->x0 && frame.box->y1 == other.box->y1);
     require(frame.positions.size() == frame.ids.size());
     require(frame.values.size() == (column.empty() ? 0 : frame.ids.size()));
     require(std::is_sorted(frame.ids.begin(), frame.ids.end()));

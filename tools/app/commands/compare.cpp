@@ -95,7 +95,9 @@ Comparison compare_with_exact(const CompareOptions& options) {
   exact_diagram(seeds, exact, {options.metric});
   const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids, seeds.read());
   diagram.write(view.in_diagram(labels), seeds, options.metric);
-  Comparison comparison = compare({size, labels}, {size, view.in_picture(exact.read(), no_label)});
+  const std::vector<std::uint32_t> truth = exact.read();
+  std::vector<std::uint32_t> room;
+  Comparison comparison = compare({size, labels}, {size, view.in_picture(truth, no_label, room)});
   DistanceErrorsResult errors;
   distance_errors(diagram, exact, errors);
   comparison.errors = errors.read();

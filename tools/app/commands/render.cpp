@@ -63,11 +63,11 @@ Outputs open_outputs(const RenderOptions& options) {
 void print_result(const RenderOptions& options, const Seeds& seeds, const Report& report,
                   Measures& measures) {
   const View& view = measures.view();
-  const CellStatistics statistics = measures.statistics();
+  const CellCount count = measures.cell_count();
   if (options.json) {
     Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
     result.update(Json{{"seeds", seeds.alive()},
-                       {"empty_cells", statistics.empty_cells},
+                       {"empty_cells", count.empty},
                        {"frames", 1},
                        {"waves", report.waves()},
                        {"milliseconds", report.milliseconds()},
@@ -78,7 +78,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
         options.method.name, seeds.alive(), view.picture.size.width(), view.picture.size.height(),
         report.milliseconds(), report.waves(), seeds.device().name());
-  print_empty_cells(statistics.empty_cells, statistics.cells);
+  print_empty_cells(count.empty, count.cells);
   print_written(requested_files(options));
 }
 

@@ -58,6 +58,11 @@ class Run {
   Simulation& simulation() { return simulation_; }
   const Course& course() const { return course_; }
 
+  /// Of the last frame.
+  Measures measures() {
+    return {simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(), source_.view(), buffers_};
+  }
+
   /// Goes through the frames that an earlier run has completed. A method that goes on from the last labels
   /// makes them anew, because what it knows of them besides the labels is in no file. Throws Error if they
   /// are of other seeds.
@@ -173,10 +178,6 @@ class Run {
     writer_.add_similarity(simulation_.frame(), percent, errors);
   }
 
-  Measures measures() {
-    return {simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(), source_.view(), buffers_};
-  }
-
   FrameFacts facts(double milliseconds) const {
     const int frame = simulation_.frame();
     return {frame, source_.timestep().value_or(frame), stamp_of(frame, source_.timestep()), milliseconds,
@@ -243,7 +244,8 @@ void run(const SimulateOptions& options) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
                             course.frames, writer.frames()));
   }
-  print_result(options, *source, run.simulation(), course);
+  Measures measures = run.measures();
+  print_result(options, *source, run.simulation(), course, measures);
 }
 
 }  // namespace

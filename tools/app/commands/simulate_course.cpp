@@ -9,7 +9,6 @@
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/values.hpp"
-#include "vorocl/cells.hpp"
 
 namespace vorocl::command {
 
@@ -24,19 +23,12 @@ Json range(const Samples& samples) {
   return Json{{"least", value(samples, &Samples::least)}, {"greatest", value(samples, &Samples::greatest)}};
 }
 
-/// Of the last frame.
-CellStatistics statistics(const Simulation& simulation) {
-  CellStatisticsResult result;
-  cell_statistics(simulation.diagram(main_engine), result);
-  return result.read();
-}
-
 Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-             const Course& course) {
+             const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
   Json result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
   result.update(Json{{"seeds", seeds.alive()},
-                     {"empty_cells", statistics(simulation).empty_cells},
+                     {"empty_cells", measures.cell_count().empty},
                      {"frames", simulation.frame()},
                      {"waves", simulation.report(main_engine).waves()},
                      {"milliseconds", simulation.milliseconds(main_engine)},
@@ -76,14 +68,14 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
 }
 
 void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-                const Course& course) {
+                const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
   const Size& picture = source.view().picture.size;
   print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
         picture.width(), picture.height(), seeds.device().name());
   if (course.made_before > 0) print("made before: {} frames, from frame 0 on\n", course.made_before);
-  const CellStatistics cells = statistics(simulation);
-  print_empty_cells(cells.empty_cells, cells.cells);
+  const CellCount count = measures.cell_count();
+  print_empty_cells(count.empty, count.cells);
   const auto name_of = [&](const Method& method, Metric metric) {
     const bool differs = options.compare_with && options.other_metric() != options.method_options.metric;
     return differs ? fmt::format("{} ({})", method.name, to_string(metric)) : std::string(method.name);
@@ -120,11 +112,11 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
 }  // namespace
 
 void print_result(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-                  const Course& course) {
+                  const Course& course, Measures& measures) {
   if (options.json) {
-    print_json(json_of(options, source, simulation, course));
+    print_json(json_of(options, source, simulation, course, measures));
   } else {
-    print_text(options, source, simulation, course);
+    print_text(options, source, simulation, course, measures);
   }
 }
 

@@ -64,8 +64,9 @@ struct Course {
   std::string trouble;   // what ended it too early; empty: nothing
 };
 
-/// On standard output, as text or JSON. Of what changes from frame to frame, the last one's.
+/// On standard output, as text or JSON. Of what changes from frame to frame, the last one's, and so are the
+/// measures.
 void print_result(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
-                  const Course& course);
+                  const Course& course, Measures& measures);
 
 }  // namespace vorocl::command

@@ -14,8 +14,7 @@ namespace vorocl::command {
 namespace {
 
 void write_label_file(const OutputFile& file, Measures& measures) {
-  const View& view = measures.view();
-  write_labels(file, view.picture, view.in_picture(measures.labels_by_id().labels, no_label));
+  write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
 /// In pixels, of what CellShape has.
@@ -59,15 +58,18 @@ void add_pairs(GrowingFile& table, const std::string& first, Measures& measures)
 void write_distance_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
   const std::vector<float> distances = view.units.lengths(measures.distances());
-  write_pixels(file, "distance", view.picture, view.in_picture(distances, INFINITY));
+  std::vector<float> room;
+  write_pixels(file, "distance", view.picture, view.in_picture(distances, INFINITY, room));
 }
 
 void write_border_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
-  std::vector<std::uint8_t> borders = view.in_picture(measures.borders(), std::uint8_t{0});
+  const std::vector<std::uint8_t> of_diagram = measures.borders();
+  std::vector<std::uint8_t> room;
+  const std::vector<std::uint8_t>& borders = view.in_picture(of_diagram, std::uint8_t{0}, room);
   if (extension_of(file.path()) == ".png") {
-    const cv::Mat mask(view.picture.size.height(), view.picture.size.width(), CV_8U, borders.data());
-    write_picture(file, 255 * mask);
+    const Size& size = view.picture.size;
+    write_picture(file, 255 * cv::Mat(borders).reshape(1, size.height()));
   } else {
     write_pixels(file, "border", view.picture, borders);
   }

@@ -15,15 +15,31 @@ Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector
                    const View& view, MeasureBuffers& buffers)
     : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), buffers_(buffers) {}
 
-const LabelImage& Measures::labels() {
-  if (!labels_) labels_ = {view_.size(), diagram_.read()};
-  return *labels_;
+const std::vector<std::uint32_t>& Measures::labels() {
+  if (!has_labels_) {
+    buffers_.labels.resize(view_.size().pixels());
+    diagram_.read(buffers_.labels.data());
+  }
+  has_labels_ = true;
+  return buffers_.labels;
 }
 
-const LabelImage& Measures::labels_by_id() {
+const std::vector<std::uint32_t>& Measures::labels_by_id() {
   if (ids_.empty()) return labels();
-  if (!labels_by_id_) labels_by_id_ = with_ids(labels(), ids_);
-  return *labels_by_id_;
+  if (!has_ids_) {
+    buffers_.ids.resize(labels().size());
+    std::transform(labels().begin(), labels().end(), buffers_.ids.begin(),
+                   [this](std::uint32_t label) { return label == no_label ? no_label : id_of(label); });
+  }
+  has_ids_ = true;
+  return buffers_.ids;
+}
+
+const std::vector<std::uint32_t>& Measures::labels_in_picture() {
+  if (ids_in_picture_ == nullptr) {
+    ids_in_picture_ = &view_.in_picture(labels_by_id(), no_label, buffers_.ids_in_picture);
+  }
+  return *ids_in_picture_;
 }
 
 const std::vector<std::optional<Point>>& Measures::seeds() {
@@ -90,12 +106,32 @@ CellStatistics Measures::statistics() {
   return statistics;
 }
 
-const std::vector<float>& Measures::distances() {
-  if (!distances_) {
-    distance_field(diagram_, buffers_.distances);
-    distances_ = buffers_.distances.read();
+CellCount Measures::cell_count() {
+  if (!diagram_.window().is_whole() || seeds_.outside() > 0) {
+    const CellStatistics of_window = statistics();
+    return {of_window.cells, of_window.empty_cells};
   }
-  return *distances_;
+  std::vector<bool> has_pixels(seeds_.size());
+  std::size_t count = 0;
+  std::uint32_t last = no_label;
+  for (const std::uint32_t label : labels()) {
+    if (label == last) continue;
+    last = label;
+    if (label == no_label || has_pixels.at(label)) continue;
+    has_pixels[label] = true;
+    ++count;
+  }
+  return {seeds_.alive(), seeds_.alive() - count};
+}
+
+const std::vector<float>& Measures::distances() {
+  if (!has_distances_) {
+    distance_field(diagram_, buffers_.distances);
+    buffers_.distances_on_host.resize(view_.size().pixels());
+    buffers_.distances.read(buffers_.distances_on_host.data());
+  }
+  has_distances_ = true;
+  return buffers_.distances_on_host;
 }
 
 std::vector<std::uint8_t> Measures::borders() {

@@ -13,7 +13,8 @@
 
 namespace vorocl::command {
 
-/// The device's memory of measurements: with one for all frames, later frames allocate nothing.
+/// The memory of measurements, on the device and the host: with one for all frames, later frames allocate
+/// nothing.
 struct MeasureBuffers {
   CellSumsResult sums;
   CellShapesResult shapes;
@@ -22,6 +23,13 @@ struct MeasureBuffers {
   VerticesResult vertices;
   Field<float> distances;
   Field<std::uint8_t> borders;
+  std::vector<std::uint32_t> labels, ids, ids_in_picture;
+  std::vector<float> distances_on_host;
+};
+
+/// How many cells there are, and how many of them have no pixel.
+struct CellCount {
+  std::size_t cells = 0, empty = 0;
 };
 
 /// What is known of a cell.
@@ -48,9 +56,10 @@ class Measures {
 
   // Positions and images are in pixels of the diagram, and the view brings them into the picture.
 
-  /// The labels as the diagram has them, and as files have them.
-  const LabelImage& labels();
-  const LabelImage& labels_by_id();
+  /// The labels as the diagram has them, as files have them, and these in the picture. Row-major.
+  const std::vector<std::uint32_t>& labels();
+  const std::vector<std::uint32_t>& labels_by_id();
+  const std::vector<std::uint32_t>& labels_in_picture();
 
   /// By label, absent seeds included: the centre of its pixel; the area of its cell, in the view's units; the
   /// cells that share a pixel edge with that.
@@ -69,6 +78,9 @@ class Measures {
   /// Areas in the view's units.
   CellStatistics statistics();
 
+  /// As statistics() counts them; on the host where that can, which needs no program of the device.
+  CellCount cell_count();
+
   /// In pixels, row-major.
   const std::vector<float>& distances();
   std::vector<std::uint8_t> borders();
@@ -85,10 +97,11 @@ class Measures {
   MeasureBuffers& buffers_;
   bool has_sums_ = false;
   bool has_adjacency_ = false;
-  std::optional<LabelImage> labels_;
-  std::optional<LabelImage> labels_by_id_;
+  bool has_labels_ = false;
+  bool has_ids_ = false;
+  bool has_distances_ = false;
+  const std::vector<std::uint32_t>* ids_in_picture_ = nullptr;
   std::optional<std::vector<std::optional<Point>>> points_;
-  std::optional<std::vector<float>> distances_;
 };
 
 /// How a diagram of seeds was made, and how it stands in the data.

@@ -110,7 +110,7 @@ cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, con
   cv::Mat picture = enlarged(color(measures, values), enlargement);
   if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);
   if (options_.edge_width > 0) {
-    draw_edges(picture, enlarged(measures.labels().labels, size, enlargement), options_.edge_width, axes);
+    draw_edges(picture, enlarged(measures.labels(), size, enlargement), options_.edge_width, axes);
   }
   if (options_.points_overlay)
     draw_points(picture, enlarged(in_diagram(measures.seeds(), size), enlargement));
@@ -138,19 +138,19 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
                                palette_);
     }
     case Quantity::area:
-      return color_by_values(measures.labels(), measures.areas());
+      return color_by_values(measures, measures.areas());
     case Quantity::neighbours:
-      return color_by_values(measures.labels(), measures.neighbours());
+      return color_by_values(measures, measures.neighbours());
     case Quantity::column:
-      return color_by_values(measures.labels(), values);
+      return color_by_values(measures, values);
     default:
-      const std::vector<std::uint32_t>& ids = measures.labels_by_id().labels;
+      const std::vector<std::uint32_t>& ids = measures.labels_by_id();
       return options_.palette ? color_by_id(ids, measures.view().window, palette_)
                               : color_by_id(ids, measures.view().window);
   }
 }
 
-cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<double>& values) {
+cv::Mat Painter::color_by_values(Measures& measures, const std::vector<double>& values) {
   const auto fraction = std::find_if_not(values.begin(), values.end(), is_whole_or_none);
   if (is_categorical(palette_) && fraction != values.end()) {
     throw Error(
@@ -159,8 +159,8 @@ cv::Mat Painter::color_by_values(const LabelImage& image, const std::vector<doub
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(image.labels, image.size.grid(), values,
-                        scale([&] { return shown(image.labels, values); }), palette_);
+  return color_by_value(measures.labels(), measures.view().size().grid(), values,
+                        scale([&] { return shown(measures.labels(), values); }), palette_);
 }
 
 Scale Painter::scale(const std::function<std::vector<double>()>& values) {

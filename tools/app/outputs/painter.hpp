@@ -61,7 +61,7 @@ class Painter {
 
  private:
   cv::Mat color(Measures& measures, const std::vector<double>& values);
-  cv::Mat color_by_values(const LabelImage& image, const std::vector<double>& values);
+  cv::Mat color_by_values(Measures& measures, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
   /// values there.
   Scale scale(const std::function<std::vector<double>()>& values);

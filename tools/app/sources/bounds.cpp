@@ -114,8 +114,8 @@ void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds)
 
 namespace {
 
-/// The next frame. A bad one counts as the end: whoever makes the diagrams comes there too, and says what is
-/// wrong when those before it are made.
+/// The next frame. One whose box is bad counts as the end: whoever makes the diagrams comes there too, and
+/// says what is wrong when those before it are made.
 bool read(TrajectoryReader& reader, Frame& frame) {
   try {
     return reader.next(frame);
@@ -136,7 +136,7 @@ std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optiona
                                            const Interruption& interruption) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
-  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path);
+  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path, "", Wanted::box);
   const std::optional<std::uintmax_t> bytes = reader->bytes_left();
   Progress progress({"frames read"});
   Frame frame;

@@ -8,31 +8,31 @@
 namespace vorocl::command {
 
 void ParticleSlots::update(const std::vector<std::uint32_t>& ids) {
-  std::unordered_map<std::uint32_t, std::uint32_t> before = std::move(slots_);
-  slots_.clear();
-  slots_.reserve(ids.size());
-  of_ids_.clear();
+  std::vector<std::uint32_t> slots, vanished;
+  slots.reserve(ids.size());
+  std::size_t last = 0;  // the first of the last ids that is not below the present one
   for (const std::uint32_t id : ids) {
-    std::uint32_t slot = 0;
-    if (const auto found = before.find(id); found != before.end()) {
-      slot = found->second;
-      before.erase(found);
+    for (; last < ids_.size() && ids_[last] < id; ++last) vanished.push_back(of_ids_[last]);
+    if (last < ids_.size() && ids_[last] == id) {
+      slots.push_back(of_ids_[last++]);
     } else if (!free_.empty()) {
-      slot = *free_.begin();
+      slots.push_back(*free_.begin());
       free_.erase(free_.begin());
     } else {
-      slot = static_cast<std::uint32_t>(size_++);
+      slots.push_back(static_cast<std::uint32_t>(size_++));
     }
-    slots_.emplace(id, slot);
-    of_ids_.push_back(slot);
   }
-  for (const auto& vanished : before) free_.insert(vanished.second);
+  for (; last < ids_.size(); ++last) vanished.push_back(of_ids_[last]);
+  free_.insert(vanished.begin(), vanished.end());
+  ids_ = ids;
+  of_ids_ = std::move(slots);
 }
 
 namespace {
 
 /// The shorter way round; distances are of less than a few periods.
 double shortest(double distance, double period) {
+  if (std::abs(distance) <= period / 2) return std::abs(distance);  // most are; a remainder takes far longer
   return period > 0 ? std::abs(std::remainder(distance, period)) : std::abs(distance);
 }
 
@@ -52,9 +52,9 @@ double displacement(const Point& from, const Point& to, const Periods& periods) 
   // Once round in y shifts x by the tilt.
   const double turns = std::round(dy / periods.y);
   double least = INFINITY;
-  for (const double t : {turns - 1, turns, turns + 1}) {
-    const double x = shortest(dx - t * periods.tilt, periods.x), y = std::abs(dy - t * periods.y);
-    least = std::min(least, std::max(x, y));
+  for (const double t : {turns, turns - 1, turns + 1}) {
+    const double y = std::abs(dy - t * periods.y);
+    if (y < least) least = std::min(least, std::max(shortest(dx - t * periods.tilt, periods.x), y));
   }
   return least;
 }

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <set>
-#include <unordered_map>
 #include <vector>
 
 #include "app/sources/bounds.hpp"
@@ -17,7 +16,7 @@ namespace vorocl::command {
 /// grow with that of the frames.
 class ParticleSlots {
  public:
-  /// Goes on to a frame with these ids (each once). Newcomers get the lowest slots that are free.
+  /// Goes on to a frame with these ids, ascending. Newcomers get the lowest slots that are free.
   void update(const std::vector<std::uint32_t>& ids);
 
   /// The slots of the ids of the last update, in their order.
@@ -27,8 +26,7 @@ class ParticleSlots {
   std::size_t size() const { return size_; }
 
  private:
-  std::unordered_map<std::uint32_t, std::uint32_t> slots_;  // by id, of the particles that are there
-  std::vector<std::uint32_t> of_ids_;
+  std::vector<std::uint32_t> ids_, of_ids_;
   std::set<std::uint32_t> free_;
   std::size_t size_ = 0;
 };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/sources/bounds.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "app/sources/trajectory_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
@@ -84,12 +85,23 @@ Input input_from_mask(const SeedOptions& options) {
       {}};
 }
 
+/// The device makes more random seeds in less time than the host, but its program for it takes tens of
+/// milliseconds to build.
+constexpr std::size_t most_on_host = std::size_t{1} << 20;
+
 Input input_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
   const Grid grid = options.size->grid(axes_of(options));
   return {{*options.size, grid},
           [grid, options](const Device& device) {
-            return Seeds::random(device, grid, options.random, options.rng_seed);
+            if (options.random > most_on_host) {
+              return Seeds::random(device, grid, options.random, options.rng_seed);
+            }
+            std::vector<Point> pixels;
+            for (std::size_t id = 0; id < options.random; ++id) {
+              pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
+            }
+            return Seeds(device, grid, pixels);
           },
           {},
           {}};

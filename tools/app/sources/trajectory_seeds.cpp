@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
@@ -25,17 +24,50 @@ Periodic periodic_axes(const Box& box) {
   return y ? Periodic::y : Periodic::none;
 }
 
+/// The first particle on each pixel, in a table of twice as many places or more.
+class FirstOnPixels {
+ public:
+  explicit FirstOnPixels(const std::vector<Point>& pixels) : pixels_(pixels) {
+    while (std::size_t{1} << bits_ < 2 * pixels.size()) ++bits_;
+    places_.assign(std::size_t{1} << bits_, none);
+  }
+
+  /// The first of the particles asked for so far that is on the pixel of this one.
+  std::size_t of(std::size_t particle) {
+    const Point& pixel = pixels_[particle];
+    std::size_t at = hash(pixel);
+    while (places_[at] != none && !is_on(pixel, places_[at])) at = (at + 1) % places_.size();
+    if (places_[at] == none) places_[at] = static_cast<std::uint32_t>(particle);
+    return places_[at];
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffffffff;
+
+  bool is_on(const Point& pixel, std::size_t particle) const {
+    return pixels_[particle].x == pixel.x && pixels_[particle].y == pixel.y;  // both at its centre
+  }
+
+  std::size_t hash(const Point& pixel) const {
+    const auto bits = [](double of) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(of)); };
+    std::uint64_t mixed = (bits(pixel.y) << 32 ^ bits(pixel.x)) * 0x9e3779b97f4a7c15u;
+    mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
+    return static_cast<std::size_t>(mixed >> (64 - bits_));
+  }
+
+  const std::vector<Point>& pixels_;
+  int bits_ = 1;
+  std::vector<std::uint32_t> places_;
+};
+
 /// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
 /// pixel the first, which has the lowest id, exchanges with the one in the lowest slot, whose label the pixel
 /// carries.
 std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& pixels, const ParticleSlots& slots) {
   std::vector<std::uint32_t> by_cell = slots.of_ids();
-  std::unordered_map<std::int64_t, std::size_t> first;  // of the particles on each pixel
+  FirstOnPixels first(pixels);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    constexpr std::int64_t columns = std::int64_t{1} << 32;  // of a plane
-    const auto pixel = static_cast<std::int64_t>(std::floor(pixels[i].y)) * columns +
-                       static_cast<std::int64_t>(std::floor(pixels[i].x));
-    std::uint32_t& lowest = by_cell[first.emplace(pixel, i).first->second];
+    std::uint32_t& lowest = by_cell[first.of(i)];
     if (by_cell[i] < lowest) std::swap(by_cell[i], lowest);
   }
   return by_cell;
@@ -77,14 +109,33 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
 
 bool TrajectorySeeds::next() {
   if (!read()) return false;
+  read_ahead();
   take_frame(shown_bounds(), view_->picture.size);
   return true;
 }
 
+TrajectorySeeds::Read TrajectorySeeds::read_into(Frame room) const {
+  Read read;
+  read.frame = std::move(room);
+  read.is_there = reader_->next(read.frame);
+  read.bytes_left = reader_->bytes_left();
+  return read;
+}
+
 bool TrajectorySeeds::read() {
-  if (!reader_->next(frame_)) return false;
+  Read read = ahead_.valid() ? ahead_.get() : read_into(std::move(room_));
+  if (!read.is_there) return false;
+  room_ = std::exchange(frame_, std::move(read.frame));
+  bytes_left_ = read.bytes_left;
   ++number_;
   return true;
+}
+
+void TrajectorySeeds::read_ahead() {
+  // Not from a pipe, where the next frame may never come.
+  if (!bytes_left_) return;
+  ahead_ = std::async(std::launch::async,
+                      [this, room = std::move(room_)]() mutable { return read_into(std::move(room)); });
 }
 
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,7 +23,8 @@ enum class Fit {
   frame  ///< each frame's own, stretched onto the picture
 };
 
-/// Holds one frame: memory does not grow with the number of frames.
+/// Holds one frame, and reads the next one of a file meanwhile: memory does not grow with the number of
+/// frames.
 class TrajectorySeeds {
  public:
   /// Reads the first frames, up to the one to start from. `all` are the bounds of all frames, else those of
@@ -34,7 +36,7 @@ class TrajectorySeeds {
   /// Where the frame's diagram stands in the picture, which has one size in all frames.
   const View& view() const { return *view_; }
 
-  /// Reads the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is
+  /// Goes to the next frame; false after the last. Throws Error, and leaves the seeds as they are, if it is
   /// bad, or has a particle outside the bounds where that is refused.
   bool next();
 
@@ -61,11 +63,19 @@ class TrajectorySeeds {
   /// The frame's time step, where the file has one.
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
 
-  /// How much of the file is still to be read; none where that is not known.
-  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
+  /// How much of the file lies behind the frame; none where that is not known.
+  std::optional<std::uintmax_t> bytes_left() const { return bytes_left_; }
 
  private:
+  /// What the reader gives next.
+  struct Read {
+    Frame frame;
+    bool is_there = false;
+    std::optional<std::uintmax_t> bytes_left;
+  };
+  Read read_into(Frame room) const;
   bool read();
+  void read_ahead();
   /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
   std::optional<Bounds> shown_bounds();
   /// Along which axes the frame's box, as it is drawn, repeats, or the bounds where there is no box.
@@ -92,7 +102,8 @@ class TrajectorySeeds {
   bool scales_checked_ = false;
   bool growth_noted_ = false;
 
-  Frame frame_;
+  Frame frame_, room_;  // the present frame, and memory for the next one
+  std::optional<std::uintmax_t> bytes_left_;
   int number_ = -1;
   std::optional<View> view_;  // set by the constructor
   ParticleSlots slots_;
@@ -101,6 +112,7 @@ class TrajectorySeeds {
   std::vector<std::uint32_t> ids_;
   std::vector<double> values_;
   std::optional<double> max_displacement_;
+  std::future<Read> ahead_;  // none: nothing is being read
 };
 
 }  // namespace vorocl::command

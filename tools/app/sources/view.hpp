@@ -70,17 +70,18 @@ struct View {
     return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y)};
   }
 
-  /// The picture of values by pixel of the diagram, with another value beyond them.
+  /// The picture of values by pixel of the diagram, with another value beyond them: these values where they
+  /// fill it, else made in `room`.
   template <typename T>
-  std::vector<T> in_picture(const std::vector<T>& values, T beyond) const {
+  const std::vector<T>& in_picture(const std::vector<T>& values, T beyond, std::vector<T>& room) const {
     if (fills_picture()) return values;
     const std::ptrdiff_t width = picture.size.width(), own_width = size().width();
-    std::vector<T> result(picture.size.pixels(), beyond);
+    room.assign(picture.size.pixels(), beyond);
     for (std::ptrdiff_t row = 0; row < size().height(); ++row) {
       const auto first = values.begin() + row * own_width;
-      std::copy(first, first + own_width, result.begin() + (y + row) * width + x);
+      std::copy(first, first + own_width, room.begin() + (y + row) * width + x);
     }
-    return result;
+    return room;
   }
 
   /// The diagram's part of values by pixel of the picture.

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "formats/files.hpp"
+#include "formats/images/png.hpp"
 #include "formats/modules.hpp"
 #include "vorocl/error.hpp"
 
@@ -47,6 +48,7 @@ cv::Mat read_picture(const std::string& path) {
 }
 
 void write_picture(const OutputFile& file, const cv::Mat& picture) {
+  if (extension_of(file.path()) == ".png") return write_png(file, picture);
   const std::vector<std::uint8_t> bytes = image_module().encode(extension_of(file.path()), picture);
   if (bytes.empty()) {
     throw Error(fmt::format("cannot write {}: its format has no pictures of {} x {} pixels", file.path(),

@@ -41,7 +41,7 @@ const std::vector<std::string>& picture_extensions();
 /// Throws Error if the file cannot be read.
 cv::Mat read_picture(const std::string& path);
 
-/// Throws Error if the file cannot be written.
+/// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
 void write_picture(const OutputFile& file, const cv::Mat& picture);
 
 /// Each pixel that is not zero is a seed.

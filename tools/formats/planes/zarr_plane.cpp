@@ -14,8 +14,8 @@
 #include "formats/files.hpp"
 #include "formats/output_file.hpp"
 #include "formats/planes/plane_file.hpp"
-#include "formats/planes/workers.hpp"
 #include "formats/values.hpp"
+#include "formats/workers.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

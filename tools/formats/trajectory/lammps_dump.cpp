@@ -21,16 +21,9 @@ std::optional<std::string_view> after(std::string_view line, std::string_view ti
   return trimmed(line);
 }
 
-std::vector<std::string_view> split(std::string_view text) {
-  std::vector<std::string_view> fields;
-  for (std::string_view field = take_field(text); !field.empty(); field = take_field(text)) {
-    fields.push_back(field);
-  }
-  return fields;
-}
-
 RowLayout parse_columns(const LineReader& lines, std::string_view text, const std::string& value_column) {
-  const std::vector<std::string_view> columns = split(text);
+  std::vector<std::string_view> columns;
+  split_fields(text, columns);
   std::vector<Property> properties;
   properties.reserve(columns.size());
   for (const std::string_view column : columns) properties.push_back({column});
@@ -82,8 +75,8 @@ std::array<Sides, 3> parse_boundary(const LineReader& lines, const std::vector<s
 
 }  // namespace
 
-LammpsDump::LammpsDump(LineReader lines, std::string value_column)
-    : lines_(std::move(lines)), value_column_(std::move(value_column)) {}
+LammpsDump::LammpsDump(LineReader lines, std::string value_column, Wanted wanted)
+    : lines_(std::move(lines)), value_column_(std::move(value_column)), rows_(wanted) {}
 
 bool LammpsDump::next(Frame& frame) {
   if (!lines_.next_filled()) return false;
@@ -140,7 +133,8 @@ void LammpsDump::next_value(std::size_t frame_line) {
 }
 
 SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_line) {
-  std::vector<std::string_view> words = split(title);
+  std::vector<std::string_view> words;
+  split_fields(title, words);
   const auto take = [&words](const std::vector<std::string_view>& names) {
     if (words.size() < names.size() || !std::equal(names.begin(), names.end(), words.begin())) return false;
     words.erase(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(names.size()));

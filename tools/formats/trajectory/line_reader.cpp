@@ -16,15 +16,12 @@ namespace {
 constexpr std::size_t block_bytes = 1 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-
 template <typename T>
-T take_number(const LineReader& lines, std::string_view& text, const std::string& what) {
-  const std::string_view field = take_field(text);
-  if (field.empty()) throw lines.error(what + " is missing here");
+T number_in(const LineReader& lines, std::string_view field, std::string_view what) {
+  if (field.empty()) throw lines.error(std::string(what) + " is missing here");
   const std::optional<T> number = parse_number<T>(field);
   if (!number || !std::isfinite(static_cast<double>(*number))) {
-    throw lines.error(shown(field) + " is not " + what);
+    throw lines.error(shown(field) + " is not " + std::string(what));
   }
   return *number;
 }
@@ -84,6 +81,11 @@ void LineReader::read_block() {
   at_end_ = !stream_;
 }
 
+bool LineReader::skip(std::size_t count) {
+  while (count > 0 && next()) --count;
+  return count == 0;
+}
+
 bool LineReader::next_filled() {
   while (next()) {
     if (!trimmed(line_).empty()) return true;
@@ -117,12 +119,23 @@ std::string_view take_field(std::string_view& text) {
   return std::string_view(start, static_cast<std::size_t>(stop - start));
 }
 
-std::int64_t take_integer(const LineReader& lines, std::string_view& text, const std::string& what) {
-  return take_number<std::int64_t>(lines, text, what);
+void split_fields(std::string_view text, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (std::string_view field = take_field(text); !field.empty(); field = take_field(text)) {
+    fields.push_back(field);
+  }
 }
 
-double take_real(const LineReader& lines, std::string_view& text, const std::string& what) {
-  return take_number<double>(lines, text, what);
+double real_in(const LineReader& lines, std::string_view field, std::string_view what) {
+  return number_in<double>(lines, field, what);
+}
+
+std::int64_t take_integer(const LineReader& lines, std::string_view& text, std::string_view what) {
+  return number_in<std::int64_t>(lines, take_field(text), what);
+}
+
+double take_real(const LineReader& lines, std::string_view& text, std::string_view what) {
+  return real_in(lines, take_field(text), what);
 }
 
 void check_end(const LineReader& lines, std::string_view rest) {

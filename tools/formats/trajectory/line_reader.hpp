@@ -26,6 +26,9 @@ class LineReader {
   /// The same, past lines that are blank.
   bool next_filled();
 
+  /// Passes over so many lines; false if the file ends before. Throws as next().
+  bool skip(std::size_t count);
+
   /// Lets next() give the present line once more.
   void unread() { repeat_ = true; }
 
@@ -63,10 +66,16 @@ class LineReader {
 /// Takes the first field, up to a blank, off the text; empty if there is none.
 std::string_view take_field(std::string_view& text);
 
-/// The number that is the text's first field, taken off it. Throws Error, which shows the field and says what
-/// it should be ("a time step"), if it is no finite number.
-std::int64_t take_integer(const LineReader& lines, std::string_view& text, const std::string& what);
-double take_real(const LineReader& lines, std::string_view& text, const std::string& what);
+/// All fields of the text, in the place of those that the list has.
+void split_fields(std::string_view text, std::vector<std::string_view>& fields);
+
+/// The number that a field is. Throws Error, which shows the field and says what it should be ("a finite x"),
+/// if it is no finite number.
+double real_in(const LineReader& lines, std::string_view field, std::string_view what);
+
+/// The same of the text's first field, which is taken off it.
+std::int64_t take_integer(const LineReader& lines, std::string_view& text, std::string_view what);
+double take_real(const LineReader& lines, std::string_view& text, std::string_view what);
 
 /// Throws Error unless nothing is left of the line.
 void check_end(const LineReader& lines, std::string_view rest);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
@@ -43,6 +46,25 @@ double parse_value(const LineReader& lines, std::string_view field) {
   const auto value = parse_number<double>(field);
   if (!value) throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
   return *value;
+}
+
+std::uint32_t id_of(IdAndRow row) { return static_cast<std::uint32_t>(row >> 32); }
+std::uint32_t row_of(IdAndRow row) { return static_cast<std::uint32_t>(row); }
+
+/// By id, digit after digit from the lowest one: rows of one id stay in their order.
+void sort_by_id(std::vector<IdAndRow>& rows, std::vector<IdAndRow>& spare) {
+  constexpr int bits = 11;
+  constexpr std::size_t digits = std::size_t{1} << bits;
+  spare.resize(rows.size());
+  for (int shift = 32; shift < 64; shift += bits) {
+    const auto digit_of = [shift](IdAndRow row) { return row >> shift & (digits - 1); };
+    std::array<std::size_t, digits> begin = {};
+    for (const IdAndRow row : rows) ++begin[digit_of(row)];
+    if (begin[digit_of(rows[0])] == rows.size()) continue;  // all have this one
+    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::size_t{0});
+    for (const IdAndRow row : rows) spare[begin[digit_of(row)]++] = row;
+    rows.swap(spare);
+  }
 }
 
 /// The place of a column among those of a property, if it is one of them.
@@ -100,88 +122,92 @@ ParticleCount parse_count(const LineReader& lines) {
 void ParticleRows::read(LineReader& lines, const RowLayout& layout, const ParticleCount& count,
                         std::optional<SimulationBox>& box, Frame& frame) {
   check_fits(lines, count);
-  rows_.clear();
+  clear();
   const std::size_t first_line = lines.number() + 1;
-  while (rows_.size() < count.value) {
-    if (!lines.next()) {
-      throw lines.error_at(
-          lines.number(),
-          fmt::format("the file ends after {} of the {} particles that line {} announces; it seems cut "
-                      "off: write it anew, or remove its last frame",
-                      rows_.size(), count.value, count.line));
+  if (wanted_ == Wanted::box && box && !box->grows()) {
+    if (!lines.skip(count.value)) throw cut_off(lines, count.line);
+  } else {
+    while (ids_.size() < count.value) {
+      if (!lines.next()) {
+        throw lines.error_at(
+            lines.number(),
+            fmt::format("the file ends after {} of the {} particles that line {} announces; it seems cut "
+                        "off: write it anew, or remove its last frame",
+                        ids_.size(), count.value, count.line));
+      }
+      add(lines, layout, count, box);
     }
-    Row row = parse(lines, layout, count);
-    if (layout.scaled) row.position = box->from_scaled(row.position);
-    if (box) row.position = box->place(lines, row.id, row.position);
-    if (!std::isfinite(row.position.x) || !std::isfinite(row.position.y)) {
-      throw lines.error("the position is too far from the box to be computed");
-    }
-    rows_.push_back(row);
+    sort(lines, first_line);
   }
-  sort(lines, first_line);
-  frame.ids.clear();
-  frame.positions.clear();
-  frame.values.clear();
-  for (const Row& row : rows_) {
-    frame.ids.push_back(row.id);
-    frame.positions.push_back(row.position);
-    if (layout.value) frame.values.push_back(row.value);
-  }
-  frame.z_span = rows_.empty() ? 0 : z_span(layout.scaled ? box->depth() : 1);
+  frame.z_span = ids_.empty() ? 0 : (highest_z_ - lowest_z_) * (layout.scaled ? box->depth() : 1);
+  give(ids_, frame.ids);
+  give(positions_, frame.positions);
+  give(values_, frame.values);
   frame.box = box ? std::optional<Box>(box->extent()) : std::nullopt;
 }
 
-ParticleRows::Row ParticleRows::parse(const LineReader& lines, const RowLayout& layout,
-                                      const ParticleCount& count) const {
-  std::string_view rest = lines.line();
-  if (rest.substr(0, 5) == "ITEM:") {
+void ParticleRows::clear() {
+  ids_.clear();
+  positions_.clear();
+  values_.clear();
+  order_.clear();
+  lowest_z_ = std::numeric_limits<double>::infinity();
+  highest_z_ = -lowest_z_;
+}
+
+void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const ParticleCount& count,
+                       std::optional<SimulationBox>& box) {
+  const std::string_view line = lines.line();
+  if (line.substr(0, 5) == "ITEM:") {
     throw lines.error(
         fmt::format("{} of the {} particles that line {} announces are here; correct the number or add "
                     "the rows",
-                    rows_.size(), count.value, count.line));
+                    ids_.size(), count.value, count.line));
   }
-  std::string_view x;
-  std::string_view y;
-  std::string_view z;
-  std::string_view id;
-  std::string_view value;
-  std::size_t fields = 0;
-  for (std::string_view field = take_field(rest); !field.empty(); field = take_field(rest)) {
-    if (fields == layout.x) x = field;
-    if (fields == layout.y) y = field;
-    if (fields == layout.z) z = field;
-    if (fields == layout.id) id = field;
-    if (fields == layout.value) value = field;
-    ++fields;
+  split_fields(line, fields_);
+  if (fields_.size() < layout.fields || (fields_.size() > layout.fields && !layout.may_have_more)) {
+    throw wrong_fields(lines, layout, count, fields_.size());
   }
-  if (fields < layout.fields || (fields > layout.fields && !layout.may_have_more)) {
-    throw wrong_fields(lines, layout, count, fields);
+  const std::uint32_t id =
+      layout.id ? parse_id(lines, fields_[*layout.id]) : static_cast<std::uint32_t>(ids_.size());
+  Point position = {real_in(lines, fields_[layout.x], "a finite x"),
+                    real_in(lines, fields_[layout.y], "a finite y")};
+  const double z = layout.z ? parse_number<double>(fields_[*layout.z]).value_or(0) : 0;
+  if (layout.value) values_.push_back(parse_value(lines, fields_[*layout.value]));
+  if (layout.scaled) position = box->from_scaled(position);
+  if (box) position = box->place(lines, id, position);
+  if (!std::isfinite(position.x) || !std::isfinite(position.y)) {
+    throw lines.error("the position is too far from the box to be computed");
   }
-  const auto number = static_cast<std::uint32_t>(rows_.size());
-  return {layout.id ? parse_id(lines, id) : number,
-          number,
-          {take_real(lines, x, "a finite x"), take_real(lines, y, "a finite y")},
-          parse_number<double>(z).value_or(0),
-          layout.value ? parse_value(lines, value) : 0};
-}
-
-double ParticleRows::z_span(double unit) const {
-  const auto [lowest, highest] =
-      std::minmax_element(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.z < b.z; });
-  return (highest->z - lowest->z) * unit;
+  ids_.push_back(id);
+  positions_.push_back(position);
+  lowest_z_ = std::min(lowest_z_, z);
+  highest_z_ = std::max(highest_z_, z);
 }
 
 void ParticleRows::sort(const LineReader& lines, std::size_t first_line) {
-  std::sort(rows_.begin(), rows_.end(),
-            [](const Row& a, const Row& b) { return a.id != b.id ? a.id < b.id : a.number < b.number; });
-  const auto twin =
-      std::adjacent_find(rows_.begin(), rows_.end(), [](const Row& a, const Row& b) { return a.id == b.id; });
-  if (twin == rows_.end()) return;
+  const auto is_no_later = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
+  if (std::adjacent_find(ids_.begin(), ids_.end(), is_no_later) == ids_.end()) return;
+  for (const std::uint32_t id : ids_) order_.push_back(IdAndRow{id} << 32 | order_.size());
+  sort_by_id(order_, spare_);
+  const auto is_twin = [](IdAndRow a, IdAndRow b) { return id_of(a) == id_of(b); };
+  const auto twin = std::adjacent_find(order_.begin(), order_.end(), is_twin);
+  if (twin == order_.end()) return;
   throw lines.error_at(
-      first_line + (twin + 1)->number,
+      first_line + row_of(*(twin + 1)),
       fmt::format("id {} comes twice in this frame, first in line {}; give each particle one of its "
                   "own, or write the dump without ids",
-                  twin->id, first_line + twin->number));
+                  id_of(*twin), first_line + row_of(*twin)));
+}
+
+template <typename T>
+void ParticleRows::give(std::vector<T>& of_rows, std::vector<T>& of_frame) const {
+  if (order_.empty()) {
+    of_frame.swap(of_rows);
+    return;
+  }
+  of_frame.resize(of_rows.size());
+  for (std::size_t i = 0; i < of_rows.size(); ++i) of_frame[i] = of_rows[row_of(order_[i])];
 }
 
 }  // namespace vorocl::command

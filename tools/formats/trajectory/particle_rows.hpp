@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,31 +45,38 @@ struct Property {
 std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<Property>& properties,
                                              const std::string& column);
 
+/// A particle's id, and the number of its row from 0 in the lower half.
+using IdAndRow = std::uint64_t;
+
 /// Reads the rows of one frame after another into the same memory.
 class ParticleRows {
  public:
+  explicit ParticleRows(Wanted wanted) : wanted_(wanted) {}
+
   /// Reads as many rows as the count says, from the next line on, and makes the frame's ids, positions,
   /// values and box of them; without a box the positions are taken as they are (and are not scaled). Throws
   /// Error for a row that cannot be read, an id that comes twice, a particle outside a wall, and a file that
-  /// ends too early; before any reading if what is left of the file cannot hold the rows.
+  /// ends too early; before any reading if what is left of the file cannot hold the rows. The frame is as it
+  /// was then. Where the box alone is wanted, and does not grow, the rows are passed over.
   void read(LineReader& lines, const RowLayout& layout, const ParticleCount& count,
             std::optional<SimulationBox>& box, Frame& frame);
 
  private:
-  struct Row {
-    std::uint32_t id;
-    std::uint32_t number;  // from 0
-    Point position;
-    double z;
-    double value;
-  };
-
-  Row parse(const LineReader& lines, const RowLayout& layout, const ParticleCount& count) const;
-  /// Of one row or more.
-  double z_span(double unit) const;
+  void clear();
+  void add(const LineReader& lines, const RowLayout& layout, const ParticleCount& count,
+           std::optional<SimulationBox>& box);
   void sort(const LineReader& lines, std::size_t first_line);
+  template <typename T>
+  void give(std::vector<T>& of_rows, std::vector<T>& of_frame) const;
 
-  std::vector<Row> rows_;
+  Wanted wanted_;
+  // Of the rows so far, in the order of the file.
+  std::vector<std::uint32_t> ids_;
+  std::vector<Point> positions_;
+  std::vector<double> values_;
+  double lowest_z_ = 0, highest_z_ = 0;
+  std::vector<std::string_view> fields_;  // of the present row
+  std::vector<IdAndRow> order_, spare_;   // the rows by id; empty: as they are
 };
 
 /// The error for a file that ends before the frame that starts at a line is complete.

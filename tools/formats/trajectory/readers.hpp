@@ -17,7 +17,7 @@ namespace vorocl::command {
 /// names follow in that line; positions are x y, scaled xs ys, unwrapped xu yu, or both, xsu ysu.
 class LammpsDump : public TrajectoryReader {
  public:
-  LammpsDump(LineReader lines, std::string value_column);
+  LammpsDump(LineReader lines, std::string value_column, Wanted wanted);
   bool next(Frame& frame) override;
   std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
 
@@ -47,7 +47,7 @@ class LammpsDump : public TrajectoryReader {
 /// it; the box grows on others) and Properties (what the columns are, among them pos and maybe id).
 class Xyz : public TrajectoryReader {
  public:
-  Xyz(LineReader lines, std::string value_column);
+  Xyz(LineReader lines, std::string value_column, Wanted wanted);
   bool next(Frame& frame) override;
   std::optional<std::uintmax_t> bytes_left() const override { return lines_.bytes_left(); }
 

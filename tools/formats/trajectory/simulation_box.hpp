@@ -44,6 +44,9 @@ class SimulationBox {
 
   double depth() const { return depth_; }
 
+  /// Whether a side gives way to particles.
+  bool grows() const { return box_.open_x0 || box_.open_x1 || box_.open_y0 || box_.open_y1; }
+
   /// The rectangle that holds all particles placed so far.
   const Box& extent() const { return box_; }
 

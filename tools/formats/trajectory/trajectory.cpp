@@ -20,7 +20,8 @@ bool is_compressed(std::string_view line) {
 
 }  // namespace
 
-std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& value_column) {
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& value_column,
+                                                  Wanted wanted) {
   LineReader lines(path);
   if (!lines.next_filled()) {
     throw lines.error("the file is empty; give a LAMMPS text dump or an XYZ file");
@@ -28,10 +29,11 @@ std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const
   const std::string_view first = trimmed(lines.line());
   if (is_compressed(first)) throw lines.error("the file is compressed; unpack it first");
   lines.unread();
-  if (starts_with(first, "ITEM:")) return std::make_unique<LammpsDump>(std::move(lines), value_column);
+  if (starts_with(first, "ITEM:"))
+    return std::make_unique<LammpsDump>(std::move(lines), value_column, wanted);
   // A count that is negative or far too large still tells an XYZ, which then says what is wrong with it.
   if (first.find_first_not_of("+-0123456789") == std::string_view::npos) {
-    return std::make_unique<Xyz>(std::move(lines), value_column);
+    return std::make_unique<Xyz>(std::move(lines), value_column, wanted);
   }
   throw lines.error(
       "this is neither a LAMMPS text dump (its first line starts with \"ITEM:\") nor an XYZ file "

@@ -54,10 +54,17 @@ class TrajectoryReader {
   virtual std::optional<std::uintmax_t> bytes_left() const = 0;
 };
 
+/// What of a frame is to be read.
+enum class Wanted {
+  all,
+  box  ///< and no particles where it does not depend on them: their rows are passed over, whatever they hold
+};
+
 /// A reader for the file, whose kind its first line tells, and for the values of one of its columns: a name
 /// in a LAMMPS dump, a property in an extended XYZ, with [1], [2], ... behind it where it has several
 /// columns. Throws Error if the file cannot be read or is of no kind that is known.
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path,
-                                                  const std::string& value_column = "");
+                                                  const std::string& value_column = "",
+                                                  Wanted wanted = Wanted::all);
 
 }  // namespace vorocl::command

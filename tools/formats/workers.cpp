@@ -1,4 +1,4 @@
-#include "formats/planes/workers.hpp"
+#include "formats/workers.hpp"
 
 #include <sched.h>
 
