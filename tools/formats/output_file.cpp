@@ -51,14 +51,12 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// Where a link leads. It is opened first, because the system lets nobody write through links that others put
-/// into a folder where all may write.
-std::string target_of_link(const std::string& path, const struct stat& target) {
-  if (S_ISREG(target.st_mode)) {
-    const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) throw cannot_write(path, reason(errno));
-    close(file);
-  }
+/// Where a link to a file leads. It is opened first, because the system lets nobody write through links that
+/// others put into a folder where all may write.
+std::string target_of_link(const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) throw cannot_write(path, reason(errno));
+  close(file);
   const std::unique_ptr<char, void (*)(void*)> resolved(realpath(path.c_str(), nullptr), std::free);
   if (!resolved) throw cannot_write(path, reason(errno));
   return resolved.get();
@@ -111,7 +109,8 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
     if (!is_file_ && !S_ISFIFO(there.st_mode) && !S_ISCHR(there.st_mode)) {
       throw cannot_write(path, "it is neither a file nor a pipe");
     }
-    if (is_link) target_ = target_of_link(path, there);
+    // A link to standard output leads to no name, and is written into as it is.
+    if (is_link && is_file_) target_ = target_of_link(path);
   } else {
     const int code = errno;
     if (is_link) throw cannot_write(path, "it is a link that leads nowhere");

@@ -170,11 +170,18 @@ void CommandLine::run(int argc, char** argv) {
     app_->exit(help_or_version);
     return;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    throw UsageError(error.what() + (is_unknown ? see_help() : ""));
   }
   if (app_->get_subcommands().empty()) {
-    throw UsageError("no subcommand was given; see " + app_->get_name() + " --help");
+    throw UsageError("no subcommand was given" + see_help());
   }
+}
+
+std::string CommandLine::see_help() const {
+  std::string command = app_->get_name();
+  for (const CLI::App* const subcommand : app_->get_subcommands()) command += " " + subcommand->get_name();
+  return "; see " + command + " --help";
 }
 
 int run_program(void (*run)(int argc, char** argv), int argc, char** argv) {
