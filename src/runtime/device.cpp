@@ -1,9 +1,14 @@
 #include "vorocl/device.hpp"
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -148,6 +153,59 @@ std::string list_of(const std::vector<Candidate>& candidates) {
   return text;
 }
 
+/// The names of the drivers that the loader knows of, with commas between them.
+std::string installed_drivers() {
+  const char* const named = std::getenv("OCL_ICD_VENDORS");
+  const std::filesystem::path folder = named != nullptr ? named : "/etc/OpenCL/vendors";
+  std::string names;
+  std::error_code code;
+  for (std::filesystem::directory_iterator file(folder, code), end; !code && file != end;
+       file.increment(code)) {
+    if (file->path().extension() != ".icd") continue;
+    names += (names.empty() ? "" : ", ") + file->path().stem().string();
+  }
+  return names;
+}
+
+/// The folder where PoCL keeps what it has built, as far as the environment says it; empty: it does not.
+std::filesystem::path cache_of_pocl() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  if (const auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
+  if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
+  const auto home = variable("HOME");
+  return home.empty() ? home : home / ".cache" / "pocl";
+}
+
+/// Where there is no platform: none of the drivers is installed, or none could start. The loader does not say
+/// why; what is known to stop them is looked at.
+Error no_platform() {
+  const std::string drivers = installed_drivers();
+  if (drivers.empty()) {
+    return Error(
+        "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
+        "Debian and Ubuntu: apt-get install pocl-opencl-icd)",
+        ErrorKind::device);
+  }
+  std::string text = "no OpenCL driver could start, of those that are installed (" + drivers + ")";
+  struct rlimit memory = {};
+  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) {
+    text += "; the address space is limited to " + std::to_string(memory.rlim_cur >> 20) +
+            " MiB: raise it (ulimit -v)";
+  }
+  const std::filesystem::path cache = cache_of_pocl();
+  std::error_code code;
+  if (!cache.empty()) std::filesystem::create_directories(cache, code);
+  if (!code && access(cache.c_str(), W_OK | X_OK) != 0) code.assign(errno, std::generic_category());
+  if (code) {
+    text += "; PoCL cannot write its cache " + cache.string() + " (" + code.message() +
+            "): let POCL_CACHE_DIR name a folder that it can write";
+  }
+  return Error(text, ErrorKind::device);
+}
+
 GroupLimits group_limits(cl_device_id device) {
   std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
   check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
@@ -201,13 +259,7 @@ double& DeviceState::milliseconds_waited() {
 
 Device Device::select(const std::string& request) {
   const std::vector<Candidate> candidates = find_candidates();
-  if (candidates.empty()) {
-    throw Error(
-        "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
-        "Debian and "
-        "Ubuntu: apt-get install pocl-opencl-icd)",
-        ErrorKind::device);
-  }
+  if (candidates.empty()) throw no_platform();
   const std::string wanted = effective_request(request);
   const std::optional<Candidate> chosen = choose(candidates, wanted);
   if (!chosen) {

@@ -285,3 +285,26 @@ BOOST_AUTO_TEST_CASE(counts_of_a_window_add_up) {
         result.out);
   }
 }
+
+// Root may write everywhere but where there is no disk.
+BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
+  const TemporaryFolder folder;
+  const std::string line = "render --random 5 --size 9x9 --labels a.npy";
+  folder.file("file", "");
+  refuses(folder, line, failure, {"no OpenCL driver could start", "cache file/cache (", "POCL_CACHE_DIR"},
+          "POCL_CACHE_DIR=file/cache");
+  refuses(folder, line, failure, {"no OpenCL driver could start", "limited to 195 MiB", "ulimit -v"},
+          "ulimit -v 200000;");
+  folder.file("vendors/none", "");
+  refuses(folder, line, failure, {"no OpenCL platform was found; install a driver"},
+          "OCL_ICD_VENDORS=/nowhere");
+}
+
+BOOST_AUTO_TEST_CASE(small_stacks_suffice) {
+  for (const char* const stack : {"500", "1000"}) {
+    const TemporaryFolder folder;
+    const Result result = run(folder, "render --random 5 --size 50x50 --labels a.npy",
+                              std::string("ulimit -s ") + stack + "; POCL_CACHE_DIR=cache");
+    BOOST_TEST(result.exit_code == 0, result.error);
+  }
+}

@@ -74,8 +74,8 @@ class GrowingFile {
 
   /// One that another run can continue: until finish() it is at the file's part_path(), and stays there.
   /// Without `kept` it begins, else it goes on behind what was kept. One that is complete and has its name
-  /// already keeps that, and is_finished(). Throws Error too for a pipe or a device, if less was kept, or if it
-  /// begins and there is a file of this name.
+  /// already keeps that, and is_finished(). Throws Error too for a pipe or a device, if less was kept, or if
+  /// it begins and there is a file of this name.
   GrowingFile(const OutputFile& file, const std::optional<Kept>& kept);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
