@@ -28,14 +28,11 @@ enum class ErrorKind {
 class VOROCL_API Error : public std::runtime_error {
  public:
   explicit Error(const std::string& message, ErrorKind kind = ErrorKind::bad_argument)
-      : std::runtime_error(whole_text(message)), kind_(kind) {}
+      : std::runtime_error(message), kind_(kind) {}
 
   ErrorKind kind() const noexcept { return kind_; }
 
  private:
-  /// With a question mark for each NUL, at which what() would end.
-  static std::string whole_text(std::string message);
-
   ErrorKind kind_;
 };
 

@@ -1,11 +1,7 @@
 #include "vorocl/device.hpp"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -15,6 +11,7 @@
 
 #include "runtime/device_state.hpp"
 #include "runtime/opencl_info.hpp"
+#include "runtime/process.hpp"
 
 namespace vorocl {
 
@@ -85,11 +82,24 @@ DeviceDescription describe(cl_platform_id platform, cl_device_id device) {
   return description;
 }
 
+/// Throws Error if this is a forked child of the process that has used the driver: a fork takes no threads
+/// along, and calls would wait for the driver's without end.
+void refuse_fork_of(std::int64_t process) {
+  if (process_number() == process) return;
+  throw Error(
+      "this process was forked from one that had used OpenCL, and has none of the driver's threads; make the "
+      "process by spawn or forkserver (Python: multiprocessing.set_start_method), or fork before the first "
+      "call",
+      ErrorKind::device);
+}
+
 std::vector<Candidate> find_candidates() {
   // The loader (ocl-icd) and PoCL set themselves up when they are first asked, without a lock: threads that
   // ask at the same time see no platform, or crash.
   static std::mutex first_contact;
   const std::lock_guard<std::mutex> lock(first_contact);
+  static const std::int64_t process = process_number();
+  refuse_fork_of(process);
   std::vector<Candidate> candidates;
   const std::vector<cl_platform_id> platforms = find_platforms();
   for (std::size_t p = 0; p < platforms.size(); ++p) {
@@ -190,17 +200,14 @@ Error no_platform() {
         ErrorKind::device);
   }
   std::string text = "no OpenCL driver could start, of those that are installed (" + drivers + ")";
-  struct rlimit memory = {};
-  if (getrlimit(RLIMIT_AS, &memory) == 0 && memory.rlim_cur != RLIM_INFINITY) {
-    text += "; the address space is limited to " + std::to_string(memory.rlim_cur >> 20) +
-            " MiB: raise it (ulimit -v)";
+  if (const auto limit = address_space_limit()) {
+    text +=
+        "; the address space is limited to " + std::to_string(*limit >> 20) + " MiB: raise it (ulimit -v)";
   }
-  const std::filesystem::path cache = cache_of_pocl();
-  std::error_code code;
-  if (!cache.empty()) std::filesystem::create_directories(cache, code);
-  if (!code && access(cache.c_str(), W_OK | X_OK) != 0) code.assign(errno, std::generic_category());
-  if (code) {
-    text += "; PoCL cannot write its cache " + cache.string() + " (" + code.message() +
+  const std::string cache = cache_of_pocl().string();
+  const std::string why = cache.empty() ? "" : why_not_writable(cache);
+  if (!why.empty()) {
+    text += "; PoCL cannot write its cache " + cache + " (" + why +
             "): let POCL_CACHE_DIR name a folder that it can write";
   }
   return Error(text, ErrorKind::device);
@@ -309,7 +316,10 @@ Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
 }
 
 const cl::Context& Device::context() const { return state_->context; }
-cl::CommandQueue& Device::queue() const { return state_->queue; }
+cl::CommandQueue& Device::queue() const {
+  refuse_fork_of(state_->process);
+  return state_->queue;
+}
 const cl::Device& Device::cl_device() const { return state_->device; }
 const Tuning& Device::tuning() const { return tuning_; }
 std::string Device::name() const { return device_info<std::string>(cl_device()(), CL_DEVICE_NAME); }

@@ -1,7 +1,5 @@
 #include "vorocl/error.hpp"
 
-#include <algorithm>
-
 #include "runtime/opencl_error.hpp"
 
 namespace vorocl {
@@ -61,11 +59,6 @@ ErrorKind kind_of(cl_int code) {
 
 void fail(cl_int code, const std::string& what) {
   throw Error(what + " failed: " + error_name(code) + " (" + std::to_string(code) + ")", kind_of(code));
-}
-
-std::string Error::whole_text(std::string message) {
-  std::replace(message.begin(), message.end(), '\0', '?');
-  return message;
 }
 
 BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)

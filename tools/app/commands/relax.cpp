@@ -158,7 +158,7 @@ void run(const RelaxOptions& options) {
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
   write_end(outputs, options, input, seeds, diagram, relaxation);
   if (!relaxation.converged && relaxation.rounds() < options.rounds) {
-    throw Error(fmt::format("interrupted after {}; the files show the last one",
+    throw Error(fmt::format("interrupted after {}; the files show the last of them",
                             counted(relaxation.rounds(), "round")));
   }
   print_result(options, seeds, relaxation);

@@ -68,7 +68,7 @@ class Journal {
   std::string path_, run_;
   bool is_there_ = false;
   std::vector<std::string> steps_;
-  Hash hash_;  // of all lines that the file has
+  Hash hash_;      // of all lines that the file has
   FileLock lock_;  // while the run goes on
 };
 
