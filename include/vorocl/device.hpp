@@ -81,7 +81,7 @@ class VOROCL_API Device {
 
   const cl::Context& context() const;
 
-  /// The one queue. The reference is not const because cl::EnqueueArgs takes no other: do not assign to it.
+  /// The one queue. Throws Error in a forked child. Not const as cl::EnqueueArgs takes no other: never assign.
   cl::CommandQueue& queue() const;
   const cl::Device& cl_device() const;
   std::string name() const;

@@ -45,7 +45,8 @@ WRONG = {
     "metric": [None, 2, "", "l2", "Euclidean", b"euclidean", "chebyshev", (), "\ud800", Hostile()],
     "bounds": NO_NUMBERS[1:]
     + [1, (1, 2), (0, 0, 1, 1, 1), (5, 0, 0, 10), (0, 5, 10, 0), (0, 0, np.nan, 1), (0, 0, np.inf, 1), "0,0,1,1"]
-    + [(0, 0, 1e-320, 1), (0, 0, 1e308, 1), (None,) * 4, ("a", "b", "c", "d"), (10**400, 0, 0, 0), FAR_BOUNDS],
+    + [(0, 0, 1e-320, 1), (0, 0, 1e308, 1), (None,) * 4, ("a", "b", "c", "d"), (10**400, 0, 0, 0), FAR_BOUNDS]
+    + [(0, 0, 0, 0), (0, 0, 0, 1), (3, 2, 4, 2)],
     "periodic": NO_NUMBERS + [True, 1, (True,), (True, False, True), (1, 0), ("x", "y"), (None, None), "xy", np.nan],
     "outside": [None, "Count", "drop", 1, True, [], Hostile()],
     "y_up": [None, 1, 0, "yes", [], np.zeros(2), Hostile()],

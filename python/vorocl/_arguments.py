@@ -100,6 +100,8 @@ def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
         x0, y0, x1, y1 = (float(value) for value in bounds)
     except (TypeError, ValueError, OverflowError):
         raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); this is {shown(bounds)}") from None
+    if x0 == x1 or y0 == y1:
+        raise BadArgument(f"bounds must have an extent along both axes; these are {shown(bounds)}")
     return x0, y0, x1, y1
 
 

@@ -4,12 +4,14 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <utility>
 
 #include "runtime/device_state.hpp"
 #include "runtime/opencl_info.hpp"
+#include "runtime/process.hpp"
 
 namespace vorocl {
 
@@ -80,11 +82,24 @@ DeviceDescription describe(cl_platform_id platform, cl_device_id device) {
   return description;
 }
 
+/// Throws Error if this is a forked child of the process that has used the driver: a fork takes no threads
+/// along, and calls would wait for the driver's without end.
+void refuse_fork_of(std::int64_t process) {
+  if (process_number() == process) return;
+  throw Error(
+      "this process was forked from one that had used OpenCL, and has none of the driver's threads; make the "
+      "process by spawn or forkserver (Python: multiprocessing.set_start_method), or fork before the first "
+      "call",
+      ErrorKind::device);
+}
+
 std::vector<Candidate> find_candidates() {
   // The loader (ocl-icd) and PoCL set themselves up when they are first asked, without a lock: threads that
   // ask at the same time see no platform, or crash.
   static std::mutex first_contact;
   const std::lock_guard<std::mutex> lock(first_contact);
+  static const std::int64_t process = process_number();
+  refuse_fork_of(process);
   std::vector<Candidate> candidates;
   const std::vector<cl_platform_id> platforms = find_platforms();
   for (std::size_t p = 0; p < platforms.size(); ++p) {
@@ -148,6 +163,56 @@ std::string list_of(const std::vector<Candidate>& candidates) {
   return text;
 }
 
+/// The names of the drivers that the loader knows of, with commas between them.
+std::string installed_drivers() {
+  const char* const named = std::getenv("OCL_ICD_VENDORS");
+  const std::filesystem::path folder = named != nullptr ? named : "/etc/OpenCL/vendors";
+  std::string names;
+  std::error_code code;
+  for (std::filesystem::directory_iterator file(folder, code), end; !code && file != end;
+       file.increment(code)) {
+    if (file->path().extension() != ".icd") continue;
+    names += (names.empty() ? "" : ", ") + file->path().stem().string();
+  }
+  return names;
+}
+
+/// The folder where PoCL keeps what it has built, as far as the environment says it; empty: it does not.
+std::filesystem::path cache_of_pocl() {
+  const auto variable = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return std::filesystem::path(value == nullptr ? "" : value);
+  };
+  if (const auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
+  if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
+  const auto home = variable("HOME");
+  return home.empty() ? home : home / ".cache" / "pocl";
+}
+
+/// Where there is no platform: none of the drivers is installed, or none could start. The loader does not say
+/// why; what is known to stop them is looked at.
+Error no_platform() {
+  const std::string drivers = installed_drivers();
+  if (drivers.empty()) {
+    return Error(
+        "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
+        "Debian and Ubuntu: apt-get install pocl-opencl-icd)",
+        ErrorKind::device);
+  }
+  std::string text = "no OpenCL driver could start, of those that are installed (" + drivers + ")";
+  if (const auto limit = address_space_limit()) {
+    text +=
+        "; the address space is limited to " + std::to_string(*limit >> 20) + " MiB: raise it (ulimit -v)";
+  }
+  const std::string cache = cache_of_pocl().string();
+  const std::string why = cache.empty() ? "" : why_not_writable(cache);
+  if (!why.empty()) {
+    text += "; PoCL cannot write its cache " + cache + " (" + why +
+            "): let POCL_CACHE_DIR name a folder that it can write";
+  }
+  return Error(text, ErrorKind::device);
+}
+
 GroupLimits group_limits(cl_device_id device) {
   std::vector<std::size_t> sizes(device_info<cl_uint>(device, CL_DEVICE_MAX_WORK_ITEM_DIMENSIONS));
   check(clGetDeviceInfo(device, CL_DEVICE_MAX_WORK_ITEM_SIZES, sizes.size() * sizeof(std::size_t),
@@ -201,13 +266,7 @@ double& DeviceState::milliseconds_waited() {
 
 Device Device::select(const std::string& request) {
   const std::vector<Candidate> candidates = find_candidates();
-  if (candidates.empty()) {
-    throw Error(
-        "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
-        "Debian and "
-        "Ubuntu: apt-get install pocl-opencl-icd)",
-        ErrorKind::device);
-  }
+  if (candidates.empty()) throw no_platform();
   const std::string wanted = effective_request(request);
   const std::optional<Candidate> chosen = choose(candidates, wanted);
   if (!chosen) {
@@ -257,7 +316,10 @@ Device::Device(const cl::Context& context, const cl::CommandQueue& queue)
 }
 
 const cl::Context& Device::context() const { return state_->context; }
-cl::CommandQueue& Device::queue() const { return state_->queue; }
+cl::CommandQueue& Device::queue() const {
+  refuse_fork_of(state_->process);
+  return state_->queue;
+}
 const cl::Device& Device::cl_device() const { return state_->device; }
 const Tuning& Device::tuning() const { return tuning_; }
 std::string Device::name() const { return device_info<std::string>(cl_device()(), CL_DEVICE_NAME); }

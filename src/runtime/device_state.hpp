@@ -6,6 +6,7 @@
 #include <string>
 
 #include "runtime/internal.hpp"
+#include "runtime/process.hpp"
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
@@ -25,7 +26,8 @@ struct DeviceState {
   cl::CommandQueue queue;
   cl::Device device;
   GroupLimits limits;
-  std::string build_options;  // behind the library's own, for all programs
+  const std::int64_t process = process_number();  // which has the driver's threads
+  std::string build_options;                      // behind the library's own, for all programs
 
   std::mutex programs_mutex;                    // held while a program is looked up or built
   std::map<std::string, cl::Program> programs;  // by file and build options

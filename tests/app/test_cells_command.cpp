@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(without_seeds_there_are_no_cells) {
 BOOST_AUTO_TEST_CASE(the_statistics_are_printed) {
   const TemporaryFolder folder;
   const std::string out = succeeds(folder, "cells --random 20 --size 40x30 --cells c.csv --border b.png");
-  for (const char* part : {"exact: 20 cells", "40 x 30", "mean area is 60, with a deviation of", "(px)",
+  for (const char* part : {"exact: 20 seeds", "40 x 30", "mean area is 60, with a deviation of", "(px)",
                            "vertices", "pairs", "wrote c.csv\n"}) {
     BOOST_TEST(out.find(part) != std::string::npos, part);
   }

@@ -131,10 +131,12 @@ BOOST_AUTO_TEST_CASE(headers_say_what_opencv_decodes) {
       const std::string content = content_of(folder / name);
       const std::vector<std::uint8_t> bytes(content.begin(), content.end());
       const command::ImageHeader header = command::read_image_header(folder / name, bytes);
+      const bool is_bitmap = name == std::string("a.bmp");  // whose grey values are in a palette
       const cv::Mat decoded = cv::imread(folder / name, cv::IMREAD_UNCHANGED);
       BOOST_TEST_CONTEXT(name << " of type " << type) {
         BOOST_TEST(header.width == decoded.cols);
         BOOST_TEST(header.height == decoded.rows);
+        BOOST_TEST(header.is_grey == (decoded.channels() == 1 && !is_bitmap));
         BOOST_TEST((command::checked_size(name, header, bytes.size()) == command::Size(1021, 37)));
         if (!header.is_compressed) {
           BOOST_TEST(header.bits_per_pixel * 1021 * 37 / 8 <= bytes.size());
@@ -155,6 +157,35 @@ BOOST_AUTO_TEST_CASE(masks_that_are_packed_well_are_read) {
   cv::imwrite(folder / "a.tif", mask, {cv::IMWRITE_TIFF_COMPRESSION, 8});
   for (const char* name : {"a.png", "b.png", "a.tif"}) {
     succeeds(folder, std::string("render --mask ") + name + " --method exact --labels a.npy");
+  }
+}
+
+/// The most memory, in bytes, that this process has had.
+std::size_t most_memory_here() {
+  struct rusage usage = {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+BOOST_AUTO_TEST_CASE(grey_masks_take_two_bytes_per_pixel) {
+  const TemporaryFolder folder;
+  constexpr int side = 10000;
+  {
+    cv::Mat mask(side, side, CV_8U, cv::Scalar(0));
+    mask.at<std::uint8_t>(side - 1, 7) = 1;
+    cv::imwrite(folder / "a.png", mask);
+    cv::imwrite(folder / "a.tif", mask, {cv::IMWRITE_TIFF_COMPRESSION, 8});
+  }
+  command::read_mask(folder / "a.png");  // what else it loads
+  for (const char* name : {"a.png", "a.tif"}) {
+    std::ofstream("/proc/self/clear_refs") << 5;  // counts the greatest memory anew
+    const std::size_t before = most_memory_here();
+    const command::Mask mask = command::read_mask(folder / name);
+    BOOST_TEST(std::count(mask.pixels.begin(), mask.pixels.end(), 0) == side * side - 1);
+    BOOST_TEST(mask.pixels[std::size_t{side - 1} * side + 7] != 0);
+#ifndef __SANITIZE_ADDRESS__
+    BOOST_TEST((most_memory_here() - before) / side / side < 3u, name);
+#endif
   }
 }
 

@@ -62,9 +62,9 @@ BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
   folder.file("nan.csv", "x,y\n1,2\nnan,3\n");
   folder.file("inf.csv", "x,y\n1,2\n1,2\n3,-inf\n");
   folder.file("far.csv", "1,2\n3,4\n");
-  refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv", "point 1", "nan"});
+  refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv:3", "\"nan\" is not finite"});
   refuses(folder, "render --points inf.csv --bounds 0,0,9,9" + square, failure,
-          {"inf.csv", "point 2", "-inf"});
+          {"inf.csv:4", "\"-inf\" is not finite"});
   refuses(folder, "render --points far.csv --bounds 0,0,3,3 --outside refuse" + square, failure,
           {"far.csv", "point 1", "(3, 4)", "0,0,3,3"});
   folder.file("farther.csv", "1,2\n1e12,4\n");
@@ -178,4 +178,133 @@ BOOST_AUTO_TEST_CASE(too_little_device_memory_is_said_in_figures,
       "VOROCL_DEVICE='" + pocl + "' POCL_MEMORY_LIMIT=1 POCL_CACHE_DIR='" + cache / "" + "'";
   refuses(folder, "render --random 5 --size 30000x30000 --method jfa -o a.png", failure,
           {"too little device memory", "3433.2 MiB", "1024.0 MiB"}, small);
+}
+
+BOOST_AUTO_TEST_CASE(outputs_do_not_replace_what_the_seeds_are_read_from) {
+  const TemporaryFolder folder;
+  const std::string points = "x,y\n1,2\n3,5\n";
+  folder.file("io.csv", points);
+  folder.file("io.npy", "any");
+  folder.file("io00001.png", "any");
+  std::filesystem::create_symlink("io.csv", folder / "link.csv");
+  std::filesystem::create_directory(folder / "folder");
+  for (const char* name : {"io.csv", "./io.csv", "link.csv", "folder/../io.csv"}) {
+    const std::string replaces = std::string(name) + ": ";
+    refuses(folder, std::string("cells --points io.csv --width 9 --cells ") + name, usage,
+            {replaces + "--cells would replace the file that --points reads"});
+    refuses(folder, std::string("relax --points io.csv --width 9 --rounds 1 --relaxed-points ") + name, usage,
+            {replaces + "--relaxed-points would replace"});
+    refuses(folder, std::string("tiles --points io.csv --size 9x9 --adjacency ") + name, usage,
+            {replaces + "--adjacency would replace"});
+  }
+  refuses(folder, "render --points io.npy --width 9 --labels io.npy", usage, {"--labels would replace"});
+  refuses(folder, "render --mask io00001.png --waves io%05d.png --method jfa", usage,
+          {"--waves would replace the file that --mask reads"});
+  refuses(folder, "simulate --mask io00001.png --step-length 1 --frames 2 -o io%05d.png", usage,
+          {"-o would replace the file that --mask reads"});
+  BOOST_TEST(content_of(folder / "io.csv") == points);
+}
+
+BOOST_AUTO_TEST_CASE(compare_refuses_what_it_cannot_use) {
+  const TemporaryFolder folder;
+  succeeds(folder, "render --random 5 --size 9x9 --labels a.npy");
+  for (const std::string option : {"--metric manhattan", "--size 9x9", "--bounds 0,0,9,9", "--device 0:0"}) {
+    refuses(folder, "compare a.npy a.npy " + option, usage,
+            {option.substr(0, option.find(' ')) + " is for seeds"});
+  }
+  refuses(folder, "compare a.npy a.npy --random 5", usage, {"not both", "leave out a.npy or the seeds"});
+  succeeds(folder, "compare a.npy a.npy --json");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_unknown_is_told_where_the_help_is) {
+  const TemporaryFolder folder;
+  refuses(folder, "rendr", usage, {"rendr; see vorocl --help\n"});
+  refuses(folder, "render --random 5 --size 9x9 --colour", usage, {"--colour; see vorocl render --help\n"});
+  refuses(folder, "vorocl-study evaluat", usage, {"evaluat; see vorocl-study --help\n"});
+}
+
+// refuses() wants one line: there is no note before that they count.
+BOOST_AUTO_TEST_CASE(seeds_outside_are_refused_at_once_where_they_do_not_count) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n1,2\n30,5\n");
+  const std::string input = " --points p.csv --bounds 0,0,9,9 --size 9x9 ";
+  const std::string outside = "1 of 2 points lie outside the bounds 0,0,9,9, which ";
+  for (const std::string line : {"render --labels a.npy --method jfa", "cells --cells a.csv --method djfa"}) {
+    refuses(folder, line + input, failure, {outside + "flooding cannot take, only exact diagrams can"});
+  }
+  refuses(folder, "bench --methods exact" + input, failure, {outside + "bench cannot take"});
+  refuses(folder, "relax --rounds 1 -o a.png" + input, failure, {outside + "relax cannot take"});
+}
+
+BOOST_AUTO_TEST_CASE(names_with_newlines_stay_in_one_line) {
+  const TemporaryFolder folder;
+  refuses(folder, "render --points \"$(printf 'no\\nfile.csv')\" --width 9 --labels a.npy", failure,
+          {"no\\x0afile.csv"});
+  const std::string said =
+      succeeds(folder, "render --random 1 --size 9x9 --labels \"$(printf 'a\\nb.npy')\"");
+  BOOST_TEST(said.find("exact: 1 seed on 9 x 9") == 0u, said);
+  BOOST_TEST(said.find("wrote a\\x0ab.npy\n") != std::string::npos, said);
+}
+
+BOOST_AUTO_TEST_CASE(texts_do_not_end_at_a_nul) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", std::string("x,y\0z\n1,2\n", 11));
+  refuses(folder, "render --points p.csv --width 9 --labels a.npy", failure,
+          {"no column y; there are x, y?z: x,y?z (choose two"});
+}
+
+BOOST_AUTO_TEST_CASE(larger_diagrams_are_told_of_tiles) {
+  const TemporaryFolder folder;
+  for (const char* size : {"--size 40000x9", "--width 40000"}) {
+    refuses(folder, std::string("render --points p.csv --labels a.npy ") + size, usage,
+            {"40000 pixels", "vorocl tiles makes larger ones"});
+  }
+  refuses(folder, "render --points p.csv --labels a.npy --width x", usage, {"\"x\" is no whole number"});
+  refuses(folder, "render --points p.csv --labels a.npy --width 0", usage, {"must be from 1 to 32768"});
+}
+
+BOOST_AUTO_TEST_CASE(links_to_standard_output_are_written_into) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/stdout", folder / "out.csv");
+  const Result result = run(folder, "cells --random 2 --size 9x9 --cells out.csv | cat");
+  BOOST_TEST(result.exit_code == 0);
+  BOOST_TEST(result.error == "");
+  BOOST_TEST(std::filesystem::is_symlink(folder / "out.csv"));
+}
+
+// 3 points: one has a cell, one shares its pixel, one lies outside and owns nothing.
+BOOST_AUTO_TEST_CASE(counts_of_a_window_add_up) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n4,4\n4,4\n500,4\n");
+  for (const std::string line : {"render --labels a.npy", "cells --cells a.csv"}) {
+    const Result result = run(folder, line + " --points p.csv --bounds 0,0,9,9 --size 9x9");
+    BOOST_TEST(result.out.find("exact: 3 seeds on 9 x 9") == 0u, result.out);
+    BOOST_TEST(
+        result.out.find("of these seeds 1 have a cell, 1 share their pixel with another and have none, "
+                        "and 1 lie outside and own no pixel\n") != std::string::npos,
+        result.out);
+  }
+}
+
+// Root may write everywhere but where there is no disk.
+BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
+  const TemporaryFolder folder;
+  const std::string line = "render --random 5 --size 9x9 --labels a.npy";
+  folder.file("file", "");
+  refuses(folder, line, failure, {"no OpenCL driver could start", "cache file/cache (", "POCL_CACHE_DIR"},
+          "POCL_CACHE_DIR=file/cache");
+  refuses(folder, line, failure, {"no OpenCL driver could start", "limited to 195 MiB", "ulimit -v"},
+          "ulimit -v 200000;");
+  folder.file("vendors/none", "");
+  refuses(folder, line, failure, {"no OpenCL platform was found; install a driver"},
+          "OCL_ICD_VENDORS=/nowhere");
+}
+
+BOOST_AUTO_TEST_CASE(small_stacks_suffice) {
+  for (const char* const stack : {"500", "1000"}) {
+    const TemporaryFolder folder;
+    const Result result = run(folder, "render --random 5 --size 50x50 --labels a.npy",
+                              std::string("ulimit -s ") + stack + "; POCL_CACHE_DIR=cache");
+    BOOST_TEST(result.exit_code == 0, result.error);
+  }
 }

@@ -92,7 +92,8 @@ BOOST_AUTO_TEST_CASE(escape_sequences_of_files_do_not_reach_the_terminal) {
                result.error);
     for (const char c : {'\x1b', '\x07', '\x9b'}) BOOST_TEST(result.error.find(c) == std::string::npos);
   }
-  BOOST_TEST(command::printable("a\tb\n\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80") ==
-             "a\tb\n\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80");
+  const std::string text = "a\tb\n\xc3\xa9 \xe2\x82\xac \xf0\x9f\x98\x80";
+  BOOST_TEST(command::printable(text, true) == text);
+  BOOST_TEST(command::printable("a\tb\n") == "a\tb\\x0a");
   BOOST_TEST(command::printable("\x7f\r\xff\xc3") == "\\x7f\\x0d\\xff\\xc3");
 }

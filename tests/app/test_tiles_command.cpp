@@ -26,6 +26,8 @@ const std::string planes[] = {
     "--points p.csv --size 80x60",
     "--points p.csv --size 90x60 --bounds 0,0,60,40 --y-up",
     "--points p.csv --size 90x60 --bounds -20,0,60,40 --periodic y",
+    "--points p.csv --size 90x60 --bounds -10,0,40,40 --periodic y",  // and points outside along x
+    "--points p.csv --size 90x60 --bounds 0,0,60,50 --periodic x --metric manhattan",
 };
 
 void write_points_file(const TemporaryFolder& folder) { folder.file("p.csv", csv); }
@@ -231,7 +233,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, points + "--labels a.npy --outside refuse --bounds 0,0,60,40", failure,
           {"p.csv: point 2 at (-20, -5) is outside the bounds"});
   refuses(folder, "tiles --points nan.csv --size 40x30 --labels a.npy", failure,
-          {"nan.csv: point 1 at (3, nan) is not finite"});
+          {"nan.csv:3: \"nan\" is not finite"});
   refuses(folder, "tiles --points far.csv --size 40x30 --bounds 0,0,9,9 --labels a.npy", failure,
           {"far.csv: point 1 at (1000000000000, 3) is 2^31 pixels or more away"});
   refuses(folder, "tiles --points empty.csv --size 40x30 --labels a.npy", failure,

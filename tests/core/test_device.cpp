@@ -1,6 +1,8 @@
 // Devices: selection, adoption, tuning, and programs from several threads.
 #define BOOST_TEST_MODULE device
 #include <dlfcn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -151,4 +153,37 @@ BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
   }
   for (std::thread& thread : threads) thread.join();
   for (const auto& image : labels) BOOST_TEST((image == ground_truth));
+}
+
+// It has none of the driver's threads, and would wait for them without end.
+BOOST_AUTO_TEST_CASE(a_forked_child_is_refused_at_once) {
+  const Device device = Device::select();
+  const Grid grid(40, 30);
+  const Seeds seeds = Seeds::random(device, grid, 9, 1);
+  Diagram diagram(device, grid);
+  exact_diagram(seeds, diagram);
+  diagram.wait();
+  const pid_t child = fork();
+  if (child == 0) {
+    alarm(20);
+    int refused = 0;
+    const auto refuses = [&refused](const auto& call) {
+      try {
+        call();
+      } catch (const Error& error) {
+        const bool says = std::string(error.what()).find("spawn or forkserver") != std::string::npos;
+        refused += says && error.kind() == ErrorKind::device ? 1 : 0;
+      }
+    };
+    refuses([] { Device::select(); });
+    refuses([&] { exact_diagram(seeds, diagram); });
+    refuses([&] { Seeds::random(device, grid, 9, 1); });
+    refuses([&] { static_cast<void>(diagram.read()); });
+    refuses([&] { device.finish(); });
+    _exit(refused);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  BOOST_TEST(WIFEXITED(status));
+  BOOST_TEST(WEXITSTATUS(status) == 5);
 }

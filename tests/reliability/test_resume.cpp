@@ -1,6 +1,8 @@
 // simulate --resume: whatever ends a run, the same command goes on, and the files are those of a run that
 // nothing ended. VOROCL_LONG_TESTS: many more ends.
 #define BOOST_TEST_MODULE resume
+#include <sys/stat.h>
+
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -76,9 +78,8 @@ void begin_three(const TemporaryFolder& folder) {
 BOOST_AUTO_TEST_CASE(a_run_that_is_killed_at_any_time_is_completed) {
   const int times = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 30 : 1;
   const auto tells = [](const std::string& journal) {
-    const std::string end_of_run = "\nsteps\n";
-    const std::size_t end = journal.find(end_of_run);
-    return end != std::string::npos && journal.size() > end + end_of_run.size();
+    const std::size_t end = journal.find("\nsteps ");
+    return end != std::string::npos && journal.find('\n', end + 1) + 1 < journal.size();
   };
   check_killed_runs({std::begin(subcommands), std::end(subcommands)}, times, tells, without_times);
 }
@@ -200,6 +201,65 @@ BOOST_AUTO_TEST_CASE(damaged_journals_are_refused) {
   const Result result = run(folder, three);
   BOOST_TEST(result.exit_code == 0, result.error);
 }
+
+BOOST_AUTO_TEST_CASE(journals_with_other_lines_are_refused) {
+  const TemporaryFolder folder;
+  begin_three(folder);
+  const std::string journal = content_of(folder / "l%d.npy.journal");
+  const std::size_t last = journal.rfind('\n', journal.size() - 2) + 1;
+  const std::size_t before = journal.rfind('\n', last - 2) + 1;
+  const std::string line = journal.substr(last), other = journal.substr(before, last - before);
+  for (const std::string& damaged :
+       {journal + line, journal.substr(0, before) + line + other, journal.substr(0, before) + line}) {
+    folder.file("l%d.npy.journal", damaged);
+    refuses(folder, three, failure, {"l%d.npy.journal is damaged", start_again});
+  }
+  std::filesystem::remove(folder / "l%d.npy.journal");
+  mkfifo((folder / "l%d.npy.journal").c_str(), 0600);
+  refuses(folder, three, failure, {"l%d.npy.journal is no journal"}, "timeout -s KILL 20");
+}
+
+BOOST_AUTO_TEST_CASE(two_runs_at_once_are_refused) {
+  const TemporaryFolder folder, whole;
+  const std::string subcommand = at_random + "--labels l%d.npy --cells cells.csv";
+  succeeds(whole, subcommand);
+  for (int i = 0; i < 2; ++i) {  // a run that begins, and one that goes on
+    const pid_t process = start(folder, words_of(subcommand + " --resume"));
+    const std::string path = folder / ("l" + std::to_string(8 * (i + 1)) + ".npy");
+    for (int tries = 0; tries < 4000 && !std::filesystem::exists(path); ++tries)
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    kill(process, SIGSTOP);
+    const auto before = contents_of(folder);
+    const Result result = run(folder, subcommand + " --resume");
+    BOOST_TEST(result.exit_code == failure);
+    BOOST_TEST(result.error.find("another run is writing l%d.npy.journal") != std::string::npos,
+               result.error);
+    BOOST_TEST((contents_of(folder) == before));
+    kill(process, SIGKILL);
+    int status = 0;
+    waitpid(process, &status, 0);
+    BOOST_TEST(WIFSIGNALED(status));
+  }
+  BOOST_TEST(run(folder, subcommand + " --resume").exit_code == 0);
+  check_same(folder, whole);
+}
+
+#ifdef VOROCL_FAULTS
+// The tables get their names one after the other.
+BOOST_AUTO_TEST_CASE(complete_tables_keep_their_names) {
+  const TemporaryFolder folder;
+  const std::string subcommand =
+      "simulate --random 9 --size 40x30 --frames 2 --step-length 1 --cells c.csv --adjacency p.csv --resume";
+  const Result failed = run(folder, subcommand, "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT='rename 3 on'");
+  BOOST_TEST(failed.exit_code == failure, failed.error);
+  BOOST_TEST((files_of(folder) == std::set<std::string>{"c.csv", "p.csv.part", "c.csv.journal"}));
+  std::filesystem::rename(folder / "p.csv.part", folder / "other");
+  refuses(folder, subcommand, failure, {"p.csv"});
+  std::filesystem::rename(folder / "other", folder / "p.csv.part");
+  BOOST_TEST(run(folder, subcommand).exit_code == 0);
+  BOOST_TEST((files_of(folder) == std::set<std::string>{"c.csv", "p.csv"}));
+}
+#endif
 
 BOOST_AUTO_TEST_CASE(films_and_runs_without_files_cannot_be_resumed) {
   const TemporaryFolder folder;

@@ -1,6 +1,8 @@
 // tiles --resume: whatever ends a run, the same command goes on, and the files are those of a run that
 // nothing ended. VOROCL_LONG_TESTS: many more ends.
 #define BOOST_TEST_MODULE resume_tiles
+#include <sys/stat.h>
+
 #include <chrono>
 #include <csignal>
 #include <map>
@@ -205,6 +207,111 @@ BOOST_AUTO_TEST_CASE(other_seeds_are_refused) {
   folder.file("p.csv", points.replace(4, 1, points[4] == '1' ? "2" : "1"));
   refuses(folder, subcommand, failure, {"there \"seeds 3000 ", "here \"seeds 3000 "});
 }
+
+// Whatever is done to the lines of a journal, or to one bit: the run refuses, or makes what a whole one
+// makes.
+BOOST_AUTO_TEST_CASE(no_damaged_journal_gives_wrong_files) {
+  const int flips = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 400 : 12;
+  for (const std::string& subcommand : {subcommands[0], subcommands[2]}) {
+    const TemporaryFolder whole, left;
+    succeeds(whole, subcommand);
+    const std::string name = subcommand == subcommands[0] ? "a.npy.journal" : "a.tif.journal";
+    BOOST_REQUIRE(WIFSIGNALED(interrupt(left, subcommand + " --resume", name, SIGKILL)));
+    for (const std::string& file : files_of(left)) {
+      if (is_temporary(file)) std::filesystem::remove(left / file);
+    }
+    const std::string journal = content_of(left / name);
+    std::vector<std::string> lines;
+    std::istringstream text(journal);
+    for (std::string line; std::getline(text, line);) lines.push_back(line + "\n");
+    const auto of_kind = [&](const std::string& word) {
+      std::vector<std::size_t> found;
+      for (std::size_t i = 0; i < lines.size(); ++i) {
+        if (lines[i].rfind(word + " ", 0) == 0) found.push_back(i);
+      }
+      return found;
+    };
+    const std::vector<std::size_t> tiles = of_kind("tile"), sums = of_kind("sums");
+    BOOST_REQUIRE(tiles.size() >= 1);
+    BOOST_REQUIRE(sums.size() >= 1);
+    const std::size_t first = tiles.front(), last = tiles.back(), sum = sums.back();
+    std::map<std::string, std::string> damaged;
+    const auto damage = [&](const std::string& what,
+                            const std::function<void(std::vector<std::string>&)>& to) {
+      std::vector<std::string> changed = lines;
+      to(changed);
+      for (const std::string& line : changed) damaged[what] += line;
+    };
+    using Lines = std::vector<std::string>;
+    const auto at = [](Lines& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+    damage("a tile is deleted", [&](Lines& all) { all.erase(at(all, first)); });
+    damage("a tile is there twice", [&](Lines& all) { all.insert(at(all, first), all[first]); });
+    damage("two lines are swapped",
+           [&](Lines& all) { std::swap(all[first], all[last > first ? last : sum]); });
+    damage("no bytes of sums", [&](Lines& all) { all[sum].replace(0, all[sum].rfind(' '), "sums 0"); });
+    std::mt19937 numbers(1);
+    for (int i = 0; i < flips; ++i) {
+      const std::size_t place = numbers() % journal.size();
+      std::string flipped = journal;
+      flipped[place] = static_cast<char>(flipped[place] ^ (1 << numbers() % 8));
+      damaged["byte " + std::to_string(place) + " is " + std::to_string(flipped[place])] = flipped;
+    }
+    for (const auto& [what, content] : damaged) {
+      const TemporaryFolder folder;
+      std::filesystem::copy(
+          left / "", folder / "",
+          std::filesystem::copy_options::recursive | std::filesystem::copy_options::overwrite_existing);
+      folder.file(name, content);
+      const auto before = contents_of(folder);
+      const Result result = run(folder, subcommand + " --resume");
+      BOOST_TEST_CONTEXT(what << " in " << name << ": " << result.error) {
+        if (result.exit_code == 0) {
+          check_same(folder, whole);
+        } else {
+          BOOST_TEST(result.exit_code == failure);
+          BOOST_TEST(result.error.find("remove " + name) != std::string::npos);
+          BOOST_TEST((contents_of(folder) == before));
+        }
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_pipe_is_no_journal) {
+  const TemporaryFolder folder;
+  mkfifo((folder / "a.npy.journal").c_str(), 0600);
+  refuses(folder, subcommands[0] + " --resume", failure, {"a.npy.journal is no journal"},
+          "timeout -s KILL 20");
+}
+
+#ifdef VOROCL_FAULTS
+// The outputs get their names one after the other, after the journal. A run that ends in between has some
+// that are complete: one that refuses to go on leaves them their names.
+BOOST_AUTO_TEST_CASE(complete_outputs_keep_their_names) {
+  for (const std::string labels : {"a.npy", "a.zarr", "a.tif"}) {
+    const TemporaryFolder whole, folder;
+    const std::string subcommand = "tiles --random 9 --size 90x70 --tile 32 --cells c.csv --labels " + labels;
+    succeeds(whole, subcommand);
+    const Result failed =
+        run(folder, subcommand + " --resume", "LD_PRELOAD='" VOROCL_FAULTS "' VOROCL_FAULT='rename 3 on'");
+    BOOST_TEST(failed.exit_code == failure, failed.error);
+    const std::string sums = content_of(folder / "c.csv.part");
+    BOOST_TEST((files_of(folder).count(labels) == 1 || labels == "a.zarr"));
+    BOOST_TEST(std::filesystem::exists(folder / labels));
+    folder.file("c.csv.part", std::string(sums.size(), 'x'));
+    refuses(folder, subcommand + " --resume", failure, {"c.csv.part is damaged"});
+    std::string flipped = sums;
+    flipped[sums.size() / 2] = static_cast<char>(flipped[sums.size() / 2] ^ 1);
+    folder.file("c.csv.part", flipped);
+    refuses(folder, subcommand + " --resume", failure, {"c.csv.part is damaged"});
+    std::filesystem::remove(folder / "c.csv.part");
+    refuses(folder, subcommand + " --resume", failure, {"c.csv: No such file"});
+    folder.file("c.csv.part", sums);
+    BOOST_TEST(run(folder, subcommand + " --resume").exit_code == 0);
+    check_same(folder, whole);
+  }
+}
+#endif
 
 BOOST_AUTO_TEST_CASE(damaged_journals_are_refused) {
   const TemporaryFolder folder;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -62,7 +63,10 @@ std::size_t locate(const std::string& column, const Line& first, bool has_header
   if (const auto index = has_header ? index_of(first.fields, column) : std::nullopt) return *index;
   if (const auto index = parse_number<std::size_t>(column); index && *index < first.fields.size())
     return *index;
-  throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header));
+  const bool has_commas =
+      first.fields.size() > 1 || first.reader.line().find_first_of(";\t") == std::string::npos;
+  throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header) +
+                    (has_commas ? "" : "; fields are separated by commas here"));
 }
 
 std::pair<std::size_t, std::size_t> locate(const Columns& wanted, const Line& first, bool has_header) {
@@ -74,14 +78,25 @@ std::pair<std::size_t, std::size_t> locate(const Columns& wanted, const Line& fi
 }
 
 const std::string& field(const Line& line, std::size_t index) {
-  if (index >= line.fields.size()) throw line.error("there is no column " + std::to_string(index));
-  return line.fields[index];
+  if (index < line.fields.size()) return line.fields[index];
+  throw line.error("there is no column " + std::to_string(index) +
+                   ", counted from 0: the line ends before it");
 }
+
+constexpr const char* of_decimal_commas = "; decimals have a point, not a comma";
 
 double number(const Line& line, std::size_t index) {
   const auto parsed = parse_number<double>(field(line, index));
-  if (!parsed) throw line.error("\"" + line.fields[index] + "\" is not a number");
-  return *parsed;
+  if (parsed) return *parsed;
+  const std::string& text = line.fields[index];
+  throw line.error("\"" + text + "\" is not a number" +
+                   (text.find(',') == std::string::npos ? "" : of_decimal_commas));
+}
+
+double coordinate(const Line& line, std::size_t index) {
+  const double value = number(line, index);
+  if (!std::isfinite(value)) throw line.error("\"" + line.fields[index] + "\" is not finite");
+  return value;
 }
 
 double value_or_absent(const Line& line, std::size_t index) {
@@ -155,9 +170,15 @@ bool CsvReader::next() {
         std::tie(indices_->x, indices_->y) = locate(columns_.value_or(Columns{"x", "y"}), line, has_header);
       }
       if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
+      columns_there_ = line.fields.size();
       if (has_header) continue;
     }
-    point_ = {number(line, indices_->x), number(line, indices_->y)};
+    if (line.fields.size() > columns_there_) {
+      throw line.error("there are " + std::to_string(line.fields.size()) +
+                       " fields where the first line has " + std::to_string(columns_there_) +
+                       of_decimal_commas);
+    }
+    point_ = {coordinate(line, indices_->x), coordinate(line, indices_->y)};
     if (indices_->value) value_ = value_or_absent(line, *indices_->value);
     return has_points_ = true;
   }

@@ -46,8 +46,8 @@ class CsvReader {
                      const std::string& value_column = "");
 
   /// Goes to the next point; false at the end of the file. Throws Error that names file, line and text for a
-  /// line that cannot be read or has more than a mebibyte and a column that is not there, and at the end if
-  /// there was no point at all.
+  /// line that cannot be read, has more than a mebibyte or more fields than the first one, a coordinate that
+  /// is not finite and a column that is not there, and at the end if there was no point at all.
   bool next();
 
   const Point& point() const { return point_; }
@@ -59,6 +59,7 @@ class CsvReader {
   std::string value_column_;
   LineReader lines_;
   std::optional<CsvIndices> indices_;
+  std::size_t columns_there_ = 0;  // fields of the first line
   bool has_points_ = false;
   Point point_;
   double value_ = 0;

@@ -95,6 +95,8 @@ SteadyFile::State SteadyFile::now() const {
 Lines read_lines(const std::string& path, const std::string& kind) {
   constexpr std::size_t longest_line = 1 << 16;
   const Error other(path + " is no " + kind + "; give another file");
+  std::error_code ignored;
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) throw other;
   std::ifstream file = open_to_read(path);
   Lines lines;
   for (std::string line; std::getline(file, line);) {

@@ -44,8 +44,8 @@ struct Lines {
   std::string cut_off;  // a last one that has no end
 };
 
-/// Throws Error as open_to_read(), and if a line is longer than 64 KiB: then the file is no `kind`
-/// ("evaluation").
+/// Throws Error as open_to_read(), and for a pipe or a device, or if a line is longer than 64 KiB: then the
+/// file is no `kind` ("evaluation").
 Lines read_lines(const std::string& path, const std::string& kind);
 
 /// Whether two paths lead to one file. Either may be a pattern with a place for a number, such as

@@ -15,7 +15,7 @@ namespace vorocl::command {
 class ImageModule {
  public:
   /// An image file's content as three channels (BGR) of its depth; an empty image if it cannot be decoded.
-  virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes) const = 0;
+  virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_grey) const = 0;
 
   /// The content of an image file with this extension (".png"); empty if there can be none.
   virtual std::vector<std::uint8_t> encode(const std::string& extension, const cv::Mat& picture) const = 0;

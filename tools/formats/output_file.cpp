@@ -51,14 +51,12 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-/// Where a link leads. It is opened first, because the system lets nobody write through links that others put
-/// into a folder where all may write.
-std::string target_of_link(const std::string& path, const struct stat& target) {
-  if (S_ISREG(target.st_mode)) {
-    const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (file < 0) throw cannot_write(path, reason(errno));
-    close(file);
-  }
+/// Where a link to a file leads. It is opened first, because the system lets nobody write through links that
+/// others put into a folder where all may write.
+std::string target_of_link(const std::string& path) {
+  const int file = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  if (file < 0) throw cannot_write(path, reason(errno));
+  close(file);
   const std::unique_ptr<char, void (*)(void*)> resolved(realpath(path.c_str(), nullptr), std::free);
   if (!resolved) throw cannot_write(path, reason(errno));
   return resolved.get();
@@ -111,7 +109,8 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
     if (!is_file_ && !S_ISFIFO(there.st_mode) && !S_ISCHR(there.st_mode)) {
       throw cannot_write(path, "it is neither a file nor a pipe");
     }
-    if (is_link) target_ = target_of_link(path, there);
+    // A link to standard output leads to no name, and is written into as it is.
+    if (is_link && is_file_) target_ = target_of_link(path);
   } else {
     const int code = errno;
     if (is_link) throw cannot_write(path, "it is a link that leads nowhere");
@@ -149,19 +148,20 @@ GrowingFile::GrowingFile(const OutputFile& file, const std::optional<Kept>& kept
     : path_(file.path_), target_(file.target_), part_(file.part_path()) {
   file.require_file("--resume");
   struct stat there = {};
-  if (kept && kept->is_complete && lstat(part_.c_str(), &there) != 0) {
-    // A run that ended between two renames: back to the state before them.
-    if (rename(target_.c_str(), part_.c_str()) != 0) throw cannot_write(part_, reason(errno));
-  }
   const Kept begun = kept.value_or(Kept{});
-  descriptor_ = open_to_replace(target_, part_, (begun.bytes == 0 ? O_CREAT : 0) | (kept ? 0 : O_EXCL));
-  if (descriptor_ < 0) throw cannot_write(part_, reason(errno));
+  is_finished_ = begun.is_complete && lstat(part_.c_str(), &there) != 0;  // it ended between two renames
+  const std::string name = is_finished_ ? target_ : part_;
+  const bool may_begin = begun.bytes == 0 && !is_finished_;
+  descriptor_ = open_to_replace(target_, name, (may_begin ? O_CREAT : 0) | (kept ? 0 : O_EXCL));
+  if (descriptor_ < 0) throw cannot_write(name, reason(errno));
+  if (is_finished_) part_.clear();
   if (fstat(descriptor_, &there) == 0 && static_cast<std::size_t>(there.st_size) >= begun.bytes &&
-      ftruncate(descriptor_, static_cast<off_t>(begun.bytes)) == 0 && lseek(descriptor_, 0, SEEK_END) >= 0) {
+      (is_finished_ || ftruncate(descriptor_, static_cast<off_t>(begun.bytes)) == 0) &&
+      lseek(descriptor_, 0, SEEK_END) >= 0) {
     return;
   }
   close(descriptor_);
-  throw cannot_write(part_, "it is not the file of " + std::to_string(begun.bytes) + " bytes that was left");
+  throw cannot_write(name, "it is not the file of " + std::to_string(begun.bytes) + " bytes that was left");
 }
 
 GrowingFile::~GrowingFile() {

@@ -73,14 +73,18 @@ class GrowingFile {
   explicit GrowingFile(const OutputFile& file);
 
   /// One that another run can continue: until finish() it is at the file's part_path(), and stays there.
-  /// Without `kept` it begins, else it goes on behind what was kept. Throws Error too for a pipe or a device,
-  /// if less was kept, or if it begins and there is a file of this name.
+  /// Without `kept` it begins, else it goes on behind what was kept. One that is complete and has its name
+  /// already keeps that, and is_finished(). Throws Error too for a pipe or a device, if less was kept, or if
+  /// it begins and there is a file of this name.
   GrowingFile(const OutputFile& file, const std::optional<Kept>& kept);
   ~GrowingFile();
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   const std::string& path() const { return path_; }
+
+  /// Whether it had its name before this run: nothing is to be written.
+  bool is_finished() const { return is_finished_; }
 
   /// Appends. Throw Error, with the reason, if that fails.
   void write(const void* bytes, std::size_t count);
@@ -110,6 +114,7 @@ class GrowingFile {
   std::string target_;
   std::optional<TemporaryName> name_;  // none: a pipe or a device, it has its name, or it stays
   std::string part_;                   // the name under which it stays; empty: it does not, or has its name
+  bool is_finished_ = false;
   int descriptor_ = -1;
   std::vector<char> buffer_;
 };

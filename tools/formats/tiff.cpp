@@ -60,8 +60,10 @@ bool holds_labels(const File& file) {
 ImageHeader header_of(const File& file) {
   const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} *
                              field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
+  const auto colors = field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC);
   return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH), field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
-          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE};
+          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE,
+          colors == PHOTOMETRIC_MINISBLACK || colors == PHOTOMETRIC_MINISWHITE};
 }
 
 }  // namespace

@@ -44,20 +44,25 @@ inline std::string to_string(Metric metric) {
   return "manhattan";
 }
 
-/// 64-bit FNV-1a (Fowler, Noll, Vo) of whole numbers, byte by byte from the lowest one.
+/// 64-bit FNV-1a (Fowler, Noll, Vo) of whole numbers, byte by byte from the lowest one, and of text.
 class Hash {
  public:
   template <typename T>
   void add(T number) {
     static_assert(static_cast<T>(-1) > 0, "unsigned numbers");
     for (std::size_t i = 0; i < sizeof number; ++i) {
-      value_ = (value_ ^ ((number >> (8 * i)) & 0xff)) * 0x100000001b3u;
+      add_byte((number >> (8 * i)) & 0xff);
     }
+  }
+  void add_text(std::string_view bytes) {
+    for (const char byte : bytes) add_byte(static_cast<unsigned char>(byte));
   }
 
   std::uint64_t value() const { return value_; }
 
  private:
+  void add_byte(std::uint64_t byte) { value_ = (value_ ^ byte) * 0x100000001b3u; }
+
   std::uint64_t value_ = 0xcbf29ce484222325u;
 };
 

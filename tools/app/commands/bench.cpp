@@ -45,9 +45,9 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                 {"results", list}});
     return;
   }
-  print("{} seeds on {} x {} pixels, {}, {} rounds, on {}\n", seeds.alive(), seeds.grid().width(),
-        seeds.grid().height(), to_string(options.benchmark.method.metric), options.benchmark.rounds,
-        seeds.device().name());
+  print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
+        seeds.grid().height(), to_string(options.benchmark.method.metric),
+        counted(options.benchmark.rounds, "round"), seeds.device().name());
   print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
   const double first_median = results.front().milliseconds.median();
   for (const BenchmarkResult& result : results) {
@@ -99,6 +99,7 @@ void add_bench(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     check_method_options(command, options->methods, options->benchmark.method);
+    options->seeds.keeps_inside = "bench cannot take";
     run(*options);
   });
 }

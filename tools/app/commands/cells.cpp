@@ -39,7 +39,7 @@ std::vector<RequestedFile> requested_files(const CellsOptions& options) {
 }
 
 std::vector<Output> open_outputs(const CellsOptions& options) {
-  check_outputs(requested_files(options));
+  check_outputs(requested_files(options), options.seeds);
   std::vector<Output> outputs;
   std::string all;
   for (const FileRequest& request : options.files) {
@@ -67,13 +67,15 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
     print_json(result);
     return;
   }
-  print("{}: {} cells on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, statistics.cells, view.picture.size.width(), view.picture.size.height(),
-        report.milliseconds(), report.waves(), seeds.device().name());
-  print_empty_cells(statistics.empty_cells, statistics.cells);
+  print("{}: {} on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {}, on {}\n",
+        options.method.name, counted(seeds.alive(), "seed"), view.picture.size.width(),
+        view.picture.size.height(), report.milliseconds(), counted(report.waves(), "wave"),
+        seeds.device().name());
+  print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive());
   print("the mean area is {:.6g}, with a deviation of {:.6g} ({})\n", statistics.mean_area,
         statistics.area_deviation, view.units.area_title());
-  print("{} vertices, {} pairs of cells that touch\n", measures.vertices(), measures.pair_count());
+  print("{}, {} of cells that touch\n", counted(measures.vertices(), "vertex", "vertices"),
+        counted(measures.pair_count(), "pair"));
   print_written(requested_files(options));
 }
 
@@ -107,6 +109,7 @@ void add_cells(CommandLine& line) {
   add_json_option(command, options->json);
   command.set_work([command, options] {
     check_method_options(command, {options->method}, options->method_options);
+    if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);
   });
 }

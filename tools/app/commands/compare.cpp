@@ -29,6 +29,7 @@ struct CompareOptions {
   SeedOptions seeds;  // instead of b: what a is the diagram of
   Metric metric = Metric::euclidean;
   std::string device;
+  std::string of_seeds;  // the first option that was given, of those that label files do not need
   bool json = false;
 
   bool has_seeds() const {
@@ -131,10 +132,17 @@ void print_result(const CompareOptions& options, const Comparison& comparison) {
 }
 
 void run(const CompareOptions& options) {
-  if (options.has_seeds() != options.b.empty()) {
+  if (options.has_seeds() && !options.b.empty()) {
+    throw UsageError("compare takes another label file or seeds, not both; leave out " + options.b +
+                     " or the seeds");
+  }
+  if (!options.has_seeds() && options.b.empty()) {
     throw UsageError(
         "compare needs another label file or, to compare with their exact diagram, the seeds (such as "
         "--random)");
+  }
+  if (!options.has_seeds() && !options.of_seeds.empty()) {
+    throw UsageError(options.of_seeds + " is for seeds; two label files are compared as they are");
   }
   for (const std::string& path : {options.a, options.b}) {
     if (!path.empty()) as_usage([&] { check_extension(path, readable_label_extensions()); });
@@ -157,7 +165,11 @@ void add_compare(CommandLine& line) {
   add_metric_option(command, options->metric);
   add_device_option(command, options->device);
   add_json_option(command, options->json);
-  command.set_work([options] { run(*options); });
+  command.set_work([command, options] {
+    const std::string given = command.given({"a", "b", "--json"});
+    options->of_seeds = given.substr(0, given.find(' '));
+    run(*options);
+  });
 }
 
 }  // namespace vorocl::command

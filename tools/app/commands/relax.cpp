@@ -59,7 +59,7 @@ struct Outputs {
 };
 
 Outputs open_outputs(const RelaxOptions& options) {
-  check_outputs(requested_files(options));
+  check_outputs(requested_files(options), options.seeds);
   check_picture_options(options.pictures.picture);
   Outputs outputs;
   if (options.shows_rounds()) {  // first: it makes the folder of numbered pictures
@@ -137,8 +137,8 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
                 {"energy_at_end", relaxation.energies.back()}});
     return;
   }
-  print("{} seeds on {} x {} pixels, {} rounds, {}, on {}\n", seeds.alive(), seeds.grid().width(),
-        seeds.grid().height(), relaxation.rounds(),
+  print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
+        seeds.grid().height(), counted(relaxation.rounds(), "round"),
         relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
   print("energy: {} at the start, {} at the end\n", relaxation.energies.front(), relaxation.energies.back());
   print_written(requested_files(options));
@@ -158,8 +158,8 @@ void run(const RelaxOptions& options) {
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
   write_end(outputs, options, input, seeds, diagram, relaxation);
   if (!relaxation.converged && relaxation.rounds() < options.rounds) {
-    throw Error(
-        fmt::format("interrupted after {} rounds; the files show the last of them", relaxation.rounds()));
+    throw Error(fmt::format("interrupted after {}; the files show the last of them",
+                            counted(relaxation.rounds(), "round")));
   }
   print_result(options, seeds, relaxation);
 }
@@ -198,6 +198,7 @@ void add_relax(CommandLine& line) {
   command.set_work([command, options] {
     if (options->pictures.picture_path.empty()) refuse_picture_options(command, "-o");
     options->seeds.value_column = options->pictures.picture.color.column;
+    options->seeds.keeps_inside = "relax cannot take";
     run(*options);
   });
 }

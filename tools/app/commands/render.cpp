@@ -51,7 +51,7 @@ Outputs open_outputs(const RenderOptions& options) {
   if (!options.waves_pattern.empty() && !options.method.plan) {
     throw UsageError("--waves: the method " + std::string(options.method.name) + " has no waves");
   }
-  check_outputs(requested_files(options));
+  check_outputs(requested_files(options), options.seeds);
   if (options.draws()) check_picture_options(options.picture);
   Outputs outputs;
   outputs.picture = open_output(options.picture_path);
@@ -75,10 +75,11 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     print_json(result);
     return;
   }
-  print("{}: {} seeds on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {} waves, on {}\n",
-        options.method.name, seeds.alive(), view.picture.size.width(), view.picture.size.height(),
-        report.milliseconds(), report.waves(), seeds.device().name());
-  print_empty_cells(count.empty, count.cells);
+  print("{}: {} on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {}, on {}\n",
+        options.method.name, counted(seeds.alive(), "seed"), view.picture.size.width(),
+        view.picture.size.height(), report.milliseconds(), counted(report.waves(), "wave"),
+        seeds.device().name());
+  print_empty_cells(count.empty, count.cells, seeds.alive());
   print_written(requested_files(options));
 }
 
@@ -153,6 +154,7 @@ void add_render(CommandLine& line) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }
     options->seeds.value_column = options->picture.color.column;
+    if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);
   });
 }

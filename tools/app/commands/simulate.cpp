@@ -223,6 +223,7 @@ class Run {
 
 void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
+  check_outputs(as_usage([&] { return requested_files(options.output); }), options.seeds);
   check_picture_options(options.output.picture);
   FrameWriter writer(options.output, options.other_is_exact(), options.run);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
@@ -283,6 +284,9 @@ void add_simulate(CommandLine& line) {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.value_column = options->output.picture.color.column;
+    const bool floods =
+        !options->method.windows || (options->compare_with && !options->compare_with->windows);
+    if (floods) options->seeds.keeps_inside = keeps_flooding_inside;
     options->run = "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json"});
     run(*options);
   });

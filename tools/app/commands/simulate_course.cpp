@@ -63,19 +63,21 @@ Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulati
 }
 
 void print_times(const std::string& method, Simulation& simulation, std::size_t engine, int frames) {
-  print("{}: {:.3f} ms per frame, {} waves in the last\n", method,
-        frames > 0 ? simulation.milliseconds(engine) / frames : 0, simulation.report(engine).waves());
+  print("{}: {:.3f} ms per frame, {} in the last\n", method,
+        frames > 0 ? simulation.milliseconds(engine) / frames : 0,
+        counted(simulation.report(engine).waves(), "wave"));
 }
 
 void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                 const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
   const Size& picture = source.view().picture.size;
-  print("{} frames after frame 0, {} seeds on {} x {} pixels, on {}\n", simulation.frame(), seeds.alive(),
-        picture.width(), picture.height(), seeds.device().name());
-  if (course.made_before > 0) print("made before: {} frames, from frame 0 on\n", course.made_before);
+  const auto frames = [](int count) { return counted(count, "frame"); };
+  print("{} after frame 0, {} on {} x {} pixels, on {}\n", frames(simulation.frame()),
+        counted(seeds.alive(), "seed"), picture.width(), picture.height(), seeds.device().name());
+  if (course.made_before > 0) print("made before: {}, from frame 0 on\n", frames(course.made_before));
   const CellCount count = measures.cell_count();
-  print_empty_cells(count.empty, count.cells);
+  print_empty_cells(count.empty, count.cells, seeds.alive());
   const auto name_of = [&](const Method& method, Metric metric) {
     const bool differs = options.compare_with && options.other_metric() != options.method_options.metric;
     return differs ? fmt::format("{} ({})", method.name, to_string(metric)) : std::string(method.name);

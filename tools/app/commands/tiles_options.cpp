@@ -50,14 +50,10 @@ Window window_of(const TilesOptions& options) {
   return {plane, part.x, part.y, part.width, part.height};
 }
 
-std::string count_of_tiles(std::uint64_t count) {
-  return fmt::format("{} tile{}", count, count == 1 ? "" : "s");
-}
-
 void check_options(const TilesOptions& options) {
   const PlaneWriterOptions& output = options.output;
   const std::vector<RequestedFile> files = requested_files(output);
-  check_outputs(files);
+  check_outputs(files, options.input.seeds);
   if (std::all_of(files.begin(), files.end(), [](const RequestedFile& file) { return file.path.empty(); })) {
     throw UsageError("nothing to write: give at least one of --labels, -o, --cells and --adjacency");
   }
@@ -192,13 +188,13 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
     return;
   }
   const TileShape tile = tile_shape(tiling);
-  print("exact: {} seeds on {} x {} pixels, {} of {} x {}, on {}\n", seeds.seeds, plane.width(),
-        plane.height(), count_of_tiles(course.tiles), tile.width, tile.height, device.name());
+  print("exact: {} on {} x {} pixels, {} of {} x {}, on {}\n", counted(seeds.seeds, "seed"), plane.width(),
+        plane.height(), counted(course.tiles, "tile"), tile.width, tile.height, device.name());
   if (options.part) {
     print("of these pixels {} x {}, from ({}, {}) on\n", window.width(), window.height(), window.x(),
           window.y());
   }
-  if (course.made_before > 0) print("made before: {}\n", count_of_tiles(course.made_before));
+  if (course.made_before > 0) print("made before: {}\n", counted(course.made_before, "tile"));
   if (course.processes > 1) print("processes: {}\n", course.processes);
   print("{:.1f} million pixels per second, {:.0f} % of the time for writing\n", rate / million,
         course.milliseconds > 0 ? 100 * course.writing / course.milliseconds : 0);

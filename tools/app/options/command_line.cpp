@@ -1,8 +1,12 @@
 #include "app/options/command_line.hpp"
 
+#include <pthread.h>
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
+#include <thread>
 
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -131,7 +135,12 @@ Command Command::add_group(const std::string& name, const std::string& about, st
 
 Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
 
-bool Command::has(const std::string& name) const { return app_->count(name) > 0; }
+// CLI11's own search by name ends the process where memory runs out.
+bool Command::has(const std::string& name) const {
+  const auto options = app_->get_options([](const CLI::Option* option) { return option->count() > 0; });
+  return std::any_of(options.begin(), options.end(),
+                     [&name](const CLI::Option* option) { return option->get_name() == name; });
+}
 
 std::string Command::given(const std::vector<std::string>& others) const {
   const auto is_meant = [&others](const CLI::Option* option) {
@@ -170,17 +179,43 @@ void CommandLine::run(int argc, char** argv) {
     app_->exit(help_or_version);
     return;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+    throw UsageError(error.what() + (is_unknown ? see_help() : ""));
   }
   if (app_->get_subcommands().empty()) {
-    throw UsageError("no subcommand was given; see " + app_->get_name() + " --help");
+    throw UsageError("no subcommand was given" + see_help());
   }
 }
 
-int run_program(void (*run)(int argc, char** argv), int argc, char** argv) {
+std::string CommandLine::see_help() const {
+  std::string command = app_->get_name();
+  for (const CLI::App* const subcommand : app_->get_subcommands()) command += " " + subcommand->get_name();
+  return "; see " + command + " --help";
+}
+
+namespace {
+
+/// Where `ulimit -s` leaves little, PoCL's compiler and kernels crash: the work, and what threads a driver
+/// makes, get the stacks that are usual.
+template <typename Work>
+void with_enough_stack(const Work& work) {
+  constexpr rlim_t usual = 8 << 20;
+  struct rlimit limit = {};
+  pthread_attr_t attributes;
+  if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur >= usual ||
+      pthread_attr_init(&attributes) != 0) {
+    work();
+    return;
+  }
+  pthread_attr_setstacksize(&attributes, usual);
+  pthread_setattr_default_np(&attributes);
+  pthread_attr_destroy(&attributes);
+  std::thread(work).join();
+}
+
+/// Returns the exit code.
+int run_to_the_end(void (*run)(int argc, char** argv), int argc, char** argv) {
   constexpr int success = 0, failure = 1, usage = 2;
-  open_standard_streams();
-  remove_temporary_files_on_signals();
   try {
     run(argc, argv);
     flush_standard_output();
@@ -192,6 +227,16 @@ int run_program(void (*run)(int argc, char** argv), int argc, char** argv) {
     print_error(error);
   }
   return failure;
+}
+
+}  // namespace
+
+int run_program(void (*run)(int argc, char** argv), int argc, char** argv) {
+  open_standard_streams();
+  remove_temporary_files_on_signals();
+  int code = 0;
+  with_enough_stack([&] { code = run_to_the_end(run, argc, argv); });
+  return code;
 }
 
 }  // namespace vorocl::command

@@ -142,6 +142,9 @@ class CommandLine {
   void run(int argc, char** argv);
 
  private:
+  /// Where the help is, of the subcommand that was given.
+  std::string see_help() const;
+
   std::unique_ptr<CLI::App> app_;
 };
 

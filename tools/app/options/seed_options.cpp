@@ -52,8 +52,10 @@ Option add_rng_seed_option(Command& command, SeedOptions& options) {
 
 Option add_columns_option(Command& command, SeedOptions& options) {
   return command
-      .add_parsed("--columns", options.columns, parse_columns,
-                  "Columns of the CSV file, by name or by index from 0; else x and y, or the first two")
+      .add_parsed(
+          "--columns", options.columns, parse_columns,
+          "Columns of the CSV file, by name or by index from 0; else those that the header names x and y, or "
+          "the first two where there is no header")
       .value_name("X,Y");
 }
 
@@ -93,6 +95,20 @@ std::pair<std::int64_t, std::int64_t> parse_sides(const std::string& text) {
   return {*width, *height};
 }
 
+Size size_of_sides(std::int64_t width, std::int64_t height) {
+  if (std::max(width, height) <= Size::max_side) return {width, height};
+  throw Error(
+      fmt::format("{} pixels are more than the {} that a side of a diagram has at most; vorocl tiles makes "
+                  "larger ones",
+                  std::max(width, height), Size::max_side));
+}
+
+int parse_width(const std::string& text) {
+  const auto width = parse_number<std::int64_t>(text);
+  if (!width) throw Error("\"" + text + "\" is no whole number");
+  return size_of_sides(*width, 1).width();
+}
+
 std::optional<Grid> parse_plane(const std::string& text) {
   const auto [width, height] = parse_sides(text);
   const auto check = [](const char* name, std::int64_t side) {
@@ -128,11 +144,11 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
                       "Width and height of the grid in pixels; with --mask those of the image")
           .value_name("WxH");
   command
-      .add("--width", options.width,
-           "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
-           "pixels are square")
+      .add_parsed(
+          "--width", options.width, parse_width,
+          "Width of the grid in pixels, instead of --size: the height follows from the bounds, so that "
+          "pixels are square")
       .value_name("W")
-      .in_range(1, Size::max_side)
       .excludes(size);
   const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
   add_bounds_option(command, options,
@@ -223,7 +239,7 @@ void add_motion_options(Command& command, MotionOptions& options) {
 
 Size parse_size(const std::string& text) {
   const auto [width, height] = parse_sides(text);
-  return {width, height};
+  return size_of_sides(width, height);
 }
 
 }  // namespace vorocl::command

@@ -61,14 +61,14 @@ void FrameJournal::complete(int frame, std::uint64_t seeds) {
   entry.frame = frame;
   entry.seeds = seeds;
   for (GrowingFile* const table : tables_) entry.tables.push_back(table->sync());
-  append(line_of(entry) + "\n");
+  append({line_of(entry)});
   last_ = std::move(entry);
 }
 
 void FrameJournal::finish() {
   if (!last_ || last_->is_last) return;
   last_->is_last = true;
-  append(line_of(*last_) + "\n");
+  append({line_of(*last_)});
 }
 
 std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header,

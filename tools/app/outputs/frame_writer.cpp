@@ -80,7 +80,6 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
 FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, const std::string& run)
     : options_(options), painter_(options.picture, true) {
   const std::vector<RequestedFile> requested = as_usage([&] { return requested_files(options); });
-  check_outputs(requested);
   journal_ = open_journal(options, journal_path(requested), run);
   check_written();
   open_files();

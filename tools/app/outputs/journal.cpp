@@ -35,6 +35,20 @@ std::vector<std::string> head_of(const std::string& run) {
   return head;
 }
 
+/// The line with the checksum, in which it takes part.
+std::string sealed(const std::string& line, Hash& hash) {
+  hash.add_text(line);
+  hash.add_text("\n");
+  return fmt::format("{} {:016x}", line, hash.value());
+}
+
+/// These lines as the file has them.
+std::string sealed_text(const std::vector<std::string>& lines, Hash& hash) {
+  std::string text;
+  for (const std::string& line : lines) text += sealed(line, hash) + "\n";
+  return text;
+}
+
 /// The first line that the other lines do not have.
 std::string first_not_in(const std::vector<std::string>& others, const std::vector<std::string>& lines) {
   const auto found = std::find_if(lines.begin(), lines.end(), [&](const std::string& line) {
@@ -74,8 +88,19 @@ void Journal::lock() {
 
 void Journal::refuse_other() const { throw Error("another run is writing " + path_); }
 
+/// The lines of the file without their checksums.
+std::vector<std::string> Journal::read_sealed_lines() {
+  std::vector<std::string> lines;
+  for (const std::string& there : read_lines(path_, "journal").whole) {
+    lines.push_back(there.substr(0, there.rfind(' ')));
+    if (lines.front() != title) break;
+    if (sealed(lines.back(), hash_) != there) refuse_damage();
+  }
+  return lines;
+}
+
 void Journal::read() {
-  const std::vector<std::string> there = read_lines(path_, "journal").whole, head = head_of(run_);
+  const std::vector<std::string> there = read_sealed_lines(), head = head_of(run_);
   if (there.empty() || there.front() != title)
     throw Error(path_ + " is no journal of a run; " + how_to_start_again(path_));
   const auto end = std::find(there.begin(), there.end(), end_of_run);
@@ -100,13 +125,17 @@ void Journal::begin(const std::vector<std::string>& outputs, const std::vector<s
     }
   }
   GrowingFile journal{OutputFile(path_)};
-  for (const std::string& line : head_of(run_)) journal << line << "\n";
-  for (const std::string& line : steps) journal << line << "\n";
+  hash_ = {};
+  journal << sealed_text(head_of(run_), hash_) << sealed_text(steps, hash_);
   journal.finish();
   lock();
 }
 
-void Journal::append(const std::string& lines) { append_to_file(path_, lines); }
+void Journal::append(const std::vector<std::string>& lines) {
+  Hash hash = hash_;
+  append_to_file(path_, sealed_text(lines, hash));
+  hash_ = hash;
+}
 
 void Journal::open(const std::function<void()>& output) const {
   try {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/values.hpp"
+
 namespace vorocl::command {
 
 /// A lock on a file, which goes with the process.
@@ -24,7 +26,8 @@ class FileLock {
 };
 
 /// What the run is, in lines, and behind them a line for each step that is complete. frame_journal.hpp and
-/// tile_journal.hpp say what such a line holds.
+/// tile_journal.hpp say what such a line holds. Each line ends with a checksum of itself and of all lines
+/// before it, so that what is left after damage is no journal, or the beginning of the one that was there.
 class Journal {
  public:
   const std::string& path() const { return path_; }
@@ -36,8 +39,8 @@ class Journal {
   void remove();
 
  protected:
-  /// `run` says what the run is. Reads the file, if there is one. Throws Error if it is of another run, or no
-  /// journal, or if a run that still goes on writes it.
+  /// `run` says what the run is. Reads the file, if there is one. Throws Error if it is of another run,
+  /// damaged, or no journal, or if a run that still goes on writes it.
   Journal(const std::string& path, const std::string& run);
   ~Journal() = default;
 
@@ -50,20 +53,22 @@ class Journal {
   /// before if the outputs cannot be continued or one is there that no journal tells of.
   void begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps);
 
-  /// Adds lines, each with its end. Throws Error if that fails.
-  void append(const std::string& lines);
+  /// Adds lines, all or none. Throws Error if that fails.
+  void append(const std::vector<std::string>& lines);
 
   [[noreturn]] void refuse_damage() const;
   [[noreturn]] void refuse_run(const std::string& there, const std::string& here) const;
 
  private:
   void read();
+  std::vector<std::string> read_sealed_lines();
   void lock();
   [[noreturn]] void refuse_other() const;
 
   std::string path_, run_;
   bool is_there_ = false;
   std::vector<std::string> steps_;
+  Hash hash_;      // of all lines that the file has
   FileLock lock_;  // while the run goes on
 };
 

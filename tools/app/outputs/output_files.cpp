@@ -8,7 +8,9 @@
 
 namespace vorocl::command {
 
-void check_outputs(const std::vector<RequestedFile>& files) {
+void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds) {
+  const RequestedFile inputs[] = {
+      {"--points", seeds.points, {}}, {"--mask", seeds.mask, {}}, {"--trajectory", seeds.trajectory, {}}};
   for (const RequestedFile& file : files) {
     if (file.path.empty()) continue;
     as_usage([&] {
@@ -18,6 +20,12 @@ void check_outputs(const std::vector<RequestedFile>& files) {
     });
   }
   for (std::size_t i = 0; i < files.size(); ++i) {
+    for (const RequestedFile& input : inputs) {
+      if (may_be_one_file(files[i].path, input.path)) {
+        throw UsageError(files[i].path + ": " + files[i].option + " would replace the file that " +
+                         input.option + " reads");
+      }
+    }
     for (std::size_t j = 0; j < i; ++j) {
       if (may_be_one_file(files[i].path, files[j].path)) {
         throw UsageError(files[i].path + ": " + files[j].option + " and " + files[i].option +
@@ -31,13 +39,21 @@ std::optional<OutputFile> open_output(const std::string& path) {
   return path.empty() ? std::nullopt : std::optional<OutputFile>(path);
 }
 
-void print_empty_cells(std::size_t empty, std::size_t seeds) {
-  if (empty > 0) print("{} of {} seeds share their pixel with another and have no cell\n", empty, seeds);
+void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds) {
+  if (cells < seeds) {
+    print(
+        "of these seeds {} have a cell, {} share their pixel with another and have none, and {} lie outside "
+        "and "
+        "own no pixel\n",
+        cells - empty, empty, seeds - cells);
+  } else if (empty > 0) {
+    print("{} of {} seeds share their pixel with another and have no cell\n", empty, seeds);
+  }
 }
 
 void print_written(const std::vector<RequestedFile>& files) {
   for (const RequestedFile& file : files) {
-    if (!file.path.empty()) print("wrote {}\n", file.path);
+    if (!file.path.empty()) print("wrote {}\n", printable(file.path));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sources/seed_input.hpp"
 #include "formats/output_file.hpp"
 
 namespace vorocl::command {
@@ -18,14 +19,16 @@ struct RequestedFile {
 };
 
 /// Throws UsageError for a name that ends in none of its extensions, a pattern without its place for a
-/// number, and two options that would write one file.
-void check_outputs(const std::vector<RequestedFile>& files);
+/// number, two options that would write one file, and one that would replace a file which the seeds are read
+/// from.
+void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds);
 
 /// The file, to be written later, if it is asked for. Throws Error if it cannot be made there.
 std::optional<OutputFile> open_output(const std::string& path);
 
-/// Says on standard output how many seeds have no cell, if some do.
-void print_empty_cells(std::size_t empty, std::size_t seeds);
+/// Says on standard output how many of the seeds have no cell, if some do: `empty` of the `cells` that count,
+/// and the seeds outside that are none of these.
+void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds);
 
 /// Says on standard output which files were written.
 void print_written(const std::vector<RequestedFile>& files);

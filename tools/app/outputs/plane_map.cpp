@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/outputs/plane_summary.hpp"
+#include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/planes/placed_file.hpp"
 #include "vorocl/picture.hpp"
@@ -47,7 +48,7 @@ class PlaneMap : public PlaneFile {
     stays_ = true;
     std::error_code ignored;
     is_finished_ = kept && kept->is_complete && !std::filesystem::exists(part_path(), ignored);
-    if (!is_finished_) labels_.open_part(kept);
+    is_finished_ ? static_cast<void>(open_to_read(output_.path())) : labels_.open_part(kept);
   }
 
   std::string part_path() const override { return labels_.part_path(); }

@@ -27,8 +27,9 @@ std::unique_ptr<PlaneFile> plane_map(const std::string& path, const Tiling& tili
 /// that are appended to a file.
 class PlaneTables {
  public:
-  /// The files' paths; empty: not asked for. Throws Error if no file can be made there.
-  PlaneTables(const std::string& cells, const std::string& adjacency);
+  /// The files' paths, empty: not asked for; and the pixels that all cells have together. Throws Error if no
+  /// file can be made there.
+  PlaneTables(const std::string& cells, const std::string& adjacency, std::uint64_t pixels);
 
   bool is_asked_for() const { return cells_file_ || adjacency_file_; }
 
@@ -36,20 +37,21 @@ class PlaneTables {
   PlaneCells* recent() { return is_asked_for() ? &recent_ : nullptr; }
 
   /// Begins a file of sums, or goes on behind what was kept of it. `is_complete`: if there is none, the
-  /// tables are there already. Throws Error if that fails, or it is no such file.
+  /// tables must be there already. Throws Error if that fails, or it is no such file.
   void open_part(const std::optional<Kept>& kept, bool is_complete);
   std::string part_path() const { return (cells_file_ ? *cells_file_ : *adjacency_file_).part_path(); }
 
   /// Makes the disk have the sums so far, and returns the bytes of their file; 0 without one.
   std::size_t sync();
 
-  /// Writes the tables.
+  /// Writes the tables. Throws Error if the cells' areas do not add up to the pixels.
   void finish(const Units& units);
 
  private:
   void read_sums(const std::string& path, std::size_t bytes);
 
   std::optional<OutputFile> cells_file_, adjacency_file_;
+  std::uint64_t pixels_;
   PlaneCells cells_, recent_;  // those of the tiles before the last sync(), and since
   std::unique_ptr<GrowingFile> sums_;
   bool is_finished_ = false;

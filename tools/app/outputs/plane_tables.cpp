@@ -8,6 +8,7 @@
 #include "app/outputs/output_files.hpp"
 #include "app/outputs/plane_summary.hpp"
 #include "formats/files.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -48,21 +49,42 @@ class SharesByCell {
   Lengths::const_iterator next_;
 };
 
+/// Throws Error, and writes nothing, if the cells are not all that the plane's `pixels` make.
 void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
-                 const Units& units) {
+                 const Units& units, std::uint64_t pixels) {
   GrowingFile table(file);
   table << "id,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,touches_border\n";
   SharesByCell shares_by_cell(pairs);
+  std::uint64_t summed = 0;
   for (std::uint64_t id = 0; id < cells.size(); ++id) {
     const PlaneCell cell = cells.cell(id);
     if (cell.area == 0) continue;
+    summed += cell.area;
     const Shares shares = shares_by_cell.of(id);
     table << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", id, units.area(static_cast<double>(cell.area)),
                          cell.centroid.x, cell.centroid.y, cell.left, cell.top, cell.right, cell.bottom,
                          units.length(static_cast<double>(shares.perimeter)), shares.neighbours,
                          cell.touches_border ? 1 : 0);
   }
+  if (summed != pixels && summed > 0) {  // without any seed no pixel has a cell
+    throw Error(
+        fmt::format("{}: the cells have {} pixels and the plane has {}; what was kept of an earlier "
+                    "run is damaged",
+                    file.path(), summed, pixels));
+  }
   table.finish();
+}
+
+/// What stands before each piece of sums in their file.
+struct PieceHead {
+  std::uint64_t size = 0;
+  std::uint64_t hash = 0;
+};
+
+std::uint64_t hash_of(const std::vector<char>& bytes) {
+  Hash hash;
+  hash.add_text(std::string_view(bytes.data(), bytes.size()));
+  return hash.value();
 }
 
 void write_pairs(const OutputFile& file, const std::vector<PlaneCellPair>& pairs, const Units& units) {
@@ -76,13 +98,18 @@ void write_pairs(const OutputFile& file, const std::vector<PlaneCellPair>& pairs
 
 }  // namespace
 
-PlaneTables::PlaneTables(const std::string& cells, const std::string& adjacency)
-    : cells_file_(open_output(cells)), adjacency_file_(open_output(adjacency)) {}
+PlaneTables::PlaneTables(const std::string& cells, const std::string& adjacency, std::uint64_t pixels)
+    : cells_file_(open_output(cells)), adjacency_file_(open_output(adjacency)), pixels_(pixels) {}
 
 void PlaneTables::open_part(const std::optional<Kept>& kept, bool is_complete) {
   std::error_code ignored;
   is_finished_ = is_complete && !std::filesystem::exists(part_path(), ignored);
-  if (is_finished_) return;
+  if (is_finished_) {
+    for (const auto& file : {cells_file_, adjacency_file_}) {
+      if (file) open_to_read(file->path());
+    }
+    return;
+  }
   sums_ = std::make_unique<GrowingFile>(cells_file_ ? *cells_file_ : *adjacency_file_, kept);
   if (kept) read_sums(part_path(), kept->bytes);
 }
@@ -92,22 +119,22 @@ void PlaneTables::read_sums(const std::string& path, std::size_t bytes) {
   const Error damaged(path + " is damaged");
   std::vector<char> piece;
   while (bytes > 0) {
-    std::uint64_t size = 0;
-    file.read(reinterpret_cast<char*>(&size), sizeof size);
-    if (!file || bytes < sizeof size || bytes - sizeof size < size) throw damaged;
-    piece.resize(size);
-    file.read(piece.data(), static_cast<std::streamsize>(size));
-    if (!file) throw damaged;
+    PieceHead head;
+    file.read(reinterpret_cast<char*>(&head), sizeof head);
+    if (!file || bytes < sizeof head || bytes - sizeof head < head.size) throw damaged;
+    piece.resize(head.size);
+    file.read(piece.data(), static_cast<std::streamsize>(head.size));
+    if (!file || hash_of(piece) != head.hash) throw damaged;
     cells_.add(piece);
-    bytes -= sizeof size + size;
+    bytes -= sizeof head + head.size;
   }
 }
 
 std::size_t PlaneTables::sync() {
   if (!sums_) return 0;
   const std::vector<char> piece = recent_.take();
-  const std::uint64_t size = piece.size();
-  sums_->write(&size, sizeof size);
+  const PieceHead head = {piece.size(), hash_of(piece)};
+  sums_->write(&head, sizeof head);
   sums_->write(piece.data(), piece.size());
   cells_.add(piece);
   return sums_->sync();
@@ -117,7 +144,7 @@ void PlaneTables::finish(const Units& units) {
   if (!is_asked_for() || is_finished_) return;
   cells_.add(recent_.take());
   const std::vector<PlaneCellPair> pairs = cells_.pairs();
-  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units);
+  if (cells_file_) write_cells(*cells_file_, cells_, pairs, units, pixels_);
   if (adjacency_file_) write_pairs(*adjacency_file_, pairs, units);
   if (sums_) unlink(part_path().c_str());
 }

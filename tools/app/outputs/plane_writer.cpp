@@ -52,7 +52,7 @@ PlaneWriter::PlaneWriter(const PlaneWriterOptions& options, const Tiling& tiling
     : tiling_(tiling),
       journal_(open_journal(options, run)),
       files_(plane_files(options, tiling, georeference)),
-      tables_(options.cells, options.adjacency) {
+      tables_(options.cells, options.adjacency, tiling.window().pixels()) {
   if (!journal_) return;
   for (const RequestedFile& file : requested_files(options)) {
     if (!file.path.empty() && extension_of(file.path) == ".csv")

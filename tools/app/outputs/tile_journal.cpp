@@ -78,13 +78,14 @@ std::optional<Kept> TileJournal::kept_sums() const {
 }
 
 void TileJournal::complete(const std::vector<Entry>& entries, std::size_t bytes_of_sums) {
-  std::string lines;
-  for (const Entry& entry : entries) lines += line_of(entry) + "\n";
-  append(lines + line_of_sums(bytes_of_sums) + "\n");
+  std::vector<std::string> lines;
+  for (const Entry& entry : entries) lines.push_back(line_of(entry));
+  lines.push_back(line_of_sums(bytes_of_sums));
+  append(lines);
 }
 
 void TileJournal::finish() {
-  if (!is_last_) append(last_line + "\n");
+  if (!is_last_) append({last_line});
   is_last_ = true;
 }
 

@@ -104,12 +104,13 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& a
                   advice.empty() ? fmt::format("--width {} keeps pixels square", grid.width()) : advice));
 }
 
-void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds) {
+void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
+                  const std::string& keeps_inside) {
   if (outside == 0) return;
-  print_note(
-      fmt::format("{} of {} points lie outside the bounds {}; they count, and --outside refuse makes them "
-                  "an error",
-                  outside, points, to_string(bounds)));
+  const std::string what =
+      fmt::format("{} of {} points lie outside the bounds {}", outside, points, to_string(bounds));
+  if (!keeps_inside.empty()) throw Error(what + ", which " + keeps_inside + "; give bounds that hold them");
+  print_note(what + "; they count, and --outside refuse makes them an error");
 }
 
 namespace {

@@ -41,8 +41,10 @@ bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 /// Warns on standard error unless pixels are square.
 void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice = "");
 
-/// Says on standard error how many points lie outside the bounds, if some do.
-void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds);
+/// Says on standard error how many points lie outside the bounds, if some do. Throws Error instead where they
+/// are kept inside by what the text names ("bench cannot take").
+void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
+                  const std::string& keeps_inside = "");
 
 /// A frame's box, else the bounding box of its particles; none if it has neither.
 std::optional<Bounds> bounds_of(const Frame& frame);

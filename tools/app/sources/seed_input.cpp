@@ -58,7 +58,7 @@ Input input_from_points(const SeedOptions& options) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
                              to_string(mapping.bounds)));
     }
-    note_outside(mapped.outside, points.size(), mapping.bounds);
+    note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
     return {
         mapped.view,
         [mapped](const Device& device) { return Seeds(device, mapped.view.window.grid(), mapped.pixels); },

@@ -34,7 +34,10 @@ struct SeedOptions {
   std::optional<Columns> columns;
   std::string value_column;           // whose values are read with the points
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
+  std::string keeps_inside;           // see note_outside()
 };
+
+constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact diagrams can";
 
 /// What no parser can say: options that go with either of two others. Throws UsageError.
 void check_seed_options(const SeedOptions& options);

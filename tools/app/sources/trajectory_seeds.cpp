@@ -88,6 +88,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
                                  const std::optional<Bounds>& all)
     : path_(options.trajectory),
       given_bounds_(options.bounds),
+      keeps_inside_(options.keeps_inside),
       fit_(fit),
       fitted_(all),
       told_axes_(options.periodic),
@@ -214,7 +215,7 @@ void TrajectorySeeds::note_of_scales(const Bounds& bounds, std::size_t outside) 
     warn_of_scales(bounds, view_->picture.size.grid());
   }
   note_of_growth();
-  if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds);
+  if (!scales_checked_ && given_bounds_) note_outside(outside, frame_.ids.size(), bounds, keeps_inside_);
   scales_checked_ = true;
 }
 

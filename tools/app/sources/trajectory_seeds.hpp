@@ -91,6 +91,7 @@ class TrajectorySeeds {
   std::string path_;
   std::unique_ptr<TrajectoryReader> reader_;
   std::optional<Bounds> given_bounds_;
+  std::string keeps_inside_;  // see note_outside()
   Fit fit_;
   std::optional<Bounds> fitted_;       // the same for all frames
   std::optional<Periodic> told_axes_;  // by the caller, not by the file

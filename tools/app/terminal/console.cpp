@@ -23,10 +23,10 @@ bool errors_alone = false;
 std::string program = "vorocl";
 
 /// How many bytes from here are one character of UTF-8 that a terminal prints; 0: none.
-std::size_t printable_bytes(std::string_view text) {
+std::size_t printable_bytes(std::string_view text, bool has_lines) {
   const auto byte = [text](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   if (byte(0) < 0x80)
-    return (byte(0) >= ' ' && byte(0) != 0x7f) || byte(0) == '\n' || byte(0) == '\t' ? 1 : 0;
+    return (byte(0) >= ' ' && byte(0) != 0x7f) || (has_lines && byte(0) == '\n') || byte(0) == '\t' ? 1 : 0;
   const std::size_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : 2;
   if (byte(0) < 0xc2 || byte(0) > 0xf4 || text.size() < length) return 0;
   for (std::size_t i = 1; i < length; ++i) {
@@ -35,9 +35,9 @@ std::size_t printable_bytes(std::string_view text) {
   return byte(0) == 0xc2 && byte(1) < 0xa0 ? 0 : length;  // U+0080 to U+009F are controls
 }
 
-void print_line(const char* kind, const std::string& text) {
+void print_line(const char* kind, const std::string& text, bool has_lines = false) {
   const char* const start = isatty(STDERR_FILENO) != 0 ? erase_line : "";
-  print_on_standard_error(fmt::format("{}{}: {}: {}\n", start, program, kind, printable(text)));
+  print_on_standard_error(fmt::format("{}{}: {}: {}\n", start, program, kind, printable(text, has_lines)));
 }
 
 /// Does what prints, if there is memory for it.
@@ -90,7 +90,10 @@ void print_warning(const std::string& text) noexcept {
   if (!errors_alone) if_possible([&] { print_line("warning", text); });
 }
 void print_error(const std::exception& error) noexcept {
-  if_possible([&] { print_line("error", message_of(error)); });
+  // A compiler's log has lines; a file's name that has some must not look like more than one error.
+  const auto* const of_vorocl = dynamic_cast<const Error*>(&error);
+  const bool has_log = of_vorocl != nullptr && of_vorocl->kind() == ErrorKind::kernel_build;
+  if_possible([&] { print_line("error", message_of(error), has_log); });
 }
 
 void print_on_standard_error(std::string_view text) noexcept {
@@ -98,15 +101,19 @@ void print_on_standard_error(std::string_view text) noexcept {
   std::fflush(stderr);
 }
 
-std::string printable(const std::string& text) {
+std::string printable(const std::string& text, bool has_lines) {
   std::string result;
   for (std::size_t place = 0; place < text.size();) {
-    const std::size_t length = printable_bytes(std::string_view(text).substr(place));
+    const std::size_t length = printable_bytes(std::string_view(text).substr(place), has_lines);
     result += length > 0 ? text.substr(place, length)
                          : fmt::format("\\x{:02x}", static_cast<unsigned char>(text[place]));
     place += length > 0 ? length : 1;
   }
   return result;
+}
+
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural) {
+  return fmt::format("{} {}", count, count == 1 ? noun : plural.empty() ? noun + "s" : plural);
 }
 
 std::string message_of(const std::exception& error) {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <exception>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -54,8 +55,11 @@ void print_error(const std::exception& error) noexcept;
 void print_on_standard_error(std::string_view text) noexcept;
 
 /// The text with what would move a terminal's cursor, or change its colours and title, as \x1b and the like:
-/// texts may hold what a file holds. Line feeds and tabs stay.
-std::string printable(const std::string& text);
+/// texts may hold what a file, or its name, holds. Tabs stay; line feeds do where the text may have lines.
+std::string printable(const std::string& text, bool has_lines = false);
+
+/// "1 seed", "2 seeds"; other nouns with their plural.
+std::string counted(std::uint64_t count, const std::string& noun, const std::string& plural = "");
 
 /// What an exception says, in our words where memory is missing, OpenCV failed, or a signal stopped a
 /// compiler.

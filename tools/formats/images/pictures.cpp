@@ -41,8 +41,9 @@ std::vector<std::uint8_t> read_image_file(const std::string& path) {
 
 cv::Mat read_picture(const std::string& path) {
   const std::vector<std::uint8_t> bytes = read_image_file(path);
-  checked_size(path, read_image_header(path, bytes), bytes.size());
-  cv::Mat picture = image_module().decode(bytes);
+  const ImageHeader header = read_image_header(path, bytes);
+  checked_size(path, header, bytes.size());
+  cv::Mat picture = image_module().decode(bytes, header.is_grey);
   if (picture.empty()) throw Error(path + " is no image that can be read");
   return picture;
 }
@@ -62,14 +63,17 @@ void write_picture(const OutputFile& file, const cv::Mat& picture) {
 Mask read_mask(const std::string& path) {
   const cv::Mat image = read_picture(path);
   Mask mask{Size(image.cols, image.rows), {}};
-  cv::Mat channels = image.reshape(1, image.rows * image.cols);
-  cv::Mat set;
-  cv::reduce(channels != 0, set, 1, cv::REDUCE_MAX);
-  set.copyTo(mask.pixels);
-  if (std::count(mask.pixels.begin(), mask.pixels.end(), 0) ==
-      static_cast<std::ptrdiff_t>(mask.pixels.size())) {
-    throw Error(path + " has no pixel that is not zero: there is no seed");
+  mask.pixels.reserve(image.total());
+  bool has_seeds = false;
+  const int channels = image.channels();
+  for (int y = 0; y < image.rows; ++y) {
+    const cv::Mat set = image.row(y) != 0;
+    for (const std::uint8_t* pixel = set.data; pixel < set.data + set.cols * channels; pixel += channels) {
+      mask.pixels.push_back(*std::max_element(pixel, pixel + channels));
+      has_seeds = has_seeds || mask.pixels.back() != 0;
+    }
   }
+  if (!has_seeds) throw Error(path + " has no pixel that is not zero: there is no seed");
   return mask;
 }
 

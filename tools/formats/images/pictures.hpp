@@ -21,6 +21,7 @@ struct ImageHeader {
   std::int64_t height = 0;
   std::uint64_t bits_per_pixel = 0;  // as they are before they are compressed
   bool is_compressed = true;
+  bool is_grey = false;  // there are no colours, in a palette neither
 };
 
 /// Throws Error unless a file that starts like this is a PNG, JPEG, BMP, TIFF or PNM (PBM, PGM, PPM) file:
@@ -37,8 +38,8 @@ Size checked_size(const std::string& path, const ImageHeader& header, std::uint6
 /// The extensions of files that a picture can be written to.
 const std::vector<std::string>& picture_extensions();
 
-/// Three channels (BGR) of the file's depth, as the file has them: not turned by what it says of the camera.
-/// Throws Error if the file cannot be read.
+/// One channel of an image without colours, else three (BGR), of the file's depth, as the file has them: not
+/// turned by what it says of the camera. Throws Error if the file cannot be read.
 cv::Mat read_picture(const std::string& path);
 
 /// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
@@ -51,7 +52,8 @@ struct Mask {
 };
 
 /// From any image that OpenCV reads; a pixel is set if one of its colour channels is not 0 (an alpha channel
-/// does not count). Throws Error if the file cannot be read or no pixel is set.
+/// does not count). Memory: a byte per pixel besides the decoded image. Throws Error if the file cannot be
+/// read or no pixel is set.
 Mask read_mask(const std::string& path);
 
 }  // namespace vorocl::command

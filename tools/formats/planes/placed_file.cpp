@@ -34,6 +34,7 @@ void PlacedFile::join() {
 }
 
 void PlacedFile::reserve() {
+  if (file_->is_finished()) return;
   int code = EINTR;
   while (code == EINTR) code = posix_fallocate(file_->descriptor(), 0, static_cast<off_t>(bytes_));
   if (code == 0) return;
@@ -43,6 +44,7 @@ void PlacedFile::reserve() {
 }
 
 void PlacedFile::write(std::uint64_t place, const void* bytes, std::size_t count) {
+  if (file_->is_finished()) return;
   if (write_all_at(file_->descriptor(), static_cast<const char*>(bytes), count, place)) return;
   throw Error("writing " + output_.path() + " failed: " + reason(errno));
 }

@@ -96,6 +96,7 @@ class TiffPlane : public PlaneFile {
       if (same->bytes > 0) same->bytes += header_bytes;
     }
     grown_ = std::make_unique<GrowingFile>(output_, same);
+    if (grown_->is_finished()) return;
     content_.is_written = !same || same->bytes == 0;
     begin();
     if (!kept) return;
@@ -125,7 +126,7 @@ class TiffPlane : public PlaneFile {
   void sync() override { grown_->sync(); }
 
   void finish() override {
-    require(TIFFFlush(file_.get()) == 1);
+    if (file_) require(TIFFFlush(file_.get()) == 1);
     content_.is_written = false;
     file_.reset();
     grown_->finish();

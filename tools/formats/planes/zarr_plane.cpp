@@ -101,11 +101,8 @@ class ZarrPlane : public PlaneFile {
 
   void open_part(const std::optional<KeptTiles>& kept) override {
     stays_ = true;
-    if (kept && kept->is_complete && !is_there(part_path_)) {
-      // A run that ended between two renames: back to the state before them.
-      if (rename(path_.c_str(), part_path_.c_str()) != 0) throw failed("renaming", path_);
-    }
-    folder_ = part_path_;
+    // Where a run ended between two renames, the folder has its name already.
+    folder_ = kept && kept->is_complete && !is_there(part_path_) ? path_ : part_path_;
     const bool begins = !kept || (kept->tiles.empty() && !is_there(folder_));
     if (begins) make_folder();
     if (!kept) return;
@@ -114,7 +111,7 @@ class ZarrPlane : public PlaneFile {
         throw Error(chunk(tile.number) + " is missing");
       }
     }
-    write_metadata();
+    if (folder_ != path_) write_metadata();
   }
 
   std::string part_path() const override { return part_path_; }
@@ -151,6 +148,7 @@ class ZarrPlane : public PlaneFile {
 
   void finish() override {
     sync();
+    if (folder_ == path_) return;
     // A folder cannot take the place of another one that has files: that one goes aside first.
     const bool replaces = is_there(path_);
     const std::string replaced = random_path_beside(path_);

@@ -108,7 +108,9 @@ Error LineReader::error(const std::string& what) const {
 }
 
 Error LineReader::error_at(std::size_t number, const std::string& what) const {
-  return Error(path_ + ":" + std::to_string(number) + ": " + what);
+  std::string text = path_ + ":" + std::to_string(number) + ": " + what;
+  std::replace(text.begin(), text.end(), '\0', '?');  // at which what() would end
+  return Error(text);
 }
 
 std::string_view take_field(std::string_view& text) {

@@ -1,0 +1,19 @@
+// What the operating system says of this process. Where it is none of Unix's kind, little is known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace vorocl {
+
+/// A number that a forked child does not share with its parent; always 0 where nothing forks.
+std::int64_t process_number();
+
+/// The most bytes of addresses that the process may have; none: as many as there are.
+std::optional<std::uint64_t> address_space_limit();
+
+/// Makes the folder if it is not there. Why files cannot be written there; empty if they can.
+std::string why_not_writable(const std::string& folder);
+
+}  // namespace vorocl
