@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(the_workspace_fits_the_next_frame) {
   const Grid grid(90, 70);
   Diagram diagram(test_device(), grid);
   for (unsigned frame = 1; frame <= 3; ++frame) {
-    const auto seeds = random_pixels(grid, 40 * frame, frame);
+    const auto seeds = random_pixels(grid, std::size_t{40} * frame, frame);
     low_resolution(Seeds(test_device(), grid, centres(seeds)), diagram);
     BOOST_TEST((diagram.read() == reference_low_resolution(grid, seeds, Metric::euclidean)));
   }

@@ -28,6 +28,7 @@ Labels after_wave(const Grid& pixels, const Wave& wave, const Labels& before, co
   const auto at = [&](std::int64_t x, std::int64_t y) {
     return static_cast<std::size_t>(y * pixels.width() + x);
   };
+  const std::int64_t step = wave.step;
   Labels labels = before;
   for (std::int64_t y = 0; y < pixels.height(); ++y) {
     for (std::int64_t x = 0; x < pixels.width(); ++x) {
@@ -35,7 +36,7 @@ Labels after_wave(const Grid& pixels, const Wave& wave, const Labels& before, co
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
           if (wave.neighbourhood == Neighbourhood::von_neumann && dx != 0 && dy != 0) continue;
-          const auto from = in_grid(pixels, {x + dx * wave.step, y + dy * wave.step});
+          const auto from = in_grid(pixels, {x + dx * step, y + dy * step});
           if (!from) continue;
           const std::uint32_t candidate = before[at(from->x, from->y)];
           if (better(candidate, label, Pixel{x, y})) label = candidate;
