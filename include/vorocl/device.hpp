@@ -81,7 +81,7 @@ class VOROCL_API Device {
 
   const cl::Context& context() const;
 
-  /// The one queue. Throws Error in a forked child. Not const as cl::EnqueueArgs takes no other: never assign.
+  /// The one queue. Throws Error in a forked child. cl::EnqueueArgs takes no const one: do not assign to it.
   cl::CommandQueue& queue() const;
   const cl::Device& cl_device() const;
   std::string name() const;

@@ -183,8 +183,8 @@ std::filesystem::path cache_of_pocl() {
     const char* const value = std::getenv(name);
     return std::filesystem::path(value == nullptr ? "" : value);
   };
-  if (const auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
-  if (const auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
+  if (auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
+  if (auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
   const auto home = variable("HOME");
   return home.empty() ? home : home / ".cache" / "pocl";
 }
