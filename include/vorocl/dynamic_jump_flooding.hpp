@@ -43,8 +43,8 @@ struct DynamicJumpFloodingOptions {
 ///   whether the last frame had a bad point. If it had, if a seed may have vanished, or if the labels are of
 ///   other seeds or were written by the caller, it looks whether pixels are left.
 ///
-  /// Reach::authors: the same with a wave less, and several times as many wrong pixels.
-  ///
+/// Reach::authors: the same with a wave less, and several times as many wrong pixels.
+///
 /// Reach::measured: for any seeds and any motion about as close to the exact diagram as JFA
 /// (docs/moving_seeds.md: how close, and the worst that is known). One row in eight of the labels shows how
 /// far they are from their seeds, and where the paper's plan cannot be relied on, JFA's waves run from a step
