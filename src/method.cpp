@@ -19,6 +19,14 @@ void refuse_mixed(const MethodOptions& options) {
   }
 }
 
+/// For methods whose waves all look at Moore neighbours.
+void refuse_von_neumann(const MethodOptions& options) {
+  refuse_mixed(options);
+  if (options.neighbourhood == NeighbourhoodMix::von_neumann) {
+    throw Error("the waves of low-resolution have the Moore neighbourhood; von-neumann is for the others");
+  }
+}
+
 /// For methods whose waves all have one neighbourhood.
 Neighbourhood neighbourhood(const MethodOptions& options) {
   refuse_mixed(options);
@@ -44,7 +52,7 @@ Report run_dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram, const Met
 }
 
 Report run_low_resolution(const Seeds& seeds, Diagram& diagram, const MethodOptions& options) {
-  refuse_mixed(options);
+  refuse_von_neumann(options);
   return low_resolution(seeds, diagram, {options.metric});
 }
 
@@ -102,6 +110,7 @@ const Method& method(const std::string& name) {
 
 void check_options(const Method& method, const MethodOptions& options) {
   if (!method.continues) refuse_mixed(options);
+  if (method.run == run_low_resolution) refuse_von_neumann(options);
 }
 
 Simulation::Engine engine(const Method& method, const MethodOptions& options) {

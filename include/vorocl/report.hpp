@@ -1,6 +1,8 @@
 // What an engine reports of one diagram: its waves and its times.
 #pragma once
 
+#include <cstdint>
+
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
 
@@ -28,7 +30,8 @@ class VOROCL_API Report {
   const cl::Event& event() const { return last_; }
 
   /// The device's time from the start of the diagram's first command to the end of its last one, with the
-  /// gaps between them. Waits for it. 0 if the queue does not profile.
+  /// gaps between them. Waits for it. 0 if the queue does not profile. Throws
+  /// Error if the device failed, and in a forked child.
   double milliseconds() const;
 
   /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device). Where an
@@ -39,14 +42,20 @@ class VOROCL_API Report {
  private:
   friend struct Internal;
   Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
-         const FloodStart& start)
-      : waves_(waves), first_(first), last_(last), host_milliseconds_(host_milliseconds), start_(start) {}
+         const FloodStart& start, std::int64_t process)
+      : waves_(waves),
+        first_(first),
+        last_(last),
+        host_milliseconds_(host_milliseconds),
+        start_(start),
+        process_(process) {}
 
   int waves_ = 0;
   cl::Event first_;
   cl::Event last_;
   double host_milliseconds_ = 0;
   FloodStart start_;
+  std::int64_t process_ = 0;  // that made it
 };
 
 }  // namespace vorocl

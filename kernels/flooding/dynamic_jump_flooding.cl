@@ -42,6 +42,14 @@ VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global con
   if (ANY(were_farther > 0)) atomic_add(found + 3, lane_sum(were_farther));
 }
 
+// Counts the seeds that were not there when the labels were made, in the fifth word of `found`.
+kernel void count_born(global const uint* restrict before, uint count_before, global const uint* restrict now,
+                       uint count, global uint* restrict found) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || now[id] & EMPTY_BIT) return;
+  if (id >= count_before || before[id] & EMPTY_BIT) atomic_inc(found + 4);
+}
+
 // Stamps the seeds at their new pixels. Seeds on one pixel write the same value.
 kernel void stamp_positions(global const uint* restrict positions, uint count, global uint* restrict out, int width) {
   const uint id = (uint)get_global_id(0);

@@ -64,7 +64,7 @@ void Flood::advance_labels() {
 
 LabelDistances Flood::label_distances(std::size_t alive) {
   const int width = grid_.width(), height = grid_.height(), rows = row_interval * rows_of_item;
-  constexpr std::size_t words = 4;
+  constexpr std::size_t words = 5;  // the last one for count_born()
   diagram_.reserve(memory_.found, words * sizeof(cl_uint));
   begins_with(fill(diagram_.device, memory_.found, cl_uint{0}, words));
   // Of labels that name no seeds, those of now have to do.
@@ -81,10 +81,12 @@ LabelDistances Flood::label_distances(std::size_t alive) {
                     diagram_.labels, before, count_before, positions_, count_, width, height, row_interval,
                     rows, enough, in_lengths(LabelDistances::far_lengths),
                     in_lengths(LabelDistances::farther_lengths), memory_.found);
+  filling_.kernel("flooding/dynamic_jump_flooding.cl", "count_born")
+      .over_items(count_, before, count_before, positions_, count_, memory_.found);
   const auto found = download<cl_uint>(diagram_.device, memory_.found, words);
   const double measured = static_cast<double>(divided_up(height, row_interval)) * width;
   const double greatest = in_pixels(metric_, std::max(found[0], enough));
-  return {greatest, found[2] / measured, found[3] / measured, found[1], row_interval};
+  return {greatest, found[2] / measured, found[3] / measured, found[1], row_interval, found[4]};
 }
 
 void Flood::wave(const Wave& wave) {

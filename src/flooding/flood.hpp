@@ -13,7 +13,7 @@ struct FloodWorkspace {
   cl::Buffer front, back;  // images of packed positions, which change places with every wave
   cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
   cl::Buffer flag;         // one word, for kernels that report
-  cl::Buffer found;        // four words: see measure_labels()
+  cl::Buffer found;        // five words: see measure_labels() and count_born()
 };
 
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes

@@ -42,12 +42,13 @@ bool fills(const Plan& plan, const LabelDistances& distances) {
 bool is_reliable(const Plan& plan, const Window& window, std::size_t seeds, double max_displacement,
                  const LabelDistances& distances, Metric metric) {
   constexpr double most_far = 0.1, most_farther = 0.01;
+  constexpr std::size_t per_born = 1000;
   const double to_corner = reach_of(plan) * to_corner_of_square(metric);
   const double length = std::sqrt(static_cast<double>(window.pixels()) / static_cast<double>(seeds));
   const bool shorter_than_jfa = !plan.empty() && plan.front().step < first_step(window);
   const bool labels_help = max_displacement < (shorter_than_jfa ? 2 : 0.5) * length;
   return farthest(distances, window, metric) <= to_corner && distances.far <= most_far &&
-         distances.farther <= most_farther && labels_help;
+         distances.farther <= most_farther && distances.born <= seeds / per_born && labels_help;
 }
 
 }  // namespace

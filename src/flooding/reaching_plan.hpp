@@ -25,6 +25,9 @@ struct LabelDistances {
 
   /// One row in so many was measured, from the first on.
   int row_interval = 1;
+
+  /// How many seeds have appeared since the labels were made.
+  std::size_t born = 0;
 };
 
 /// Waves, and what they start from.
@@ -36,10 +39,10 @@ struct DynamicPlan {
 
 /// The waves of dynamic jump flooding whose reach follows from the last labels. The paper's plan, where it
 /// can be relied on: the square that it reaches holds the greatest distance, at most a tenth of the pixels
-/// were farther than L and a hundredth farther than 1.5 L from their seeds, and seeds moved by less than 2 L,
-/// or by less than L / 2 if it begins with JFA's first step. Else JFA's waves from the least step whose plan
-/// covers that distance, and the extra waves. docs/moving_seeds.md gives the reasons. Throws as
-/// dynamic_jump_flooding_plan().
+/// were farther than L and a hundredth farther than 1.5 L from their seeds, at most a thousandth of the seeds
+/// have appeared, and seeds moved by less than 2 L, or by less than L / 2 if it begins with JFA's first step.
+/// Else JFA's waves from the least step whose plan covers that distance, and the extra waves.
+/// docs/moving_seeds.md gives the reasons. Throws as dynamic_jump_flooding_plan().
 DynamicPlan reaching_plan(const Window& window, std::size_t seeds, double max_displacement,
                           const LabelDistances& distances, Metric metric,
                           const DynamicPlanOptions& options = {});

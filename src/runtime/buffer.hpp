@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "runtime/device_state.hpp"
 #include "runtime/opencl_error.hpp"
+#include "runtime/process.hpp"
 #include "vorocl/device.hpp"
 
 namespace vorocl {
@@ -74,18 +76,22 @@ class Upload {
   ~Upload() {
     // If the device fails, it says so where somebody waits for what it makes of the values. But where the
     // wait alone fails, it may still read them.
-    if (copied_() != nullptr && clWaitForEvents(1, &copied_()) != CL_SUCCESS) clFinish(queue_());
+    if (copied_() == nullptr || process_number() != process_)
+      return;  // a forked child would wait without end
+    if (clWaitForEvents(1, &copied_()) != CL_SUCCESS) clFinish(queue_());
   }
   Upload(const Upload&) = delete;
   Upload& operator=(const Upload&) = delete;
 
   /// Enqueues that the values are copied to the start of a buffer. Waits for the last ones.
   void start(const Device& device, const cl::Buffer& buffer, std::vector<T>&& values) {
+    const cl::CommandQueue& queue = device.queue();  // refuses a forked child
     if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
     copied_ = cl::Event();
     values_ = std::move(values);
     if (values_.empty()) return;
-    queue_ = device.queue();
+    queue_ = queue;
+    process_ = process_number();
     check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T), values_.data(), 0,
                                nullptr, &copied_()),
           "writing a buffer");
@@ -96,6 +102,7 @@ class Upload {
   std::vector<T> values_;
   cl::CommandQueue queue_;
   cl::Event copied_;
+  std::int64_t process_ = 0;  // that enqueued the copy
 };
 
 /// Copies `count` values from the device to where they fit, or to a vector. Waits.

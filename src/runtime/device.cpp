@@ -82,17 +82,6 @@ DeviceDescription describe(cl_platform_id platform, cl_device_id device) {
   return description;
 }
 
-/// Throws Error if this is a forked child of the process that has used the driver: a fork takes no threads
-/// along, and calls would wait for the driver's without end.
-void refuse_fork_of(std::int64_t process) {
-  if (process_number() == process) return;
-  throw Error(
-      "this process was forked from one that had used OpenCL, and has none of the driver's threads; make the "
-      "process by spawn or forkserver (Python: multiprocessing.set_start_method), or fork before the first "
-      "call",
-      ErrorKind::device);
-}
-
 std::vector<Candidate> find_candidates() {
   // The loader (ocl-icd) and PoCL set themselves up when they are first asked, without a lock: threads that
   // ask at the same time see no platform, or crash.

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "runtime/process.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
 #include "vorocl/report.hpp"
@@ -19,7 +20,7 @@ struct Internal {
 
   static Report report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
                        const FloodStart& start = {}) {
-    return {waves, first, last, host_milliseconds, start};
+    return {waves, first, last, host_milliseconds, start, process_number()};
   }
 
   /// The first command of what a report is of.

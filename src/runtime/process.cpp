@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "vorocl/error.hpp"
+
 #if defined(__unix__) || defined(__APPLE__)
 #include <sys/resource.h>
 #include <unistd.h>
@@ -38,5 +40,14 @@ std::optional<std::uint64_t> address_space_limit() { return std::nullopt; }
 std::string why_not_writable(const std::string&) { return ""; }
 
 #endif
+
+void refuse_fork_of(std::int64_t process) {
+  if (process_number() == process) return;
+  throw Error(
+      "this process was forked from one that had used OpenCL, and has none of the driver's threads; make the "
+      "process by spawn or forkserver (Python: multiprocessing.set_start_method), or fork before the first "
+      "call",
+      ErrorKind::device);
+}
 
 }  // namespace vorocl

@@ -10,6 +10,10 @@ namespace vorocl {
 /// A number that a forked child does not share with its parent; always 0 where nothing forks.
 std::int64_t process_number();
 
+/// Throws Error if this is a forked child of the process with that number, which has used the driver: a fork
+/// takes no threads along, and calls would wait for the driver's without end.
+void refuse_fork_of(std::int64_t process);
+
 /// The most bytes of addresses that the process may have; none: as many as there are.
 std::optional<std::uint64_t> address_space_limit();
 

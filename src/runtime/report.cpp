@@ -1,11 +1,13 @@
 #include "vorocl/report.hpp"
 
 #include "runtime/opencl_error.hpp"
+#include "runtime/process.hpp"
 
 namespace vorocl {
 
 double Report::milliseconds() const {
   if (last_() == nullptr) return 0;
+  refuse_fork_of(process_);
   check(clWaitForEvents(1, &last_()), "waiting for a diagram");
   cl_ulong start = 0, end = 0;
   // A queue without profiling has no times: that is no error of the diagram's.

@@ -1,9 +1,11 @@
+#include <cstdint>
 #include <map>
 #include <utility>
 
 #include "core/diagram_state.hpp"
 #include "core/seeds_state.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/process.hpp"
 #include "tiles/plane_cells.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/tiles.hpp"
@@ -34,15 +36,16 @@ class MappedLabels {
  public:
   /// Enqueues that they are mapped.
   MappedLabels(const Device& device, const cl::Buffer& buffer, std::size_t count)
-      : device_(device), buffer_(buffer) {
+      : queue_(device.queue()), buffer_(buffer) {
     cl_int status = CL_SUCCESS;
-    labels_ = clEnqueueMapBuffer(device.queue()(), buffer(), CL_FALSE, CL_MAP_READ, 0,
-                                 count * sizeof(cl_uint), 0, nullptr, &mapped_(), &status);
+    labels_ = clEnqueueMapBuffer(queue_(), buffer(), CL_FALSE, CL_MAP_READ, 0, count * sizeof(cl_uint), 0,
+                                 nullptr, &mapped_(), &status);
     check(status, "mapping the labels of a tile");
   }
   ~MappedLabels() {
     // If this fails, so does the next command that uses the buffer, which says so.
-    clEnqueueUnmapMemObject(device_.queue()(), buffer_(), labels_, 0, nullptr, nullptr);
+    if (process_number() == process_)
+      clEnqueueUnmapMemObject(queue_(), buffer_(), labels_, 0, nullptr, nullptr);
   }
   MappedLabels(const MappedLabels&) = delete;
   MappedLabels& operator=(const MappedLabels&) = delete;
@@ -54,8 +57,9 @@ class MappedLabels {
   }
 
  private:
-  Device device_;
+  cl::CommandQueue queue_;
   cl::Buffer buffer_;
+  std::int64_t process_ = process_number();  // a forked child leaves them mapped
   cl::Event mapped_;
   void* labels_ = nullptr;
 };

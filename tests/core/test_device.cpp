@@ -159,10 +159,10 @@ BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
 BOOST_AUTO_TEST_CASE(a_forked_child_is_refused_at_once) {
   const Device device = Device::select();
   const Grid grid(40, 30);
-  const Seeds seeds = Seeds::random(device, grid, 9, 1);
+  Seeds seeds(device, grid, {{1, 2}, {30, 20}});
   Diagram diagram(device, grid);
-  exact_diagram(seeds, diagram);
-  diagram.wait();
+  const Report report = exact_diagram(seeds, diagram);
+  seeds.move_to({{3, 4}, {20, 20}});
   const pid_t child = fork();
   if (child == 0) {
     alarm(20);
@@ -180,10 +180,12 @@ BOOST_AUTO_TEST_CASE(a_forked_child_is_refused_at_once) {
     refuses([&] { Seeds::random(device, grid, 9, 1); });
     refuses([&] { static_cast<void>(diagram.read()); });
     refuses([&] { device.finish(); });
+    refuses([&] { seeds.move_to({{5, 6}, {20, 20}}); });
+    refuses([&] { static_cast<void>(report.milliseconds()); });
     _exit(refused);
   }
   int status = 0;
   waitpid(child, &status, 0);
   BOOST_TEST(WIFEXITED(status));
-  BOOST_TEST(WEXITSTATUS(status) == 5);
+  BOOST_TEST(WEXITSTATUS(status) == 7);
 }

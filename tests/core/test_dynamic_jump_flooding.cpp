@@ -232,10 +232,10 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
 }
 
 BOOST_AUTO_TEST_CASE(few_deaths_and_births_keep_the_paper_s_plan) {
-  // One of 625 seeds vanishes in each frame, and the one of the frame before is reborn at another place.
+  // One of 1,250 seeds vanishes in each frame, and the one of the frame before is reborn at another place.
   const Grid grid(250, 250);
-  std::vector<Pixel> pixels = random_pixels(grid, 625, 23);
-  const std::vector<Pixel> places = random_pixels(grid, 625, 24);
+  std::vector<Pixel> pixels = random_pixels(grid, 1250, 23);
+  const std::vector<Pixel> places = random_pixels(grid, 1250, 24);
   Seeds seeds(test_device(), grid, centres(pixels));
   Diagram diagram(test_device(), grid), jfa(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
@@ -270,6 +270,24 @@ BOOST_AUTO_TEST_CASE(few_deaths_and_births_keep_the_paper_s_plan) {
   }
   BOOST_TEST(from_labels == 20);
   BOOST_TEST(wrong < wrong_by_jfa);
+}
+
+BOOST_AUTO_TEST_CASE(births_among_few_seeds_start_anew) {
+  const Grid grid(400, 300);
+  std::vector<Pixel> pixels = random_pixels(grid, 30, 23);
+  const std::vector<Pixel> places = random_pixels(grid, 30, 24);
+  Seeds seeds(test_device(), grid, centres(pixels));
+  Diagram diagram(test_device(), grid);
+  dynamic_jump_flooding(seeds, diagram);
+  for (std::size_t frame = 0; frame < 5; ++frame) {
+    auto points = present(pixels);
+    points[frame].reset();
+    seeds.move_to(points);
+    dynamic_jump_flooding(seeds, diagram);
+    pixels[frame] = places[frame];
+    seeds.move_to(present(pixels));
+    BOOST_TEST(dynamic_jump_flooding(seeds, diagram).start().from_seeds);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {

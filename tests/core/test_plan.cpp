@@ -103,6 +103,9 @@ BOOST_AUTO_TEST_CASE(a_plan_that_reaches_is_the_papers_where_that_can_be_relied_
   BOOST_TEST(reaching(grid, 10000, 5, {127, 0.05}, Metric::manhattan) == "seeds: 64 32 16 8 4 2 1");
   BOOST_TEST(reaching(grid, 10000, 19.9, {27, 0.05}) == "labels: 32v 16v 8 4 2 1");
   BOOST_TEST(reaching(grid, 10000, 20, {27, 0.05}) == "seeds: 16 8 4 2 1");
+  // One seed in a thousand may have appeared.
+  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05, 0.001, 0, 1, 10}) == "labels: 32v 16v 8 4 2 1");
+  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05, 0.001, 0, 1, 11}) == "seeds: 16 8 4 2 1");
   // The paper's plan of 50 seeds has all of JFA's steps: the labels must be nearly right already. L = 141.4.
   BOOST_TEST(reaching(grid, 50, 70, {300, 0.05}) == "labels: 512v 256v 128 64 32 16 8 4 2 1");
   BOOST_TEST(reaching(grid, 50, 71, {600, 0.05}) == "seeds: 512 256 128 64 32 16 8 4 2 1");

@@ -173,6 +173,7 @@ bool CsvReader::next() {
       columns_there_ = line.fields.size();
       if (has_header) continue;
     }
+    while (line.fields.size() > columns_there_ && line.fields.back().empty()) line.fields.pop_back();
     if (line.fields.size() > columns_there_) {
       throw line.error("there are " + std::to_string(line.fields.size()) +
                        " fields where the first line has " + std::to_string(columns_there_) +

@@ -14,7 +14,8 @@ namespace vorocl::command {
 /// throw std::bad_alloc alone.
 class ImageModule {
  public:
-  /// An image file's content as three channels (BGR) of its depth; an empty image if it cannot be decoded.
+  /// An image file's content in its depth, one channel if it is grey, else three (BGR); an empty image if it
+  /// cannot be decoded.
   virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_grey) const = 0;
 
   /// The content of an image file with this extension (".png"); empty if there can be none.

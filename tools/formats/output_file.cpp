@@ -109,7 +109,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
     if (!is_file_ && !S_ISFIFO(there.st_mode) && !S_ISCHR(there.st_mode)) {
       throw cannot_write(path, "it is neither a file nor a pipe");
     }
-    // A link to standard output leads to no name, and is written into as it is.
+    // A link to standard output that is a pipe or a terminal leads to no name, and is written into as it is.
     if (is_link && is_file_) target_ = target_of_link(path);
   } else {
     const int code = errno;

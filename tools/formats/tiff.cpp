@@ -58,12 +58,12 @@ bool holds_labels(const File& file) {
 }
 
 ImageHeader header_of(const File& file) {
-  const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} *
-                             field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
+  const auto samples = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
+  const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} * samples;
   const auto colors = field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC);
   return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH), field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
           bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE,
-          colors == PHOTOMETRIC_MINISBLACK || colors == PHOTOMETRIC_MINISWHITE};
+          samples <= 2 && (colors == PHOTOMETRIC_MINISBLACK || colors == PHOTOMETRIC_MINISWHITE)};
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 namespace vorocl::command {
@@ -20,7 +21,12 @@ std::size_t cores() {
 
 Workers::Workers(std::size_t most) {
   const std::size_t count = std::min(cores(), most);
-  for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
+  threads_.reserve(count);
+  try {
+    for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { run(); });
+  } catch (const std::system_error&) {
+    // As many as the system allows.
+  }
 }
 
 Workers::~Workers() {
@@ -33,6 +39,10 @@ Workers::~Workers() {
 }
 
 void Workers::add(std::function<void()> work) {
+  if (threads_.empty()) {
+    work();
+    return;
+  }
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [&] { return waiting_.size() + busy_ < threads_.size() || thrown_; });
   rethrow();

@@ -14,7 +14,8 @@ namespace vorocl::command {
 
 class Workers {
  public:
-  /// As many as this process has cores, and at most so many.
+  /// As many as this process has cores, and at most so many; fewer where the system allows no more. Without
+  /// any, the caller does the work itself.
   explicit Workers(std::size_t most);
 
   /// Ends when all is done. What still fails then, nobody hears of: wait() before.

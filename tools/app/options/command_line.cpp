@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 #include "app/terminal/console.hpp"
@@ -210,7 +211,14 @@ void with_enough_stack(const Work& work) {
   pthread_attr_setstacksize(&attributes, usual);
   pthread_setattr_default_np(&attributes);
   pthread_attr_destroy(&attributes);
-  std::thread(work).join();
+  std::thread thread;
+  try {
+    thread = std::thread(work);
+  } catch (const std::system_error&) {
+    work();
+    return;
+  }
+  thread.join();
 }
 
 /// Returns the exit code.

@@ -107,7 +107,9 @@ CellStatistics Measures::statistics() {
 }
 
 CellCount Measures::cell_count() {
-  if (!diagram_.window().is_whole() || seeds_.outside() > 0) {
+  constexpr std::size_t few_pixels = std::size_t{1} << 24;  // to copy to the host for this alone
+  const bool is_copied = has_labels_ || diagram_.window().pixels() <= few_pixels;
+  if (!diagram_.window().is_whole() || seeds_.outside() > 0 || !is_copied) {
     const CellStatistics of_window = statistics();
     return {of_window.cells, of_window.empty_cells};
   }

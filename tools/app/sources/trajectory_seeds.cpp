@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
@@ -135,8 +136,12 @@ bool TrajectorySeeds::read() {
 void TrajectorySeeds::read_ahead() {
   // Not from a pipe, where the next frame may never come.
   if (!bytes_left_) return;
-  ahead_ = std::async(std::launch::async,
-                      [this, room = std::move(room_)]() mutable { return read_into(std::move(room)); });
+  try {
+    ahead_ = std::async(std::launch::async,
+                        [this, room = std::move(room_)]() mutable { return read_into(std::move(room)); });
+  } catch (const std::system_error&) {
+    // Where the system allows no more threads, the frame is read when it is needed.
+  }
 }
 
 std::optional<Bounds> TrajectorySeeds::shown_bounds() {

@@ -72,6 +72,7 @@ Strip deflated(Bytes&& rows, int strategy, bool is_last) {
   stream.avail_out = static_cast<uInt>(strip.deflated.size());
   deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
   strip.deflated.resize(strip.deflated.size() - stream.avail_out);
+  strip.deflated.shrink_to_fit();
   deflateEnd(&stream);
   return strip;
 }
