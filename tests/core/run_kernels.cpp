@@ -55,6 +55,7 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
   Diagram diagram(device, grid);
   for (const Method& method : methods()) {
     for (const auto mix : {NeighbourhoodMix::moore, NeighbourhoodMix::von_neumann}) {
+      if (method.name == "low-resolution" && mix == NeighbourhoodMix::von_neumann) continue;
       method.run(seeds, diagram, {metric, mix});
     }
   }
