@@ -81,6 +81,9 @@ BOOST_AUTO_TEST_CASE(impossible_options_are_refused) {
     }
   }
   check_error([&] { method("standard-flooding").plan(grid, -1, {}); }, {"-1 waves"});
+  const MethodOptions von_neumann = {Metric::euclidean, NeighbourhoodMix::von_neumann};
+  check_error([&] { check_options(method("low-resolution"), von_neumann); }, {"Moore", "von-neumann"});
+  check_error([&] { method("low-resolution").run(seeds, diagram, von_neumann); }, {"Moore", "von-neumann"});
 }
 
 // Those that say so take a window, and seeds outside it; the others refuse them.
