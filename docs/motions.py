@@ -50,10 +50,10 @@ def motions():
         seeds = uniform(0, SIDE, (10000, 2))
         return walk(seeds[np.all([np.hypot(*(seeds - centre).T) >= radius for centre in centres], axis=0)], 5)
 
-    def turnover(each):
+    def turnover(each, seeds=10000, step=5):
         """So many seeds vanish in each frame, and as many that were not there appear anywhere."""
-        alive = np.arange(11000) < 10000
-        for at in walk(uniform(0, SIDE, (11000, 2)), 5):
+        alive = np.arange(seeds * 11 // 10) < seeds
+        for at in walk(uniform(0, SIDE, (len(alive), 2)), step):
             yield np.where(alive[:, None], at, np.nan)
             changed = [rng.choice(np.flatnonzero(which), each, False) for which in (alive, ~alive)]
             alive[np.concatenate(changed)] ^= True
@@ -89,6 +89,7 @@ def motions():
     yield "a lattice of clusters of 3, 64 apart, step 4", clusters_of(3)
     yield "a lattice of clusters of 6, 64 apart, step 4", clusters_of(6)
     yield "lines 24 apart, step 1", walk(lines(24), 1)
+    yield "30 seeds, of which three vanish per frame and three appear, step 3", turnover(3, 30, 3)
 
 
 def write_trajectory(frames, path):

@@ -49,7 +49,8 @@ struct DynamicJumpFloodingOptions {
 /// (docs/moving_seeds.md: how close, and the worst that is known). One row in eight of the labels shows how
 /// far they are from their seeds, and where the paper's plan cannot be relied on, JFA's waves run from a step
 /// that covers that distance. `max_displacement` may be less than what was: the distance shows it. Seeds that
-/// are spread evenly and move by less than 2 L get the paper's plan, and its labels. Cost: as above, or at
+/// are spread evenly and move by less than 2 L, of which at most one in a thousand is new, get the paper's
+/// plan, and its labels. Cost: as above, or at
 /// most JFA's waves and the extra ones. Waits, once the labels are measured: each frame is enqueued when the
 /// device has come to it.
 ///

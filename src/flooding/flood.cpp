@@ -20,6 +20,27 @@ std::size_t divided_up(int number, int by) { return static_cast<std::size_t>((nu
 
 }  // namespace
 
+void refuse_what_floods_cannot_take(const Filling& filling, const DiagramState& diagram) {
+  refuse_outer_seeds(filling.placement(), filling.seeds(), "flooding");
+  if (!diagram.window.is_whole()) {
+    throw Error(
+        "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");
+  }
+}
+
+cl::Event label_by_last_wave(Filling& filling, const DiagramState& diagram, const cl::Buffer& image,
+                             const cl::Buffer& ids, const Wave& wave) {
+  const PixelGrid& grid = filling.placement().grid;
+  const cl::Buffer& positions = *filling.placement().positions;
+  const auto count = static_cast<cl_uint>(filling.seeds().size);
+  fill(diagram.device, ids, no_label, 1);  // the label of an empty pixel
+  for (const char* const name : {"clear_ids", "stamp_ids"}) {
+    filling.kernel("core/seeds.cl", name).over_items(count, positions, count, ids, grid.width());
+  }
+  return filling.kernel("flooding/jump_flooding.cl", "last_wave", wave.neighbourhood)
+      .over_grid(image, ids, diagram.labels, grid.width(), grid.height(), wave.step);
+}
+
 Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
     : diagram_(Internal::state(diagram)),
       filling_(seeds, diagram, metric, method),
@@ -28,11 +49,7 @@ Flood::Flood(const Seeds& seeds, Diagram& diagram, Metric metric, const char* me
       count_(static_cast<cl_uint>(filling_.seeds().size)),
       metric_(metric),
       memory_(diagram_.workspace<FloodWorkspace>()) {
-  refuse_outer_seeds(filling_.placement(), filling_.seeds(), "flooding");
-  if (!diagram_.window.is_whole()) {
-    throw Error(
-        "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");
-  }
+  refuse_what_floods_cannot_take(filling_, diagram_);
   const std::size_t pixels = grid_.pixels() + 2 * guard;
   diagram_.reserve(memory_.front, pixels * sizeof(std::uint32_t));
   diagram_.reserve(memory_.back, pixels * sizeof(std::uint32_t));
@@ -108,16 +125,8 @@ void Flood::reporting_wave(Neighbourhood neighbourhood, int number) {
 int Flood::last_change() { return download<cl_int>(diagram_.device, memory_.flag, 1).front(); }
 
 void Flood::last_wave(const Wave& wave) {
-  // The back image is free now: it takes the ids that the wave looks up, behind the label of an empty pixel.
-  fill(diagram_.device, memory_.back, no_label, 1);
-  for (const char* const name : {"clear_ids", "stamp_ids"}) {
-    filling_.kernel("core/seeds.cl", name)
-        .over_items(count_, positions_, count_, memory_.back, grid_.width());
-  }
   if (start_.first_step == 0) start_.first_step = wave.step;
-  last_event_ =
-      filling_.kernel("flooding/jump_flooding.cl", "last_wave", wave.neighbourhood)
-          .over_grid(memory_.front, memory_.back, diagram_.labels, grid_.width(), grid_.height(), wave.step);
+  last_event_ = label_by_last_wave(filling_, diagram_, memory_.front, memory_.back, wave);
 }
 
 bool Flood::some_unlabelled() {

@@ -16,6 +16,14 @@ struct FloodWorkspace {
   cl::Buffer found;        // five words: see measure_labels() and count_born()
 };
 
+/// Throws Error if the diagram's window is not all of its grid, or seeds lie outside it.
+void refuse_what_floods_cannot_take(const Filling& filling, const DiagramState& diagram);
+
+/// Enqueues a last wave, over an image of packed positions, which writes the labels of the diagram. `ids` is
+/// an image that nobody needs any more: it takes the seeds' ids, which the wave looks up.
+cl::Event label_by_last_wave(Filling& filling, const DiagramState& diagram, const cl::Buffer& image,
+                             const cl::Buffer& ids, const Wave& wave);
+
 /// Between waves the diagram is an image of packed seed positions. Each wave reads the front image and writes
 /// the back one, then they change places.
 class Flood {

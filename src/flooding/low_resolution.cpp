@@ -5,8 +5,8 @@
 
 #include "core/diagram_state.hpp"
 #include "core/placement.hpp"
+#include "flooding/flood.hpp"
 #include "runtime/buffer.hpp"
-#include "vorocl/error.hpp"
 #include "vorocl/plan.hpp"
 
 namespace vorocl {
@@ -37,11 +37,7 @@ class Reconstruction {
         levels_(diagram_.workspace<LowResolutionWorkspace>().levels),
         positions_(*filling_.placement().positions),
         count_(static_cast<cl_uint>(filling_.seeds().size)) {
-    refuse_outer_seeds(filling_.placement(), filling_.seeds(), "flooding");
-    if (!diagram_.window.is_whole()) {
-      throw Error(
-          "the diagram's window is a part of its grid, which flooding cannot take; only exact diagrams do");
-    }
+    refuse_what_floods_cannot_take(filling_, diagram_);
     PixelGrid grid = filling_.placement().grid;
     for (Level& level : levels_) {
       level.grid = grid;
@@ -65,7 +61,10 @@ class Reconstruction {
       wave(level, 2);
       if (level > 0) wave(level, 1);
     }
-    return filling_.commit(0, first, last_wave());
+    const Level& finest = at(0);
+    return filling_.commit(
+        0, first,
+        label_by_last_wave(filling_, diagram_, finest.labels, finest.seeds, {1, Neighbourhood::moore}));
   }
 
  private:
@@ -103,16 +102,6 @@ class Reconstruction {
         .over_grid(at(level).labels, at(level).seeds, width(level), height(level), step, level, width(0),
                    height(0));
     std::swap(at(level).labels, at(level).seeds);
-  }
-
-  /// As Flood::last_wave(), of step 1.
-  cl::Event last_wave() {
-    cl::Buffer& ids = at(0).seeds;
-    fill(diagram_.device, ids, no_label, 1);
-    for (const char* const name : {"clear_ids", "stamp_ids"})
-      filling_.kernel("core/seeds.cl", name).over_items(count_, positions_, count_, ids, width(0));
-    return filling_.kernel("flooding/jump_flooding.cl", "last_wave")
-        .over_grid(at(0).labels, ids, diagram_.labels, width(0), height(0), 1);
   }
 
   DiagramState& diagram_;

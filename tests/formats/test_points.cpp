@@ -2,6 +2,7 @@
 #define BOOST_TEST_MODULE points
 #include <sys/stat.h>
 
+#include <array>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -74,6 +75,8 @@ BOOST_AUTO_TEST_CASE(bad_csv_lines_are_named) {
   refuses_csv("1,2\n3\n", {"p.csv:2", "no column 1", "the line ends before it", ": 3"});
   refuses_csv("1,2\nnan,3\n", {"p.csv:2", "\"nan\" is not finite"});
   refuses_csv("x,y\n1,-inf\n", {"p.csv:2", "\"-inf\" is not finite"});
+  // Commas at a line's end are no fields too many.
+  BOOST_TEST((csv("x,y\n1,2,\n3,4,,\n") == Pairs{{1, 2}, {3, 4}}));
   // Decimal commas, which make other points of numbers.
   const std::string decimals = "decimals have a point, not a comma";
   refuses_csv("x,y\n1,5,2,5\n", {"p.csv:2", "4 fields where the first line has 2", decimals, ": 1,5,2,5"});
@@ -234,4 +237,48 @@ BOOST_AUTO_TEST_CASE(bad_masks_are_refused) {
   folder.file("text.png", "x,y\n1,2\n");
   check_error([&] { read_mask(folder / "text.png"); }, {"text.png", "no image"});
   check_error([&] { read_mask(folder / "missing.png"); }, {"missing.png", "No such file"});
+}
+
+/// A TIFF file of two pixels in a row, each of three bands of 16 bits that it calls grey.
+std::string tiff_of_bands(const std::array<std::uint16_t, 6>& values) {
+  std::string bytes = "II*";
+  const auto add_16 = [&bytes](unsigned value) {
+    bytes += static_cast<char>(value & 255u);
+    bytes += static_cast<char>(value >> 8);
+  };
+  const auto add_32 = [&add_16](unsigned value) {
+    add_16(value & 0xffffu);
+    add_16(value >> 16);
+  };
+  bytes += '\0';
+  add_32(8);
+  constexpr unsigned entries = 9, behind = 8 + 2 + 12 * entries + 4, bits_of_bands = 6;
+  add_16(entries);
+  const auto add_entry = [&](unsigned tag, unsigned count, unsigned value) {
+    add_16(tag);
+    add_16(3);  // of 16 bits
+    add_32(count);
+    add_32(value);
+  };
+  add_entry(256, 1, 2);       // width
+  add_entry(257, 1, 1);       // height
+  add_entry(258, 3, behind);  // where the bits of the bands stand
+  add_entry(259, 1, 1);       // not compressed
+  add_entry(262, 1, 1);       // grey, 0 is black
+  add_entry(273, 1, behind + bits_of_bands);
+  add_entry(277, 1, 3);  // bands
+  add_entry(278, 1, 1);  // rows of a strip
+  add_entry(279, 1, 12);
+  add_32(0);
+  for (int band = 0; band < 3; ++band) add_16(16);
+  for (const std::uint16_t value : values) add_16(value);
+  return bytes;
+}
+
+BOOST_AUTO_TEST_CASE(bands_that_are_called_grey_all_count) {
+  const TemporaryFolder folder;
+  folder.file("bands.tif", tiff_of_bands({0, 0, 0, 0, 0, 1}));
+  const Mask mask = read_mask(folder / "bands.tif");
+  BOOST_TEST(mask.pixels[0] == 0);
+  BOOST_TEST(mask.pixels[1] != 0);
 }
