@@ -32,7 +32,7 @@ if(BUILD_SHARED_LIBS)
 endif()
 
 configure_package_config_file(cmake/VoroCLConfig.cmake.in VoroCLConfig.cmake INSTALL_DESTINATION ${package_folder})
-write_basic_package_version_file(VoroCLConfigVersion.cmake COMPATIBILITY SameMajorVersion)
+write_basic_package_version_file(VoroCLConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/VoroCLConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/VoroCLConfigVersion.cmake
         DESTINATION ${package_folder})
 

@@ -9,4 +9,6 @@ cmake --build --preset release --target vorocl_tool
 mkdir -p output
 build/tools/vorocl render --points samples/cities-5000.csv --bounds 0,0,360,180 --size 1800x900 --method exact \
   --edges -o output/cities.png
+# For what comes next: in the background, at a low priority.
+nice build/tools/vorocl prepare >output/prepare.log 2>&1 </dev/null &
 echo "The regions of 5,000 cities, each pixel in the colour of its nearest one: output/cities.png"

@@ -31,7 +31,7 @@ for group in "$@"; do
     apt-cache show clang >/dev/null 2>&1 || as_root apt-get update -qq
     clang=$(apt-cache depends clang | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p')
     packages+=(clang "libclang-rt-$clang-dev" "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
-      python3-numpy python3-zarr python3-gdal python3-pip libopenmpi-dev openmpi-bin procps)
+      python3-numpy python3-zarr python3-gdal python3-pip libopenmpi-dev openmpi-bin procps abigail-tools xz-utils)
     ;;
   drivers) packages+=(pocl-opencl-icd python3-pip) ;;
   *) echo "setup.sh: there is no group \"$group\", but build, test, check and drivers" >&2; exit 2 ;;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,6 +94,11 @@ class VOROCL_API Device {
 
   /// The same device, queue and program cache with other kernel shapes. Throws Error if one cannot be.
   Device with_tuning(const Tuning& tuning) const;
+
+  /// Calls `notice` once, when the driver's compiler has taken long for a program: it will for others, and
+  /// the caller waits for some seconds. After prepare_programs() (vorocl/preparation.hpp) it does not. The
+  /// call comes in the middle of one that needs the program, and must not use the device.
+  void on_compiling(const std::function<void()>& notice) const;
 
   /// Waits until all that was enqueued is done.
   void finish() const;

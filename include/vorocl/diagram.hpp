@@ -41,6 +41,12 @@ class VOROCL_API Diagram {
   /// writable by kernels.
   Diagram(const Device& device, const Window& window, const cl::Buffer& labels);
 
+  /// The labels go to the host's memory: width * height from `labels` on, which must stay there for as long
+  /// as the diagram does. Where the device shares the host's memory, kernels write there, and read() of the
+  /// same address copies nothing. Elsewhere this is as the first constructor. What is there counts for
+  /// nothing, and is defined after read() alone. Waits for the device when it is destroyed.
+  Diagram(const Device& device, const Window& window, std::uint32_t* labels);
+
   ~Diagram();
   Diagram(Diagram&& other) noexcept;
   Diagram& operator=(Diagram&& other) noexcept;
@@ -76,8 +82,14 @@ class VOROCL_API Diagram {
   /// The labels on the host, size width * height. Waits. Throws as wait().
   std::vector<std::uint32_t> read() const;
 
-  /// As above, to where width * height labels fit: without a second image on the host.
+  /// As above, to where width * height labels fit: without a second image on the host. Where the labels are
+  /// there already (see the constructor that takes an address), nothing is copied.
   void read(std::uint32_t* labels) const;
+
+  /// From the next filling on, the labels go to the host's memory, as those of the constructor that takes an
+  /// address; null: to memory of the diagram's own. It counts as never filled, and keeps its kernels and
+  /// working memory. Waits for the device. Throws Error if the device has too little memory.
+  void put_labels_at(std::uint32_t* labels);
 
   /// Waits for the queue. Throws BadPoint if the frame of seeds that the diagram was made from had a bad
   /// point, and Error if the device failed.

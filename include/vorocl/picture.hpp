@@ -60,6 +60,11 @@ VOROCL_API cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const W
 VOROCL_API cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Window& window,
                                   const std::vector<double>& values, const Scale& scale, Palette palette);
 
+/// Colours each pixel by the colour (BGR) of its label's seed. `colors` holds one per seed, by id; no_label
+/// is black. Throws Error unless there is one label per pixel and a colour for every label.
+VOROCL_API cv::Mat color_by_seed(const std::vector<std::uint32_t>& labels, const Window& window,
+                                 const std::vector<cv::Vec3b>& colors);
+
 /// Colours each pixel by its distance, as distance_field() gives it; a pixel without a label (infinity) is
 /// black. Throws Error unless there is one distance per pixel, for a bad scale and for a categorical palette.
 VOROCL_API cv::Mat color_by_distance(const std::vector<float>& distances, const Window& window,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "vorocl/export.h"
 #include "vorocl/opencl.hpp"
@@ -30,8 +32,9 @@ class VOROCL_API Report {
   const cl::Event& event() const { return last_; }
 
   /// The device's time from the start of the diagram's first command to the end of its last one, with the
-  /// gaps between them. Waits for it. 0 if the queue does not profile. Throws
-  /// Error if the device failed, and in a forked child.
+  /// gaps between them, but for those in which the driver compiles a kernel that is launched for the first
+  /// time. Waits for it. 0 if the queue does not profile. Throws Error if the device failed, and in a forked
+  /// child.
   double milliseconds() const;
 
   /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device). Where an
@@ -42,10 +45,12 @@ class VOROCL_API Report {
  private:
   friend struct Internal;
   Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
-         const FloodStart& start, std::int64_t process)
+         const FloodStart& start, std::vector<std::pair<cl::Event, cl::Event>>&& first_launches,
+         std::int64_t process)
       : waves_(waves),
         first_(first),
         last_(last),
+        first_launches_(std::move(first_launches)),
         host_milliseconds_(host_milliseconds),
         start_(start),
         process_(process) {}
@@ -53,6 +58,7 @@ class VOROCL_API Report {
   int waves_ = 0;
   cl::Event first_;
   cl::Event last_;
+  std::vector<std::pair<cl::Event, cl::Event>> first_launches_;  // of kernels, each behind what came before
   double host_milliseconds_ = 0;
   FloodStart start_;
   std::int64_t process_ = 0;  // that made it

@@ -67,7 +67,7 @@ VOROCL_API vorocl_status vorocl_bad_point(size_t* index, vorocl_point* point);
 
 /// @}
 
-/// The version of the library that runs, such as "0.1.0".
+/// The version of the library that runs, such as "0.3.0".
 VOROCL_API const char* vorocl_version(void);
 
 /// The label of a pixel without a nearest seed.

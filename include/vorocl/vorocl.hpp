@@ -15,6 +15,7 @@
 #include "vorocl/motion.hpp"
 #include "vorocl/plan.hpp"
 #include "vorocl/points.hpp"
+#include "vorocl/preparation.hpp"
 #include "vorocl/relaxation.hpp"
 #include "vorocl/report.hpp"
 #include "vorocl/seeds.hpp"

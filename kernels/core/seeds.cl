@@ -58,12 +58,16 @@ kernel void find_greatest_way(global const uint* restrict from, global const uin
   if (way > 0) atomic_max(greatest, way);
 }
 
-kernel void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {
-  const uint id = (uint)get_global_id(0);
-  if (id == count) positions[id] = EMPTY;
-  if (id >= count) return;
-  const uint4 bits = philox((uint4)(id, 0, 0, PHILOX_POSITIONS), key);
-  positions[id] = pack((int)uniform_below(bits.s0, (uint)width), (int)uniform_below(bits.s1, (uint)height));
+// Each work-item makes a vector of them; EMPTY follows the last one.
+VECTOR_KERNEL void random_positions(global uint* restrict positions, uint count, int width, int height, uint2 key) {
+  const uint first = (uint)get_global_id(0) * VOROCL_WIDTH;
+  if (first > count) return;
+  uint_v x, y;
+  philox(first + LANES, 0, PHILOX_POSITIONS, key, &x, &y);
+  x = uniform_below(x, (uint)width);
+  y = uniform_below(y, (uint)height);
+  store_some(y << 16 | x, positions + first, count - first);
+  if (count - first < VOROCL_WIDTH) positions[count] = EMPTY;
 }
 
 // Marks the pixels that hold a seed, in a map of zeros. Seeds on one pixel write the same value.

@@ -7,12 +7,16 @@
 // Images that waves read at an offset have VOROCL_GUARD (a build option, at least VOROCL_WIDTH) spare values before and
 // behind their pixels, so that a vector which sticks out of the grid can be loaded whole and its outer lanes masked.
 
+#ifndef VOROCL_VECTOR
+#define VOROCL_VECTOR
+
 #define JOIN_(a, b) a##b
 #define JOIN(a, b) JOIN_(a, b)
 
 #if VOROCL_WIDTH == 1
 typedef uint uint_v;
 typedef int int_v;
+typedef ulong ulong_v;
 #define LANES 0u
 #define LOAD_VECTOR(pointer) (*(pointer))
 #define STORE_VECTOR(values, pointer) (*(pointer) = (values))
@@ -21,6 +25,8 @@ typedef int int_v;
 #define AS_INT_V as_int
 #define AS_UINT_V as_uint
 #define CONVERT_INT_V convert_int
+#define CONVERT_UINT_V convert_uint
+#define CONVERT_ULONG_V convert_ulong
 #define CONVERT_INT_V_DOWN convert_int_rtn
 #define CONVERT_FLOAT_V convert_float
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
@@ -28,6 +34,7 @@ typedef int int_v;
 #else
 typedef JOIN(uint, VOROCL_WIDTH) uint_v;
 typedef JOIN(int, VOROCL_WIDTH) int_v;
+typedef JOIN(ulong, VOROCL_WIDTH) ulong_v;
 #define LOAD_VECTOR(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
 #define STORE_VECTOR(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
 // To global memory, in one piece: PoCL's vstore() makes two, and its compiler then makes the values in two halves.
@@ -39,6 +46,8 @@ typedef struct __attribute__((packed)) {
 #define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
 #define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
 #define CONVERT_INT_V JOIN(convert_int, VOROCL_WIDTH)
+#define CONVERT_UINT_V JOIN(convert_uint, VOROCL_WIDTH)
+#define CONVERT_ULONG_V JOIN(convert_ulong, VOROCL_WIDTH)
 #define CONVERT_INT_V_DOWN JOIN(CONVERT_INT_V, _rtn)
 #define CONVERT_FLOAT_V JOIN(convert_float, VOROCL_WIDTH)
 #define ANY(condition) any(condition)
@@ -132,6 +141,23 @@ static inline uint16 looked_up_16(global const uint* table, uint16 at) {
 #undef LANE
 #define looked_up JOIN(looked_up_, VOROCL_WIDTH)
 
+// Of a list, the first so many values, at most a vector; the other lanes are 0, and are not stored.
+static inline uint_v load_some(global const uint* from, uint some) {
+  if (some >= VOROCL_WIDTH) return LOAD_VECTOR(from);
+  uint lane[VOROCL_WIDTH];
+  for (uint i = 0; i < VOROCL_WIDTH; ++i) lane[i] = i < some ? from[i] : 0;
+  return LOAD_VECTOR(lane);
+}
+static inline void store_some(uint_v values, global uint* to, uint some) {
+  if (some >= VOROCL_WIDTH) {
+    STORE_VECTOR(values, to);
+    return;
+  }
+  uint lane[VOROCL_WIDTH];
+  STORE_VECTOR(values, lane);
+  for (uint i = 0; i < some; ++i) to[i] = lane[i];
+}
+
 // The sum of a vector's lanes.
 static inline uint lane_sum_1(uint values) { return values; }
 static inline uint lane_sum_2(uint2 values) { return values.lo + values.hi; }
@@ -157,3 +183,5 @@ static inline bool has_vector(int width, int height) {
 // it computes some pixels a second time, to the same values.
 static inline int vector_x(int width) { return min((int)get_global_id(0) * VOROCL_WIDTH, width - VOROCL_WIDTH); }
 static inline int vector_y(void) { return (int)get_global_id(1); }
+
+#endif

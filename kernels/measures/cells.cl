@@ -20,6 +20,12 @@ static inline void add_to_pair(global uint* pair, uint value) {
 #define HOME_X(sums) ((uint)((sums) >> HOME_X_SHIFT) & 0xffffffu)
 #define HOME_Y(sums) ((uint)((sums) >> HOME_Y_SHIFT))
 
+// The block that holds a seed; of one outside the window, the block that is nearest to it.
+static inline ushort home_of(seed_t seed, int width, int height, int wide, int high) {
+  const int x = clamp(seed_x(seed, width), 0, width - 1), y = clamp(seed_y(seed, height), 0, height - 1);
+  return (ushort)block_of(x, y, width, wide, high);
+}
+
 kernel void clear_sums(global const seed_t* restrict seeds, uint count, int width, int height, int wide, int high,
                        global uint* restrict area, global uint2* restrict sum_x, global uint2* restrict sum_y,
                        global ushort* restrict home, global ulong* restrict home_sums) {
@@ -29,9 +35,7 @@ kernel void clear_sums(global const seed_t* restrict seeds, uint count, int widt
   sum_x[id] = (uint2)(0, 0);
   sum_y[id] = (uint2)(0, 0);
   home_sums[id] = 0;
-  // Of a seed outside the window, the block that is nearest to it.
-  const int x = clamp(seed_x(seeds[id], width), 0, width - 1), y = clamp(seed_y(seeds[id], height), 0, height - 1);
-  home[id] = (ushort)block_of(x, y, width, wide, high);
+  home[id] = home_of(seeds[id], width, height, wide, high);
 }
 
 kernel void add_sums(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
@@ -60,6 +64,47 @@ kernel void add_sums(global const uint* restrict labels, uint count, int width, 
   }
 }
 
+// The areas alone, in the same way: those of the pixels at home apart, and then all.
+kernel void clear_areas(global const seed_t* restrict seeds, uint count, int width, int height, int wide, int high,
+                        global uint* restrict area, global ushort* restrict home, global ushort* restrict home_area) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  area[id] = 0;
+  home_area[id] = 0;
+  home[id] = home_of(seeds[id], width, height, wide, high);
+}
+
+kernel void add_areas(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
+                      global uint* restrict area, global const ushort* restrict home,
+                      global ushort* restrict home_area) {
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
+      if (label >= count) continue;
+      const uint length = (uint)(walk.to - walk.from);
+      if (home[label] == block.index) {
+        home_area[label] += (ushort)length;
+      } else {
+        atomic_add(area + label, length);
+      }
+    }
+  }
+}
+
+kernel void join_areas(global const seed_t* restrict seeds, uint count, global uint* restrict area,
+                       global const ushort* restrict home_area) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  area[id] = is_there(seeds[id]) ? area[id] + home_area[id] : 0;
+}
+
+// Whether a coordinate is less than half a period away from a seed, where none of the ways round is shorter.
+static inline bool is_near(int at, int seed, int period) { return 2 * abs(at - seed) < (uint)period; }
+
 // How many periods the pixels of a cell are away, in sum, from where they lie by the rule of place. For windows that
 // show a whole period.
 kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
@@ -74,16 +119,18 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
-      if (PERIODIC_X) {
+      // Nearly all pixels are near.
+      const int x = seed_x(seed, width);
+      if (PERIODIC_X && !(is_near(walk.from, x, width) && is_near(walk.to - 1, x, width))) {
         int sum = 0;
         for (int from = walk.from, to; from < walk.to; from = to) {
           const int way = way_x(seed, from, window);
           to = piece_end(from, walk.to, way, window.period_x);
-          sum += (seed_x(seed, width) + way - from) / width * (to - from);
+          sum += (x + way - from) / width * (to - from);
         }
         if (sum != 0) atomic_add(periods_x + label, sum);
       }
-      if (PERIODIC_Y) {
+      if (PERIODIC_Y && !is_near(y, seed_y(seed, height), height)) {
         const int away = (seed_y(seed, height) + way_y(seed, y, window) - y) / height;
         if (away != 0) atomic_add(periods_y + label, away * (walk.to - walk.from));
       }

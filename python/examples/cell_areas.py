@@ -25,13 +25,12 @@ universe = MDAnalysis.Universe(stream, format="LAMMPSDUMP", topology_format="LAM
 
 width, height = universe.dimensions[:2]
 shape = round(1200 * height / width), 1200
-pixel = (width / shape[1]) * (height / shape[0])  # its area in the units of the simulation
-simulation = vorocl.Simulation(shape, method="exact", bounds=(0, 0, width, height), periodic=(True, True), y_up=True)
+simulation = vorocl.Simulation(shape, bounds=(0, 0, width, height), periodic=(True, True), y_up=True)
 
 steps, percentiles = [], []
 for frame in universe.trajectory:
     diagram = simulation.step(frame.positions[:, :2])
-    areas = diagram.cells()["area"] * pixel
+    areas = diagram.areas()  # in the units of the simulation
     steps.append(frame.data["step"])
     percentiles.append(np.percentile(areas, [5, 25, 50, 75, 95]))
 

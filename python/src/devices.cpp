@@ -63,11 +63,20 @@ void bind_devices(nb::module_& module) {
       .def_ro("max_allocation", &DeviceDescription::max_allocation)
       .def_ro("why_not", &DeviceDescription::why_not)
       .def_ro("selected", &DeviceDescription::selected)
+      .def_ro("asked_for", &DeviceDescription::asked_for)
       .def_ro("reason", &DeviceDescription::reason)
       .def("__repr__", [](const nb::handle& self) {
         return shown(self, {"platform", "name", "type", "compute_units", "selected", "why_not"});
       });
   module.def("list_devices", &Device::list, nb::arg("request"), without_gil());
+
+  module.def("most_preparation_parts", &most_preparation_parts);
+  module.def(
+      "prepare_programs",
+      [](const Device& device, std::size_t index, std::size_t count) {
+        return prepare_programs(device, {index, count});
+      },
+      nb::arg("device"), nb::arg("index"), nb::arg("count"), without_gil());
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("periodic_x"),
@@ -82,7 +91,7 @@ void bind_devices(nb::module_& module) {
       .def_prop_ro("milliseconds", &Report::milliseconds, without_gil())
       .def_prop_ro("host_milliseconds", &Report::host_milliseconds)
       .def("__repr__", [](const nb::handle& self) {
-        return shown(self, {"waves", "host_milliseconds"});  // milliseconds would wait
+        return shown(self, {"milliseconds", "waves", "host_milliseconds"});  // waits
       });
 }
 

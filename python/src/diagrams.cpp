@@ -86,6 +86,24 @@ void read(DiagramObject& diagram, const Array<std::uint32_t, nb::ndim<2>>& label
   diagram.diagram.read(pixels_of(diagram.diagram, labels));
 }
 
+/// As fill() and read(), where the labels are made in the array, if the device can.
+void fill_into(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
+               const Array<std::uint32_t, nb::ndim<2>>& labels) {
+  const Turns turns(diagram.mutex, seeds.mutex);
+  diagram.seeds.reset();
+  show(diagram.diagram, seeds.seeds.grid());
+  /// The array is the caller's, who may free it after the call.
+  struct InArray {
+    InArray(Diagram& of, std::uint32_t* place) : diagram(of) { diagram.put_labels_at(place); }
+    ~InArray() { diagram.put_labels_at(nullptr); }
+    Diagram& diagram;
+  };
+  std::uint32_t* const place = pixels_of(diagram.diagram, labels);
+  const InArray in_array(diagram.diagram, place);
+  method(name).run(seeds.seeds, diagram.diagram, options_with(metric));
+  diagram.diagram.read(place);
+}
+
 void write(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& image) {
   const Turn turn(diagram.mutex);
   const std::uint32_t* const first = pixels_of(diagram.diagram, image);
@@ -171,6 +189,30 @@ nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) 
     }
   }
   return to_numpy<std::uint8_t>(std::move(rows));
+}
+
+/// Pixels, by id.
+nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> areas(DiagramObject& diagram) {
+  std::vector<std::uint32_t> result;
+  {
+    const nb::gil_scoped_release unlocked;
+    const Turn turn(diagram.mutex);
+    cell_sums(diagram.diagram, diagram.sums);
+    for (const CellSums& sums : diagram.sums.read()) result.push_back(sums.area);
+  }
+  return to_numpy<std::uint32_t>(std::move(result));
+}
+
+/// Turns positions in pixels, NaN too, into the units of the points that the diagram was filled from.
+void to_data(DiagramObject& diagram, const Array<double, nb::shape<-1, 2>>& points) {
+  const Turn turn(diagram.mutex);
+  const Grid& grid = diagram.diagram.window().grid();
+  double* xy = points.data();
+  for (std::size_t row = 0; row < points.shape(0); ++row, xy += 2) {
+    const Point point = grid.point({xy[0], xy[1]});
+    xy[0] = point.x;
+    xy[1] = point.y;
+  }
 }
 
 /// The ids of each pair and the length of its border.
@@ -266,12 +308,16 @@ void bind_diagrams(nb::module_& module) {
       .def_prop_ro("buffer", buffer, without_gil())
       .def("fill", fill, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"),
            nb::arg("max_displacement").none(), without_gil())
+      .def("fill_into", fill_into, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("labels"),
+           without_gil())
       .def("read", read, nb::arg("labels"), without_gil())
       .def("write", write, nb::arg("labels"), without_gil())
       .def("write_of", write_of, nb::arg("labels"), nb::arg("seeds"), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())
       .def("expand", expand, nb::arg("distance"), nb::arg("labels"), without_gil())
       .def("cells", cells)
+      .def("areas", areas)
+      .def("to_data", to_data, nb::arg("points"), without_gil())
       .def("adjacency", find_adjacency)
       .def("count_vertices", count_vertices, without_gil())
       .def("vertices", find_vertices)

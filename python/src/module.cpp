@@ -9,4 +9,5 @@ NB_MODULE(_vorocl, module) {
   bind_devices(module);
   bind_seeds(module);
   bind_diagrams(module);
+  bind_known_answers(module);
 }

@@ -1,4 +1,5 @@
 // Seeds: points of NumPy's on the pixels of a grid.
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/unique_ptr.h>
 
 #include <cmath>
@@ -42,9 +43,15 @@ std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
   return std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels));
 }
 
-void move_to(SeedsObject& seeds, const Rows& rows) {
+/// On another grid, or on the one of the last frame.
+void move_to(SeedsObject& seeds, const Rows& rows, const std::optional<Grid>& grid) {
   const Turn turn(seeds.mutex);
-  seeds.seeds.move_to(view(rows, seeds.present));
+  const Points points = view(rows, seeds.present);
+  if (grid) {
+    seeds.seeds.move_to(*grid, points);
+  } else {
+    seeds.seeds.move_to(points);
+  }
 }
 
 double displacement(SeedsObject& seeds) {
@@ -84,7 +91,7 @@ void bind_seeds(nb::module_& module) {
       .def("__init__", make, nb::arg("device"), nb::arg("grid"), nb::arg("points"), nb::arg("outside"),
            without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
-      .def("move_to", move_to, nb::arg("points"), without_gil())
+      .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), without_gil())
       .def_prop_ro("displacement", displacement, without_gil())
       .def("read", read, nb::arg("points"), nb::arg("in_pixels"), without_gil())
       .def_prop_ro("size", size, without_gil())

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel, and runs in a fresh environment the tests, all examples and the benchmark: run.sh FOLDER
+# Builds the source distribution, and of it the wheel as others can install it, and runs in a fresh environment the tests,
+# all examples and the benchmark: run.sh FOLDER
 # Exits with 77 where "tools/setup.sh check" has not laid ready the packages that they need.
 set -euo pipefail
 folder=$1
@@ -15,9 +16,16 @@ rm -rf "$folder"
 python3 -m venv "$folder/environment"
 python=$folder/environment/bin/python
 export PIP_NO_INDEX=1 PIP_FIND_LINKS=$wheels PIP_DISABLE_PIP_VERSION_CHECK=1
-"$python" -m pip wheel --quiet --no-deps --wheel-dir "$folder" . \
+"$python" -m pip install --quiet --requirement python/tests/requirements.txt
+"$python" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$folder" >/dev/null
+"$python" -m pip wheel --quiet --no-deps --wheel-dir "$folder" "$folder"/vorocl-*.tar.gz \
   --config-settings cmake.define.VOROCL_WARNINGS_AS_ERRORS=ON
-"$python" -m pip install --quiet "$folder"/vorocl-*.whl --requirement python/tests/requirements.txt
+PATH=$(dirname "$python"):$PATH "$python" -m auditwheel repair --wheel-dir "$folder/repaired" "$folder"/vorocl-*.whl
+"$python" -m pip install --quiet "$folder"/repaired/vorocl-*-manylinux_*.whl
+if "$python" -m zipfile -l "$folder"/repaired/vorocl-*.whl | grep -i opencl | grep -v _opencl.py; then
+  echo "the wheel has an OpenCL loader of its own"
+  exit 1
+fi
 
 "$python" -m pytest -q -p no:cacheprovider --doctest-modules --pyargs vorocl python/tests
 for example in python/examples/*.py; do

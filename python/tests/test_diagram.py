@@ -146,6 +146,14 @@ def test_labels_go_where_they_are_wanted():
     points = rng.uniform(0, 50, (10, 2))
     out = np.zeros((50, 50), np.uint32)
     assert vorocl.diagram(points, (50, 50), out=out) is out
+    first = out.copy()
+    assert (vorocl.diagram(points, (50, 50)) == first).all()
+    second = np.empty_like(out)
+    vorocl.diagram(points[:1], (50, 50), out=second)
+    assert (second == 0).all() and (out == first).all()  # each call has its array alone
+    for method in ("jfa", "djfa", "standard-flooding"):
+        vorocl.diagram(points, (50, 50), method=method, out=second)
+        assert (second == vorocl.diagram(points, (50, 50), method=method)).all()
     np.testing.assert_array_equal(out, brute_force(points, (50, 50)))
 
 

@@ -41,6 +41,60 @@ def test_cells_are_measured_as_numpy_does(points):
         assert cell["touches_border"] == at_border
 
 
+@pytest.mark.parametrize("y_up", [False, True])
+@pytest.mark.parametrize("periodic", [(False, False), (True, True)])
+def test_measures_are_in_the_units_of_the_points(points, periodic, y_up):
+    plane = dict(bounds=(10, -20, 10 + 91 / 8, -20 + 70 / 8), periodic=periodic, y_up=y_up)  # 8 pixels in a unit
+
+    def to_data(x, y):
+        return 10 + x / 8, -20 + (70 - y if y_up else y) / 8
+
+    given = np.column_stack(to_data(*points.T))
+    found, pixels = vorocl.cells(given, SHAPE, **plane), vorocl.cells(given, SHAPE, units="pixels", **plane)
+    for name, values in ((name, vorocl.cells(points, SHAPE, periodic=periodic)[name]) for name in vorocl.CELL.names):
+        np.testing.assert_array_equal(pixels[name], values)
+    np.testing.assert_allclose(np.column_stack([found["x"], found["y"]]), given, atol=0.51 / 8)
+    np.testing.assert_allclose(found["area"], pixels["area"] / 64)
+    np.testing.assert_allclose((found["centroid_x"], found["centroid_y"]), to_data(pixels["centroid_x"], pixels["centroid_y"]))
+    for length in "perimeter", "largest_distance":
+        np.testing.assert_allclose(found[length], pixels[length] / 8)
+    full = pixels["area"] > 0
+    np.testing.assert_allclose((found["left"], found["top"])[0][full], to_data(pixels["left"], 0)[0][full])
+    np.testing.assert_allclose(found["top"][full], to_data(0, pixels["top"])[1][full])
+    np.testing.assert_allclose(found["right"][full], to_data(pixels["right"] + 1.0, 0)[0][full])
+    np.testing.assert_allclose(found["bottom"][full], to_data(0, pixels["bottom"] + 1.0)[1][full])
+    assert np.isnan(found["left"][~full]).all() and np.isnan(found["bottom"][~full]).all()
+    for same in "neighbours", "touches_border":
+        np.testing.assert_array_equal(found[same], pixels[same])
+
+    np.testing.assert_allclose(vorocl.areas(given, SHAPE, **plane), found["area"])
+    np.testing.assert_array_equal(vorocl.areas(given, SHAPE, units="pixels", **plane), pixels["area"])
+    pairs, lengths = vorocl.adjacency(given, SHAPE, **plane)
+    expected, edges = vorocl.adjacency(points, SHAPE, periodic=periodic)
+    np.testing.assert_array_equal(pairs, expected)
+    np.testing.assert_allclose(lengths, edges / 8)
+    np.testing.assert_allclose(
+        vorocl.distances(given, SHAPE, **plane), vorocl.distances(points, SHAPE, periodic=periodic) / 8, rtol=1e-6
+    )
+    corners = vorocl.vertices(points, SHAPE, periodic=periodic)
+    np.testing.assert_allclose(vorocl.vertices(given, SHAPE, **plane), np.column_stack(to_data(*corners.T)))
+
+
+def test_lengths_without_a_scale_are_refused_or_named(points):
+    plane = dict(bounds=(0, 0, 91, 35))
+    given = points / (1, 2)
+    cells = vorocl.cells(given, SHAPE, **plane)
+    pixels = vorocl.cells(points, SHAPE)
+    np.testing.assert_allclose(cells["area"], pixels["area"] / 2)
+    for length in "perimeter", "largest_distance":
+        assert length not in cells.dtype.names
+        np.testing.assert_array_equal(cells[length + "_px"], pixels[length])
+    for measure in vorocl.distances, vorocl.adjacency:
+        with pytest.raises(vorocl.BadArgument, match='give units="pixels"'):
+            measure(given, SHAPE, **plane)
+    np.testing.assert_array_equal(vorocl.distances(given, SHAPE, units="pixels", **plane), vorocl.distances(points, SHAPE))
+
+
 @pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
 def test_pairs_are_those_of_the_labels(points, periodic):
     labels = brute_force(points, SHAPE, periodic)

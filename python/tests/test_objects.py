@@ -1,8 +1,10 @@
 """What stays on the device: seeds, diagrams, simulations; threads, OpenCL's own objects, and memory."""
 
+import copy
 import gc
 import os
 import pickle
+import re
 import sys
 import threading
 
@@ -72,8 +74,8 @@ def test_a_diagram_shows_what_its_seeds_are_on():
 
 def test_frames_of_a_simulation_are_right():
     points, velocity = rng.uniform(0, 96, (40, 2)), rng.normal(0, 2, (40, 2))
-    exact = vorocl.Simulation((96, 96), method="exact", periodic=(True, True))
-    dynamic = vorocl.Simulation((96, 96), periodic=(True, True))
+    exact = vorocl.Simulation((96, 96), periodic=(True, True))
+    dynamic = vorocl.Simulation((96, 96), method="djfa", periodic=(True, True))
     for frame in range(12):
         now = points + frame * velocity
         if frame % 3 == 1:
@@ -87,7 +89,7 @@ def test_frames_of_a_simulation_are_right():
 
 def test_seeds_leave_the_window_and_come_back():
     points = rng.uniform(-40, 90, (50, 2))
-    simulation = vorocl.Simulation((50, 60), method="exact")
+    simulation = vorocl.Simulation((50, 60))
     for frame in range(5):
         points += rng.normal(0, 8, points.shape)
         labels = simulation.step(points).read()
@@ -99,7 +101,7 @@ def test_seeds_leave_the_window_and_come_back():
 
 def test_a_simulation_tells_djfa_how_far_seeds_have_moved(monkeypatch):
     points = np.stack(np.meshgrid(*[np.arange(5, 200, 10)] * 2), -1).reshape(-1, 2)  # 10 pixels apart
-    simulation = vorocl.Simulation((200, 200), periodic=(True, True))
+    simulation = vorocl.Simulation((200, 200), method="djfa", periodic=(True, True))
 
     def waves(shift):
         simulation.step(points + (shift, 0))
@@ -115,6 +117,44 @@ def test_a_simulation_tells_djfa_how_far_seeds_have_moved(monkeypatch):
         patch.setattr(simulation.diagram, "fill", fail)
         simulation.step(points + (211, 0))
     assert waves(221) == 7  # the labels, of two moves before, show how far their seeds have gone
+
+
+def test_the_box_of_a_simulation_may_change():
+    simulation = vorocl.Simulation((64, 64), bounds=(0, 0, 1, 1), periodic=(True, True))
+    points = rng.uniform(0, 1, (40, 2))
+    for frame, side in enumerate([1, 1.25, 0.5]):
+        bounds = (-side, 0, 0, side) if frame else None  # the first frame has that of the simulation
+        moved = (points * side - (side, 0)) if frame else points
+        diagram = simulation.step(moved, bounds=bounds)
+        box = bounds or (0, 0, 1, 1)
+        np.testing.assert_array_equal(diagram.read(), vorocl.diagram(moved, (64, 64), bounds=box, periodic=(True, True)))
+        np.testing.assert_allclose(diagram.areas().sum(), side**2)
+    np.testing.assert_array_equal(simulation.step(moved).read(), diagram.read())  # the last box
+    np.testing.assert_allclose(simulation.seeds.read(), moved, atol=0.51 * side / 64)
+
+    seeds = vorocl.Seeds([(1, 1)], (64, 64))
+    seeds.move_to([(0.25, 0.25)], bounds=(0, 0, 1, 1))
+    np.testing.assert_allclose(seeds.read(), [(0.25, 0.25)], atol=0.51 / 64)
+    assert seeds.read(units="pixels").tolist() == [[16.5, 16.5]]
+
+
+def test_what_is_on_a_device_is_not_pickled():
+    simulation = vorocl.Simulation((4, 4))
+    for value in simulation, simulation.seeds, simulation.diagram, vorocl.Device():
+        with pytest.raises(TypeError, match="cannot be pickled or copied: it is on a device") as refused:
+            pickle.dumps(value)
+        assert str(refused.value).count("\n") == 0
+        with pytest.raises(TypeError, match=type(value).__name__):
+            copy.deepcopy(value)
+    relaxed = vorocl.relax([(0, 0), (1, 0)], (4, 8))
+    assert pickle.loads(pickle.dumps(relaxed)).converged
+
+
+def test_objects_say_what_they_are():
+    simulation = vorocl.Simulation((5, 6))
+    simulation.step([(1, 1), (2, 3)])
+    assert repr(simulation) == "<vorocl.Simulation of 2 points, method exact, of the shape (5, 6)>"
+    assert re.search(r"\bReport\(milliseconds=[\d.e-]+, waves=0, host_milliseconds=[\d.e-]+\)$", repr(simulation.report))
 
 
 # --- threads ---

@@ -49,6 +49,7 @@ WRONG = {
     + [(0, 0, 0, 0), (0, 0, 0, 1), (3, 2, 4, 2)],
     "periodic": NO_NUMBERS + [True, 1, (True,), (True, False, True), (1, 0), ("x", "y"), (None, None), "xy", np.nan],
     "outside": [None, "Count", "drop", 1, True, [], Hostile()],
+    "units": ["px", "Data", 1, True, [], b"data", Hostile()],
     "y_up": [None, 1, 0, "yes", [], np.zeros(2), Hostile()],
     "device": [1, "cpu", object(), vorocl.Device, vorocl.devices()[0], [], Hostile()],
     "out": NO_NUMBERS[1:]
@@ -68,10 +69,11 @@ WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.
 POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "outside", "y_up", "device")
 CALLS = {
     vorocl.diagram: POINTS + ("out",),
-    vorocl.distances: POINTS + ("out",),
-    vorocl.cells: POINTS,
-    vorocl.adjacency: POINTS,
-    vorocl.vertices: POINTS,
+    vorocl.distances: POINTS + ("out", "units"),
+    vorocl.cells: POINTS + ("units",),
+    vorocl.areas: POINTS + ("units",),
+    vorocl.adjacency: POINTS + ("units",),
+    vorocl.vertices: POINTS + ("units",),
     vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),

@@ -1,20 +1,14 @@
 """VoroCL: raster Voronoi diagrams of seeds that stand still or move, in OpenCL.
 
-`diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `adjacency`, `vertices` and
-`relax` measure the diagram of points or change it; `from_mask` and `expand_labels` take images; `similarity` and
+`diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `areas`, `adjacency`, `vertices`
+and `relax` measure the diagram of points or change it; `from_mask` and `expand_labels` take images; `similarity` and
 `errors` compare labels. `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs
 that use OpenCL too.
 """
 
-try:
-    from . import _vorocl
-except ImportError as error:
-    if "libOpenCL" not in str(error):
-        raise
-    raise ImportError(
-        "VoroCL needs an OpenCL loader and a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on Debian and Ubuntu: "
-        f"apt-get install ocl-icd-libopencl1 pocl-opencl-icd): {error}"
-    ) from None
+from ._opencl import load_opencl
+
+load_opencl()  # before the first import of the extension module
 
 from ._device import Device, devices
 from ._errors import (
@@ -31,6 +25,7 @@ from ._functions import (
     NO_LABEL,
     Relaxation,
     adjacency,
+    areas,
     cells,
     diagram,
     distances,
@@ -42,6 +37,7 @@ from ._functions import (
     vertices,
 )
 from ._objects import CELL, Diagram, Seeds, Simulation
+from ._preparation import prepare
 from ._vorocl import DeviceDescription, DistanceErrors, Report
 
 __all__ = [
@@ -64,6 +60,7 @@ __all__ = [
     "Seeds",
     "Simulation",
     "adjacency",
+    "areas",
     "cells",
     "devices",
     "diagram",
@@ -71,6 +68,7 @@ __all__ = [
     "errors",
     "expand_labels",
     "from_mask",
+    "prepare",
     "relax",
     "similarity",
     "vertices",

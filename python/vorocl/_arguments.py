@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import operator
 import reprlib
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Union
+from typing import Any, Literal, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
 from ._errors import BadArgument
 
-if TYPE_CHECKING:  # numpy.typing is not needed at run time
-    from numpy.typing import ArrayLike, NDArray
-
 Shape = Tuple[int, int]
 Bounds = Tuple[float, float, float, float]
 Periodic = Union[Tuple[bool, bool], Sequence[bool]]
+Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution", "exact"]
+Metric = Literal["euclidean", "manhattan"]
+Outside = Literal["count", "absent", "refuse"]
+Units = Literal["data", "pixels"]
 
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
@@ -51,7 +53,7 @@ def to_grid(
     shape: Shape,
     periodic: Periodic,
     bounds: Optional[Bounds] = None,
-    outside: str = "count",
+    outside: Outside = "count",
     y_up: bool = False,
 ) -> _vorocl.Grid:
     """The grid of a shape (H, W), of its periodic axes (x, y), and of what it shows of the points' plane.
@@ -105,11 +107,20 @@ def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
     return x0, y0, x1, y1
 
 
-def to_outside(outside: str) -> str:
+def to_outside(outside: Outside) -> Outside:
     """What is done about points outside."""
     if not isinstance(outside, str) or outside not in ("count", "absent", "refuse"):
         raise BadArgument(f'outside must be "count", "absent" or "refuse"; this is {shown(outside)}')
     return outside
+
+
+def to_units(units: Optional[Units], are_in_data: bool) -> bool:
+    """Whether results are in the units of the data, which are not pixels if `are_in_data`."""
+    if units is None:
+        return are_in_data
+    if not isinstance(units, str) or units not in ("data", "pixels"):
+        raise BadArgument(f'units must be "data" or "pixels"; this is {shown(units)}')
+    return units == "data"
 
 
 def to_number(value: float, name: str) -> float:
@@ -130,7 +141,10 @@ def to_count(value: int, name: str) -> int:
     return count
 
 
-def to_text(value: str, name: str) -> str:
+Text = TypeVar("Text", bound=str)
+
+
+def to_text(value: Text, name: str) -> Text:
     if not isinstance(value, str) or not value.isascii():
         raise BadArgument(f"{name} must be a string of ASCII; this is {shown(value)}")
     return value

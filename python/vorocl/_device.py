@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import functools
 import sys
-from typing import TYPE_CHECKING, List, Optional
+from typing import TYPE_CHECKING, Any, List, NoReturn, Optional
 
 from . import _vorocl
 from ._arguments import to_text
 from ._errors import BadArgument
 
 if TYPE_CHECKING:
-    import pyopencl
+    from pyopencl import Buffer as Buffer, CommandQueue, Context
+else:  # which need not be installed
+    Buffer = CommandQueue = Context = Any
 
 
 def is_of_pyopencl(value: object, type_name: str) -> bool:
@@ -20,7 +22,15 @@ def is_of_pyopencl(value: object, type_name: str) -> bool:
     return module is not None and isinstance(value, getattr(module, type_name))
 
 
-class Device:
+class OnDevice:
+    """What lives on a device, and cannot be pickled."""
+
+    def __reduce__(self) -> NoReturn:
+        name = f"vorocl.{type(self).__name__}"
+        raise TypeError(f"a {name} cannot be pickled or copied: it is on a device; pass points or labels, and make it anew")
+
+
+class Device(OnDevice):
     """An OpenCL device: a context, an in-order queue and the programs built for them.
 
     Several threads may use a device at once, each with a diagram of its own.
@@ -47,7 +57,7 @@ class Device:
         self._device = _vorocl.Device.select(to_text(request, "request"))
 
     @classmethod
-    def from_pyopencl(cls, context: pyopencl.Context, queue: pyopencl.CommandQueue) -> Device:
+    def from_pyopencl(cls, context: Context, queue: CommandQueue) -> Device:
         """The device of a context and a queue of pyopencl's, which work goes to in the order of the calls.
 
         Parameters

@@ -50,4 +50,4 @@ class KernelBuildError(DeviceError):
 
 
 class FileError(Error, OSError):
-    """A file cannot be read or written: one of VOROCL_KERNEL_DIR or VOROCL_DUMP_DIR."""
+    """A file cannot be read or written: one of VOROCL_KERNEL_DIR or VOROCL_DUMP_DIR, or a binary that `prepare` keeps."""

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Optional, Tuple, cast
+import math
+from typing import Any, Optional, Tuple, cast
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
 from ._arguments import (
     Bounds,
+    Method,
+    Metric,
+    Outside,
     Periodic,
     Shape,
+    Units,
     output,
     shape_of,
     to_grid,
@@ -19,14 +25,11 @@ from ._arguments import (
     to_outside,
     to_points,
     to_text,
+    to_units,
 )
-from ._device import Device, is_of_pyopencl, to_device
+from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
 from ._errors import BadArgument
 from ._parameters import with_parameters
-
-if TYPE_CHECKING:
-    import pyopencl
-    from numpy.typing import ArrayLike, NDArray
 
 CELL = np.dtype(
     [
@@ -46,6 +49,7 @@ CELL = np.dtype(
     ],
     align=True,
 )
+"""One row of `cells` in pixels."""
 
 
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
@@ -55,7 +59,7 @@ def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
 
 
 @with_parameters
-class Seeds:
+class Seeds(OnDevice):
     """Points as seeds of a diagram, on the device: each is snapped to the pixel that holds it.
 
     A seed's id is its row. A seed may be absent: it has an id and no cell. Of seeds that share a pixel the lowest id
@@ -90,12 +94,14 @@ class Seeds:
         *,
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
-        outside: str = "count",
+        outside: Outside = "count",
         y_up: bool = False,
         device: Optional[Device] = None,
     ) -> None:
         grid = to_grid(shape, periodic, bounds, outside, y_up)
         array = to_points(points)
+        self._shape, self._periodic, self._outside, self._y_up = shape, periodic, outside, y_up
+        self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
         self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside))
 
@@ -115,19 +121,21 @@ class Seeds:
         """How many seeds are not absent."""
         return self._seeds.alive
 
-    def move_to(self, points: ArrayLike) -> int:
+    def move_to(self, points: ArrayLike, *, bounds: Optional[Bounds] = None) -> int:
         """Move the seeds to new points: a new frame. Their number may change.
 
         Parameters
         ----------
         points : array_like
             As that of the constructor, in the same units. A seed that is absent may come back.
+        bounds : (float, float, float, float), optional
+            What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
 
         Returns
         -------
         int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
-            shorter way round. Seeds that appear or vanish do not count.
+            shorter way round. Seeds that appear or vanish do not count, and none does where the bounds are others.
 
         Raises
         ------
@@ -142,23 +150,33 @@ class Seeds:
         >>> seeds.move_to([(1, 3), (5, 2)])
         2
         """
-        self._seeds.move_to(to_points(points))
+        grid = None
+        if bounds is not None:
+            grid = to_grid(self._shape, self._periodic, bounds, self._outside, self._y_up)
+        self._seeds.move_to(to_points(points), grid)
+        self._are_in_data = self._are_in_data or grid is not None
         return int(self._seeds.displacement)
 
-    def read(self) -> NDArray[np.float64]:
+    @with_parameters
+    def read(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
         """Return the centres of the seeds' pixels.
+
+        Parameters
+        ----------
+        <units>
 
         Returns
         -------
         ndarray
-            Shape (N, 2), rows (x, y) in pixels, y down; NaN for a seed that is absent.
+            Shape (N, 2), rows (x, y); NaN for a seed that is absent.
         """
+        in_pixels = not to_units(units, self._are_in_data)
         points = np.empty((len(self), 2))
-        self._seeds.read(points, in_pixels=True)
+        self._seeds.read(points, in_pixels=in_pixels)
         return points
 
 
-class Diagram:
+class Diagram(OnDevice):
     """A Voronoi diagram: an image of labels, kept on the device.
 
     It keeps its working memory, so that filling it again allocates nothing. It remembers the metric and the seeds, where
@@ -198,11 +216,12 @@ class Diagram:
         *,
         periodic: Periodic = (False, False),
         device: Optional[Device] = None,
-        labels: Optional[pyopencl.Buffer] = None,
+        labels: Optional[Buffer] = None,
     ) -> None:
         grid = to_grid(shape, periodic)
         self._shape = shape_of(grid)
         self._device = to_device(device)
+        self._are_in_data = False  # what the points of its seeds are in
         if labels is None:
             self._diagram = _vorocl.Diagram(self._device._device, grid)
         else:
@@ -224,8 +243,8 @@ class Diagram:
     def fill(
         self,
         seeds: Seeds,
-        method: str = "exact",
-        metric: str = "euclidean",
+        method: Method = "exact",
+        metric: Metric = "euclidean",
         max_displacement: Optional[float] = None,
     ) -> _vorocl.Report:
         """Give every pixel the id of its nearest seed. Enqueues the work and returns.
@@ -253,9 +272,15 @@ class Diagram:
         BadArgument, DeviceMemoryError, DeviceError
         """
         displacement = None if max_displacement is None else to_number(max_displacement, "max_displacement")
-        return self._diagram.fill(
+        report = self._diagram.fill(
             to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement
         )
+        self._are_in_data = seeds._are_in_data
+        return report
+
+    def _fill_into(self, seeds: Seeds, method: str, metric: str, labels: NDArray[np.uint32]) -> None:
+        """Fill and read at once: where the device shares the host's memory, labels are made in the array."""
+        self._diagram.fill_into(to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), labels)
 
     def read(self, out: Optional[NDArray[np.uint32]] = None) -> NDArray[np.uint32]:
         """Wait for the diagram and copy its labels.
@@ -274,7 +299,7 @@ class Diagram:
         self._diagram.read(labels)
         return labels
 
-    def write(self, labels: ArrayLike, seeds: Optional[Seeds] = None, metric: str = "euclidean") -> None:
+    def write(self, labels: ArrayLike, seeds: Optional[Seeds] = None, metric: Metric = "euclidean") -> None:
         """Write labels of the caller's, such as those that another program computed.
 
         Parameters
@@ -295,36 +320,135 @@ class Diagram:
             self._diagram.write(image)
         else:
             self._diagram.write_of(image, to_seeds(seeds), text)
+            self._are_in_data = seeds._are_in_data
 
     @property
-    def buffer(self) -> pyopencl.Buffer:
+    def buffer(self) -> Buffer:
         """The labels as a buffer of pyopencl's, without a copy: H * W uint32, row by row.
 
         They are valid for commands that are enqueued to the device's queue after `fill`.
         """
         import pyopencl
 
-        return cast("pyopencl.Buffer", pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True))
+        return cast(Buffer, pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True))
 
-    def distances(self, out: Optional[NDArray[np.float32]] = None) -> NDArray[np.float32]:
-        """Return each pixel's distance to the seed of its label: see `vorocl.distances`."""
+    def _scale(self) -> Tuple[float, Optional[float]]:
+        """The area of a pixel in the units of the points, and the length of its side; none if it is no square."""
+        corners = np.array([(0.0, 0.0), self._shape[::-1]])
+        self._diagram.to_data(corners)
+        extent_x, extent_y = (float(extent) for extent in abs(corners[1] - corners[0]))
+        height, width = self._shape
+        area = extent_x * extent_y / (width * height)
+        # To the nearest whole number of pixels.
+        is_square = (
+            abs(height - max(1.0, width * extent_y / extent_x)) <= 0.5
+            or abs(width - max(1.0, height * extent_x / extent_y)) <= 0.5
+        )
+        return area, math.sqrt(area) if is_square else None
+
+    def _length(self) -> float:
+        """The length of a pixel's side in the units of the points."""
+        length = self._scale()[1]
+        if length is None:
+            raise BadArgument(
+                'pixels are no squares in the units of the bounds, so lengths have no scale: give units="pixels", or a '
+                "shape like that of the bounds"
+            )
+        return length
+
+    @with_parameters
+    def distances(
+        self, out: Optional[NDArray[np.float32]] = None, *, units: Optional[Units] = None
+    ) -> NDArray[np.float32]:
+        """Return each pixel's distance to the seed of its label: see `vorocl.distances`.
+
+        Parameters
+        ----------
+        out : ndarray, optional
+            Where they go: float32 of the diagram's shape, C-contiguous. Without it, a new array.
+        <units>
+        """
+        length = self._length() if to_units(units, self._are_in_data) else 1
         values = output(out, self._shape, np.float32)
         self._diagram.distances(values)
+        if length != 1:
+            values *= np.float32(length)
         return values
 
-    def cells(self) -> NDArray[Any]:
-        """Measure every cell: see `vorocl.cells`."""
+    @with_parameters
+    def cells(self, *, units: Optional[Units] = None) -> NDArray[Any]:
+        """Measure every cell: see `vorocl.cells`.
+
+        Parameters
+        ----------
+        <units>
+        """
+        in_data = to_units(units, self._are_in_data)
         rows = self._diagram.cells()
-        return rows.view(CELL).reshape(len(rows))
+        cells = rows.view(CELL).reshape(len(rows))
+        return self._in_data(cells) if in_data else cells
 
-    def adjacency(self) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-        """Find the cells that touch: see `vorocl.adjacency`."""
+    def _in_data(self, cells: NDArray[Any]) -> NDArray[Any]:
+        """Rows of cells in pixels, in the units of the points."""
+        area, length = self._scale()
+        lengths = ("perimeter", "largest_distance")
+        kept = ("neighbours", "touches_border")
+        types = [
+            (name + "_px" if name in lengths and length is None else name, CELL[name] if name in kept else np.float64)
+            for name in CELL.names or ()
+        ]
+        result = np.empty(len(cells), np.dtype(types, align=True))
+        for name in kept:
+            result[name] = cells[name]
+        result["area"] = cells["area"] * area
+        for name in lengths:
+            result[name if length is not None else name + "_px"] = cells[name] * (length or 1)
+        is_empty = cells["area"] == 0
+        for x, y, edge in ("x", "y", 0), ("centroid_x", "centroid_y", 0), ("left", "top", 0), ("right", "bottom", 1):
+            places = np.column_stack([cells[x], cells[y]]).astype(np.float64) + edge
+            if x in ("left", "right"):
+                places[is_empty] = np.nan
+            self._diagram.to_data(places)
+            result[x], result[y] = places.T
+        return result
+
+    @with_parameters
+    def areas(self, *, units: Optional[Units] = None) -> NDArray[Any]:
+        """Measure the areas of the cells and nothing else: see `vorocl.areas`.
+
+        Parameters
+        ----------
+        <units>
+        """
+        in_data = to_units(units, self._are_in_data)
+        pixels = self._diagram.areas()[:, 0]
+        return pixels * self._scale()[0] if in_data else pixels
+
+    @with_parameters
+    def adjacency(self, *, units: Optional[Units] = None) -> Tuple[NDArray[np.uint32], NDArray[Any]]:
+        """Find the cells that touch: see `vorocl.adjacency`.
+
+        Parameters
+        ----------
+        <units>
+        """
+        length = self._length() if to_units(units, self._are_in_data) else None
         rows = self._diagram.adjacency()
-        return rows[:, :2], rows[:, 2]
+        return rows[:, :2], rows[:, 2] if length is None else rows[:, 2] * length
 
-    def vertices(self) -> NDArray[np.float64]:
-        """Find the pixel corners where three or more cells meet: see `vorocl.vertices`."""
-        return self._diagram.vertices()
+    @with_parameters
+    def vertices(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
+        """Find the pixel corners where three or more cells meet: see `vorocl.vertices`.
+
+        Parameters
+        ----------
+        <units>
+        """
+        in_data = to_units(units, self._are_in_data)
+        corners = self._diagram.vertices()
+        if in_data:
+            self._diagram.to_data(corners)
+        return corners
 
     def count_vertices(self) -> int:
         """Count the pixel corners where three or more cells meet, on the device."""
@@ -335,21 +459,21 @@ class Diagram:
         return self._diagram.errors()
 
 
-def _handle(buffer: pyopencl.Buffer) -> int:
+def _handle(buffer: Buffer) -> int:
     if not is_of_pyopencl(buffer, "MemoryObjectHolder"):
         raise BadArgument(f"labels must be a pyopencl.Buffer; this is of type {type(buffer).__name__}")
     return int(buffer.int_ptr)
 
 
 @with_parameters
-class Simulation:
+class Simulation(OnDevice):
     """Seeds that move, and their diagram frame by frame. Nothing is allocated on the device after the first frame.
 
     Parameters
     ----------
     <shape>
     method : str, optional
-        As that of `Diagram.fill`. "djfa" goes on from the last frame.
+        As that of `Diagram.fill`. "djfa" goes on from the last frame; "exact" is faster, and right.
     <metric, bounds, periodic, outside, y_up, device>
 
     Attributes
@@ -365,7 +489,7 @@ class Simulation:
     --------
     >>> import numpy as np, vorocl
     >>> points = np.random.default_rng(1).uniform(10, 54, (100, 2))
-    >>> simulation = vorocl.Simulation((64, 64), method="exact")
+    >>> simulation = vorocl.Simulation((64, 64))
     >>> labels = np.empty((64, 64), np.uint32)
     >>> for frame in range(3):
     ...     _ = simulation.step(points + frame).read(out=labels)
@@ -377,11 +501,11 @@ class Simulation:
         self,
         shape: Shape,
         *,
-        method: str = "djfa",
-        metric: str = "euclidean",
+        method: Method = "exact",
+        metric: Metric = "euclidean",
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
-        outside: str = "count",
+        outside: Outside = "count",
         y_up: bool = False,
         device: Optional[Device] = None,
     ) -> None:
@@ -392,13 +516,18 @@ class Simulation:
         )
         self.report: Optional[_vorocl.Report] = None
 
-    def step(self, points: ArrayLike) -> Diagram:
+    def __repr__(self) -> str:
+        return f"<vorocl.Simulation of {len(self.seeds)} points, method {self._method}, of the shape {self.diagram.shape}>"
+
+    def step(self, points: ArrayLike, *, bounds: Optional[Bounds] = None) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
 
         Parameters
         ----------
         points : array_like
             As that of `Seeds`. Seeds may appear and vanish.
+        bounds : (float, float, float, float), optional
+            What the grid shows from this frame on, such as a box that changes. Without it, what it showed.
 
         Returns
         -------
@@ -411,6 +540,6 @@ class Simulation:
             The frame counts as not made then.
         BadArgument, DeviceMemoryError, DeviceError
         """
-        self.seeds.move_to(points)
+        self.seeds.move_to(points, bounds=bounds)
         self.report = self.diagram.fill(self.seeds, self._method, self._metric)
         return self.diagram

@@ -38,6 +38,10 @@ outside : {"count", "absent", "refuse"}, optional
     "y_up": """\
 y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then.""",
+    "units": """\
+units : {"data", "pixels"}, optional
+    What results are in: the units of the points, or pixels, x to the right and y down. Without it, the units of the
+    points; without `bounds` these are pixels, down or up by `y_up`.""",
     "device": """\
 device : Device, optional
     Without it, ``Device()``.""",

@@ -39,7 +39,33 @@ DiagramState::DiagramState(const Device& device_of_diagram, const Window& window
       window(window_of_diagram),
       grid(window_of_diagram),
       labels(label_image),
+      own_labels_(label_image),
       held_(bytes_of(grid)) {}
+
+DiagramState::~DiagramState() { leave_host(); }
+
+void DiagramState::leave_host() noexcept {
+  if (host_ == nullptr) return;
+  try {
+    device.finish();
+  } catch (const Error&) {  // of commands whose callers hear of it where they wait
+  }
+  labels = cl::Buffer();
+  host_ = nullptr;
+}
+
+void DiagramState::put_labels_at(std::uint32_t* memory) {
+  contents.reset();
+  ++*fills;
+  leave_host();
+  if (memory != nullptr && shares_memory(device)) {
+    labels = buffer_at(device, memory, bytes_of(grid), "the label image");
+    host_ = memory;
+  } else {
+    if (own_labels_() == nullptr) own_labels_ = allocate(device, bytes_of(grid), "the label image");
+    labels = own_labels_;
+  }
+}
 
 void DiagramState::reserve(cl::Buffer& buffer, std::size_t bytes) {
   const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
@@ -80,7 +106,9 @@ void DiagramState::wait() {
 }
 
 void DiagramState::read(std::uint32_t* to) {
-  wait_and([&] { download(device, labels, grid.pixels(), to); });
+  wait_and([&] {
+    to == host_ ? synchronise(device, labels, bytes_of(grid)) : download(device, labels, grid.pixels(), to);
+  });
 }
 
 Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char* method)
@@ -106,7 +134,7 @@ Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last,
   next_.last = last;
   next_.age = age;
   diagram_.contents = next_;
-  return Internal::report(waves, first, last, stopwatch_.milliseconds(), start);
+  return Internal::report(waves, first, last, stopwatch_.milliseconds(), first_launches_.take(), start);
 }
 
 // --- Diagram ---
@@ -121,6 +149,12 @@ Diagram::Diagram(const Device& device, const Window& window, const cl::Buffer& l
   check_foreign_buffer(device, labels, bytes_of(PixelGrid(window)), "the buffer of labels",
                        Access::read_and_write);
   state_ = std::make_unique<DiagramState>(device, window, labels);
+}
+
+Diagram::Diagram(const Device& device, const Window& window, std::uint32_t* labels) {
+  if (labels == nullptr) throw Error("the host's memory for labels is null");
+  state_ = std::make_unique<DiagramState>(device, window, cl::Buffer());
+  state_->put_labels_at(labels);
 }
 
 Diagram::~Diagram() = default;
@@ -209,6 +243,8 @@ std::vector<std::uint32_t> Diagram::read() const {
 }
 
 void Diagram::read(std::uint32_t* labels) const { state().read(labels); }
+
+void Diagram::put_labels_at(std::uint32_t* labels) { state().put_labels_at(labels); }
 
 void Diagram::wait() const { state().wait(); }
 

@@ -30,6 +30,13 @@ struct DiagramContents {
 
 struct DiagramState {
   DiagramState(const Device& device, const Window& window, const cl::Buffer& labels);
+  ~DiagramState();
+  DiagramState(const DiagramState&) = delete;
+  DiagramState& operator=(const DiagramState&) = delete;
+
+  /// Where the labels are from now on: in the host's memory, or, if that is null or the device has another
+  /// memory, in the device's. The diagram counts as never filled.
+  void put_labels_at(std::uint32_t* memory);
 
   Device device;
   Window window;
@@ -69,7 +76,12 @@ struct DiagramState {
   template <typename Then>
   void wait_and(Then then);
 
-  std::size_t held_;  // bytes of the labels and of all workspaces
+  /// Waits, because the device may still write to memory that is the caller's to free.
+  void leave_host() noexcept;
+
+  cl::Buffer own_labels_;          // where they are when they are not in the host's memory
+  std::uint32_t* host_ = nullptr;  // where they are there
+  std::size_t held_;               // bytes of the labels and of all workspaces
   std::map<std::type_index, std::shared_ptr<void>> workspaces_;
 };
 
@@ -101,6 +113,7 @@ class Filling {
 
  private:
   Stopwatch stopwatch_;
+  FirstLaunches first_launches_;
   DiagramState& diagram_;
   std::optional<DiagramContents> previous_;
   DiagramContents next_;

@@ -95,8 +95,9 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   SeedsState& state = seeds.state();
   const std::shared_ptr<cl::Buffer> positions = state.room_for_positions(count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
-  Kernel(device, "core/seeds.cl", "random_positions", pixels)
-      .over_items(count + 1, *positions, static_cast<cl_uint>(count), pixels.width(), pixels.height(), key);
+  Kernel kernel(device, "core/seeds.cl", "random_positions", pixels);
+  kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
+                    pixels.width(), pixels.height(), key);
   state.place_on_device(count, positions);
   // Where kernels cannot go round the ends themselves, the host places the images.
   if (!kernels_go_round(grid, pixels)) {

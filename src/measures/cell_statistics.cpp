@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "measures/cell_sums.hpp"
 #include "runtime/buffer.hpp"
@@ -14,8 +15,8 @@ std::size_t items_of(std::size_t cells) { return (cells + cells_per_item - 1) / 
 }  // namespace
 
 struct CellStatisticsState : Measured {
-  cl::Buffer partial;   // see cells.cl
-  CellSumsResult sums;  // of a diagram that was not summed before
+  cl::Buffer partial;                // see cells.cl
+  cl::Buffer area, home, home_area;  // of a diagram that was not summed before
 };
 
 CellStatisticsResult::CellStatisticsResult() = default;
@@ -24,6 +25,28 @@ CellStatisticsResult::CellStatisticsResult(CellStatisticsResult&& other) noexcep
 CellStatisticsResult& CellStatisticsResult::operator=(CellStatisticsResult&& other) noexcept = default;
 
 namespace {
+
+/// Leaves the areas of all cells. Returns the first command.
+cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& labels) {
+  const cl_uint count = of.count();
+  make_room(statistics.area, of.device, count * sizeof(cl_uint));
+  make_room(statistics.home, of.device, count * sizeof(cl_ushort));
+  make_room(statistics.home_area, of.device, count * sizeof(cl_ushort));
+  const char* const file = "measures/cells.cl";
+  const KernelOptions options = of.options_without_metric();
+  const Blocks blocks(of.device, of.grid);
+  const int width = of.grid.width(), height = of.grid.height(), wide = blocks.wide(), high = blocks.high();
+  const auto run_over_cells = [&](const char* name, const auto&... arguments) {
+    return statistics.kernels.get(of.device, file, name, of.grid, options).over_items(count, arguments...);
+  };
+  const cl::Event first = run_over_cells("clear_areas", of.positions(), count, width, height, wide, high,
+                                         statistics.area, statistics.home, statistics.home_area);
+  const cl::Event added =
+      blocks.run(statistics.kernels, file, "add_areas", options, labels, count, width, height, wide, high,
+                 statistics.area, statistics.home, statistics.home_area);
+  run_over_cells("join_areas", of.positions(), count, statistics.area, statistics.home_area);
+  return count > 0 ? first : added;
+}
 
 cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& areas) {
   const std::size_t items = items_of(of.count());
@@ -39,10 +62,10 @@ cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
 Report cell_statistics(const Diagram& diagram, CellStatisticsResult& result) {
   Measuring<CellStatisticsState> measuring(result);
   CellStatisticsState& statistics = measuring.state();
-  const Report summed = cell_sums(diagram, statistics.sums);
-  const cl::Event last = sum_areas(statistics, cells_of(diagram), statistics.sums.area());
-  return measuring.commit(cells_of(diagram), Internal::first(summed),
-                          last() != nullptr ? last : summed.event());
+  MeasuredDiagram of = cells_of(diagram);
+  const cl::Event first = add_areas(statistics, of, diagram.labels());
+  const cl::Event last = sum_areas(statistics, of, statistics.area);
+  return measuring.commit(std::move(of), first, last() != nullptr ? last : first);
 }
 
 Report cell_statistics(const CellSumsResult& sums, CellStatisticsResult& result) {

@@ -80,11 +80,12 @@ class Measuring {
   Report commit(MeasuredDiagram&& of, const cl::Event& first, const cl::Event& last) {
     check(clFlush(of.device.queue()()), "starting a measurement");
     state_.of = std::move(of);
-    return Internal::report(0, first, last, stopwatch_.milliseconds());
+    return Internal::report(0, first, last, stopwatch_.milliseconds(), first_launches_.take());
   }
 
  private:
   Stopwatch stopwatch_;
+  FirstLaunches first_launches_;
   State& state_;
 };
 

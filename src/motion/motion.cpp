@@ -17,10 +17,12 @@ void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_
   const PixelGrid grid{Window(state.grid())};
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
   const bool periodic = border == Border::periodic;
-  state.kernels.get(state.device, "motion/motion.cl", "random_step", grid)
-      .over_items(state.size(), *positions, static_cast<cl_uint>(state.size()), grid.width(), grid.height(),
-                  cl_int{max_displacement}, cl_int{periodic || grid.periodic_x()},
-                  cl_int{periodic || grid.periodic_y()}, cl_uint{frame}, key);
+  Kernel& kernel = state.kernels.get(state.device, "motion/motion.cl", "random_step", grid);
+  const std::size_t width = kernel.vector_width();
+  kernel.over_items((state.size() + width - 1) / width, *positions, static_cast<cl_uint>(state.size()),
+                    grid.width(), grid.height(), cl_int{max_displacement},
+                    cl_int{periodic || grid.periodic_x()}, cl_int{periodic || grid.periodic_y()},
+                    cl_uint{frame}, key);
   state.moved(positions, max_displacement);
 }
 

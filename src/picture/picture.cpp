@@ -78,10 +78,15 @@ cv::Mat color_by_label(const std::vector<std::uint32_t>& labels, const Window& w
   return picture;
 }
 
+template <typename T>
+T entry_of(std::uint32_t label, const std::vector<T>& entries, const char* name) {
+  if (label < entries.size()) return entries[label];
+  throw Error("the label " + std::to_string(label) + " has no " + name + "; there are " +
+              std::to_string(entries.size()));
+}
+
 double value_of(std::uint32_t label, const std::vector<double>& values) {
-  if (label < values.size()) return values[label];
-  throw Error("the label " + std::to_string(label) + " has no value; there are " +
-              std::to_string(values.size()));
+  return entry_of(label, values, "value");
 }
 
 /// The range of the finite values that it is given.
@@ -203,6 +208,12 @@ cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& wind
 cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window, Palette palette) {
   if (!is_categorical(palette)) throw Error("ids are coloured by a categorical palette, such as okabe_ito");
   return color_by_label(labels, window, categorical_color);
+}
+
+cv::Mat color_by_seed(const std::vector<std::uint32_t>& labels, const Window& window,
+                      const std::vector<cv::Vec3b>& colors) {
+  return color_by_label(labels, window,
+                        [&colors](std::uint32_t label) { return entry_of(label, colors, "colour"); });
 }
 
 cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Window& window,

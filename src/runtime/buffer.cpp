@@ -52,6 +52,23 @@ cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std:
   return make_buffer(device, CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR, bytes, purpose, 0);
 }
 
+bool shares_memory(const Device& device) {
+  return device_info<cl_bool>(device.cl_device()(), CL_DEVICE_HOST_UNIFIED_MEMORY) == CL_TRUE;
+}
+
+cl::Buffer buffer_at(const Device& device, void* memory, std::size_t bytes, const std::string& purpose) {
+  return make_buffer(device, CL_MEM_READ_WRITE | CL_MEM_USE_HOST_PTR, bytes, purpose, 0, memory);
+}
+
+void synchronise(const Device& device, const cl::Buffer& buffer, std::size_t bytes) {
+  cl_int code = CL_SUCCESS;
+  const cl::CommandQueue& queue = device.queue();
+  void* const mapped =
+      clEnqueueMapBuffer(queue(), buffer(), CL_TRUE, CL_MAP_READ, 0, bytes, 0, nullptr, nullptr, &code);
+  check(code, "mapping a buffer");
+  check(clEnqueueUnmapMemObject(queue(), buffer(), mapped, 0, nullptr, nullptr), "unmapping a buffer");
+}
+
 cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes) {
   cl::Event event;
   check(clEnqueueCopyBuffer(device.queue()(), from(), to(), 0, 0, bytes, 0, nullptr, &event()),

@@ -30,6 +30,14 @@ cl::Buffer allocate_with(const Device& device, const std::vector<T>& values, con
 /// As above, where the host can map it without a copy.
 cl::Buffer allocate_mappable(const Device& device, std::size_t bytes, const std::string& purpose);
 
+/// Whether kernels and the host work in the same memory.
+bool shares_memory(const Device& device);
+
+/// A buffer in the host's memory, which must stay there until its last command is done. What is there counts
+/// for nothing; what kernels wrote is there once synchronise() was called.
+cl::Buffer buffer_at(const Device& device, void* memory, std::size_t bytes, const std::string& purpose);
+void synchronise(const Device& device, const cl::Buffer& buffer, std::size_t bytes);
+
 /// What the caller's buffer is for.
 enum class Access { read, read_and_write };
 

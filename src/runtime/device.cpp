@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/device_state.hpp"
+#include "runtime/first_launches.hpp"
 #include "runtime/opencl_info.hpp"
 #include "runtime/process.hpp"
 
@@ -136,8 +137,7 @@ std::optional<Candidate> choose(const std::vector<Candidate>& candidates, const 
 }
 
 std::string effective_request(const std::string& request) {
-  const char* const variable = std::getenv("VOROCL_DEVICE");
-  return request.empty() && variable != nullptr ? variable : request;
+  return request.empty() ? environment("VOROCL_DEVICE") : request;
 }
 
 /// "0:0 Portable Computing Language: pthread-...; 1:0 ..."
@@ -168,10 +168,7 @@ std::string installed_drivers() {
 
 /// The folder where PoCL keeps what it has built, as far as the environment says it; empty: it does not.
 std::filesystem::path cache_of_pocl() {
-  const auto variable = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return std::filesystem::path(value == nullptr ? "" : value);
-  };
+  const auto variable = [](const char* name) { return std::filesystem::path(environment(name)); };
   if (auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
   if (auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
   const auto home = variable("HOME");
@@ -236,6 +233,7 @@ void DeviceState::enqueued(const cl::Event& command) {
   cl::Event older;
   {
     const std::lock_guard<std::mutex> lock(flight_mutex_);
+    last_ = command;
     if (++commands_ < batch) return;
     commands_ = 0;
     older = end_of_batch_;
@@ -246,6 +244,16 @@ void DeviceState::enqueued(const cl::Event& command) {
   check(clWaitForEvents(1, &older()), "waiting for earlier commands");
   milliseconds_waited() +=
       std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void DeviceState::launched(const LaunchKind& kind, const cl::Event& launch) {
+  cl::Event before;
+  {
+    const std::lock_guard<std::mutex> lock(flight_mutex_);
+    if (kinds_.insert(kind).second) before = last_;
+  }
+  if (before() != nullptr) FirstLaunches::add(before, launch);
+  enqueued(launch);
 }
 
 double& DeviceState::milliseconds_waited() {
@@ -319,6 +327,11 @@ std::string Device::driver_version() const {
 std::string Device::platform_name() const {
   const auto platform = device_info<cl_platform_id>(cl_device()(), CL_DEVICE_PLATFORM);
   return info<std::string>(clGetPlatformInfo, platform, CL_PLATFORM_NAME);
+}
+
+void Device::on_compiling(const std::function<void()>& notice) const {
+  const std::lock_guard<std::mutex> lock(state_->programs_mutex);
+  state_->on_compiling = notice;
 }
 
 Device Device::with_tuning(const Tuning& tuning) const {

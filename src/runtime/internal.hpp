@@ -2,7 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <utility>
+#include <vector>
 
+#include "runtime/first_launches.hpp"
 #include "runtime/process.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
@@ -19,12 +22,9 @@ struct Internal {
   static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
 
   static Report report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
-                       const FloodStart& start = {}) {
-    return {waves, first, last, host_milliseconds, start, process_number()};
+                       std::vector<FirstLaunch>&& first_launches, const FloodStart& start = {}) {
+    return {waves, first, last, host_milliseconds, start, std::move(first_launches), process_number()};
   }
-
-  /// The first command of what a report is of.
-  static const cl::Event& first(const Report& report) { return report.first_; }
 
   /// Seeds of which there are none yet: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);

@@ -39,12 +39,6 @@ std::size_t round_up(std::size_t count, std::size_t multiple) {
   return (count + multiple - 1) / multiple * multiple;
 }
 
-/// The wanted size, halved while that still covers the count: a small launch needs no large group.
-std::size_t group_size(std::size_t wanted, std::size_t count) {
-  while (wanted % 2 == 0 && wanted / 2 >= count) wanted /= 2;
-  return wanted;
-}
-
 }  // namespace
 
 Kernel::Kernel(const Device& device, const char* file, const char* name, const PixelGrid& grid,
@@ -55,9 +49,9 @@ Kernel::Kernel(const Device& device, const char* file, const char* name, const P
       grid_(grid),
       options_(options),
       vector_width_(vector_width_for(device, grid)) {
-  const cl::Program program = program_for(device, file, build_options(vector_width_, grid, options));
+  program_ = program_for(device, file, build_options(vector_width_, grid, options))();
   cl_int code = CL_SUCCESS;
-  kernel_ = cl::Kernel(clCreateKernel(program(), name, &code));
+  kernel_ = cl::Kernel(clCreateKernel(program_, name, &code));
   check(code, [&] { return "making the kernel " + std::string(name_); });
 }
 
@@ -81,15 +75,14 @@ cl::Event Kernel::enqueue_over_grid() {
   const auto width = static_cast<std::size_t>(vector_width_);
   const std::size_t vectors = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
   const auto rows = static_cast<std::size_t>(grid_.height());
-  const std::size_t local[] = {group_size(tuning.group_width, vectors),
-                               group_size(tuning.group_height, rows)};
+  const std::size_t local[] = {tuning.group_width, tuning.group_height};
   const std::size_t global[] = {round_up(vectors, local[0]), round_up(rows, local[1])};
   return enqueue(2, global, local);
 }
 
 cl::Event Kernel::enqueue_over_items(std::size_t count) {
   const std::size_t usual = device_.tuning().group_width * device_.tuning().group_height;
-  const std::size_t local = group_ != 0 ? group_ : group_size(usual, count);
+  const std::size_t local = group_ != 0 ? group_ : usual;
   const std::size_t global = round_up(count, local);
   return enqueue(1, &global, &local);
 }
@@ -99,8 +92,22 @@ cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const s
   check(clEnqueueNDRangeKernel(device_.queue()(), kernel_(), dimensions, nullptr, global, local, 0, nullptr,
                                &event()),
         [&] { return "launching " + std::string(name_) + " on " + device_.name(); });
-  Internal::state(device_).enqueued(event);
+  note_launch(event, dimensions, global, local);
   return event;
+}
+
+void Kernel::note_launch(const cl::Event& event, cl_uint dimensions, const std::size_t* global,
+                         const std::size_t* local) {
+  // PoCL compiles a kernel for each size of groups, and apart for launches that are long along some axis.
+  constexpr std::size_t is_long = 0xffff;
+  LaunchKind kind = {program_, name_, {local[0], 1}, global[0] >= is_long};
+  if (dimensions > 1) {
+    kind.group[1] = local[1];
+    kind.is_long = kind.is_long || global[1] >= is_long;
+  }
+  DeviceState& state = Internal::state(device_);
+  kind == last_kind_ ? state.enqueued(event) : state.launched(kind, event);
+  last_kind_ = kind;
 }
 
 bool Kernel::is_for(const Device& device, const PixelGrid& grid) const {

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "runtime/device_state.hpp"
 #include "runtime/opencl_error.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/device.hpp"
@@ -99,15 +100,19 @@ class Kernel {
   cl::Event enqueue_over_grid();
   cl::Event enqueue_over_items(std::size_t count);
   cl::Event enqueue(cl_uint dimensions, const std::size_t* global, const std::size_t* local);
+  void note_launch(const cl::Event& event, cl_uint dimensions, const std::size_t* global,
+                   const std::size_t* local);
 
   Device device_;
   const char* file_;
   const char* name_;
   PixelGrid grid_;
   KernelOptions options_;
-  int vector_width_;       // pixels that one work-item computes
-  std::size_t group_ = 0;  // work-items of a group over items; 0: the usual ones, less for few items
+  int vector_width_;              // pixels that one work-item computes
+  std::size_t group_ = 0;         // work-items of a group over items; 0: the usual ones
+  cl_program program_ = nullptr;  // which the device keeps
   cl::Kernel kernel_;
+  LaunchKind last_kind_;
   std::vector<Number> numbers_;  // by the index of the argument
 };
 

@@ -1,20 +1,32 @@
 #include "runtime/process.hpp"
 
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <system_error>
 
 #include "vorocl/error.hpp"
 
-#if defined(__unix__) || defined(__APPLE__)
+#if VOROCL_IS_UNIX
 #include <sys/resource.h>
 #include <unistd.h>
-#define VOROCL_IS_UNIX 1
-#else
-#define VOROCL_IS_UNIX 0
 #endif
 
 namespace vorocl {
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string processor_features() {
+  std::ifstream processors("/proc/cpuinfo");
+  for (std::string line; std::getline(processors, line);) {  // x86, and Arm
+    if (line.compare(0, 5, "flags") == 0 || line.compare(0, 8, "Features") == 0) return line;
+  }
+  return "";
+}
 
 #if VOROCL_IS_UNIX
 

@@ -5,7 +5,16 @@
 #include <optional>
 #include <string>
 
+#if defined(__unix__) || defined(__APPLE__)
+#define VOROCL_IS_UNIX 1
+#else
+#define VOROCL_IS_UNIX 0
+#endif
+
 namespace vorocl {
+
+/// A variable of the environment; empty where it is not set.
+std::string environment(const char* name);
 
 /// A number that a forked child does not share with its parent; always 0 where nothing forks.
 std::int64_t process_number();
@@ -16,6 +25,10 @@ void refuse_fork_of(std::int64_t process);
 
 /// The most bytes of addresses that the process may have; none: as many as there are.
 std::optional<std::uint64_t> address_space_limit();
+
+/// The features of the processor that programs may be compiled for, in any form; empty where nothing says
+/// them.
+std::string processor_features();
 
 /// Makes the folder if it is not there. Why files cannot be written there; empty if they can.
 std::string why_not_writable(const std::string& folder);

@@ -1,25 +1,22 @@
 #include "runtime/program.hpp"
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <set>
 #include <sstream>
+#include <utility>
 
+#include "runtime/binary_cache.hpp"
 #include "runtime/device_state.hpp"
 #include "runtime/kernel_sources.hpp"
 #include "runtime/opencl_info.hpp"
+#include "runtime/stopwatch.hpp"
 
 namespace vorocl {
 
 namespace {
-
-std::string environment(const char* name) {
-  const char* const value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
 
 /// The text of a kernel file: the embedded one, or that in the folder that VOROCL_KERNEL_DIR names.
 std::string source_of(const std::string& file) {
@@ -87,10 +84,21 @@ std::string binary_of(const cl::Program& program) {
   return binary;
 }
 
-cl::Program build(const Device& device, const std::string& file, const std::string& options) {
-  const std::string source = with_includes(file, source_of(file));
-  const std::string name = dump_name(device, file, options);
-  dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
+/// The program from a binary that was kept; null unless the driver takes it.
+cl::Program from_binary(const Device& device, const std::string& binary, const std::string& options) {
+  const auto* bytes = reinterpret_cast<const unsigned char*>(binary.data());
+  const std::size_t size = binary.size();
+  const cl_device_id id = device.cl_device()();
+  cl_int code = CL_SUCCESS, status = CL_SUCCESS;
+  cl::Program program(clCreateProgramWithBinary(device.context()(), 1, &id, &size, &bytes, &status, &code));
+  const bool is_taken = code == CL_SUCCESS && status == CL_SUCCESS &&
+                        clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr) == CL_SUCCESS;
+  return is_taken ? program : cl::Program();
+}
+
+cl::Program from_source(const Device& device, const std::string& file, const std::string& source,
+                        const std::string& options) {
+  const Stopwatch stopwatch;
   const char* text = source.c_str();
   const cl_device_id id = device.cl_device()();
   cl_int code = CL_SUCCESS;
@@ -107,8 +115,24 @@ cl::Program build(const Device& device, const std::string& file, const std::stri
                 ErrorKind::kernel_build);
   }
   check(code, what.c_str());
-  dump(name + ".bin", [&] { return binary_of(program); });
+  constexpr double of_a_compiler = 100;  // a driver that has the program needs 40 ms at most
+  std::function<void()>& notice = Internal::state(device).on_compiling;
+  if (notice && stopwatch.milliseconds() > of_a_compiler) std::exchange(notice, nullptr)();
   return program;
+}
+
+BuiltProgram build(const Device& device, const std::string& file, const std::string& options) {
+  const std::string source = with_includes(file, source_of(file));
+  const std::string name = dump_name(device, file, options);
+  dump(name + ".cl", [&] { return "// " + device.name() + ": " + options + '\n' + source; });
+  BuiltProgram built;
+  built.binary_key = binary_key(device, source, options);
+  if (const std::optional<std::string> binary = kept_binary(built.binary_key))
+    built.program = from_binary(device, *binary, options);
+  built.is_kept = built.program() != nullptr;
+  if (!built.is_kept) built.program = from_source(device, file, source, options);
+  dump(name + ".bin", [&] { return binary_of(built.program); });
+  return built;
 }
 
 }  // namespace
@@ -126,10 +150,23 @@ cl::Program program_for(const Device& device, const std::string& file, const std
   const std::string all = state.build_options.empty() ? options : options + ' ' + state.build_options;
   const std::string key = file + ' ' + all;
   const auto found = state.programs.find(key);
-  if (found != state.programs.end()) return found->second;
+  if (found != state.programs.end()) return found->second.program;
   const std::string more = environment("VOROCL_BUILD_OPTIONS");
-  cl::Program program = build(device, file, more.empty() ? all : all + ' ' + more);
-  return state.programs.emplace(key, program).first->second;
+  const BuiltProgram built = build(device, file, more.empty() ? all : all + ' ' + more);
+  return state.programs.emplace(key, built).first->second.program;
+}
+
+std::size_t keep_programs(const Device& device) {
+  DeviceState& state = Internal::state(device);
+  const std::lock_guard<std::mutex> lock(state.programs_mutex);
+  std::size_t count = 0;
+  for (auto& [key, built] : state.programs) {
+    if (built.binary_key.empty()) continue;
+    built.is_kept ? use_binary(built.binary_key) : keep_binary(built.binary_key, binary_of(built.program));
+    built.is_kept = true;
+    ++count;
+  }
+  return count;
 }
 
 }  // namespace vorocl

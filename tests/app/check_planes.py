@@ -44,6 +44,7 @@ def check_place(options, crs, transform, corner):
     assert numpy.allclose(image.GetGeoTransform(), transform, rtol=1e-12), image.GetGeoTransform()
     assert image.GetSpatialRef().GetAuthorityCode(None) == str(crs), image.GetProjection()
     assert image.GetMetadataItem("AREA_OR_POINT") == "Area"
+    assert image.GetRasterBand(1).GetNoDataValue() == 0xFFFFFFFF
     assert image.ReadAsArray()[0, 0] == corner
 
 

@@ -97,10 +97,36 @@ BOOST_AUTO_TEST_CASE(a_whole_period_is_measured_across_its_ends_wherever_seeds_a
   folder.file("p.csv", text);
   run(folder,
       "cells --points p.csv --bounds 0,0,60,40 --size 60x40 --periodic x --cells c.csv --adjacency a.csv "
-      "--labels l.npy");
+      "--labels l.npy --units px");
   const LabelledGrid image = on_grid(command::read_labels(folder / "l.npy"), Periodic::x);
   check_cells_table(folder / "c.csv", image, seeds, Metric::euclidean);
   check_adjacency_table(folder / "a.csv", image);
+}
+
+BOOST_AUTO_TEST_CASE(columns_can_be_chosen) {
+  const TemporaryFolder folder;
+  const std::string cells = "cells --random 30 --size 40x30 --method jfa --cells ";
+  succeeds(folder, cells + "all.csv");
+  succeeds(folder, cells + "some.csv --cell-columns neighbours,id,largest_distance,centroid_y");
+  succeeds(folder,
+           "simulate --random 30 --size 40x30 --frames 1 --step-length 1 --method jfa --cells t.csv "
+           "--cell-columns area");
+  const Table all = read_table(folder / "all.csv"), some = read_table(folder / "some.csv");
+  BOOST_TEST(some.header == "neighbours,id,largest_distance,centroid_y");
+  BOOST_TEST_REQUIRE(some.rows.size() == all.rows.size());
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const TableRow& row = all.rows[i];
+    BOOST_TEST((some.rows[i] == TableRow{row[11], row[0], row[12], row[5]}));
+  }
+  const Table frames = read_table(folder / "t.csv");
+  BOOST_TEST(frames.header == "frame,timestep,area");
+  BOOST_TEST(*frames.rows.at(0).at(2) == *all.rows.at(0).at(3));
+
+  refuses(folder, cells + "a.csv --cell-columns id,neighbors", usage,
+          {"did you mean neighbours? there are id, x, y"});
+  refuses(folder, cells + "a.csv --cell-columns id,id", usage, {"\"id\" is given twice"});
+  refuses(folder, "cells --random 30 --size 40x30 --cell-columns id", usage,
+          {"--cell-columns requires --cells"});
 }
 
 BOOST_AUTO_TEST_CASE(cities_some_of_which_share_a_pixel) {

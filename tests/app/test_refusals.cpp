@@ -218,9 +218,17 @@ BOOST_AUTO_TEST_CASE(compare_refuses_what_it_cannot_use) {
 
 BOOST_AUTO_TEST_CASE(what_is_unknown_is_told_where_the_help_is) {
   const TemporaryFolder folder;
-  refuses(folder, "rendr", usage, {"rendr; see vorocl --help\n"});
-  refuses(folder, "render --random 5 --size 9x9 --colour", usage, {"--colour; see vorocl render --help\n"});
-  refuses(folder, "vorocl-study evaluat", usage, {"evaluat; see vorocl-study --help\n"});
+  refuses(folder, "rendr", usage, {"rendr; did you mean render? see vorocl --help\n"});
+  const std::string render = "render --random 5 --size 9x9 ";
+  for (const std::string colour : {"--colour", "--colour area"}) {
+    refuses(folder, render + colour, usage, {"--colour; did you mean --color? see vorocl render --help\n"});
+  }
+  refuses(folder, render + "--xyzzy", usage, {"--xyzzy; see vorocl render --help\n"});
+  refuses(folder, "vorocl-study evaluat", usage,
+          {"evaluat; did you mean evaluate? see vorocl-study --help\n"});
+  refuses(folder, render + "-o a.png --color neighbors", usage,
+          {"\"neighbors\" is unknown; did you mean neighbours? there are id, distance"});
+  refuses(folder, render + "-o a.png --palette virdis", usage, {"did you mean viridis? "});
 }
 
 // refuses() wants one line: there is no note before that they count.

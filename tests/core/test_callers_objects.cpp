@@ -1,6 +1,9 @@
 // The caller's own buffers and events: used without a copy, and refused before any work where they do not
 // fit.
 #define BOOST_TEST_MODULE callers_objects
+#include <algorithm>
+#include <memory>
+
 #include "brute_force.hpp"
 #include "fixture.hpp"
 
@@ -32,6 +35,56 @@ BOOST_AUTO_TEST_CASE(labels_go_to_the_callers_buffer) {
   const auto ground_truth = brute_force(grid, pixels, Metric::euclidean);
   BOOST_TEST((diagram.read() == ground_truth));
   BOOST_TEST((content_of(labels, 0, grid.pixels()) == ground_truth));
+}
+
+// Aligned as numbers are, and no better: NumPy's arrays are.
+BOOST_AUTO_TEST_CASE(labels_go_to_the_hosts_memory) {
+  const auto pixels = random_pixels(grid, 20, 3), others = random_pixels(grid, 30, 4);
+  const auto ground_truth = brute_force(grid, pixels, Metric::euclidean),
+             other_truth = brute_force(grid, others, Metric::euclidean);
+  const Seeds seeds(test_device(), grid, centres(pixels)), other_seeds(test_device(), grid, centres(others));
+  const std::uint32_t mark = 0xabcd1234;
+  std::vector<std::uint32_t> memory(grid.pixels() + 2, mark), second = memory, elsewhere(grid.pixels());
+  const auto holds = [&](const std::vector<std::uint32_t>& labels) {
+    return memory.front() == mark && memory.back() == mark &&
+           std::equal(labels.begin(), labels.end(), memory.begin() + 1);
+  };
+  Diagram diagram(test_device(), grid, memory.data() + 1);
+  for (const Method& each : methods()) {
+    each.run(seeds, diagram, {});
+    diagram.read(memory.data() + 1);
+    diagram.read(elsewhere.data());
+    BOOST_TEST(holds(elsewhere), each.name);
+    if (each.exact) BOOST_TEST(holds(ground_truth));
+  }
+  CellSumsResult sums;
+  cell_sums(diagram, sums);
+  std::uint64_t area = 0;
+  for (const CellSums& cell : sums.read()) area += cell.area;
+  BOOST_TEST(area == grid.pixels());
+
+  // Then they go elsewhere, and this memory is the caller's alone.
+  diagram.put_labels_at(second.data() + 1);
+  check_error([&] { diagram.metric(); }, {"no method has filled it"});
+  exact_diagram(other_seeds, diagram);
+  diagram.read(second.data() + 1);
+  BOOST_TEST(std::equal(other_truth.begin(), other_truth.end(), second.begin() + 1));
+  diagram.put_labels_at(nullptr);
+  exact_diagram(seeds, diagram);
+  BOOST_TEST((diagram.read() == ground_truth));
+  BOOST_TEST(std::equal(other_truth.begin(), other_truth.end(), second.begin() + 1));
+  BOOST_TEST(holds(ground_truth));
+  check_error([] { Diagram(test_device(), grid, static_cast<std::uint32_t*>(nullptr)); }, {"memory", "null"});
+}
+
+// Under the address sanitizer, a device that still writes is found.
+BOOST_AUTO_TEST_CASE(memory_may_go_once_its_diagram_is_gone) {
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 20, 3)));
+  for (int i = 0; i < 20; ++i) {
+    const auto memory = std::make_unique<std::uint32_t[]>(grid.pixels());
+    Diagram diagram(test_device(), grid, memory.get());
+    jump_flooding(seeds, diagram);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {

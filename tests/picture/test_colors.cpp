@@ -43,6 +43,25 @@ BOOST_AUTO_TEST_CASE(each_pixel_gets_the_colour_of_its_id) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(each_seed_may_have_a_colour_of_its_own) {
+  const std::vector<cv::Vec3b> colors = {{1, 2, 3}, {0, 0, 255}, {9, 8, 7}};
+  const std::vector<std::uint32_t> labels = {2, 0, no_label, 1, 1, 0};
+  const cv::Mat picture = color_by_seed(labels, Grid(3, 2), colors);
+  BOOST_TEST((picture.type() == CV_8UC3 && picture.size() == cv::Size(3, 2)));
+  for (int i = 0; i < 6; ++i) {
+    const std::uint32_t label = labels[static_cast<std::size_t>(i)];
+    BOOST_TEST((picture.at<cv::Vec3b>(i / 3, i % 3) == (label == no_label ? black : colors[label])),
+               "pixel " << i);
+  }
+  const auto refused = [&](const std::vector<std::uint32_t>& wrong, const std::string& why) {
+    BOOST_CHECK_EXCEPTION(color_by_seed(wrong, Grid(3, 2), colors), Error, [&](const Error& error) {
+      return std::string(error.what()).find(why) != std::string::npos;
+    });
+  };
+  refused({0, 1, 2, 3, 0, 0}, "the label 3 has no colour; there are 3");
+  refused({0, 1}, "there are 2 labels for 3 x 2 pixels");
+}
+
 BOOST_AUTO_TEST_CASE(ids_near_each_other_are_easily_told_apart) {
   for (const std::uint32_t first : {0u, 5000u, 3000000000u}) {
     for (std::uint32_t id = first; id < first + 200; ++id) {

@@ -24,6 +24,15 @@ VOROCL_FAULTY_CALL(clEnqueueReadBuffer,
                    (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size,
                     void* host, cl_uint count, const cl_event* waits, cl_event* event),
                    (queue, buffer, blocking, offset, size, host, count, waits, event))
+VOROCL_FAULTY_MAKER(void*, clEnqueueMapBuffer,
+                    (cl_command_queue queue, cl_mem buffer, cl_bool blocking, cl_map_flags flags,
+                     size_t offset, size_t size, cl_uint count, const cl_event* waits, cl_event* event,
+                     cl_int* code),
+                    (queue, buffer, blocking, flags, offset, size, count, waits, event, code))
+VOROCL_FAULTY_CALL(clEnqueueUnmapMemObject,
+                   (cl_command_queue queue, cl_mem buffer, void* mapped, cl_uint count, const cl_event* waits,
+                    cl_event* event),
+                   (queue, buffer, mapped, count, waits, event))
 VOROCL_FAULTY_CALL(clEnqueueWriteBuffer,
                    (cl_command_queue queue, cl_mem buffer, cl_bool blocking, size_t offset, size_t size,
                     const void* host, cl_uint count, const cl_event* waits, cl_event* event),
@@ -35,6 +44,10 @@ VOROCL_FAULTY_MAKER(cl_program, clCreateProgramWithSource,
                     (cl_context context, cl_uint count, const char** texts, const size_t* sizes,
                      cl_int* code),
                     (context, count, texts, sizes, code))
+VOROCL_FAULTY_MAKER(cl_program, clCreateProgramWithBinary,
+                    (cl_context context, cl_uint count, const cl_device_id* devices, const size_t* sizes,
+                     const unsigned char** binaries, cl_int* statuses, cl_int* code),
+                    (context, count, devices, sizes, binaries, statuses, code))
 VOROCL_FAULTY_CALL(clBuildProgram,
                    (cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
                     void(CL_CALLBACK* notify)(cl_program, void*), void* data),

@@ -8,6 +8,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/output_file.hpp"
 #include "studies/ablation.hpp"
@@ -113,7 +114,7 @@ void run(const AblationOptions& options) {
   const OutputFile file(options.path);
   const std::vector<Configuration> all =
       as_usage([&] { return configurations(options.study.sides, options.study.seeds); });
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   std::string table = ablation_header(origin_of(device, options.study.settings));
   for (const Configuration& configuration : all) table += ablate(device, configuration, options);

@@ -8,6 +8,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "studies/study_line.hpp"
 #include "studies/tables.hpp"
@@ -136,7 +137,7 @@ void run(const EvaluateOptions& options) {
       as_usage([&] { return configurations(sides_of(options), seeds_of(options)); });
   as_usage([&] { check_extension(options.path, {".csv"}); });
   EvaluationFile file(options.path, options.resume);
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   check_memory(device, wanted);
   for (const std::string& dropped : file.begin(origin_of(device, options.study.settings)))

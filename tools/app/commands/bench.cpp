@@ -9,6 +9,7 @@
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/values.hpp"
 #include "trials/benchmark.hpp"
 
@@ -60,7 +61,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
 void run(const BenchOptions& options) {
   const Input input = read_input(options.seeds);
   refuse_window(input, "bench");
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   print_result(options, seeds, benchmark(options.methods, options.benchmark, seeds));

@@ -9,6 +9,7 @@
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
+#include "app/terminal/selected_device.hpp"
 
 namespace vorocl::command {
 
@@ -67,10 +68,9 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
     print_json(result);
     return;
   }
-  print("{}: {} on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {}, on {}\n",
-        options.method.name, counted(seeds.alive(), "seed"), view.picture.size.width(),
-        view.picture.size.height(), report.milliseconds(), counted(report.waves(), "wave"),
-        seeds.device().name());
+  print("{}: {} on {} x {} pixels in {:.1f} ms, {}, on {}\n", options.method.name,
+        counted(seeds.alive(), "seed"), view.picture.size.width(), view.picture.size.height(),
+        report.milliseconds(), counted(report.waves(), "wave"), seeds.device().name());
   print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive());
   print("the mean area is {:.6g}, with a deviation of {:.6g} ({})\n", statistics.mean_area,
         statistics.area_deviation, view.units.area_title());
@@ -82,7 +82,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
@@ -106,6 +106,7 @@ void add_cells(CommandLine& line) {
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
   for (FileRequest& request : options->files) add_file_option(command, request);
+  add_cell_columns_option(command, options->files.front());
   add_json_option(command, options->json);
   command.set_work([command, options] {
     check_method_options(command, {options->method}, options->method_options);

@@ -21,6 +21,7 @@ void run_command(int argc, char** argv) {
   if (argc > 1) refuse_moved(argv[1]);
   CommandLine line("Raster Voronoi diagrams on any OpenCL device.", "vorocl", "vorocl " VOROCL_VERSION);
   add_devices(line);
+  add_prepare(line);
   add_render(line);
   add_simulate(line);
   add_cells(line);

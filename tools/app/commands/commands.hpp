@@ -7,6 +7,7 @@
 namespace vorocl::command {
 
 void add_devices(CommandLine& line);
+void add_prepare(CommandLine& line);
 void add_render(CommandLine& line);
 void add_simulate(CommandLine& line);
 void add_cells(CommandLine& line);

@@ -13,6 +13,7 @@
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/raster_files.hpp"
 #include "vorocl/distance_errors.hpp"
@@ -88,7 +89,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   const Size& size = view.picture.size;
   check_sizes(options.a, image.size, "the diagram of the seeds", size);
 
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   Diagram exact(device, view.window);

@@ -10,6 +10,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/point_files.hpp"
@@ -150,7 +151,7 @@ void run(const RelaxOptions& options) {
   const Input input = read_input(options.seeds);
   refuse_window(input, "relax");
   check_picture_size(options.pictures.picture, input.view.picture.size);
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);

@@ -10,6 +10,7 @@
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
 #include "vorocl/jump_flooding.hpp"
@@ -75,10 +76,9 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     print_json(result);
     return;
   }
-  print("{}: {} on {} x {} pixels in {:.1f} ms (a first run: it may build kernels), {}, on {}\n",
-        options.method.name, counted(seeds.alive(), "seed"), view.picture.size.width(),
-        view.picture.size.height(), report.milliseconds(), counted(report.waves(), "wave"),
-        seeds.device().name());
+  print("{}: {} on {} x {} pixels in {:.1f} ms, {}, on {}\n", options.method.name,
+        counted(seeds.alive(), "seed"), view.picture.size.width(), view.picture.size.height(),
+        report.milliseconds(), counted(report.waves(), "wave"), seeds.device().name());
   print_empty_cells(count.empty, count.cells, seeds.alive());
   print_written(requested_files(options));
 }
@@ -104,12 +104,12 @@ void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
   check_picture_size(options.picture, input.view.picture.size);
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.view.window);
-  const Report report = options.method.run(seeds, diagram, options.method_options);
   MeasureBuffers buffers;
+  Diagram diagram = buffers.diagram_to_read(device, input.view.window);
+  const Report report = options.method.run(seeds, diagram, options.method_options);
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) labels_kind().write(*outputs.labels, measures);
   if (options.draws()) {

@@ -12,6 +12,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
 #include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
 #include "vorocl/version.hpp"
@@ -228,7 +229,7 @@ void run(const SimulateOptions& options) {
   FrameWriter writer(options.output, options.other_is_exact(), options.run);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
   check_picture_size(options.output.picture, source->view().picture.size);
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   Run run(options, *source, device, interruption, writer);
   const FrameJournal* const journal = writer.journal();

@@ -4,6 +4,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
 
 namespace vorocl::command {
 
@@ -41,7 +42,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
 
 void run(const TilesOptions& options) {
   const Interruption interruption;  // before there are files
-  const Device device = Device::select(options.device);
+  const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));

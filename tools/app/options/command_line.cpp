@@ -181,17 +181,30 @@ void CommandLine::run(int argc, char** argv) {
     return;
   } catch (const CLI::ParseError& error) {
     const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-    throw UsageError(error.what() + (is_unknown ? see_help() : ""));
+    throw UsageError(error.what() + (is_unknown ? "; " + suggestion() + see_help() : ""));
   }
   if (app_->get_subcommands().empty()) {
-    throw UsageError("no subcommand was given" + see_help());
+    throw UsageError("no subcommand was given; " + see_help());
   }
 }
 
 std::string CommandLine::see_help() const {
   std::string command = app_->get_name();
   for (const CLI::App* const subcommand : app_->get_subcommands()) command += " " + subcommand->get_name();
-  return "; see " + command + " --help";
+  return "see " + command + " --help";
+}
+
+std::string CommandLine::suggestion() const {
+  const auto chosen = app_->get_subcommands();
+  const CLI::App& last = chosen.empty() ? *app_ : *chosen.back();
+  std::vector<std::string> names;
+  for (const CLI::App* const subcommand : app_->get_subcommands({})) names.push_back(subcommand->get_name());
+  for (const CLI::Option* const option : last.get_options()) names.push_back(option->get_name());
+  const std::vector<std::string> unknown = app_->remaining(true);
+  const auto option = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& word) { return word.front() == '-'; });
+  if (unknown.empty()) return {};
+  return did_you_mean(option == unknown.end() ? unknown.front() : *option, names);
 }
 
 namespace {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/options/suggestion.hpp"
 #include "vorocl/error.hpp"
 
 namespace CLI {
@@ -57,7 +58,9 @@ T choose(const Choices<T>& choices, const std::string& text) {
   for (const auto& choice : choices) {
     if (choice.first == text) return choice.second;
   }
-  throw Error("\"" + text + "\" is unknown; there are " + names_of(choices));
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  throw Error("\"" + text + "\" is unknown; " + did_you_mean(text, names) + "there are " + names_of(choices));
 }
 
 /// A subcommand, or a group of its options. Options are stored in the variables that are given with them,
@@ -142,8 +145,11 @@ class CommandLine {
   void run(int argc, char** argv);
 
  private:
-  /// Where the help is, of the subcommand that was given.
+  /// Where the help of the subcommand is that was given: "see vorocl render --help".
   std::string see_help() const;
+
+  /// What an option or a subcommand that is unknown may have meant.
+  std::string suggestion() const;
 
   std::unique_ptr<CLI::App> app_;
 };

@@ -76,6 +76,9 @@ ScaleEnds parse_scale(const std::string& text);
 /// per frame.
 Option add_file_option(Command& command, FileRequest& request, bool numbered = false);
 
+/// Adds --cell-columns, for the request of a table of cells, which --cells has been added for.
+void add_cell_columns_option(Command& command, FileRequest& cells);
+
 /// Adds -o, with a help text and the name of its value, --fps and how pictures are drawn.
 void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
                       const std::string& about);

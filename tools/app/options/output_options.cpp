@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "app/options/option_groups.hpp"
 
 namespace vorocl::command {
@@ -13,6 +15,27 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
   }
   if (numbered && kind.extensions.back() == ".vti") example += "; .vti files are listed in a .pvd file";
   return command.add(kind.option, request.path, kind.about + example).value_name(numbered ? "FILES" : "FILE");
+}
+
+void add_cell_columns_option(Command& command, FileRequest& cells) {
+  Choices<std::string> columns;
+  for (const std::string& name : cell_columns()) columns.emplace_back(name, name);
+  const auto choose_all = [&cells, columns](const std::vector<std::string>& texts) {
+    std::vector<std::string> names;
+    for (const std::string& text : texts) {
+      const std::string name = choose(columns, text);
+      if (std::find(names.begin(), names.end(), name) != names.end())
+        throw Error("\"" + name + "\" is given twice");
+      names.push_back(name);
+    }
+    cells.kind = cells_kind(names);
+  };
+  command
+      .add_texts("--cell-columns", choose_all,
+                 "The columns of --cells, in this order, separated by commas: " + names_of(columns))
+      .value_name("NAMES")
+      .default_text("all")
+      .needs("--cells");
 }
 
 void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
@@ -31,6 +54,7 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
                    "Film to write, .mp4 (H.264), or a picture for each frame, such as frames/%05d.png");
   options.files = {{labels_kind(), ""}, {cells_kind(), ""}, {adjacency_kind(), ""}, {distance_kind(), ""}};
   for (FileRequest& request : options.files) add_file_option(command, request, true);
+  add_cell_columns_option(command, options.files[1]);
   command
       .add("--similarity", options.similarity_path,
            "Similarities to write, frame by frame: a .csv file with the columns frame and similarity and, "

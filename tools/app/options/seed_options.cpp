@@ -203,7 +203,7 @@ void add_units_option(Command& command, SeedOptions& options, const std::string&
                                                       {"px", MeasureUnits::pixels}};
   command
       .add_choice("--units", options.units, units,
-                  "Units of areas, lengths and distances: those of the data, or pixels")
+                  "Units of positions, areas, lengths and distances: those of the data, or pixels")
       .default_text("data for " + with_data + ", else px");
 }
 

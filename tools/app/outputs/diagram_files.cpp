@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <opencv2/core.hpp>
+#include <optional>
+#include <string_view>
 
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/raster_files.hpp"
+#include "formats/workers.hpp"
 
 namespace vorocl::command {
 
@@ -28,31 +33,116 @@ double distance_of(std::int64_t distance, Metric metric) {
   return static_cast<double>(distance);
 }
 
-std::string row_of(const CellMeasures& cell, const View& view, Metric metric) {
-  const Units& units = view.units;
-  std::string extent = ",,,,,", distance;
-  if (cell.sums.area > 0) {
-    const Point centroid = cell.sums.centroid();
-    const CellShape& shape = cell.shape;
-    extent = fmt::format("{},{},{},{},{},{}", centroid.x + view.x, centroid.y + view.y, shape.left + view.x,
-                         shape.top + view.y, shape.right + view.x, shape.bottom + view.y);
-    distance = fmt::format("{}", units.length(distance_of(shape.largest_distance, metric)));
+/// A cell as its row in a table: pixels of the picture in the view's units. A value may be unknown, of a cell
+/// without pixels.
+class CellRow {
+ public:
+  using Value = std::optional<double>;
+
+  CellRow(const CellMeasures& cell, const View& view, Metric metric)
+      : cell_(cell), view_(view), metric_(metric) {}
+
+  Value id() const { return cell_.id; }
+  Value x() const { return position(cell_.seed).x; }
+  Value y() const { return position(cell_.seed).y; }
+  Value area() const { return view_.units.area(cell_.sums.area); }
+  Value centroid_x() const { return if_full(position(cell_.sums.centroid()).x); }
+  Value centroid_y() const { return if_full(position(cell_.sums.centroid()).y); }
+  Value left() const { return if_full(extent().left); }
+  Value top() const { return if_full(extent().top); }
+  Value right() const { return if_full(extent().right); }
+  Value bottom() const { return if_full(extent().bottom); }
+  Value perimeter() const { return view_.units.length(cell_.perimeter); }
+  Value neighbours() const { return cell_.neighbours; }
+  Value largest_distance() const {
+    return if_full(view_.units.length(distance_of(cell_.shape.largest_distance, metric_)));
   }
-  return fmt::format("{},{},{},{},{},{},{},{},{}\n", cell.id, cell.seed.x + view.x, cell.seed.y + view.y,
-                     units.area(cell.sums.area), extent, units.length(cell.perimeter), cell.neighbours,
-                     distance, cell.shape.touches_border ? 1 : 0);
+  Value touches_border() const { return cell_.shape.touches_border ? 1 : 0; }
+
+ private:
+  Point position(const Point& of_diagram) const {
+    return view_.units.position({of_diagram.x + view_.x, of_diagram.y + view_.y});
+  }
+  Extent extent() const {
+    const double x = view_.x, y = view_.y;
+    const CellShape& shape = cell_.shape;
+    return view_.units.extent({shape.left + x, shape.top + y, shape.right + x, shape.bottom + y});
+  }
+  Value if_full(double value) const { return cell_.sums.area > 0 ? Value(value) : Value(); }
+
+  const CellMeasures& cell_;
+  const View& view_;
+  Metric metric_;
+};
+
+struct CellColumn {
+  std::string name;
+  CellRow::Value (CellRow::*value)() const;
+};
+
+const std::vector<CellColumn>& all_cell_columns() {
+  static const std::vector<CellColumn> columns = {{"id", &CellRow::id},
+                                                  {"x", &CellRow::x},
+                                                  {"y", &CellRow::y},
+                                                  {"area", &CellRow::area},
+                                                  {"centroid_x", &CellRow::centroid_x},
+                                                  {"centroid_y", &CellRow::centroid_y},
+                                                  {"left", &CellRow::left},
+                                                  {"top", &CellRow::top},
+                                                  {"right", &CellRow::right},
+                                                  {"bottom", &CellRow::bottom},
+                                                  {"perimeter", &CellRow::perimeter},
+                                                  {"neighbours", &CellRow::neighbours},
+                                                  {"largest_distance", &CellRow::largest_distance},
+                                                  {"touches_border", &CellRow::touches_border}};
+  return columns;
 }
 
-void add_cells(GrowingFile& table, const std::string& first, Measures& measures) {
-  for (const CellMeasures& cell : measures.cells()) {
-    table << first << row_of(cell, measures.view(), measures.metric());
+/// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
+template <typename Item, typename Add>
+void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
+  constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
+  std::vector<fmt::memory_buffer> pieces(most_pieces);
+  Workers workers(items.size() / items_of_piece);  // none for few items
+  for (std::size_t begin = 0; begin < items.size();) {
+    std::size_t count = 0;
+    for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
+      workers.add([&items, &add, &piece = pieces[count], begin] {
+        piece.clear();
+        const std::size_t end = std::min(items.size(), begin + items_of_piece);
+        for (std::size_t i = begin; i < end; ++i) add(piece, items[i]);
+      });
+    }
+    workers.wait();
+    for (std::size_t i = 0; i < count; ++i) table << std::string_view(pieces[i].data(), pieces[i].size());
   }
+}
+
+void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
+               Measures& measures) {
+  const View& view = measures.view();
+  const Metric metric = measures.metric();
+  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, const CellMeasures& cell) {
+    const CellRow row(cell, view, metric);
+    text.append(std::string_view(first));
+    bool is_first = true;
+    for (const CellColumn& column : columns) {
+      if (!is_first) text.push_back(',');
+      is_first = false;
+      if (const CellRow::Value value = (row.*column.value)()) {
+        fmt::format_to(std::back_inserter(text), "{}", *value);
+      }
+    }
+    text.push_back('\n');
+  });
 }
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
-  for (const CellPair& pair : measures.pairs()) {
-    table << first << fmt::format("{},{},{}\n", pair.a, pair.b, measures.view().units.length(pair.length));
-  }
+  const Units& units = measures.view().units;
+  add_rows(table, measures.pairs(), [&](fmt::memory_buffer& text, const CellPair& pair) {
+    fmt::format_to(std::back_inserter(text), "{}{},{},{}\n", first, pair.a, pair.b,
+                   units.length(pair.length));
+  });
 }
 
 void write_distance_file(const OutputFile& file, Measures& measures) {
@@ -95,15 +185,28 @@ const FileKind& labels_kind() {
   return kind;
 }
 
-const FileKind& cells_kind() {
-  static const FileKind kind = {
-      "--cells",
-      "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
-      {".csv"},
-      TableKind{"id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,"
-                "largest_distance,touches_border",
-                add_cells}};
-  return kind;
+std::vector<std::string> cell_columns() {
+  std::vector<std::string> names;
+  for (const CellColumn& column : all_cell_columns()) names.push_back(column.name);
+  return names;
+}
+
+FileKind cells_kind(const std::vector<std::string>& names) {
+  std::vector<CellColumn> columns;
+  std::string header;
+  for (const std::string& name : names) {
+    const auto column = std::find_if(all_cell_columns().begin(), all_cell_columns().end(),
+                                     [&name](const CellColumn& any) { return any.name == name; });
+    columns.push_back(*column);
+    header += (header.empty() ? "" : ",") + name;
+  }
+  const auto add_rows = [columns](GrowingFile& table, const std::string& first, Measures& measures) {
+    add_cells(columns, table, first, measures);
+  };
+  return {"--cells",
+          "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
+          {".csv"},
+          TableKind{header, add_rows}};
 }
 
 const FileKind& adjacency_kind() {

@@ -2,6 +2,7 @@
 // each is written.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -14,7 +15,7 @@ namespace vorocl::command {
 /// What a table says of a diagram: the names of its columns, and its rows, each with `first` before it.
 struct TableKind {
   std::string columns;
-  void (*add_rows)(GrowingFile& table, const std::string& first, Measures& measures);
+  std::function<void(GrowingFile& table, const std::string& first, Measures& measures)> add_rows;
 };
 
 /// One kind of file, and the option that asks for it.
@@ -33,8 +34,11 @@ struct FileKind {
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-/// One row per cell, one row per pair of cells that touch: .csv. The manual page explains the columns.
-const FileKind& cells_kind();
+/// The columns that a table of cells can have, in their order.
+std::vector<std::string> cell_columns();
+/// One row per cell with these of the columns, one row per pair of cells that touch: .csv. The manual page
+/// explains the columns.
+FileKind cells_kind(const std::vector<std::string>& columns = cell_columns());
 const FileKind& adjacency_kind();
 /// Distances to the nearest seed in pixels, float: .npy, .tif or .vti.
 const FileKind& distance_kind();

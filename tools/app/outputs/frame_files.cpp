@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <functional>
-#include <numeric>
 #include <utility>
 
 #include "formats/files.hpp"
@@ -63,11 +61,16 @@ void FrameStatistics::add(int frame, double milliseconds, const std::optional<Bo
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
   const std::vector<std::uint32_t>& labels = measures.labels_in_picture();
   std::string changed;
-  if (!last_labels_.empty()) {
-    changed = fmt::format("{}", std::inner_product(labels.begin(), labels.end(), last_labels_.begin(),
-                                                   std::size_t{0}, std::plus<>(), std::not_equal_to<>()));
+  if (last_labels_.empty()) {
+    last_labels_ = labels;
+  } else {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      count += labels[i] != last_labels_[i] ? 1 : 0;
+      last_labels_[i] = labels[i];
+    }
+    changed = fmt::format("{}", count);
   }
-  last_labels_ = labels;
   *file_ << fmt::format("{},{},{},{},{},{},{:.6f},", frame, statistics.cells, statistics.empty_cells,
                         statistics.mean_area, statistics.area_deviation, changed, milliseconds)
          << (box ? fmt::format("{},{},{},{}\n", box->x0, box->y0, box->x1, box->y1) : ",,,\n");

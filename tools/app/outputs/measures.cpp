@@ -11,6 +11,11 @@
 
 namespace vorocl::command {
 
+Diagram MeasureBuffers::diagram_to_read(const Device& device, const Window& window) {
+  labels.resize(window.pixels());
+  return {device, window, labels.data()};
+}
+
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
                    const View& view, MeasureBuffers& buffers)
     : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), buffers_(buffers) {}
@@ -99,7 +104,8 @@ std::size_t Measures::vertices() {
 }
 
 CellStatistics Measures::statistics() {
-  cell_statistics(sums_result(), buffers_.statistics);
+  has_sums_ ? cell_statistics(buffers_.sums, buffers_.statistics)
+            : cell_statistics(diagram_, buffers_.statistics);
   CellStatistics statistics = buffers_.statistics.read();
   statistics.mean_area = view_.units.area(statistics.mean_area);
   statistics.area_deviation = view_.units.area(statistics.area_deviation);

@@ -16,6 +16,9 @@ namespace vorocl::command {
 /// The memory of measurements, on the device and the host: with one for all frames, later frames allocate
 /// nothing.
 struct MeasureBuffers {
+  /// A diagram whose labels are made where they are read, if the device shares the host's memory.
+  Diagram diagram_to_read(const Device& device, const Window& window);
+
   CellSumsResult sums;
   CellShapesResult shapes;
   CellStatisticsResult statistics;

@@ -61,8 +61,11 @@ void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vec
     if (cell.area == 0) continue;
     summed += cell.area;
     const Shares shares = shares_by_cell.of(id);
+    const Point centroid = units.position(cell.centroid);
+    const Extent extent = units.extent({static_cast<double>(cell.left), static_cast<double>(cell.top),
+                                        static_cast<double>(cell.right), static_cast<double>(cell.bottom)});
     table << fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", id, units.area(static_cast<double>(cell.area)),
-                         cell.centroid.x, cell.centroid.y, cell.left, cell.top, cell.right, cell.bottom,
+                         centroid.x, centroid.y, extent.left, extent.top, extent.right, extent.bottom,
                          units.length(static_cast<double>(shares.perimeter)), shares.neighbours,
                          cell.touches_border ? 1 : 0);
   }

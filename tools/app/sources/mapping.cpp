@@ -53,7 +53,7 @@ Raster raster_of(const Mapping& mapping, const Size& picture) {
 
 Units units_of(const Mapping& mapping, const PlacedAxes& axes, const Size& picture) {
   if (mapping.in_pixels) return {};
-  return {axes.x.side_of_pixel(), axes.y.side_of_pixel(),
+  return {axes.x.scale(), axes.y.scale(),
           mapping.has_one_scale && has_square_pixels(mapping.bounds, picture.grid())};
 }
 

@@ -20,17 +20,16 @@ PlacedAxis::PlacedAxis(double low, double high, int pixels, bool closed, bool re
       high_(high),
       pixels_(pixels),
       reversed_(reversed),
-      axis_(directed(closed ? Axis(pixels, low, high).closed() : Axis(pixels, low, high), reversed)),
-      period_(high - low) {}
+      axis_(directed(closed ? Axis(pixels, low, high).closed() : Axis(pixels, low, high), reversed)) {}
 
 void PlacedAxis::repeat(double low, double high, const char* name) {
-  period_ = high - low;
+  const double period = high - low;
   const double scale = static_cast<double>(pixels_) / (high_ - low_);
   constexpr double rounding = 1e-9;
-  if (!(period_ * scale >= 1 - rounding)) {
-    throw Error(fmt::format("the period in {} is {:g}, less than a pixel: take more pixels", name, period_));
+  if (!(period * scale >= 1 - rounding)) {
+    throw Error(fmt::format("the period in {} is {:g}, less than a pixel: take more pixels", name, period));
   }
-  const std::int64_t length = std::llround(period_ * scale);
+  const std::int64_t length = std::llround(period * scale);
   // In whole pixels, which the period is rounded to: the bounds may differ from it by a rounding error.
   const bool covers = length >= pixels_, holds = low <= low_ && high_ <= high;
   const bool apart = high <= low_ || high_ <= low;
@@ -39,10 +38,10 @@ void PlacedAxis::repeat(double low, double high, const char* name) {
   const std::int64_t begin = std::llround(first);
   // The middle of the period, less that of these pixels.
   const double shift =
-      first - static_cast<double>(begin) + (period_ * scale - static_cast<double>(length)) / 2;
+      first - static_cast<double>(begin) + (period * scale - static_cast<double>(length)) / 2;
   const bool is_shifted = std::abs(shift) >= rounding;
-  const double from = (moves ? low_ : low) - (is_shifted ? shift * period_ / static_cast<double>(length) : 0);
-  const double to = moves || is_shifted ? from + period_ : high;
+  const double from = (moves ? low_ : low) - (is_shifted ? shift * period / static_cast<double>(length) : 0);
+  const double to = moves || is_shifted ? from + period : high;
   axis_ = directed(Axis(length, from, to).periodic(), reversed_);
   begin_ = reversed_ ? pixels_ - begin - length : begin;
 }
@@ -69,7 +68,5 @@ Stretch PlacedAxis::shown() const {
 }
 
 Stretch PlacedAxis::grid() const { return axis_.is_periodic() ? Stretch{begin_, axis_.pixels()} : shown(); }
-
-double PlacedAxis::side_of_pixel() const { return period_ / static_cast<double>(axis_.pixels()); }
 
 }  // namespace vorocl::command

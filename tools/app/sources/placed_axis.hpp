@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "app/sources/view.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -49,9 +50,9 @@ class PlacedAxis {
   /// All pixels that there are: one period, or what is shown of an axis that does not repeat.
   Stretch grid() const;
 
-  /// The side of a pixel in data units: along a period, which is a whole number of pixels, a little more or
-  /// less than elsewhere.
-  double side_of_pixel() const;
+  /// The picture's pixels in data units: along a period, which is a whole number of pixels, their sides are a
+  /// little more or less than elsewhere.
+  AxisScale scale() const { return {axis_, static_cast<double>(begin_)}; }
 
  private:
   double low_, high_;
@@ -59,7 +60,6 @@ class PlacedAxis {
   bool reversed_;
   Axis axis_;               // of the pixels from begin_ on: a period, or all of the picture
   std::int64_t begin_ = 0;  // in the picture
-  double period_;           // in data units
   double first_end_ = -std::numeric_limits<double>::infinity(),
          last_end_ = std::numeric_limits<double>::infinity();
 };

@@ -117,11 +117,8 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
                            to_string(bounds)));
   }
   note_outside(reading.sum(points_outside), survey.points, bounds);
-  const Units units = in_pixels(options)
-                          ? Units()
-                          : Units((bounds.x1 - bounds.x0) / static_cast<double>(plane.width()),
-                                  (bounds.y1 - bounds.y0) / static_cast<double>(plane.height()),
-                                  has_square_pixels(bounds, plane));
+  const Units units =
+      in_pixels(options) ? Units() : Units({data.x()}, {data.y()}, has_square_pixels(bounds, plane));
   return {survey.points, units, hash.name(survey.points, reading)};
 }
 

@@ -9,24 +9,51 @@
 #include <vector>
 
 #include "formats/raster.hpp"
+#include "vorocl/grid.hpp"
 
 namespace vorocl::command {
 
-/// Areas and lengths of pixels, in data units where there are bounds. A length has a scale only where pixels
-/// are squares: elsewhere lengths stay in pixels.
+/// The pixels of a picture along an axis, in data units.
+struct AxisScale {
+  Axis axis = Axis(1);  ///< of pixels, as without bounds
+  double begin = 0;     ///< its first pixel in the picture
+
+  double at(double pixels) const { return axis.coordinate(pixels - begin); }
+  double side_of_pixel() const { return (axis.to() - axis.from()) / static_cast<double>(axis.pixels()); }
+};
+
+/// The least rectangle around pixels.
+struct Extent {
+  double left, top, right, bottom;
+};
+
+/// Positions, areas and lengths of pixels, in data units where there are bounds. A length has a scale only
+/// where pixels are squares: elsewhere lengths stay in pixels.
 class Units {
  public:
   /// Pixels.
   Units() = default;
 
-  /// The sides of a pixel in data units; one of 0, of an axis without an extent, has no scale.
-  Units(double pixel_width, double pixel_height, bool square) {
-    if (pixel_width == 0 || pixel_height == 0) return;
-    area_ = pixel_width * pixel_height;
+  /// An axis without an extent, has no scale: then all stays in pixels.
+  Units(const AxisScale& x, const AxisScale& y, bool square) {
+    if (x.side_of_pixel() == 0 || y.side_of_pixel() == 0) return;
+    x_ = x;
+    y_ = y;
+    area_ = x.side_of_pixel() * y.side_of_pixel();
     area_in_data_ = true;
     if (!square) return;
     length_ = std::sqrt(area_);  // the sides differ by the rounding of the picture's height alone
     length_in_data_ = true;
+  }
+
+  /// Of a position in pixels of the picture.
+  Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y)}; }
+
+  /// The extent of an area from its first column and row to its last: of pixels these, of data the edges of
+  /// both.
+  Extent extent(const Extent& pixels) const {
+    if (!area_in_data_) return pixels;
+    return {x_.at(pixels.left), y_.at(pixels.top), x_.at(pixels.right + 1), y_.at(pixels.bottom + 1)};
   }
 
   double area(double pixels) const { return pixels * area_; }
@@ -46,6 +73,7 @@ class Units {
   const char* length_title() const { return length_in_data_ ? "data units" : "px"; }
 
  private:
+  AxisScale x_, y_;
   double area_ = 1, length_ = 1;
   bool area_in_data_ = false, length_in_data_ = false;
 };

@@ -4,10 +4,12 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "formats/modules.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
+#include "vorocl/grid.hpp"
 
 namespace vorocl::command {
 
@@ -19,20 +21,22 @@ enum Tag : std::uint32_t {
   transformation = 34264,
   key_directory = 34735,
   key_doubles = 34736,
-  key_texts = 34737
+  key_texts = 34737,
+  no_data = 42113  // GDAL's
 };
 
 /// The tags of GeoTIFF, which libtiff does not know by itself. (It wants names that it could write to.)
 void add_tags(TIFF* file) {
-  static char names[][20] = {"ModelPixelScale", "ModelTiepoint",   "ModelTransformation",
-                             "GeoKeyDirectory", "GeoDoubleParams", "GeoAsciiParams"};
-  static const std::array<TIFFFieldInfo, 6> tags = {
+  static char names[][20] = {"ModelPixelScale", "ModelTiepoint",  "ModelTransformation", "GeoKeyDirectory",
+                             "GeoDoubleParams", "GeoAsciiParams", "GDALNoData"};
+  static const std::array<TIFFFieldInfo, 7> tags = {
       {{pixel_scale, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[0]},
        {tie_point, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[1]},
        {transformation, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[2]},
        {key_directory, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, names[3]},
        {key_doubles, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[4]},
-       {key_texts, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5]}}};
+       {key_texts, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5]},
+       {no_data, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[6]}}};
   TIFFMergeFieldInfo(file, tags.data(), static_cast<std::uint32_t>(tags.size()));
 }
 
@@ -74,6 +78,7 @@ bool write_georeference(TIFF* file, const Georeference& georeference, double wid
   } else {  // which a scale cannot say
     done = set<16>(file, transformation, {x, 0, 0, bounds.x0, 0, y, 0, bounds.y0, 0, 0, 0, 0, 0, 0, 0, 1});
   }
+  done = done && TIFFSetField(file, no_data, std::to_string(no_label).c_str()) == 1;
   return done && (!georeference.crs || geotiff_module().write_keys(file, *georeference.crs));
 }
 

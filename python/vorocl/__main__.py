@@ -1,0 +1,62 @@
+"""The devices that there are, and whether they are right: python -m vorocl [DEVICE]."""
+
+import argparse
+import sys
+from typing import List
+
+from . import _vorocl
+from ._device import Device, devices
+from ._errors import DeviceError, Error
+
+
+def wrong_answers(device: Device) -> List[str]:
+    """Make small diagrams whose labels are known, by every method, and name those that the device gets wrong."""
+    wrong = []
+    for index, name in enumerate(_vorocl.known_answers()):
+        try:
+            if not _vorocl.is_known_answer_right(device._device, index):
+                wrong.append(name)
+        except Error as error:
+            wrong.append(f"{name}: {str(error).splitlines()[0]}")
+    return wrong
+
+
+def main() -> int:
+    """List the devices, and check those that can be used; 1 if one is wrong or there is none."""
+    parser = argparse.ArgumentParser(
+        prog="python -m vorocl",
+        description="List the OpenCL devices, and make small diagrams whose labels are known on those that can be used.",
+    )
+    parser.add_argument(
+        "device",
+        nargs="?",
+        default="",
+        help='check this one alone: a part of its name, or "platform:device"; without it, that of VOROCL_DEVICE, or all',
+    )
+    request = parser.parse_args().device
+    all_answers, status = len(_vorocl.known_answers()), 0
+    try:
+        chosen = Device(request)  # or the reason why there is none
+    except DeviceError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    listed = devices(request)
+    one_is_asked_for = any(found.asked_for for found in listed)
+    for found in listed:
+        index = f"{found.platform_index}:{found.device_index}"
+        print(f"{index}  {found.name} ({found.platform}, driver {found.driver_version})")
+        if found.selected:
+            print(f"     selected: {found.reason}")
+        if found.why_not:
+            print(f"     cannot be used: {found.why_not}")
+        elif found.asked_for or not one_is_asked_for:
+            wrong = wrong_answers(chosen if found.selected else Device(index))
+            for answer in wrong:
+                print(f"     wrong: {answer}")
+            print(f"     {all_answers - len(wrong)} of {all_answers} known diagrams are right")
+            status = 1 if wrong else status
+    return status
+
+
+if __name__ == "__main__":
+    sys.exit(main())

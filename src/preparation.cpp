@@ -1,0 +1,123 @@
+#include "vorocl/preparation.hpp"
+
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "runtime/binary_cache.hpp"
+#include "runtime/program.hpp"
+#include "vorocl/analysis.hpp"
+#include "vorocl/error.hpp"
+#include "vorocl/method.hpp"
+#include "vorocl/motion.hpp"
+#include "vorocl/relaxation.hpp"
+#include "vorocl/similarity.hpp"
+
+namespace vorocl {
+
+namespace {
+
+/// What kernels are compiled for besides the device.
+struct Specialisation {
+  Metric metric;
+  Periodic periodic;
+};
+
+/// What is prepared, the likeliest first. Each is a part of its own: it has programs that no other one has.
+constexpr Specialisation specialisations[] = {
+    {Metric::euclidean, Periodic::none}, {Metric::euclidean, Periodic::xy},
+    {Metric::manhattan, Periodic::none}, {Metric::euclidean, Periodic::x},
+    {Metric::manhattan, Periodic::xy},   {Metric::manhattan, Periodic::x},
+};
+
+/// Grids and their seeds. PoCL compiles kernels anew for 2^16 work-items and more, of which a kernel may have
+/// one for each seed or for some pixels.
+struct Scale {
+  int width, height;
+  std::size_t seeds;
+};
+constexpr Scale scales[] = {{300, 270, 1000}, {2048, 2048, 70000}};
+
+/// All measures of a diagram, and of how it stands to another one.
+void measure(const Diagram& diagram, const Diagram& other) {
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  CellStatisticsResult statistics;
+  AdjacencyResult pairs;
+  VerticesResult vertices_found;
+  Field<std::int32_t> squares;
+  Field<float> distances;
+  Field<std::uint8_t> borders;
+  Field<std::uint32_t> mapped, expanded;
+  SimilarityResult labels, within;
+  DistanceErrorsResult wrong;
+  cell_sums(diagram, sums);
+  cell_shapes(diagram, shapes);
+  cell_statistics(diagram, statistics);
+  adjacency(diagram, pairs);
+  vertices(diagram, vertices_found);
+  distance_field(diagram, squares);
+  distance_field(diagram, distances);
+  border_mask(diagram, borders);
+  map_labels(diagram, std::vector<std::uint32_t>(shapes.size()), mapped);
+  expand_labels(diagram, 5, expanded);
+  similarity(diagram, other, labels);
+  similarity(diagram, other, 0.5, within);
+  distance_errors(diagram, other, wrong);
+  diagram.wait();
+  pairs.read_pairs();  // results launch kernels of their own where they are read
+  vertices_found.read();
+}
+
+void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
+  const Grid grid(scale.width, scale.height, what.periodic);
+  const MethodOptions options = {what.metric};
+  for (const Method& each : methods()) prepare(each, device, grid, scale.seeds, options);
+  Seeds seeds = Seeds::random(device, grid, scale.seeds, 1);
+  random_step(seeds, 1, Border::reflect, 1, 1);
+  Diagram diagram(device, grid), other(device, grid);
+  const Method& exact = method("exact");
+  relax(seeds, diagram, engine(exact, options), 1);
+  exact.run(seeds, other, options);
+  measure(diagram, other);
+}
+
+/// A window with seeds around it, and then far away.
+void prepare_windows(const Device& device, const Specialisation& what) {
+  for (const int side : {4096, 100000}) {
+    const Window window(Grid(side, side, what.periodic), 0, 0, 2048, 2048);
+    const double end = side;
+    std::vector<Point> points;
+    points.reserve(10000);
+    for (int i = 0; i < 10000; ++i) {  // spread by the golden ratio and the square root of two
+      points.push_back({std::fmod(i * 0.6180339887, 1) * end, std::fmod(i * 0.4142135624, 1) * end});
+    }
+    Diagram diagram(device, window), other(device, window);
+    const Seeds seeds(device, window.grid(), points);
+    method("exact").run(seeds, diagram, {what.metric});
+    method("exact").run(seeds, other, {what.metric});
+    measure(diagram, other);
+  }
+}
+
+}  // namespace
+
+std::size_t most_preparation_parts() { return std::size(specialisations); }
+
+std::size_t prepare_programs(const Device& device, const PreparationPart& part) {
+  if (part.index >= part.count) {
+    throw Error("part " + std::to_string(part.index) + " of a preparation in " + std::to_string(part.count) +
+                " parts is not possible; the first one is 0");
+  }
+  if (keeps_binaries(device)) open_binary_folder();  // before work of minutes
+  for (std::size_t i = part.index; i < std::size(specialisations); i += part.count) {
+    for (const Scale& scale : scales) prepare_at(scale, device, specialisations[i]);
+    prepare_windows(device, specialisations[i]);
+  }
+  return keep_programs(device);
+}
+
+std::string binaries_folder() { return binary_folder(); }
+
+}  // namespace vorocl
