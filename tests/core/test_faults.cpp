@@ -3,6 +3,7 @@
 #define BOOST_TEST_MODULE faults
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <thread>
 
@@ -37,6 +38,13 @@ Fault& fault() {
   static Fault only;
   return only;
 }
+
+/// Where a user has prepared programs (vorocl/preparation.hpp), a call that fails to load one is no error: the
+/// program is built from its source.
+struct WithoutKeptBinaries {
+  WithoutKeptBinaries() { setenv("VOROCL_BINARY_CACHE", "0", 1); }
+};
+BOOST_TEST_GLOBAL_FIXTURE(WithoutKeptBinaries);
 
 const Grid grid(70, 50);
 

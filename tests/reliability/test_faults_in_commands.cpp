@@ -34,7 +34,10 @@ struct Fault {
   std::string request;  // as faults.cpp reads it
 };
 
-std::string preloaded(const std::string& settings) { return "LD_PRELOAD='" VOROCL_FAULTS "' " + settings; }
+/// Programs are built from their sources, also where the user has prepared them.
+std::string preloaded(const std::string& settings) {
+  return "VOROCL_BINARY_CACHE=0 LD_PRELOAD='" VOROCL_FAULTS "' " + settings;
+}
 
 /// Some calls of every kind that a run of the subcommand makes, to fail once or from then on.
 std::vector<Fault> faults_of(const std::string& subcommand, std::size_t of_each_kind, std::mt19937& random) {
