@@ -39,8 +39,8 @@ Fault& fault() {
   return only;
 }
 
-/// Where a user has prepared programs (vorocl/preparation.hpp), a call that fails to load one is no error: the
-/// program is built from its source.
+/// Where a user has prepared programs (vorocl/preparation.hpp), a call that fails to load one is no error:
+/// the program is built from its source.
 struct WithoutKeptBinaries {
   WithoutKeptBinaries() { setenv("VOROCL_BINARY_CACHE", "0", 1); }
 };
