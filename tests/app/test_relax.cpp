@@ -81,6 +81,26 @@ BOOST_AUTO_TEST_CASE(seeds_settle_and_their_points_give_the_same_diagram) {
   BOOST_TEST(read_raw_npy<double>(folder / "q.npy").type == "<f8");
 }
 
+BOOST_AUTO_TEST_CASE(relaxed_points_have_the_units_of_tables) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n-0.5,101\n-1.25,104.5\n-1.75,100.5\n");
+  const std::string grid = " --bounds=-2,100,0,105 --y-up --size 80x200 ";  // 40 pixels per unit
+  succeeds(folder, "relax --points p.csv --rounds 3 --relaxed-points data.csv --labels data.npy" + grid);
+  succeeds(folder, "relax --points p.csv --rounds 3 --relaxed-points px.csv --units px" + grid);
+  const std::vector<TableRow> data = read_table(folder / "data.csv").rows,
+                              pixels = read_table(folder / "px.csv").rows;
+  BOOST_TEST_REQUIRE(data.size() == 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    BOOST_TEST(*data[i][1] == -2 + *pixels[i][1] / 40, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(*data[i][2] == 105 - *pixels[i][2] / 40, boost::test_tools::tolerance(1e-12));
+  }
+  const auto labels = labels_of(folder, "data.npy").labels;
+  succeeds(folder, "render --points data.csv --labels again.npy" + grid);
+  BOOST_TEST(labels_of(folder, "again.npy").labels == labels);
+  succeeds(folder, "render --points px.csv --bounds 0,0,80,200 --size 80x200 --labels again.npy");
+  BOOST_TEST(labels_of(folder, "again.npy").labels == labels);
+}
+
 BOOST_AUTO_TEST_CASE(rounds_are_limited) {
   const TemporaryFolder folder;
   const std::string relax = "relax --random 150 --size 200x140 --energy e.csv ";

@@ -74,10 +74,11 @@ Outputs open_outputs(const RelaxOptions& options) {
   return outputs;
 }
 
-/// The pixels of seeds none of which is absent.
-std::vector<Point> pixels_of(const Seeds& seeds) {
+/// Where seeds are, none of which is absent, in the view's units.
+std::vector<Point> positions_of(const Seeds& seeds, const View& view) {
   std::vector<Point> points;
-  for (const std::optional<Point>& point : seeds.read_pixels()) points.push_back(point.value());
+  for (const std::optional<Point>& pixel : seeds.read_pixels())
+    points.push_back(view.position(pixel.value()));
   return points;
 }
 
@@ -115,7 +116,7 @@ void write_end(const Outputs& outputs, const RelaxOptions& options, const Input&
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
-  if (outputs.points) write_points(*outputs.points, pixels_of(seeds), input.ids);
+  if (outputs.points) write_points(*outputs.points, positions_of(seeds, input.view), input.ids);
   if (outputs.energy) write_energies(*outputs.energy, relaxation);
   if (outputs.picture) {
     const cv::Mat picture =
@@ -187,8 +188,8 @@ void add_relax(CommandLine& line) {
   add_file_option(command, options->labels);
   command
       .add("--relaxed-points", options->points_path,
-           "Points to write, in pixels: .csv (id, x, y) or .npy (N, 2); on a grid of W x H, --points "
-           "reads them back with --bounds 0,0,W,H")
+           "Points to write, in the units of --units: .csv (id, x, y) or .npy (N, 2); --points reads them "
+           "back with the same bounds, or with --bounds 0,0,W,H where they are in pixels")
       .value_name("FILE");
   command
       .add("--energy", options->energy_path,

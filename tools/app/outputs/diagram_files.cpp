@@ -43,11 +43,11 @@ class CellRow {
       : cell_(cell), view_(view), metric_(metric) {}
 
   Value id() const { return cell_.id; }
-  Value x() const { return position(cell_.seed).x; }
-  Value y() const { return position(cell_.seed).y; }
+  Value x() const { return view_.position(cell_.seed).x; }
+  Value y() const { return view_.position(cell_.seed).y; }
   Value area() const { return view_.units.area(cell_.sums.area); }
-  Value centroid_x() const { return if_full(position(cell_.sums.centroid()).x); }
-  Value centroid_y() const { return if_full(position(cell_.sums.centroid()).y); }
+  Value centroid_x() const { return if_full(view_.position(cell_.sums.centroid()).x); }
+  Value centroid_y() const { return if_full(view_.position(cell_.sums.centroid()).y); }
   Value left() const { return if_full(extent().left); }
   Value top() const { return if_full(extent().top); }
   Value right() const { return if_full(extent().right); }
@@ -60,9 +60,6 @@ class CellRow {
   Value touches_border() const { return cell_.shape.touches_border ? 1 : 0; }
 
  private:
-  Point position(const Point& of_diagram) const {
-    return view_.units.position({of_diagram.x + view_.x, of_diagram.y + view_.y});
-  }
   Extent extent() const {
     const double x = view_.x, y = view_.y;
     const CellShape& shape = cell_.shape;

@@ -19,7 +19,17 @@ struct AxisScale {
   double begin = 0;     ///< its first pixel in the picture
 
   double at(double pixels) const { return axis.coordinate(pixels - begin); }
-  double side_of_pixel() const { return (axis.to() - axis.from()) / static_cast<double>(axis.pixels()); }
+  double length() const { return axis.to() - axis.from(); }
+  double pixels() const { return static_cast<double>(axis.pixels()); }
+  double side_of_pixel() const { return length() / pixels(); }
+};
+
+/// So much of the data for so many pixels. A quotient of its own would round twice: 116 pixels of 10 / 100
+/// are 11.6, and 116 * 0.1 is 11.600000000000001.
+struct Ratio {
+  double data = 1, pixels = 1;
+
+  double of(double count) const { return count * data / pixels; }
 };
 
 /// The least rectangle around pixels.
@@ -39,10 +49,11 @@ class Units {
     if (x.side_of_pixel() == 0 || y.side_of_pixel() == 0) return;
     x_ = x;
     y_ = y;
-    area_ = x.side_of_pixel() * y.side_of_pixel();
+    area_ = {x.length() * y.length(), x.pixels() * y.pixels()};
     area_in_data_ = true;
     if (!square) return;
-    length_ = std::sqrt(area_);  // the sides differ by the rounding of the picture's height alone
+    // The sides differ by the rounding of the picture's height alone.
+    length_ = {std::sqrt(area_.data), std::sqrt(area_.pixels)};
     length_in_data_ = true;
   }
 
@@ -56,8 +67,8 @@ class Units {
     return {x_.at(pixels.left), y_.at(pixels.top), x_.at(pixels.right + 1), y_.at(pixels.bottom + 1)};
   }
 
-  double area(double pixels) const { return pixels * area_; }
-  double length(double pixels) const { return pixels * length_; }
+  double area(double pixels) const { return area_.of(pixels); }
+  double length(double pixels) const { return length_.of(pixels); }
   std::vector<float> lengths(std::vector<float> pixels) const {
     if (!length_in_data_) return pixels;
     for (float& length : pixels) length = static_cast<float>(this->length(static_cast<double>(length)));
@@ -74,7 +85,7 @@ class Units {
 
  private:
   AxisScale x_, y_;
-  double area_ = 1, length_ = 1;
+  Ratio area_, length_;
   bool area_in_data_ = false, length_in_data_ = false;
 };
 
@@ -96,6 +107,11 @@ struct View {
   /// A position in pixels of the grid, in pixels of the diagram.
   Point from_grid(const Point& of_grid) const {
     return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y)};
+  }
+
+  /// A position in pixels of the diagram, in the view's units.
+  Point position(const Point& of_diagram) const {
+    return units.position({of_diagram.x + x, of_diagram.y + y});
   }
 
   /// The picture of values by pixel of the diagram, with another value beyond them: these values where they
