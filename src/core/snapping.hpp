@@ -43,7 +43,8 @@ class Snapping {
     return {{absent_coordinate, 0}};
   }
 
-  /// Where in its pixel a point lies that has one: rounded to the nearest fraction, and never out of the pixel.
+  /// Where in its pixel a point lies that has one: rounded to the nearest fraction, and never out of the
+  /// pixel.
   Fraction fraction(const Point& point, const PlanePosition& at) const {
     return {fraction_of(grid_.x(), point.x, at.s[0]), fraction_of(grid_.y(), point.y, at.s[1])};
   }
@@ -58,7 +59,8 @@ class Snapping {
  private:
   static std::uint16_t fraction_of(const Axis& axis, double coordinate, cl_int pixel) {
     const double parts = (axis.position(coordinate) - static_cast<double>(pixel)) * fractions_of_pixel;
-    return static_cast<std::uint16_t>(std::min(std::max(std::nearbyint(parts), 0.0), fractions_of_pixel - 1.0));
+    return static_cast<std::uint16_t>(
+        std::min(std::max(std::nearbyint(parts), 0.0), fractions_of_pixel - 1.0));
   }
 
   /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.
