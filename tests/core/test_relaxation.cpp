@@ -12,7 +12,7 @@ namespace {
 Report exactly(const Seeds& seeds, Diagram& diagram) { return exact_diagram(seeds, diagram); }
 
 double energy_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
-                             const std::vector<Pixel>& seeds) {
+                      const std::vector<Pixel>& seeds) {
   std::uint64_t sum = 0;
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
     sum += static_cast<std::uint64_t>(distance(grid, {x, y}, seeds[label], Metric::euclidean));
