@@ -89,6 +89,10 @@ class VOROCL_API Axis {
     return is_plain() ? floor_of(coordinate) : mapped_pixel(coordinate);
   }
 
+  /// The position of a coordinate in pixels, of which pixel() is the floor but for what rounding does at a
+  /// pixel's ends: the middle of the axis if its ends are equal. NaN or infinite if the coordinate is.
+  double position(double coordinate) const;
+
   /// The coordinate of a position in pixels, of pixel(i) + 0.5 for the centre of pixel i.
   double coordinate(double position) const;
 
@@ -113,6 +117,7 @@ class VOROCL_API Axis {
 
   double mapped_pixel(double coordinate) const;
   double unreversed_pixel(double coordinate) const;
+  double position_in_period(double coordinate) const;
 
   std::int64_t pixels_;
   double from_, to_;

@@ -24,9 +24,20 @@ enum class Outside {
   refuse,  ///< BadPoint
 };
 
+/// What becomes of a point within its pixel.
+enum class Snap {
+  to_pixels,  ///< its seed lies at the pixel's centre: of those in one pixel the lowest id owns the cell
+  none,       ///< exact diagrams take the point itself, rounded to 1/4096 of a pixel along each axis
+};
+
 /// The seeds of a diagram, in their present frame. A seed's id is its index in the caller's list. A seed may
 /// be absent: it has an id and no cell. A seed lies in the pixel of its point (Axis::pixel()). Seeds that
 /// share a pixel are allowed: the lowest id owns the cell, the others have empty cells.
+///
+/// With Snap::none an exact diagram is exact for the points themselves, each rounded to 1/4096 of a pixel of
+/// the grid, once and never out of its pixel: several of one pixel may own pixels then, and measures take the
+/// same positions. Flooding methods, and what is made by the device alone (random(), from_mask(),
+/// random_step()), know whole pixels.
 ///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
@@ -45,22 +56,25 @@ enum class Outside {
 /// Ordering: points are read, and seeds moved, in the order of the calls on the device's queue.
 class VOROCL_API Seeds {
  public:
-  /// From points on the host. `outside` holds for all frames. Throws BadPoint naming the first point that is
-  /// NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid along an
-  /// axis, before any device work. No points at all are allowed.
-  Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count);
+  /// From points on the host. `outside` and `snap` hold for all frames. Throws BadPoint naming the first
+  /// point that is NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid
+  /// along an axis, before any device work. No points at all are allowed.
+  Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count,
+        Snap snap = Snap::to_pixels);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
-        Outside outside = Outside::count);
+        Outside outside = Outside::count, Snap snap = Snap::to_pixels);
 
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
   /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
   /// Points in floats, on a grid as Grid(width, height) makes it of which a flood takes a diagram, stay on
-  /// the device with Outside::refuse and Outside::absent. The call returns at once then, and the BadPoint
-  /// that names a bad one comes at the wait of every diagram and result that is made from this frame.
+  /// the device with Outside::refuse and Outside::absent if they are snapped. The call returns at once then,
+  /// and the BadPoint that names a bad one comes at the wait of every diagram and result that is made from
+  /// this frame.
   ///
   /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
-  Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse);
+  Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse,
+        Snap snap = Snap::to_pixels);
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
   /// Throws Error if the size is another or the grid is larger than a diagram can be.
@@ -110,7 +124,8 @@ class VOROCL_API Seeds {
   /// the caller's buffer was bad.
   std::vector<std::optional<Point>> read() const;
 
-  /// The seeds' positions in pixels from the grid's first one: the centres of their pixels. As read().
+  /// The seeds' positions in pixels from the grid's first one, as diagrams take them: the centres of their
+  /// pixels, or whole numbers of 1/4096 with Snap::none. As read().
   std::vector<std::optional<Point>> read_pixels() const;
 
   /// Throws BadPoint if a point of the caller's buffer was bad. Waits for it.

@@ -74,8 +74,8 @@ vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, voro
 }
 
 vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
-                           const vorocl_method_options* options, int rounds, uint64_t* energies,
-                           size_t* moved, vorocl_relaxation* relaxation) {
+                           const vorocl_method_options* options, int rounds, double* energies, size_t* moved,
+                           vorocl_relaxation* relaxation) {
   return guarded([&] {
     const Method& wanted = method(&given(name, "method"));
     vorocl_diagram& to = given(diagram, "diagram");

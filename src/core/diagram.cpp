@@ -120,6 +120,11 @@ Filling::Filling(const Seeds& seeds, Diagram& diagram, Metric metric, const char
   next_.method = method;
 }
 
+const PointPlacement& Filling::take_points() {
+  next_.points = seeds().place_points_in(diagram_.window, diagram_.grid);
+  return *next_.points;
+}
+
 Kernel& Filling::kernel(const char* file, const char* name, Neighbourhood neighbourhood) {
   return diagram_.kernels.get(diagram_.device, file, name, placement().grid, {next_.metric, neighbourhood});
 }
@@ -194,6 +199,7 @@ DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric me
   contents.placement = state.place(seeds);
   contents.seeds = Internal::state(seeds).frame();
   contents.metric = checked(metric);
+  if (contents.seeds->fractions) contents.points = contents.seeds->place_points_in(state.window, state.grid);
   return contents;
 }
 

@@ -22,10 +22,11 @@ namespace vorocl {
 struct DiagramContents {
   std::shared_ptr<const SeedsFrame> seeds;     // that they name; null: the caller wrote them, and named none
   std::shared_ptr<const Placement> placement;  // of these seeds, in the diagram's window; null likewise
-  Metric metric = Metric::euclidean;           // not known without seeds
-  std::string method;                          // empty: the caller wrote them
-  cl::Event last;                              // the command that finished them
-  int age = 0;                                 // frames since they were last made from nothing
+  std::shared_ptr<const PointPlacement> points;  // where the labels are those of points; else null
+  Metric metric = Metric::euclidean;             // not known without seeds
+  std::string method;                            // empty: the caller wrote them
+  cl::Event last;                                // the command that finished them
+  int age = 0;                                   // frames since they were last made from nothing
 };
 
 struct DiagramState {
@@ -97,6 +98,9 @@ class Filling {
   const Placement& placement() const { return *next_.placement; }
 
   Metric metric() const { return next_.metric; }
+
+  /// Takes the points of the seeds, which must have fractions, for the positions that the labels are made of.
+  const PointPlacement& take_points();
 
   /// A kernel of the diagram for these seeds and this metric, on the diagram's device or that with another
   /// tuning.

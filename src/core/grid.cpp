@@ -88,17 +88,21 @@ bool Axis::covers(double coordinate) const {
   return periodic_ ? std::isfinite(coordinate) : coordinate >= from_ && coordinate <= to_;
 }
 
+double Axis::position_in_period(double coordinate) const {
+  const double period = to_ - from_;
+  double offset = coordinate - from_;
+  if (!(offset >= 0 && offset < period)) {
+    offset = std::fmod(offset, period);
+    if (offset < 0) offset += period;
+  }
+  return in_pixels_ ? offset : offset * static_cast<double>(pixels_) / period;
+}
+
 double Axis::unreversed_pixel(double coordinate) const {
   const auto count = static_cast<double>(pixels_);
   if (periodic_) {
-    const double period = to_ - from_;
-    double offset = coordinate - from_;
-    if (!(offset >= 0 && offset < period)) {
-      offset = std::fmod(offset, period);
-      if (offset < 0) offset += period;
-    }
     // What is just below the period can be rounded up to its end.
-    const double pixel = floor_of(in_pixels_ ? offset : offset * count / period);
+    const double pixel = floor_of(position_in_period(coordinate));
     return pixel >= count ? count - 1 : pixel;
   }
   if (from_ == to_) {
@@ -114,6 +118,19 @@ double Axis::unreversed_pixel(double coordinate) const {
 double Axis::mapped_pixel(double coordinate) const {
   const double pixel = unreversed_pixel(coordinate);
   return reversed_ ? static_cast<double>(pixels_ - 1) - pixel : pixel;
+}
+
+double Axis::position(double coordinate) const {
+  const auto count = static_cast<double>(pixels_);
+  double along = coordinate;
+  if (periodic_) {
+    along = position_in_period(coordinate);
+  } else if (from_ == to_) {
+    if (coordinate == from_) return std::floor(count / 2) + 0.5;
+  } else if (!in_pixels_) {
+    along = (coordinate - from_) * count / (to_ - from_);
+  }
+  return reversed_ ? count - along : along;
 }
 
 double Axis::coordinate(double position) const {

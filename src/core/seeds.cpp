@@ -52,16 +52,17 @@ SeedsState& Seeds::state() const {
   return *state_;
 }
 
-Seeds::Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside)
-    : state_(std::make_unique<SeedsState>(device, grid, outside)) {
+Seeds::Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside, Snap snap)
+    : state_(std::make_unique<SeedsState>(device, grid, outside, snap)) {
   state_->place(grid, points);
 }
 
-Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points, Outside outside)
-    : Seeds(device, grid, Points(points), outside) {}
+Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points, Outside outside,
+             Snap snap)
+    : Seeds(device, grid, Points(points), outside, snap) {}
 
-Seeds::Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside)
-    : state_(std::make_unique<SeedsState>(device, grid, outside)) {
+Seeds::Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside, Snap snap)
+    : state_(std::make_unique<SeedsState>(device, grid, outside, snap)) {
   state_->place(points);
 }
 
@@ -108,7 +109,7 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
 }
 
 Seeds Seeds::clone() const {
-  auto copied = std::make_unique<SeedsState>(device(), grid(), state().outside);
+  auto copied = std::make_unique<SeedsState>(device(), grid(), state().outside, state().snap);
   copied->copy_from(state());
   return Seeds(std::move(copied));
 }
@@ -137,10 +138,11 @@ std::vector<std::optional<Point>> Seeds::read() const {
 
 std::vector<std::optional<Point>> Seeds::read_pixels() const {
   check();
-  std::vector<std::optional<Point>> points;
-  points.reserve(size());
-  for (const PlanePosition& at : state().frame()->read_pixels()) {
-    points.push_back(is_absent(at) ? std::nullopt : std::optional<Point>({at.s[0] + 0.5, at.s[1] + 0.5}));
+  const SeedsFrame& frame = *state().frame();
+  std::vector<std::optional<Point>> points(size());
+  const std::vector<PlanePosition> pixels = frame.read_pixels();
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (!is_absent(pixels[id])) points[id] = frame.position(id, pixels[id]);
   }
   return points;
 }

@@ -169,6 +169,11 @@ std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, cons
                          [&] { return place_in_window(device, window, shown, read_pixels()); });
 }
 
+std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& window,
+                                                                  const PixelGrid& shown) const {
+  return place_points(device, window, shown, *pixels, *fractions);
+}
+
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
   if (!placement.outer) return;
   const std::size_t outside = placement.outer->outside;

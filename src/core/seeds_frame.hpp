@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/placement.hpp"
+#include "core/point_placement.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/grid.hpp"
@@ -76,6 +77,9 @@ struct SeedsFrame {
   /// The pixels, by id, counted from the grid's first one; null where the device has placed the seeds.
   std::shared_ptr<const std::vector<PlanePosition>> pixels = nullptr;
 
+  /// Where in these pixels the points lie; null if the seeds are snapped to the centres.
+  std::shared_ptr<const std::vector<Fraction>> fractions = nullptr;
+
   /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
   std::shared_ptr<const Placement> whole = nullptr;
 
@@ -97,11 +101,22 @@ struct SeedsFrame {
   /// question; then the host waits if the device has placed the seeds.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
+  /// The same of points with fractions. Made at each question.
+  std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
+
   /// The greatest way of a seed along an axis to this frame from an earlier one. May wait.
   double way_from(const SeedsFrame& earlier) const;
 
   /// The same from the frame before.
   double way_of_last_move() const;
+
+  /// The position in pixels of a seed in this pixel: of its point, or the pixel's centre.
+  Point position(std::size_t id, const PlanePosition& pixel) const {
+    constexpr Fraction centre = {fractions_of_pixel / 2, fractions_of_pixel / 2};
+    const Fraction& in = fractions ? (*fractions)[id] : centre;
+    return {pixel.s[0] + static_cast<double>(in.x) / fractions_of_pixel,
+            pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel};
+  }
 
   /// The pixels, from the device where the host has none. Waits.
   std::vector<PlanePosition> read_pixels() const;

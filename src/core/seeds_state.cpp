@@ -76,8 +76,8 @@ std::vector<std::uint32_t> packed_positions(const Window& window, std::size_t ou
 
 }  // namespace
 
-SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, Outside outside_is)
-    : device(device_of_seeds), outside(outside_is) {
+SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, Outside outside_is, Snap snap_is)
+    : device(device_of_seeds), outside(outside_is), snap(snap_is) {
   SeedsFrame none{device, grid};
   none.owner = next_number();
   none.placements = no_placements();
@@ -109,7 +109,7 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
 
 void SeedsState::place(const Grid& grid, const Points& points) {
   check_count(points.size());
-  const Snapping snap(grid, outside);
+  const Snapping snapping(grid, outside);
   const std::shared_ptr<std::vector<Point>> given = points_.take();
   const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
   given->resize(points.size());
@@ -118,22 +118,31 @@ void SeedsState::place(const Grid& grid, const Points& points) {
     PlanePosition& at = (*pixels)[id];
     if (points.is_present(id)) {
       (*given)[id] = points[id];
-      at = snap(id, (*given)[id]);
+      at = snapping(id, (*given)[id]);
     } else {
       at = {{absent_coordinate, 0}};
     }
   }
-  place(grid, pixels, given);
+  std::shared_ptr<std::vector<Fraction>> fractions;
+  if (snap == Snap::none) {
+    fractions = fractions_.take();
+    fractions->resize(points.size());
+    for (std::size_t id = 0; id < points.size(); ++id) {
+      if (!is_absent((*pixels)[id])) (*fractions)[id] = snapping.fraction((*given)[id], (*pixels)[id]);
+    }
+  }
+  place(grid, pixels, given, fractions);
 }
 
 void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> placed,
-                       std::shared_ptr<const std::vector<Point>> given) {
+                       std::shared_ptr<const std::vector<Point>> given,
+                       std::shared_ptr<const std::vector<Fraction>> fractions) {
   const std::vector<PlanePosition>& pixels = *placed;
-  const Snapping snap(grid, outside);
+  const Snapping snapping(grid, outside);
   std::vector<bool> there(pixels.size(), true);
   bool lost = there.size() < present.size();
   std::size_t inside = 0, absent = 0;
-  for (const PlanePosition& at : pixels) inside += snap.is_inside(at) ? 1 : 0;
+  for (const PlanePosition& at : pixels) inside += snapping.is_inside(at) ? 1 : 0;
   for (std::size_t id = 0; inside < pixels.size() && id < pixels.size(); ++id) {
     if (!is_absent(pixels[id])) continue;
     there[id] = false;
@@ -144,6 +153,7 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
   next.absent = absent;
   next.outside = pixels.size() - inside - absent;
   next.given = std::move(given);
+  next.fractions = std::move(fractions);
   if (frame_->grid != grid) {
     next.way = {0, 0, next_number()};
   } else if (frame_->pixels) {
@@ -167,8 +177,9 @@ void SeedsState::place(const PointBuffer& points) {
   check_buffers(device, points);
   const Window window(grid());
   const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count &&
-                             device_snaps_to(grid().x()) && device_snaps_to(grid().y()) &&
-                             fits_in_a_diagram(grid()) && kernels_go_round(window, PixelGrid(window));
+                             snap == Snap::to_pixels && device_snaps_to(grid().x()) &&
+                             device_snaps_to(grid().y()) && fits_in_a_diagram(grid()) &&
+                             kernels_go_round(window, PixelGrid(window));
   if (on_the_device) {
     place_on_the_device(points);
   } else {
@@ -232,6 +243,7 @@ void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way)
   next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), positions, nullptr});
   next.given = nullptr;
   next.pixels = nullptr;
+  next.fractions = nullptr;
   next.before = nullptr;
   next.placements = no_placements();
   next.way.last = way;

@@ -41,10 +41,11 @@ class Recycled {
 };
 
 struct SeedsState {
-  SeedsState(const Device& device, const Grid& grid, Outside outside);
+  SeedsState(const Device& device, const Grid& grid, Outside outside, Snap snap = Snap::to_pixels);
 
   Device device;
   Outside outside;
+  Snap snap;
   std::vector<bool> present;  // by id, as far as the host knows
   KernelSet kernels;
 
@@ -60,10 +61,11 @@ struct SeedsState {
   /// Makes the next frame of points in the caller's buffers.
   void place(const PointBuffer& points);
 
-  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` may be
-  /// null.
+  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` and
+  /// `fractions` may be null.
   void place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> pixels,
-             std::shared_ptr<const std::vector<Point>> given);
+             std::shared_ptr<const std::vector<Point>> given,
+             std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
 
   /// An empty list of pixels, with the memory of one that no frame remembers any more.
   std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
@@ -102,6 +104,7 @@ struct SeedsState {
   std::shared_ptr<const SeedsFrame> frame_;
   Recycled<PlanePosition> pixels_;
   Recycled<Point> points_;
+  Recycled<Fraction> fractions_;
   Upload<std::uint32_t> upload_;                     // of positions that the host has placed
   std::vector<std::shared_ptr<cl::Buffer>> rooms_;   // of positions: those of frames that are remembered ...
   std::vector<std::shared_ptr<PointCheck>> checks_;  // ... and unused ones; checks likewise

@@ -1,6 +1,7 @@
 // Which pixel of a grid a point's seed lies in.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 
 #include "core/outer_seeds.hpp"
+#include "core/point_placement.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/seeds.hpp"
 #include "vorocl/tiles.hpp"
@@ -41,6 +43,12 @@ class Snapping {
     return {{absent_coordinate, 0}};
   }
 
+  /// Where in its pixel a point lies that has one: rounded to the nearest fraction, and never out of the
+  /// pixel.
+  Fraction fraction(const Point& point, const PlanePosition& at) const {
+    return {fraction_of(grid_.x(), point.x, at.s[0]), fraction_of(grid_.y(), point.y, at.s[1])};
+  }
+
   /// "point 7 (nan, 3) is outside the grid; ...", or not finite.
   static BadPoint outside_the_grid(std::size_t id, const Point& point, const Grid& grid) {
     return {id, point,
@@ -49,6 +57,12 @@ class Snapping {
   }
 
  private:
+  static std::uint16_t fraction_of(const Axis& axis, double coordinate, cl_int pixel) {
+    const double parts = (axis.position(coordinate) - static_cast<double>(pixel)) * fractions_of_pixel;
+    return static_cast<std::uint16_t>(
+        std::min(std::max(std::nearbyint(parts), 0.0), fractions_of_pixel - 1.0));
+  }
+
   /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.
   static bool is_near(const Axis& axis, double pixel) {
     return pixel >= static_cast<double>(axis.pixels()) - 2147483648.0 && pixel < 2147483648.0;

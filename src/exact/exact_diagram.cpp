@@ -6,6 +6,7 @@
 #include "exact/group_shape.hpp"
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
+#include "exact/points.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
@@ -29,6 +30,7 @@ struct ExactWorkspace {
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
+  if (filling.seeds().fractions) return exact_diagram_of_points(filling, state);
   const Device& device = state.device;
   const PixelGrid& grid = filling.placement().grid;
   if (device.tuning().shape == Shape::group && fits_in_groups(grid)) {

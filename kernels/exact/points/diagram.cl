@@ -1,0 +1,3 @@
+// The program of exact diagrams of points.
+
+#include "exact/points/tiles.cl"

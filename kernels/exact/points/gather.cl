@@ -1,0 +1,184 @@
+// Collecting the places around a box of pixels from the index.
+
+#ifndef VOROCL_POINTS_GATHER
+#define VOROCL_POINTS_GATHER
+
+#include "exact/points/candidates.cl"
+
+// What a work-item reads, and the labels of the tile that it makes.
+typedef struct {
+  bins_t bins;
+  int width, height;  // of the grid, which is its period along periodic axes
+  global const uint* starts;
+  global const int2* list;
+  global const uint* ids;
+  global const int2* seeds;  // by id, if places may be images of them; else null
+  uint* labels;              // of the tile, row by row
+} scene_t;
+
+// Pixels of an axis, both ends included.
+typedef struct {
+  int from, to;
+} span_t;
+
+static inline span_t span_of(int from, int to) {
+  const span_t span = {from, to};
+  return span;
+}
+static inline bool holds(span_t outer, span_t inner) { return inner.from >= outer.from && inner.to <= outer.to; }
+static inline span_t joined(span_t a, span_t b) { return span_of(min(a.from, b.from), max(a.to, b.to)); }
+static inline span_t clamped(span_t span, span_t limits) {
+  return span_of(clamp(span.from, limits.from, limits.to), clamp(span.to, limits.from, limits.to));
+}
+static inline span_t with_bins_around(span_t span, int rings, int bits) {
+  return span_of(((span.from >> bits) - rings) * (1 << bits), ((span.to >> bits) + rings + 1) * (1 << bits) - 1);
+}
+
+// All that a box needs: the axis, or along a periodic one all that is at most half a period away.
+static inline span_t limits_of(span_t box, int size, int periodic) {
+  if (!periodic) return span_of(0, size - 1);
+  return span_of(box.from - size / 2 - 1, box.to + size / 2 + 1);
+}
+
+// The images of the pixels of a periodic axis that a span meets, by the number of periods that they are away.
+static inline int images_from(int at, int size, int periodic) {
+  return periodic ? (at >= 0 ? at / size : -((size - 1 - at) / size)) : 0;
+}
+static inline span_t of_image(span_t span, int image, int size, int periodic) {
+  if (!periodic) return span;
+  return span_of(max(span.from - image * size, 0), min(span.to - image * size, size - 1));
+}
+
+// A rectangle of bins, walked row by row: ranges of the list, and where the images of their places lie.
+typedef struct {
+  span_t x, y;
+  int image_x, image_y, last_image_x, last_image_y;
+  int row, last_row, first_column, last_column;
+} walk_t;
+
+static inline void enter_image(const scene_t* scene, walk_t* walk) {
+  const span_t x = of_image(walk->x, walk->image_x, scene->width, PERIODIC_X);
+  const span_t y = of_image(walk->y, walk->image_y, scene->height, PERIODIC_Y);
+  walk->first_column = column_of(&scene->bins, x.from);
+  walk->last_column = column_of(&scene->bins, x.to);
+  walk->row = row_of(&scene->bins, y.from) - 1;
+  walk->last_row = row_of(&scene->bins, y.to);
+}
+
+static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y) {
+  walk_t walk;
+  walk.x = x;
+  walk.y = y;
+  walk.image_x = images_from(x.from, scene->width, PERIODIC_X);
+  walk.image_y = images_from(y.from, scene->height, PERIODIC_Y);
+  walk.last_image_x = images_from(x.to, scene->width, PERIODIC_X);
+  walk.last_image_y = images_from(y.to, scene->height, PERIODIC_Y);
+  enter_image(scene, &walk);
+  return walk;
+}
+
+// The next range; false at the end.
+static inline bool next_range(const scene_t* scene, walk_t* walk, uint2* range) {
+  while (++walk->row > walk->last_row) {
+    if (!(PERIODIC_X || PERIODIC_Y)) return false;
+    if (walk->image_x < walk->last_image_x) {
+      ++walk->image_x;
+    } else if (walk->image_y < walk->last_image_y) {
+      walk->image_x = images_from(walk->x.from, scene->width, PERIODIC_X);
+      ++walk->image_y;
+    } else {
+      return false;
+    }
+    enter_image(scene, walk);
+  }
+  range->s0 = scene->starts[start_of(&scene->bins, walk->first_column, walk->row)];
+  range->s1 = scene->starts[start_of(&scene->bins, walk->last_column, walk->row) + 1];
+  return true;
+}
+
+// What is subtracted from the places of a range: the centre of a box, in the image's place.
+static inline int2 origin_of(const scene_t* scene, const walk_t* walk, int2 centre) {
+  if (!(PERIODIC_X || PERIODIC_Y)) return centre;
+  return centre - (int2)(walk->image_x * scene->width, walk->image_y * scene->height) * ONE_PIXEL;
+}
+
+// Eight places of the list, in pixels from an origin.
+static inline void load_places(const scene_t* scene, uint from, int2 origin, float8* x, float8* y) {
+  const int16 places = vload16(0, (global const int*)(scene->list + from));
+  *x = convert_float8(places.even - origin.x) * (1.f / ONE_PIXEL);
+  *y = convert_float8(places.odd - origin.y) * (1.f / ONE_PIXEL);
+}
+
+// Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
+// MOST_LISTED if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do not
+// come in.
+NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, float w, int* nearest) {
+  int8 best = INT_MAX;
+  int count = 0;
+  bool was_full = false;
+  rival_t rival = {0, 0, 0};
+  walk_t walk = walk_over(scene, x, y);
+  uint2 range;
+  while (next_range(scene, &walk, &range)) {
+    const int2 origin = origin_of(scene, &walk, centre);
+    for (uint at = range.s0; at < range.s1; at += 8) {
+      if (count > MOST_LISTED - 8) {
+        was_full = true;
+        rival = rival_of(list, nearest_of(list, count, 0, 0));
+        count = drop_by(list, count, list, 0, 0, rival, w, w);
+        if (count > MOST_LISTED / 2) count = drop_by_corners(list, count, w, w);
+        *nearest = nearest_of(list, count, 0, 0);
+        if (count > MOST_LISTED / 2) return MOST_LISTED + 1;
+      }
+      float8 px, py;
+      load_places(scene, at, origin, &px, &py);
+      const int some = (int)min(range.s1 - at, 8u);
+      if (was_full) {
+        const int8 stays = may_win(px, py, rival, w, w) & (EIGHT < some);
+        if (any(stays)) count = keep(list, count, stays, px, py, at + as_uint8(EIGHT));
+        continue;
+      }
+      best = min(best, select(nearest_key(away_from(px, py), count), (int8)INT_MAX, EIGHT >= some));
+      vstore8(px, 0, list->x + count);
+      vstore8(py, 0, list->y + count);
+      vstore8(at + as_uint8(EIGHT), 0, list->at + count);
+      count += some;
+    }
+  }
+  *nearest = was_full ? nearest_of(list, count, 0, 0) : least_of(best) & PLACE_MASK;
+  return count;
+}
+
+// How far the discs reach, in pixels beyond a box, that go through a rival and have their centres at the box's pixels:
+// what may win is in them. (In the Manhattan metric they are diamonds.)
+typedef struct {
+  float west, east, north, south;
+} reach_t;
+
+static inline float radius_of(float x, float y) {
+#ifdef VOROCL_EUCLIDEAN
+  return sqrt(fma(x, x, y * y)) * (1 + 0x1p-20f) + 0x1p-7f;
+#else
+  return (x + y) * (1 + 0x1p-20f) + 0x1p-7f;
+#endif
+}
+
+static inline reach_t reach_of(rival_t rival, float w) {
+  const float far_x = w / 2 + fabs(rival.x), near_x = fabs(w / 2 - fabs(rival.x));
+  const float far_y = w / 2 + fabs(rival.y), near_y = fabs(w / 2 - fabs(rival.y));
+  const float farthest = radius_of(far_x, far_y);
+  const float beside_x = radius_of(near_x, far_y), beside_y = radius_of(far_x, near_y);
+  const reach_t reach = {rival.x > 0 ? farthest : beside_x, rival.x > 0 ? beside_x : farthest,
+                         rival.y > 0 ? farthest : beside_y, rival.y > 0 ? beside_y : farthest};
+  return reach;
+}
+
+static inline float longest(reach_t reach) { return fmax(fmax(reach.west, reach.east), fmax(reach.north, reach.south)); }
+
+// The pixels of an axis that a box of pixels needs to know. A reach can be longer than the numbers of pixels.
+static inline span_t span_of_reach(span_t box, float before, float behind) {
+  const int most = 1 << 21;
+  return span_of(box.from - (int)fmin(before, (float)most) - 2, box.to + (int)fmin(behind, (float)most) + 2);
+}
+
+#endif

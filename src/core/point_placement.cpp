@@ -1,0 +1,111 @@
+#include "core/point_placement.hpp"
+
+#include <cstddef>
+#include <string>
+
+#include "core/placement.hpp"
+#include "core/window_places.hpp"
+#include "runtime/buffer.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl {
+
+namespace {
+
+/// Positions are int32, and so are their differences from all pixels of a window; and there is room behind
+/// them for what is nowhere (kernels/exact/points/index.cl).
+constexpr std::int64_t most_pixels_away = std::int64_t{1} << 18;
+
+std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
+std::int64_t centre_of(std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; }
+
+Region centres_of(const Region& pixels) {
+  return {centre_of(pixels.left), centre_of(pixels.top), centre_of(pixels.right), centre_of(pixels.bottom)};
+}
+
+Periods in_fractions(Periods periods) {
+  periods.x = in_fractions(periods.x);
+  periods.y = in_fractions(periods.y);
+  return periods;
+}
+
+bool fits(const Place& place) {
+  const std::int64_t most = in_fractions(most_pixels_away);
+  return place.x >= -most && place.x <= most && place.y >= -most && place.y <= most;
+}
+
+cl_int2 as_int2(const Place& place) { return {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}}; }
+
+constexpr cl_int2 absent_point = {{absent_coordinate, 0}};
+
+}  // namespace
+
+std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
+                                                   const PixelGrid& shown,
+                                                   const std::vector<PlanePosition>& pixels,
+                                                   const std::vector<Fraction>& fractions) {
+  const std::size_t count = pixels.size();
+  const auto place_of = [&](std::size_t id) {
+    return Place{in_fractions(pixels[id].s[0] - window.x()) + fractions[id].x,
+                 in_fractions(pixels[id].s[1] - window.y()) + fractions[id].y};
+  };
+  std::vector<cl_int2> seeds;
+  seeds.reserve(count + 1);
+  bool all_inside = true;
+  for (std::size_t id = 0; id < count; ++id) {
+    const bool there = !is_absent(pixels[id]);
+    const Place place = there ? place_of(id) : Place{};
+    seeds.push_back(there && fits(place) ? as_int2(place) : absent_point);
+    all_inside =
+        all_inside && (!there || is_inside(shown, {{static_cast<cl_int>(pixels[id].s[0] - window.x()),
+                                                    static_cast<cl_int>(pixels[id].s[1] - window.y())}}));
+  }
+  seeds.push_back(absent_point);
+
+  PointPlacement placed{shown, allocate_with(device, seeds, "the seeds"), {}, {}};
+  const Region home = home_region(window), region = labelled_region(window, home);
+  const Periods periods(window.grid());
+  placed.region = {{static_cast<cl_int>(region.left), static_cast<cl_int>(region.top),
+                    static_cast<cl_int>(region.right), static_cast<cl_int>(region.bottom)}};
+  placed.periods = {{static_cast<cl_uint>(periods.x), static_cast<cl_uint>(periods.y)}};
+  if (all_inside && kernels_go_round(window, shown)) {
+    placed.places = placed.seeds;
+    placed.count = static_cast<cl_uint>(count);
+    return std::make_shared<const PointPlacement>(std::move(placed));
+  }
+
+  placed.grid = shown.without_periods();
+  std::vector<cl_int2> places;
+  std::vector<cl_uint> ids;
+  if (!region.empty()) {
+    const Region centres = centres_of(region);
+    const Periods round = in_fractions(periods);
+    const auto each = [&](auto use) {
+      for (std::size_t id = 0; id < count; ++id) {
+        if (is_absent(pixels[id])) continue;
+        each_place(centres, round, place_of(id), [&](const Place& place, bool) { use(place, id); });
+      }
+    };
+    Rim rim(centres);
+    each([&](const Place& place, std::size_t) { rim.add(place); });
+    each([&](const Place& place, std::size_t id) {
+      if (rim.rules_out(place)) return;
+      if (!fits(place)) {
+        throw Error("seed " + std::to_string(id) + " may own pixels of the diagram, and lies more than " +
+                    std::to_string(most_pixels_away) +
+                    " pixels from its window's first one: that is too far for positions within a pixel; snap "
+                    "the seeds to pixels, or take a window nearer to them");
+      }
+      places.push_back(as_int2(place));
+      ids.push_back(static_cast<cl_uint>(id));
+    });
+  }
+  placed.count = static_cast<cl_uint>(places.size());
+  if (!places.empty()) {
+    placed.places = allocate_with(device, places, "the seeds of a window");
+    placed.ids = allocate_with(device, ids, "the seeds of a window");
+  }
+  return std::make_shared<const PointPlacement>(std::move(placed));
+}
+
+}  // namespace vorocl

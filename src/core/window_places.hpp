@@ -1,0 +1,162 @@
+// The seeds and images that a window of a grid may have to know: which of them can own its pixels.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include "vorocl/grid.hpp"
+
+namespace vorocl {
+
+/// A position of 64 bits, for sums that do not overflow.
+struct Place {
+  std::int64_t x, y;
+};
+
+/// A rectangle of pixels, both ends included.
+struct Region {
+  std::int64_t left, top, right, bottom;
+  bool empty() const { return right < left || bottom < top; }
+};
+
+/// What repeats: the periods, 0 along an axis that is not periodic.
+struct Periods {
+  explicit Periods(const Grid& grid)
+      : x(grid.x().is_periodic() ? grid.width() : 0), y(grid.y().is_periodic() ? grid.height() : 0) {}
+
+  std::int64_t x, y;
+};
+
+/// The pixels of a window that lie in its grid's one period, where seeds lie themselves and not their images.
+inline Region home_region(const Window& window) {
+  Region region = {0, 0, window.width() - 1, window.height() - 1};
+  const Periods periods(window.grid());
+  if (periods.x > 0) {
+    region.left = std::max<std::int64_t>(region.left, -window.x());
+    region.right = std::min(region.right, periods.x - 1 - window.x());
+  }
+  if (periods.y > 0) {
+    region.top = std::max<std::int64_t>(region.top, -window.y());
+    region.bottom = std::min(region.bottom, periods.y - 1 - window.y());
+  }
+  return region;
+}
+
+/// The pixels of a window that get labels: all along an axis of which it shows no more than a period.
+inline Region labelled_region(const Window& window, const Region& home) {
+  Region region = home;
+  const Periods periods(window.grid());
+  if (window.width() <= periods.x) region.left = 0, region.right = window.width() - 1;
+  if (window.height() <= periods.y) region.top = 0, region.bottom = window.height() - 1;
+  return region;
+}
+
+/// Calls a function with each place of a seed that may be the nearest one of a pixel of the region, and
+/// whether it is an image: no image farther than half a period is. A window may begin late in the period, and
+/// end nearly a period behind it.
+template <typename Use>
+void each_place(const Region& region, const Periods& periods, const Place& seed, Use use) {
+  const std::int64_t images_x = periods.x > 0 ? 1 : 0, images_y = periods.y > 0 ? 1 : 0;
+  for (std::int64_t j = -images_y; j <= 2 * images_y; ++j) {
+    const std::int64_t y = seed.y + j * periods.y;
+    if (periods.y > 0 && (2 * (region.top - y) > periods.y || 2 * (y - region.bottom) > periods.y)) continue;
+    for (std::int64_t i = -images_x; i <= 2 * images_x; ++i) {
+      const std::int64_t x = seed.x + i * periods.x;
+      if (periods.x > 0 && (2 * (region.left - x) > periods.x || 2 * (x - region.right) > periods.x))
+        continue;
+      use(Place{x, y}, i != 0 || j != 0);
+    }
+  }
+}
+
+/// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
+/// nearer at all its pixels (kernels/exact/dominance.cl says why). Along the region's rim stand witnesses:
+/// the places nearest to each stretch of it, and one more in the middle. A place is held against that and the
+/// witness of the stretch that it is nearest to.
+class Rim {
+ public:
+  explicit Rim(const Region& region) : region_(region) {
+    while (std::max(region.right - region.left, region.bottom - region.top) >> shift_ >= stretches_of_side)
+      ++shift_;
+    witnesses_.resize(4 * stretches_of_side);
+  }
+
+  void add(const Place& place) {
+    std::optional<Witness>& witness = witnesses_[stretch_of(place)];
+    const std::int64_t away = distance_to_rim(place);
+    if (!witness || away < witness->away) witness = Witness{place, away};
+    const std::int64_t to_middle = distance_to_middle(place);
+    if (!middle_ || to_middle < middle_->away) middle_ = Witness{place, to_middle};
+  }
+
+  bool rules_out(const Place& place) const {
+    const std::optional<Witness>& witness = witnesses_[stretch_of(place)];
+    return (witness && is_nearer(witness->place, place)) || (middle_ && is_nearer(middle_->place, place));
+  }
+
+ private:
+  static constexpr std::int64_t stretches_of_side = 1024;  // at most
+  struct Witness {
+    Place place;
+    std::int64_t away;
+  };
+
+  /// The distances to the four sides, negative inside the region.
+  std::array<std::int64_t, 4> to_sides(const Place& place) const {
+    return {region_.top - place.y, place.y - region_.bottom, region_.left - place.x, place.x - region_.right};
+  }
+
+  /// Along the axis where it is greater.
+  std::int64_t distance_to_middle(const Place& place) const {
+    return std::max(std::abs(place.x - (region_.left + region_.right) / 2),
+                    std::abs(place.y - (region_.top + region_.bottom) / 2));
+  }
+
+  std::int64_t distance_to_rim(const Place& place) const {
+    const auto sides = to_sides(place);
+    return std::abs(*std::max_element(sides.begin(), sides.end()));
+  }
+
+  std::size_t stretch_of(const Place& place) const {
+    const auto sides = to_sides(place);
+    const auto side = std::max_element(sides.begin(), sides.end()) - sides.begin();
+    const bool along_x = side < 2;
+    const std::int64_t low = along_x ? region_.left : region_.top;
+    const std::int64_t high = along_x ? region_.right : region_.bottom;
+    const std::int64_t at = std::min(std::max(along_x ? place.x : place.y, low), high) - low;
+    return static_cast<std::size_t>(side * stretches_of_side + (at >> shift_));
+  }
+
+  /// Whether a place is nearer than another one at all corners, by both metrics.
+  bool is_nearer(const Place& place, const Place& other) const {
+    for (const std::int64_t x : {region_.left, region_.right}) {
+      for (const std::int64_t y : {region_.top, region_.bottom}) {
+        const std::int64_t dx = std::abs(place.x - x), dy = std::abs(place.y - y);
+        const std::int64_t other_dx = std::abs(other.x - x), other_dy = std::abs(other.y - y);
+        if (dx + dy >= other_dx + other_dy) return false;
+        if (squares(dx, dy) >= squares(other_dx, other_dy) * below_one) return false;
+      }
+    }
+    return true;
+  }
+
+  // A squared distance leaves 64 bits where a unit is a part of a pixel. What is lost to rounding rules out
+  // less.
+  static constexpr double below_one = 1 - 0x1p-48;
+  static double squares(std::int64_t dx, std::int64_t dy) {
+    const auto x = static_cast<double>(dx), y = static_cast<double>(dy);
+    return x * x + y * y;
+  }
+
+  Region region_;
+  int shift_ = 0;  // a stretch has 2^shift pixels
+  std::vector<std::optional<Witness>> witnesses_;
+  std::optional<Witness> middle_;
+};
+
+}  // namespace vorocl

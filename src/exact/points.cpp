@@ -1,0 +1,79 @@
+#include "exact/points.hpp"
+
+#include <algorithm>
+
+#include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "exact/points/sizes.cl"
+
+namespace vorocl {
+
+namespace {
+
+static_assert(fractions_of_pixel == 1 << FRACTION_BITS);
+
+constexpr std::size_t word = sizeof(std::uint32_t);
+
+struct PointsWorkspace {
+  cl::Buffer starts, numbers, list, ids;  // the index (kernels/exact/points/index.cl)
+};
+
+std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+
+/// The kernels have vectors of their own, so that one program serves every width.
+Device without_vectors(const Device& device) {
+  Tuning tuning = device.tuning();
+  tuning.vector_width = 1;
+  return device.with_tuning(tuning);
+}
+
+/// Bins with some three places each, so that neither bins nor places that are too far are what a walk meets
+/// most.
+int bits_of_bins(const PixelGrid& grid, std::size_t places) {
+  constexpr int least = 1, most = 12;
+  constexpr std::size_t places_of_bin = 3;
+  int bits = least;
+  while (bits < most && (places << 2 * (bits + 1)) <= places_of_bin * grid.pixels()) ++bits;
+  return bits;
+}
+
+}  // namespace
+
+Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
+  const PointPlacement& points = filling.take_points();
+  const PixelGrid& grid = points.grid;
+  const int width = grid.width(), height = grid.height();
+  const cl_int bits = bits_of_bins(grid, points.count);
+  const std::size_t rows = along(height, bits), bins = rows * (along(width, bits) + 1);
+  PointsWorkspace& memory = state.workspace<PointsWorkspace>();
+  const std::size_t room = points.count + LANES_OF_POINTS;
+  state.reserve(memory.starts, (bins + 1) * word);
+  state.reserve(memory.numbers, points.count * word);
+  state.reserve(memory.list, room * sizeof(cl_int2));
+  state.reserve(memory.ids, room * word);
+
+  const Device device = without_vectors(state.device);
+  const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+  const auto kernel = [&](const char* name, std::size_t most) -> Kernel& {
+    return state.kernels.get(device, "exact/points/diagram.cl", name, grid, {filling.metric()})
+        .in_groups_of(std::min(group, most));
+  };
+  const bool has_ids = points.ids() != nullptr;
+  const cl::Event first = fill(state.device, memory.starts, cl_uint{0}, bins + 1);
+  kernel("count_points", group)
+      .over_items(points.count, points.places, points.count, bits, width, height, memory.starts,
+                  memory.numbers);
+  kernel("start_bins", 64).over_items(rows, memory.starts, bits, width, height);
+  kernel("list_points", group)
+      .over_items(points.count, points.places, has_ids ? points.ids : points.places, cl_int{has_ids},
+                  points.count, bits, width, height, memory.starts, memory.numbers, memory.list, memory.ids);
+  kernel("drop_repeats", 8).over_items(rows, memory.starts, bits, width, height, memory.list, memory.ids);
+  // Work-items that do much each: small groups spread them over the compute units.
+  const cl::Event last = kernel("label_tiles", 8)
+                             .over_items(along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS),
+                                         memory.starts, memory.list, memory.ids, points.seeds,
+                                         cl_int{has_ids}, bits, width, height, points.region, state.labels);
+  return filling.commit(0, first, last);
+}
+
+}  // namespace vorocl

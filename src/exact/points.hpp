@@ -1,0 +1,12 @@
+// Exact diagrams of points at positions within their pixels.
+#pragma once
+
+#include "core/diagram_state.hpp"
+#include "vorocl/report.hpp"
+
+namespace vorocl {
+
+/// Labels the diagram by the seeds' points, which have fractions (kernels/exact/points).
+Report exact_diagram_of_points(Filling& filling, DiagramState& state);
+
+}  // namespace vorocl
