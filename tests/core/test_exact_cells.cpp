@@ -1,13 +1,17 @@
-// Exact cells: against rational numbers, where for each pair of seeds the part of their bisector is found that no
-// other seed is nearer to; against Boost.Polygon's Voronoi diagram; and what must hold for every set.
+// Exact cells: against rational numbers, where for each pair of seeds the part of their bisector is found
+// that no other seed is nearer to; against Boost.Polygon's Voronoi diagram; and what must hold for every set.
 #define BOOST_TEST_MODULE exact_cells
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // of Boost's whole numbers, where GCC is wrong
+#endif
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 
-#include "exact_cases.hpp"
+#include "brute_force.hpp"
+#include "fixture.hpp"
 #include "samples.hpp"
 #include "vorocl/exact_cells.hpp"
 
@@ -15,9 +19,8 @@ using namespace vorocl;
 
 namespace {
 
-using Whole = boost::multiprecision::number<
-    boost::multiprecision::cpp_int_backend<512, 512, boost::multiprecision::signed_magnitude,
-                                           boost::multiprecision::unchecked, void>>;
+using Whole = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
+    512, 512, boost::multiprecision::signed_magnitude, boost::multiprecision::unchecked, void>>;
 using Rational = boost::multiprecision::cpp_rational;
 
 /// The positions of the tests are whole numbers that need not be rounded.
@@ -56,7 +59,8 @@ std::int64_t below(std::mt19937_64& random, std::int64_t end) {
   return static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(end));
 }
 
-std::vector<Position> random_positions(std::int64_t width, std::int64_t height, std::size_t count, std::uint64_t key) {
+std::vector<Position> random_positions(std::int64_t width, std::int64_t height, std::size_t count,
+                                       std::uint64_t key) {
   std::mt19937_64 random(key);
   std::vector<Position> positions;
   for (std::size_t i = 0; i < count; ++i) positions.push_back({below(random, width), below(random, height)});
@@ -126,7 +130,9 @@ std::vector<Set> hurtful_sets() {
 /// A whole number over a positive one.
 struct Fraction {
   Whole above, below;
-  friend bool operator<(const Fraction& p, const Fraction& q) { return p.above * q.below < q.above * p.below; }
+  friend bool operator<(const Fraction& p, const Fraction& q) {
+    return p.above * q.below < q.above * p.below;
+  }
 };
 
 Fraction fraction(Whole above, Whole below) {
@@ -135,7 +141,8 @@ Fraction fraction(Whole above, Whole below) {
 }
 
 Rational rational(const Fraction& fraction) {
-  return Rational(boost::multiprecision::cpp_int(fraction.above), boost::multiprecision::cpp_int(fraction.below));
+  return Rational(boost::multiprecision::cpp_int(fraction.above),
+                  boost::multiprecision::cpp_int(fraction.below));
 }
 
 /// Where a x + b y <= c, in half steps from a cell's site.
@@ -157,21 +164,24 @@ struct Cell {
 
 double square_root(const Rational& number) { return std::sqrt(number.convert_to<double>()); }
 
-/// The part of a line's a x + b y = c that is in all other half planes, as multiples of (-b, a) from the foot of its
-/// normal; none if that is a point or nothing. The foot is c (a, b) / (a^2 + b^2).
-std::optional<std::pair<Fraction, Fraction>> visible_part(const std::vector<HalfPlane>& planes, std::size_t of) {
+/// The part of a line's a x + b y = c that is in all other half planes, as multiples of (-b, a) from the foot
+/// of its normal; none if that is a point or nothing. The foot is c (a, b) / (a^2 + b^2).
+std::optional<std::pair<Fraction, Fraction>> visible_part(const std::vector<HalfPlane>& planes,
+                                                          std::size_t of) {
   const HalfPlane& line = planes[of];
   const Whole square = Whole(line.a) * line.a + Whole(line.b) * line.b;
   std::optional<Fraction> from, to;
   for (std::size_t i = 0; i < planes.size(); ++i) {
     if (i == of) continue;
     const HalfPlane& plane = planes[i];
-    // With t: square (c' - a' x - b' y) = square c' - c (a a' + b b') - t square (a b' - a' b) must not be negative.
-    const Whole slope = square * (Whole(line.a) * plane.b - Whole(plane.a) * line.b);
+    // With t: square (c' - a' x - b' y) = square c' - c (a a' + b b') - t (a b' - a' b) must not be
+    // negative.
+    const Whole slope = Whole(line.a) * plane.b - Whole(plane.a) * line.b;
     const Whole rest = square * plane.c - line.c * (Whole(line.a) * plane.a + Whole(line.b) * plane.b);
     if (slope == 0) {
       // Of one line that comes twice the first counts.
-      if (rest < 0 || (rest == 0 && Whole(line.a) * plane.a + Whole(line.b) * plane.b > 0 && i < of)) return {};
+      if (rest < 0 || (rest == 0 && Whole(line.a) * plane.a + Whole(line.b) * plane.b > 0 && i < of))
+        return {};
       continue;
     }
     const Fraction at = fraction(rest, slope);
@@ -191,7 +201,8 @@ Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
     if (at == own && other < id) return {};
     if (at == own && other > id) continue;
     // Of coincident points the first one.
-    if (std::find(set.positions.begin(), set.positions.begin() + other, at) != set.positions.begin() + other) continue;
+    if (std::find(set.positions.begin(), set.positions.begin() + other, at) != set.positions.begin() + other)
+      continue;
     for (std::int64_t x = -images_x; x <= images_x; ++x) {
       for (std::int64_t y = -images_y; y <= images_y; ++y) {
         const std::int64_t a = at.x + x * set.width - own.x, b = at.y + y * set.height - own.y;
@@ -216,7 +227,7 @@ Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
     const Rational from = rational(part->first), to = rational(part->second), length = (to - from) / square;
     // The triangle of the edge and the site: its ends are (c (a, b) + t (-b, a)) / square.
     const Rational triangle = Rational(c) * length / 2;
-    const Rational both = (from + to) / 1;
+    const Rational both = from + to;
     cell.area += triangle;
     cell.moment_x += triangle * (2 * Rational(c) * line.a - both * line.b) / square / 3;
     cell.moment_y += triangle * (2 * Rational(c) * line.b + both * line.a) / square / 3;
@@ -243,8 +254,10 @@ void check_by_rational_numbers(const Set& set, Periodic periodic) {
         BOOST_TEST(std::isnan(cell.centroid.x));
       } else {
         const Rational half_area = expected.area * 2;
-        const double x = static_cast<double>(set.positions[id].x) + Rational(expected.moment_x / half_area).convert_to<double>();
-        const double y = static_cast<double>(set.positions[id].y) + Rational(expected.moment_y / half_area).convert_to<double>();
+        const double x = static_cast<double>(set.positions[id].x) +
+                         Rational(expected.moment_x / half_area).convert_to<double>();
+        const double y = static_cast<double>(set.positions[id].y) +
+                         Rational(expected.moment_y / half_area).convert_to<double>();
         BOOST_TEST(std::abs(cell.centroid.x - x) <= tolerance);
         BOOST_TEST(std::abs(cell.centroid.y - y) <= tolerance);
       }
