@@ -49,12 +49,23 @@ static inline long cross_of(int a, int b, int other_a, int other_b) { return (lo
 
 #define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
-// Computes the vertex at the end of an edge. Both coordinates are right but for 2^-51 of themselves.
+// c b - c' b', right but for 2^-51 of itself. A c of less than 2^53 is a double, and what it loses when it is multiplied
+// is known; a greater one is of seeds that are far from each other, of which there are few.
+static inline double difference(long c, int b, long other_c, int other_b) {
+  const long most = 1L << 53;
+  if (c > most || c < -most || other_c > most || other_c < -most)
+    return to_double(sum(product(c, b), product(other_c, -(long)other_b)));
+  const double p = convert_double(c), q = convert_double(b), r = convert_double(other_c), s = convert_double(other_b);
+  const double rounded = r * s;
+  return fma(p, q, -rounded) + fma(-r, s, rounded);
+}
+
+// Computes the vertex at the end of an edge. Both coordinates are right but for 2^-50 of themselves.
 static inline void set_vertex(POLYGON_SPACE edge_t* edges, int k) {
-  const edge_t p = edges[k], q = edges[p.next];
-  const double d = convert_double(cross_of(p.a, p.b, q.a, q.b));
-  const double x = to_double(sum(product(p.c, q.b), product(q.c, -p.b))) / d;
-  const double y = to_double(sum(product(q.c, p.a), product(p.c, -q.a))) / d;
+  POLYGON_SPACE const edge_t* const p = edges + k;
+  POLYGON_SPACE const edge_t* const q = edges + p->next;
+  const double d = convert_double(cross_of(p->a, p->b, q->a, q->b));
+  const double x = difference(p->c, q->b, q->c, p->b) / d, y = difference(q->c, p->a, p->c, q->a) / d;
   const float rough_x = convert_float(x) * 0.5f, rough_y = convert_float(y) * 0.5f;
   edges[k].x = x;
   edges[k].y = y;
@@ -74,7 +85,8 @@ static inline int side_of(POLYGON_SPACE const edge_t* edges, int k, int a, int b
   const double ax = a * edges[k].x, by = b * edges[k].y, to = convert_double(c);
   const double over = ax + by - to;
   const double doubt = 0x1p-49 * (fabs(ax) + fabs(by) + fabs(to));
-  return over > doubt ? 1 : over < -doubt ? -1 : exact_side(edges, k, a, b, c);
+  if (!(fabs(over) > doubt)) return exact_side(edges, k, a, b, c);
+  return (over > 0) * 2 - 1;  // without a branch, which processors would often guess wrong
 }
 
 static inline void find_reach(polygon_t* polygon) {

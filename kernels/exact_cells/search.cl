@@ -46,19 +46,29 @@ static inline int8 may_cut(const polygon_t* polygon, float8 left, float8 right, 
   return hits;
 }
 
-// Cuts the cell by the sites of a leaf. `from` is the cell's site as the image of the tree sees it.
+// Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree sees it.
 static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from) {
   const int8 x = vload8(2 * (size_t)leaf, tree->sites) - from.s0, y = vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1;
   const float8 rough_x = convert_float8(x), rough_y = convert_float8(y);
   const int8 hits = may_cut(polygon, rough_x, rough_x, rough_y, rough_y);
   if (!any(hits)) return;
   int is_hit[FAN], a[FAN], b[FAN];
+  float distances[FAN];
   vstore8(hits, 0, is_hit);
   vstore8(x, 0, a);
   vstore8(y, 0, b);
-  const uint first = leaf * FAN, count = min(tree->count - first, (uint)FAN);
-  for (uint i = 0; i < count; ++i) {
-    if (is_hit[i] && (a[i] != 0 || b[i] != 0) && polygon->first >= 0) cut(polygon, a[i], b[i], first + i);
+  vstore8(rough_x * rough_x + rough_y * rough_y, 0, distances);
+  const uint first = leaf * FAN;
+  const int count = (int)min(tree->count - first, (uint)FAN);
+  int order[FAN], size = 0;
+  for (int i = 0; i < count; ++i) {
+    if (!is_hit[i] || (a[i] == 0 && b[i] == 0)) continue;
+    int place = size++;
+    for (; place > 0 && distances[order[place - 1]] > distances[i]; --place) order[place] = order[place - 1];
+    order[place] = i;
+  }
+  for (int i = 0; i < size && polygon->first >= 0; ++i) {
+    cut(polygon, a[order[i]], b[order[i]], first + (uint)order[i]);
   }
 }
 
