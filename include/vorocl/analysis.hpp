@@ -4,4 +4,5 @@
 #include "vorocl/adjacency.hpp"
 #include "vorocl/cells.hpp"
 #include "vorocl/distance_errors.hpp"
+#include "vorocl/exact_cells.hpp"
 #include "vorocl/fields.hpp"

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/exact_cells.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
@@ -26,6 +27,8 @@ struct CellsOptions {
                                     {border_kind(), ""},
                                     {labels_kind(), ""}};
   bool json = false;
+  bool exact = false;
+  std::string polygons;
 };
 
 struct Output {
@@ -79,6 +82,20 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
   print_written(requested_files(options));
 }
 
+/// The cells without a diagram. Throws UsageError for options that say something of one.
+void run_exact(const Command& command, const CellsOptions& options) {
+  for (const char* name : {"--method", "--metric", "--neighbourhood", "--von-neumann-waves", "--extra-waves",
+                           "--refresh-interval", "--reach", "--distance", "--border", "--labels"}) {
+    if (command.has(name)) throw UsageError(std::string(name) + " is of diagrams, and --exact makes none");
+  }
+  if (in_pixels(options.seeds)) {
+    throw UsageError("--exact measures in the units of the data, and --units px says pixels");
+  }
+  const FileRequest& cells = options.files.front();
+  run_exact_cells({options.seeds, options.device, cells.path, options.files[1].path, options.polygons,
+                   cells.kind.table()->columns, options.json});
+}
+
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
@@ -108,7 +125,17 @@ void add_cells(CommandLine& line) {
   for (FileRequest& request : options->files) add_file_option(command, request);
   add_cell_columns_option(command, options->files.front());
   add_json_option(command, options->json);
+  const Option exact = command.add(
+      "--exact", options->exact,
+      "Cut the cells as polygons, at the seeds' own places and without pixels: for --cells, --adjacency and "
+      "--polygons, in the units of the data");
+  command
+      .add("--polygons", options->polygons,
+           "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView)")
+      .value_name("FILE")
+      .needs(exact);
   command.set_work([command, options] {
+    if (options->exact) return run_exact(command, *options);
     check_method_options(command, {options->method}, options->method_options);
     if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);

@@ -17,17 +17,6 @@ namespace vorocl::command {
 
 namespace {
 
-CsvPoints read_points(const SeedOptions& options) {
-  as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
-  if (extension_of(options.points) == ".csv") {
-    return read_csv(options.points, options.columns, options.value_column);
-  }
-  if (options.columns) throw UsageError("--columns is for .csv files");
-  if (!options.value_column.empty())
-    throw UsageError("--color column:NAME is for .csv files and trajectories");
-  return {read_npy_points(options.points), {}};
-}
-
 Periodic axes_of(const SeedOptions& options) { return options.periodic.value_or(Periodic::none); }
 
 /// The bounds, else the domain, else the points' bounding box.
@@ -122,7 +111,18 @@ Input input_from_trajectory(const SeedOptions& options) {
 
 }  // namespace
 
-void check_seed_options(const SeedOptions& options) {
+CsvPoints read_points(const SeedOptions& options) {
+  as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
+  if (extension_of(options.points) == ".csv") {
+    return read_csv(options.points, options.columns, options.value_column);
+  }
+  if (options.columns) throw UsageError("--columns is for .csv files");
+  if (!options.value_column.empty())
+    throw UsageError("--color column:NAME is for .csv files and trajectories");
+  return {read_npy_points(options.points), {}};
+}
+
+void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.domain && options.points.empty()) {
     throw UsageError("--domain is for --points; the domain of a trajectory is its box");
   }
@@ -130,7 +130,7 @@ void check_seed_options(const SeedOptions& options) {
     throw UsageError("--domain needs --periodic x, y or xy");
   }
   if (!options.points.empty() || !options.trajectory.empty()) {
-    if (options.size || options.width != 0) return;
+    if (options.size || options.width != 0 || !needs_size) return;
     throw UsageError(std::string("--size WxH or --width W is required with ") +
                      (options.points.empty() ? "--trajectory" : "--points"));
   }

@@ -39,8 +39,13 @@ struct SeedOptions {
 
 constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact diagrams can";
 
-/// What no parser can say: options that go with either of two others. Throws UsageError.
-void check_seed_options(const SeedOptions& options);
+/// What no parser can say: options that go with either of two others. Throws UsageError. `needs_size`: points
+/// and particles need pixels.
+void check_seed_options(const SeedOptions& options, bool needs_size = true);
+
+/// The points of --points, as the file has them. Throws UsageError for an extension that is none of points,
+/// Error if the file is bad.
+CsvPoints read_points(const SeedOptions& options);
 
 /// Whether the data's y axis points up: that of a trajectory does unless the options say otherwise.
 bool points_up(const SeedOptions& options);

@@ -1,0 +1,133 @@
+// The Voronoi cells of seeds as polygons, without pixels: areas, neighbours, vertices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "vorocl/export.h"
+#include "vorocl/grid.hpp"
+#include "vorocl/opencl.hpp"
+#include "vorocl/report.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl {
+
+struct ExactCellsState;
+
+/// What exact_cells() knows of a cell, in the units of the data. An empty cell has the area 0 and the
+/// centroid (NaN, NaN): that of an absent seed, of a seed that lies where one with a lower id does, and of
+/// one outside the rectangle whose cell does not reach into it.
+struct ExactCell {
+  double area = 0;
+  Point centroid;        ///< across a period's end it may lie outside the rectangle
+  double perimeter = 0;  ///< with the sides of the rectangle that bound it
+  std::uint32_t neighbours =
+      0;  ///< edges that it shares with cells; one with which it shares two counts twice
+  bool touches_border = false;  ///< a side of the rectangle bounds it
+
+  /// All decisions were certain, and all seeds that may bound it were looked at.
+  bool certified = false;
+};
+
+/// An edge that two cells share, in the units of the data. Across the ends of periods two cells may share
+/// several edges, and a cell may be its own neighbour.
+struct ExactPair {
+  std::uint32_t a = 0, b = 0;  ///< their ids, a <= b
+  double length = 0;
+  Point midpoint;  ///< as cell a has it
+};
+
+/// All cells as polygons: the edges of cell i are those from offsets[i] up to offsets[i + 1], none of an
+/// empty cell. They go round it counter-clockwise, where y points up.
+struct ExactPolygons {
+  std::vector<std::uint32_t> offsets;     ///< one more than there are cells
+  std::vector<Point> vertices;            ///< where each edge begins; across a period's end a cell is whole
+  std::vector<std::uint32_t> neighbours;  ///< the cell behind each edge; no_label: a side of the rectangle
+  std::vector<double> lengths;            ///< of each edge; none is 0
+};
+
+/// What must hold for the cells as a whole.
+struct ExactCellsCheck {
+  double area = 0;  ///< the sum of all cells
+  double rectangle_area =
+      0;  ///< of the rectangle, as it was rounded: what the sum must be if there is a cell
+  std::size_t not_mutual = 0;   ///< edges with a cell that does not have that edge: must be 0
+  std::size_t uncertified = 0;  ///< cells: must be 0
+};
+
+/// What exact_cells() found, on the device: buffers with one entry per seed, by id, and with one per edge.
+/// Finding it again allocates nothing unless there is more of it. Empty before the first time, and after it
+/// was moved from or exact_cells() threw: then its buffers are null.
+///
+/// Each of its functions waits: only then it is known whether cells had more edges than kernels have private
+/// memory for, which are cut once more in global memory. The polygons are put in order when they are first
+/// asked for. All throw Error if the device has too little memory for that.
+///
+/// Threads: one thread at a time.
+///
+/// Lifetime: a result keeps its device and a copy of the points. Its buffers are valid until the next
+/// measurement into it.
+class VOROCL_API ExactCellsResult {
+ public:
+  ExactCellsResult();
+  ~ExactCellsResult();
+  ExactCellsResult(ExactCellsResult&& other) noexcept;
+  ExactCellsResult& operator=(ExactCellsResult&& other) noexcept;
+
+  /// The cells, one per seed; 0 while the result is empty. Does not wait.
+  std::size_t size() const;
+
+  const cl::Buffer& areas() const;       ///< double per cell
+  const cl::Buffer& centroids() const;   ///< double2 per cell
+  const cl::Buffer& perimeters() const;  ///< double per cell
+  const cl::Buffer& neighbours() const;  ///< uint32 per cell
+  const cl::Buffer& flags() const;       ///< byte per cell: 1 touches the border, 2 certified, 3 both
+
+  std::size_t edges() const;                  ///< of all polygons
+  const cl::Buffer& offsets() const;          ///< as in ExactPolygons: uint32 per cell, and one
+  const cl::Buffer& vertices() const;         ///< double2 per edge
+  const cl::Buffer& edge_neighbours() const;  ///< uint32 per edge
+  const cl::Buffer& lengths() const;          ///< double per edge
+
+  std::vector<ExactCell> read() const;
+  ExactPolygons read_polygons() const;
+
+  /// Each edge between two cells once, sorted by a and then b.
+  std::vector<ExactPair> read_pairs() const;
+
+  /// Sums the areas, and looks for each edge on its other side.
+  ExactCellsCheck check() const;
+
+ private:
+  friend struct Internal;
+  const cl::Buffer& settled(cl::Buffer ExactCellsState::*buffer) const;
+  const cl::Buffer& listed(cl::Buffer ExactCellsState::*buffer) const;
+  std::unique_ptr<ExactCellsState> state_;
+};
+
+/// Cuts the rectangle of the seeds' grid into their Euclidean Voronoi cells, without a diagram: the grid's
+/// axes say where it begins and ends and which axes are periodic, its pixels do not count. Seeds outside it
+/// count as far as their cells reach into it.
+///
+/// Points are taken as they were given (as the centres of their pixels where they were made on the device, or
+/// came in a buffer that the device has read), and rounded to a power of two that is at most 2^-29 of the
+/// rectangle's longer side, or of what holds the seeds outside too. So are the rectangle's sides. Whole
+/// numbers, halves and so on stay as they are. Of these points the cells are exact: neighbours are decided in
+/// whole numbers, and cells that touch in a point are none. Vertices are right to about 2^-50 of their
+/// distance from the seed. The same numbers come on every device.
+///
+/// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
+/// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
+/// and Levy
+/// ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in about 0.1 us
+/// each; the device takes about 1 us per cell and core. Memory: 190 bytes per seed, and 170 more where
+/// polygons are asked for.
+///
+/// Enqueues and returns, after a wait where only the device has the points. Throws BadPoint if one was bad;
+/// Error if the device has no doubles (cl_khr_fp64) or too little memory, or the rectangle has no extent
+/// along an axis.
+VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
+
+}  // namespace vorocl

@@ -1,0 +1,36 @@
+// Whole numbers of 128 bits: sums of products of two numbers of 64.
+
+#ifndef VOROCL_EXACT_CELLS_WIDE
+#define VOROCL_EXACT_CELLS_WIDE
+
+#pragma OPENCL EXTENSION cl_khr_fp64 : enable
+#pragma OPENCL FP_CONTRACT OFF
+
+typedef struct {
+  ulong low;
+  long high;
+} wide_t;
+
+static inline wide_t product(long a, long b) {
+  const wide_t wide = {(ulong)a * (ulong)b, mul_hi(a, b)};
+  return wide;
+}
+
+static inline wide_t sum(wide_t a, wide_t b) {
+  const ulong low = a.low + b.low;
+  const wide_t wide = {low, (long)((ulong)a.high + (ulong)b.high + (low < a.low ? 1u : 0u))};
+  return wide;
+}
+
+static inline int sign_of(wide_t wide) { return wide.high < 0 ? -1 : (wide.high != 0 || wide.low != 0); }
+
+// Rounded: by less than 2^-52 of the number.
+static inline double to_double(wide_t wide) {
+  const bool is_negative = wide.high < 0;
+  const ulong low = is_negative ? 0 - wide.low : wide.low;
+  const ulong high = is_negative ? ~(ulong)wide.high + (wide.low == 0 ? 1u : 0u) : (ulong)wide.high;
+  const double size = convert_double(high) * 18446744073709551616.0 + convert_double(low);
+  return is_negative ? -size : size;
+}
+
+#endif

@@ -1,0 +1,175 @@
+#include "exact_cells/sites.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/z_order.hpp"
+#include "vorocl/error.hpp"
+
+namespace vorocl {
+
+namespace {
+
+constexpr int step_bits = 30;  // the longer side has at most 2^30 steps: see kernels/exact_cells/polygon.cl
+constexpr std::size_t fan = 8;
+constexpr std::size_t sides = 4;  // of a box
+
+/// A stretch of an axis in the units of the data.
+struct Stretch {
+  double from, to;
+  double length() const { return to - from; }
+};
+
+/// An axis, with the points beyond its ends that count.
+Stretch stretch_of(const Axis& axis, const std::vector<std::optional<Point>>& points, double Point::*along) {
+  Stretch stretch = {axis.from(), axis.to()};
+  if (axis.is_periodic()) return stretch;
+  for (const std::optional<Point>& point : points) {
+    if (!point) continue;
+    stretch.from = std::min(stretch.from, (*point).*along);
+    stretch.to = std::max(stretch.to, (*point).*along);
+  }
+  return stretch;
+}
+
+/// A step is the least power of two of which the longer side has at most 2^step_bits.
+int exponent_of_step(double longer_side) {
+  int exponent = 0;
+  const bool is_power = std::frexp(longer_side, &exponent) == 0.5;
+  return exponent - (is_power ? 1 : 0) - step_bits;
+}
+
+/// The steps of one axis.
+class Steps {
+ public:
+  Steps(const Axis& axis, double origin, int exponent) : axis_(axis), origin_(origin), exponent_(exponent) {}
+
+  cl_int from() const { return at(axis_.from()); }
+  cl_int to() const { return at(axis_.to()); }
+  cl_int period() const { return axis_.is_periodic() ? to() - from() : 0; }
+
+  /// The step that a coordinate is rounded to.
+  cl_int operator()(double coordinate) const {
+    if (!axis_.is_periodic()) return at(coordinate);
+    const double period = axis_.to() - axis_.from();
+    double offset = std::fmod(coordinate - axis_.from(), period);
+    if (offset < 0) offset += period;
+    const cl_int step = at(axis_.from() + offset);
+    return step >= to() ? from() : step;
+  }
+
+ private:
+  cl_int at(double coordinate) const {
+    return static_cast<cl_int>(std::nearbyint(std::ldexp(coordinate - origin_, -exponent_)));
+  }
+
+  Axis axis_;
+  double origin_;
+  int exponent_;
+};
+
+/// A point on the Z-curve.
+struct Place {
+  std::uint64_t order;
+  cl_uint id;
+};
+
+/// Sorts by place; points at one place stay in the order of their ids.
+void sort(std::vector<Place>& places) {
+  constexpr int digit_bits = 11, all_bits = 62;
+  constexpr std::size_t digits = std::size_t{1} << digit_bits;
+  std::vector<Place> sorted(places.size());
+  for (int shift = 0; shift < all_bits; shift += digit_bits) {
+    const auto digit = [shift](const Place& place) { return (place.order >> shift) & (digits - 1); };
+    std::array<std::size_t, digits> next = {};
+    for (const Place& place : places) ++next[digit(place)];
+    std::size_t sum = 0;
+    for (std::size_t& entry : next) {
+      const std::size_t here = entry;
+      entry = sum;
+      sum += here;
+    }
+    for (const Place& place : places) sorted[next[digit(place)]++] = place;
+    places.swap(sorted);
+  }
+}
+
+struct Box {
+  cl_int left = std::numeric_limits<cl_int>::max(), right = std::numeric_limits<cl_int>::min();
+  cl_int lower = left, upper = right;
+};
+
+/// Makes boxes around each eight sites, around each eight boxes, and so on.
+void make_tree(Sites& sites) {
+  std::vector<Box> boxes((sites.ids.size() + fan - 1) / fan);
+  for (std::size_t i = 0; i < sites.ids.size(); ++i) {
+    Box& box = boxes[i / fan];
+    const cl_int* const leaf = &sites.places[i / fan * 2 * fan];
+    const cl_int x = leaf[i % fan], y = leaf[fan + i % fan];
+    box = {std::min(box.left, x), std::max(box.right, x), std::min(box.lower, y), std::max(box.upper, y)};
+  }
+  sites.levels = {0};
+  for (std::size_t groups = 0, of_level = 2; of_level > 1; groups += of_level) {
+    sites.levels.push_back(static_cast<cl_uint>(groups));
+    of_level = (boxes.size() + fan - 1) / fan;
+    sites.boxes.resize((groups + of_level) * sides * fan);
+    std::vector<Box> above(of_level);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      const Box& box = boxes[i];
+      cl_int* const place = &sites.boxes[(groups + i / fan) * sides * fan + i % fan];
+      place[0] = box.left;
+      place[fan] = box.right;
+      place[2 * fan] = box.lower;
+      place[3 * fan] = box.upper;
+      Box& whole = above[i / fan];
+      whole = {std::min(whole.left, box.left), std::max(whole.right, box.right),
+               std::min(whole.lower, box.lower), std::max(whole.upper, box.upper)};
+    }
+    boxes.swap(above);
+  }
+}
+
+}  // namespace
+
+Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+  const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
+  const int exponent = exponent_of_step(std::max(x.length(), y.length()));
+  const Steps steps_x(grid.x(), x.from, exponent), steps_y(grid.y(), y.from, exponent);
+  Sites sites;
+  sites.rectangle = {{steps_x.from(), steps_y.from(), steps_x.to(), steps_y.to()}};
+  sites.periods = {{steps_x.period(), steps_y.period()}};
+  sites.origin = {x.from, y.from};
+  sites.step = std::ldexp(1.0, exponent);
+  if (steps_x.from() >= steps_x.to() || steps_y.from() >= steps_y.to()) {
+    std::ostringstream text;
+    text << "exact cells need a rectangle with an extent; this one is " << grid.x().to() - grid.x().from()
+         << " x " << grid.y().to() - grid.y().from() << ", and positions are rounded to " << sites.step;
+    throw Error(text.str());
+  }
+  std::vector<Place> places;
+  places.reserve(points.size());
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (!points[id]) continue;
+    const auto bits = [](cl_int step) { return spread_bits(static_cast<std::uint32_t>(step)); };
+    places.push_back(
+        {bits(steps_x(points[id]->x)) | bits(steps_y(points[id]->y)) << 1, static_cast<cl_uint>(id)});
+  }
+  sort(places);
+  const auto is_same = [](const Place& a, const Place& b) { return a.order == b.order; };
+  places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
+  sites.ids.reserve(places.size());
+  sites.places.resize((places.size() + fan - 1) / fan * 2 * fan);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    sites.ids.push_back(places[i].id);
+    cl_int* const leaf = &sites.places[i / fan * 2 * fan];
+    leaf[i % fan] = static_cast<cl_int>(gather_bits(places[i].order));
+    leaf[fan + i % fan] = static_cast<cl_int>(gather_bits(places[i].order >> 1));
+  }
+  make_tree(sites);
+  return sites;
+}
+
+}  // namespace vorocl

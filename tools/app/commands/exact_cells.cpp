@@ -1,0 +1,79 @@
+#include "app/commands/exact_cells.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "app/outputs/exact_cell_files.hpp"
+#include "app/outputs/output_files.hpp"
+#include "app/sources/exact_input.hpp"
+#include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
+#include "app/terminal/selected_device.hpp"
+#include "formats/polygon_files.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+std::vector<RequestedFile> requested_files(const ExactCellsOptions& options) {
+  return {{"--cells", options.cells, {".csv"}},
+          {"--adjacency", options.adjacency, {".csv"}},
+          {"--polygons", options.polygons, polygon_extensions()}};
+}
+
+void print_result(const ExactCellsOptions& options, const Seeds& seeds, const ExactCellRows& rows,
+                  const ExactCellsCheck& check, const Report& report) {
+  const Axis &x = seeds.grid().x(), &y = seeds.grid().y();
+  if (options.json) {
+    print_json(Json{{"exact", true},
+                    {"device", seeds.device().name()},
+                    {"rectangle", {x.from(), y.from(), x.to(), y.to()}},
+                    {"periodic", to_string(seeds.grid().periodic())},
+                    {"cells", rows.cells()},
+                    {"empty_cells", rows.empty_cells()},
+                    {"mean_area", rows.mean_area()},
+                    {"area_deviation", rows.area_deviation()},
+                    {"pairs", rows.pairs()},
+                    {"area", check.area},
+                    {"not_mutual", check.not_mutual},
+                    {"uncertified", check.uncertified},
+                    {"milliseconds", report.milliseconds()},
+                    {"host_milliseconds", report.host_milliseconds()}});
+    return;
+  }
+  print("exact cells: {} in {} in {:.1f} ms, on {}\n", counted(seeds.alive(), "seed"),
+        to_string(Bounds{x.from(), y.from(), x.to(), y.to()}), report.milliseconds(), seeds.device().name());
+  if (rows.empty_cells() > 0) {
+    print("{} of these lie where another does and have no cell\n", counted(rows.empty_cells(), "seed"));
+  }
+  print("the mean area is {:.6g}, with a deviation of {:.6g}\n", rows.mean_area(), rows.area_deviation());
+  print("{} between cells\n", counted(rows.pairs(), "edge"));
+  print_written(requested_files(options));
+}
+
+}  // namespace
+
+void run_exact_cells(const ExactCellsOptions& options) {
+  check_outputs(requested_files(options), options.seeds);
+  const std::optional<OutputFile> cells = open_output(options.cells),
+                                  adjacency = open_output(options.adjacency),
+                                  polygons = open_output(options.polygons);
+  if (!cells && !adjacency && !polygons)
+    throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
+  const ExactInput input = read_exact_input(options.seeds);
+  const Device device = select_device(options.device);
+  const FinishAtEnd finish(device);
+  const Seeds seeds = input.place(device);
+  ExactCellsResult result;
+  const Report report = exact_cells(seeds, result);
+  const ExactCellRows rows(seeds, result, input.ids);
+  if (cells) rows.write_cells(*cells, options.columns);
+  if (adjacency) rows.write_pairs(*adjacency);
+  if (polygons) rows.write_polygons(*polygons);
+  print_result(options, seeds, rows, result.check(), report);
+}
+
+}  // namespace vorocl::command

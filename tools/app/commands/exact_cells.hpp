@@ -1,0 +1,21 @@
+// vorocl cells --exact: cells as polygons, without a diagram.
+#pragma once
+
+#include <string>
+
+#include "app/sources/seed_input.hpp"
+
+namespace vorocl::command {
+
+struct ExactCellsOptions {
+  SeedOptions seeds;
+  std::string device;
+  std::string cells, adjacency, polygons;  // paths; empty: not asked for
+  std::string columns;                     // of the cells
+  bool json = false;
+};
+
+/// What vorocl cells does with --exact.
+void run_exact_cells(const ExactCellsOptions& options);
+
+}  // namespace vorocl::command

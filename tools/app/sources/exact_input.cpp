@@ -1,0 +1,109 @@
+#include "app/sources/exact_input.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "app/sources/bounds.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/trajectory/trajectory.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// The ends of an axis: those of `shown`, or of what repeats.
+Axis axis_of(double low, double high, bool is_periodic, bool is_closed) {
+  const Axis axis(1, low, high);
+  if (is_periodic) return axis.periodic();
+  return is_closed ? axis.closed() : axis;
+}
+
+/// `repeats` is what does along the periodic axes: bounds that are given must be the same there.
+Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodic, const char* name) {
+  const Bounds& shown = options.bounds ? *options.bounds : repeats;
+  const bool parts_x = has_x(periodic) && (shown.x0 != repeats.x0 || shown.x1 != repeats.x1);
+  const bool parts_y = has_y(periodic) && (shown.y0 != repeats.y0 || shown.y1 != repeats.y1);
+  if (parts_x || parts_y) {
+    throw Error(fmt::format("--exact cuts whole periods: along a periodic axis --bounds {} must be {}, {}",
+                            to_string(shown), name, to_string(repeats)));
+  }
+  check_bounds(shown, periodic);
+  const bool closed = options.outside.value_or(Outside::count) == Outside::refuse;
+  return {axis_of(shown.x0, shown.x1, has_x(periodic), closed),
+          axis_of(shown.y0, shown.y1, has_y(periodic), closed)};
+}
+
+ExactInput input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
+                    std::vector<Point> points, std::vector<std::uint32_t> ids) {
+  const Outside outside = options.outside.value_or(Outside::count);
+  return {grid,
+          [file, grid, points = std::move(points), outside](const Device& device) {
+            try {
+              return Seeds(device, grid, points, outside);
+            } catch (const BadPoint& error) {
+              throw Error(file + ": " + error.what());
+            }
+          },
+          std::move(ids)};
+}
+
+ExactInput input_from_points(const SeedOptions& options) {
+  std::vector<Point> points = read_points(options).points;
+  try {
+    const Bounds repeats = options.domain   ? *options.domain
+                           : options.bounds ? *options.bounds
+                                            : bounding_box(points);
+    const Grid grid = grid_of(options, repeats, options.periodic.value_or(Periodic::none), "the domain");
+    return input_of(options, options.points, grid, std::move(points), {});
+  } catch (const Error& error) {
+    throw Error(options.points + ": " + error.what());
+  }
+}
+
+Frame read_frame(const SeedOptions& options) {
+  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(options.trajectory, "");
+  Frame frame;
+  for (int number = 0; number <= options.frame; ++number) {
+    if (reader->next(frame)) continue;
+    throw Error(fmt::format("there is no frame {}; the last one of the file is {}, counted from 0",
+                            options.frame, number - 1));
+  }
+  return frame;
+}
+
+ExactInput input_from_trajectory(const SeedOptions& options) {
+  try {
+    Frame frame = read_frame(options);
+    const std::optional<Bounds> filled = bounds_of(frame);
+    if (!filled && !options.bounds) throw Error("the frame has neither a box nor particles: give --bounds");
+    Periodic periodic = options.periodic.value_or(Periodic::none);
+    if (frame.box && !options.periodic)
+      periodic = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
+    if (frame.box && frame.box->tilt != 0) {
+      throw Error(fmt::format("the box of frame {} is tilted, which --exact cannot cut", options.frame));
+    }
+    const Bounds repeats = filled ? *filled : *options.bounds;
+    const Grid grid = grid_of(options, repeats, periodic, "the box");
+    return input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
+  } catch (const Error& error) {
+    throw Error(options.trajectory + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+ExactInput read_exact_input(const SeedOptions& options) {
+  check_seed_options(options, false);
+  if (!options.trajectory.empty()) return input_from_trajectory(options);
+  if (!options.points.empty()) return input_from_points(options);
+  const Input input = read_input(options);
+  return {input.view.window.grid(),
+          [place = input.place](const Device& device) {
+            const Seeds pixels = place(device);
+            return Seeds(device, pixels.grid(), pixels.read_pixels());
+          },
+          {}};
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,25 @@
+// Seeds at their own places, in the units of the data, for cells without pixels.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "app/sources/seed_input.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl::command {
+
+struct ExactInput {
+  Grid grid;  ///< of few pixels, which do not count: the rectangle and its periodic axes
+  std::function<Seeds(const Device&)> place;
+  std::vector<std::uint32_t> ids;  ///< by seed; empty: the seeds' own
+};
+
+/// Checks the options, and reads and checks the files. Points and particles lie in the bounds, else in the
+/// domain, the box of the trajectory's frame or the points' bounding box; along a periodic axis in the domain
+/// or the box. Other seeds are the centres of pixels. Throws UsageError, Error if a file is bad or the box is
+/// tilted.
+ExactInput read_exact_input(const SeedOptions& options);
+
+}  // namespace vorocl::command

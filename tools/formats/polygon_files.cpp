@@ -1,0 +1,155 @@
+#include "formats/polygon_files.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+#include "formats/files.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// The vertices with the first once more at the end, each between brackets or not.
+void add_ring(fmt::memory_buffer& text, const std::vector<Point>& polygon, std::string_view point_format,
+              std::string_view between) {
+  for (std::size_t i = 0; i <= polygon.size(); ++i) {
+    const Point& vertex = polygon[i % polygon.size()];
+    if (i > 0) text.append(between);
+    fmt::format_to(std::back_inserter(text), fmt::runtime(point_format), vertex.x, vertex.y);
+  }
+}
+
+void add(GrowingFile& file, const fmt::memory_buffer& text) {
+  file << std::string_view(text.data(), text.size());
+}
+
+void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells) {
+  file << "{\"type\":\"FeatureCollection\",\"features\":[";
+  fmt::memory_buffer text;
+  for (const PolygonCell& cell : cells) {
+    text.clear();
+    fmt::format_to(
+        std::back_inserter(text),
+        R"({}{{"type":"Feature","id":{},"properties":{{"id":{},"x":{},"y":{},"area":{},"neighbours":{}}},"geometry":)",
+        &cell == cells.data() ? "\n" : ",\n", cell.id, cell.id, cell.seed.x, cell.seed.y, cell.area,
+        cell.neighbours);
+    if (cell.polygon.empty()) {
+      text.append(std::string_view("null}"));
+    } else {
+      text.append(std::string_view(R"({"type":"Polygon","coordinates":[[)"));
+      add_ring(text, cell.polygon, "[{},{}]", ",");
+      text.append(std::string_view("]]}}"));
+    }
+    add(file, text);
+  }
+  file << "\n]}\n";
+}
+
+void write_wkt(GrowingFile& file, const std::vector<PolygonCell>& cells) {
+  file << "id,x,y,area,neighbours,wkt\n";
+  fmt::memory_buffer text;
+  for (const PolygonCell& cell : cells) {
+    text.clear();
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{},", cell.id, cell.seed.x, cell.seed.y, cell.area,
+                   cell.neighbours);
+    if (cell.polygon.empty()) {
+      text.append(std::string_view("POLYGON EMPTY\n"));
+    } else {
+      text.append(std::string_view("\"POLYGON (("));
+      add_ring(text, cell.polygon, "{} {}", ", ");
+      text.append(std::string_view("))\"\n"));
+    }
+    add(file, text);
+  }
+}
+
+/// The arrays of a .vtp file, raw at its end, each behind its size in bytes.
+class VtkArrays {
+ public:
+  /// The text of an element that names an array.
+  template <typename T>
+  std::string add(const char* type, const char* name, const std::vector<T>& values, int components = 1) {
+    const std::uint64_t bytes = values.size() * sizeof(T);
+    const std::string element = fmt::format(
+        R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)", type,
+        name, components, bytes_.size());
+    append(&bytes, sizeof bytes);
+    append(values.data(), bytes);
+    return element;
+  }
+
+  const std::vector<char>& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* first, std::size_t count) {
+    const auto* const begin = static_cast<const char*>(first);
+    bytes_.insert(bytes_.end(), begin, begin + count);
+  }
+
+  std::vector<char> bytes_;
+};
+
+void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells) {
+  std::vector<double> points, areas;
+  std::vector<std::int64_t> corners, ends;
+  std::vector<std::uint32_t> ids, neighbours;
+  for (const PolygonCell& cell : cells) {
+    if (cell.polygon.empty()) continue;  // VTK has no empty polygons
+    for (const Point& vertex : cell.polygon) {
+      corners.push_back(static_cast<std::int64_t>(corners.size()));
+      points.insert(points.end(), {vertex.x, vertex.y, 0});
+    }
+    ends.push_back(static_cast<std::int64_t>(corners.size()));
+    ids.push_back(cell.id);
+    areas.push_back(cell.area);
+    neighbours.push_back(cell.neighbours);
+  }
+  VtkArrays arrays;
+  const std::uint16_t one = 1;
+  const bool is_little = *reinterpret_cast<const unsigned char*>(&one) == 1;
+  const std::string cell_data = arrays.add("UInt32", "id", ids) + arrays.add("Float64", "area", areas) +
+                                arrays.add("UInt32", "neighbours", neighbours);
+  const std::string point_data = arrays.add("Float64", "points", points, 3);
+  const std::string polygons =
+      arrays.add("Int64", "connectivity", corners) + arrays.add("Int64", "offsets", ends);
+  file << fmt::format(
+      R"(<?xml version="1.0"?>
+<VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="UInt64">
+  <PolyData>
+    <Piece NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{}">
+      <CellData Scalars="area">{}</CellData>
+      <Points>{}</Points>
+      <Polys>{}</Polys>
+    </Piece>
+  </PolyData>
+  <AppendedData encoding="raw">
+    _)",
+      is_little ? "LittleEndian" : "BigEndian", corners.size(), ends.size(), cell_data, point_data, polygons);
+  file.write(arrays.bytes().data(), arrays.bytes().size());
+  file << "\n  </AppendedData>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+const std::vector<std::string>& polygon_extensions() {
+  static const std::vector<std::string> all = {".geojson", ".json", ".csv", ".vtp"};
+  return all;
+}
+
+void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells) {
+  check_extension(file.path(), polygon_extensions());
+  const std::string extension = extension_of(file.path());
+  GrowingFile growing(file);
+  if (extension == ".csv") {
+    write_wkt(growing, cells);
+  } else if (extension == ".vtp") {
+    write_vtp(growing, cells);
+  } else {
+    write_geojson(growing, cells);
+  }
+  growing.finish();
+}
+
+}  // namespace vorocl::command
