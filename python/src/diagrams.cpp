@@ -155,7 +155,7 @@ Row row_of(const std::optional<Point>& seed, const CellSums& sums, const CellSha
   if (sums.area == 0) {
     return {place.x, place.y, centroid.x, centroid.y, none, 0, perimeter, neighbours, 0, 0, -1, -1, false};
   }
-  const auto distance = static_cast<double>(shape.largest_distance);
+  const double distance = shape.largest_distance;
   const double farthest = metric == Metric::euclidean ? std::sqrt(distance) : distance;
   return {place.x,    place.y,    centroid.x, centroid.y,  farthest,     sums.area,           perimeter,
           neighbours, shape.left, shape.top,  shape.right, shape.bottom, shape.touches_border};
