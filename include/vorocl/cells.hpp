@@ -35,7 +35,7 @@ struct CellSums {
 struct CellShape {
   int left = 0, top = 0, right = 0,
       bottom = 0;                     ///< the bounding box of the pixels, where CellSums counts them
-  std::int64_t largest_distance = 0;  ///< of its pixels to its seed; squared if Euclidean
+  double largest_distance = 0;  ///< of its pixels to its seed, in pixels; squared if Euclidean
   bool touches_border = false;        ///< it has a pixel next to a border; a periodic axis has none
 };
 

@@ -427,7 +427,7 @@ typedef struct vorocl_relaxation {
 /// the diagram is that of the seeds. `energies` has room for `rounds` + 1 values, at the start and after each
 /// round; `moved`, the seeds that each round moved, for `rounds`; each of the three may be NULL. Waits.
 VOROCL_API vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* method,
-                                      const vorocl_method_options* options, int rounds, uint64_t* energies,
+                                      const vorocl_method_options* options, int rounds, double* energies,
                                       size_t* moved, vorocl_relaxation* relaxation);
 
 /// @}
@@ -459,7 +459,7 @@ VOROCL_API vorocl_status vorocl_distance_errors(const vorocl_diagram* diagram, c
                                                 vorocl_wrong_labels* wrong);
 
 /// The sum of the squared distances of all pixels to their seeds: see vorocl::energy().
-VOROCL_API vorocl_status vorocl_energy(const vorocl_diagram* diagram, uint64_t* energy);
+VOROCL_API vorocl_status vorocl_energy(const vorocl_diagram* diagram, double* energy);
 
 /// The pixel corners where three or more cells meet, in pixels from the window's first one, row-major: the
 /// first `room` of them, and how many there are. With no room, `points` may be NULL. See vorocl::vertices().
@@ -536,7 +536,7 @@ VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* sh
 /// As vorocl::CellShape. An empty cell has right < left, bottom < top and largest_distance -1.
 typedef struct vorocl_cell_shape {
   int left, top, right, bottom;  ///< the bounding box: first and last columns and rows
-  int64_t largest_distance;      ///< of its pixels to its seed; squared if Euclidean
+  double largest_distance;       ///< of its pixels to its seed, in pixels; squared if Euclidean
   int touches_border;            ///< 1 if it has a pixel next to a border of the window, else 0
 } vorocl_cell_shape;
 

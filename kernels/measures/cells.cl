@@ -126,12 +126,12 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
         for (int from = walk.from, to; from < walk.to; from = to) {
           const int way = way_x(seed, from, window);
           to = piece_end(from, walk.to, way, window.period_x);
-          sum += (x + way - from) / width * (to - from);
+          sum += (place_x(seed, way, width) - from) / width * (to - from);
         }
         if (sum != 0) atomic_add(periods_x + label, sum);
       }
       if (PERIODIC_Y && !is_near(y, seed_y(seed, height), height)) {
-        const int away = (seed_y(seed, height) + way_y(seed, y, window) - y) / height;
+        const int away = (place_y(seed, way_y(seed, y, window), height) - y) / height;
         if (away != 0) atomic_add(periods_y + label, away * (walk.to - walk.from));
       }
     }

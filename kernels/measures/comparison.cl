@@ -23,9 +23,9 @@ VECTOR_KERNEL void count_differences(global const uint* restrict a, global const
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
 static inline float excess(LENGTH distance, LENGTH least) {
 #ifdef VOROCL_EUCLIDEAN
-  return (float)(distance - least) / (sqrt((float)distance) + sqrt((float)least));
+  return (float)(distance - least) / (sqrt((float)distance) + sqrt((float)least)) / UNIT;
 #else
-  return (float)(distance - least);
+  return (float)(distance - least) / UNIT;
 #endif
 }
 

@@ -50,9 +50,9 @@ VECTOR_KERNEL void float_distances(global const uint* restrict labels, SEED_PARA
   const int x = vector_x(width), y = vector_y();
   const length_v distance = find_distances(labels, seeds, count, x, y, window);
 #ifdef VOROCL_EUCLIDEAN
-  const float_v in_pixels = sqrt(CONVERT_FLOAT_V(distance));
+  const float_v in_pixels = sqrt(CONVERT_FLOAT_V(distance)) / UNIT;
 #else
-  const float_v in_pixels = CONVERT_FLOAT_V(distance);
+  const float_v in_pixels = CONVERT_FLOAT_V(distance) / UNIT;
 #endif
   const int_v none = CONVERT_INT_V(distance == (length_v)NO_SEED);
   STORE_VECTOR(select(in_pixels, (float_v)INFINITY, none), out + y * width + x);

@@ -1,6 +1,6 @@
 // Where the seeds of a diagram lie, as its measures see it. Seeds are packed positions of the window's pixels
 // (core/position.cl); with the build option VOROCL_OUTER_SEEDS they are positions in the plane (core/plane.cl), some of
-// them outside the pixels.
+// them outside the pixels; with VOROCL_FRACTIONS besides, these are in fractions of a pixel (core/plane.cl).
 //
 // THE RULE OF PLACE. Along an axis of which the window shows one whole period (PERIODIC_X, PERIODIC_Y) a pixel lies the
 // shorter way round from its seed, half a period away behind it: perhaps outside the window. Along other axes it lies
@@ -27,22 +27,26 @@ static inline window_t window_of(int width, int height, uint2 periods) {
 static inline bool is_there(seed_t seed) { return seed.x != ABSENT; }
 
 // Its pixel: in the window, along an axis that is shown whole.
-static inline int seed_x(seed_t seed, int width) { return wrapped_x(seed.x, width); }
-static inline int seed_y(seed_t seed, int height) { return wrapped_y(seed.y, height); }
+static inline int seed_x(seed_t seed, int width) { return wrapped_x(seed.x >> UNIT_BITS, width); }
+static inline int seed_y(seed_t seed, int height) { return wrapped_y(seed.y >> UNIT_BITS, height); }
 
-static inline int shorter_way_round(long way, int period) {
+// How far behind a seed the centre of its own pixel is.
+static inline int centre_behind_x(seed_t seed) { return CENTRE - (seed.x & (UNIT - 1)); }
+static inline int centre_behind_y(seed_t seed) { return CENTRE - (seed.y & (UNIT - 1)); }
+
+static inline int shorter_way_round(long way, long period) {
   if (period == 0) return (int)way;
   way %= period;
   if (2 * way > period) return (int)(way - period);
-  return (int)(2 * way <= -(long)period ? way + period : way);
+  return (int)(2 * way <= -period ? way + period : way);
 }
 
-// From a seed to a pixel, along an axis.
+// From a seed to a pixel's centre, along an axis, in units.
 static inline int way_x(seed_t seed, int x, window_t window) {
-  return shorter_way_round((long)x - seed.x, window.period_x);
+  return shorter_way_round((long)x * UNIT + CENTRE - seed.x, (long)window.period_x * UNIT);
 }
 static inline int way_y(seed_t seed, int y, window_t window) {
-  return shorter_way_round((long)y - seed.y, window.period_y);
+  return shorter_way_round((long)y * UNIT + CENTRE - seed.y, (long)window.period_y * UNIT);
 }
 #else
 typedef uint seed_t;
@@ -65,6 +69,15 @@ static inline int seed_y(seed_t seed, int height) {
   return packed_y(seed);
 }
 
+static inline int centre_behind_x(seed_t seed) {
+  (void)seed;
+  return 0;
+}
+static inline int centre_behind_y(seed_t seed) {
+  (void)seed;
+  return 0;
+}
+
 static inline int way_x(seed_t seed, int x, window_t window) {
   return shorter_way_x(x - packed_x(seed), window.width);
 }
@@ -77,7 +90,15 @@ static inline int way_y(seed_t seed, int y, window_t window) {
 // that are no seed's id are clamped to it.
 #define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, uint2 periods, int width, int height
 
-// The distance of ways along both axes.
+// The pixel at the end of a way from a seed: where that is, as the rule of place says.
+static inline int place_x(seed_t seed, int way, int width) {
+  return seed_x(seed, width) + ((way - centre_behind_x(seed)) >> UNIT_BITS);
+}
+static inline int place_y(seed_t seed, int way, int height) {
+  return seed_y(seed, height) + ((way - centre_behind_y(seed)) >> UNIT_BITS);
+}
+
+// The distance of ways along both axes, in units (squared, if Euclidean).
 static inline LENGTH distance_of_ways(int along_x, int along_y) {
   const LENGTH dx = along_x, dy = along_y;
   return ALONG(dx) + ALONG(dy);
@@ -89,14 +110,16 @@ static inline LENGTH distance_to(seed_t seed, int x, int y, window_t window) {
   return is_there(seed) ? distance_of_ways(way_x(seed, x, window), way_y(seed, y, window)) : NO_SEED;
 }
 
-// Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step without a jump.
+// Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without a
+// jump.
 static inline bool goes_on(int way, int step, int period) {
-  return period == 0 || (way + step <= period / 2 && way + step >= -((period - 1) / 2));
+  const long round = (long)period * UNIT, next = (long)way + step * UNIT;
+  return period == 0 || (next <= round / 2 && next >= -((round - 1) / 2));
 }
 
-// The end of the piece of [from, to) that begins at `from`, which is `way` pixels from the seed, and has no jump.
+// The end of the piece of pixels [from, to) that begins at `from`, which is `way` from the seed, and has no jump.
 static inline int piece_end(int from, int to, int way, int period) {
-  return period == 0 ? to : from + min(to - from, period / 2 - way + 1);
+  return period == 0 ? to : from + (int)min((long)(to - from), (((long)period * UNIT / 2 - way) >> UNIT_BITS) + 1);
 }
 
 #endif

@@ -53,7 +53,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
-      const int along_y = way_y(seed, y, window), place_y = PERIODIC_Y ? seed_y(seed, height) + along_y : y;
+      const int along_y = way_y(seed, y, window), row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
       const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
       global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
       global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
@@ -61,18 +61,18 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       for (int from = walk.from, to; from < walk.to; from = to) {
         const int along_x = way_x(seed, from, window);
         to = piece_end(from, walk.to, along_x, window.period_x);
-        const int first = from, last = to - 1, along_x_last = along_x + last - first;
-        const int place_x = PERIODIC_X ? seed_x(seed, width) + along_x : first;
+        const int first = from, last = to - 1, along_x_last = along_x + (last - first) * UNIT;
+        const int first_at = PERIODIC_X ? place_x(seed, along_x, width) : first;
         if (!(goes_on_x(first, -1, along_x, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(first - 1, width), label))) {
-          atomic_min(box, place_x);
+          atomic_min(box, first_at);
         }
         if (!(goes_on_x(last, 1, along_x_last, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(last + 1, width), label))) {
-          atomic_max(box + 2, place_x + last - first);
+          atomic_max(box + 2, first_at + last - first);
         }
-        if (!(above && row_above[first] == label)) atomic_min(box + 1, place_y);
-        if (!(below && row_below[first] == label)) atomic_max(box + 3, place_y);
+        if (!(above && row_above[first] == label)) atomic_min(box + 1, row_at);
+        if (!(below && row_below[first] == label)) atomic_max(box + 3, row_at);
 
         const bool ends = along_y < 0 ? !above : !below;
         global const uint* const away = along_y < 0 ? row_above : row_below;
@@ -113,7 +113,7 @@ kernel void add_lower_words(global const uint* restrict labels, SEED_PARAMETERS,
         const int along_x = way_x(seeds[label], from, window);
         to = piece_end(from, walk.to, along_x, window.period_x);
         const LENGTH farthest = max(distance_of_ways(along_x, along_y),
-                                    distance_of_ways(along_x + to - 1 - from, along_y));
+                                    distance_of_ways(along_x + (to - 1 - from) * UNIT, along_y));
         if (UPPER_WORD(farthest) == upper_words[label]) atomic_max(lower_words + label, (uint)farthest);
       }
     }

@@ -3,13 +3,14 @@
 #include "measures/runs.cl"
 #include "measures/seed_place.cl"
 
-// The energy of each block's pixels: their squared distances to their seeds, run by run.
+// The energy of each block's pixels: their squared distances to their seeds, run by run. In square pixels, or in
+// 1/ENERGY_UNITS of them, which is a square unit times a unit: more bits of a block's sum could be lost.
 kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
                        global ulong* restrict energies) {
   const window_t window = window_of(width, height, periods);
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
-  ulong energy = 0;
+  ulong energy = 0, rest = 0;
   for (int y = block.top; y < block.bottom; ++y) {
     global const uint* const row = labels + y * width;
     walk_t walk = begin_walk(row, row, block.left, block.right);
@@ -21,11 +22,14 @@ kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int 
         const int way = way_x(seeds[label], from, window);
         to = piece_end(from, walk.to, way, window.period_x);
         const long n = to - from, x = way;
-        energy += (ulong)(n * (x * x + dy * dy) + x * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6);
+        const ulong squares = (ulong)(n * (x * x + dy * dy) + x * UNIT * n * (n - 1) +
+                                      (long)UNIT * UNIT * ((n - 1) * n * (2 * n - 1) / 6));
+        energy += squares >> UNIT_BITS;
+        rest += squares & (UNIT - 1);
       }
     }
   }
-  energies[block.index] = energy;
+  energies[block.index] = energy + (rest >> UNIT_BITS);
 }
 
 // The coordinate nearest to the mean; of two, the present one.

@@ -42,7 +42,7 @@ vorocl_status vorocl_distance_errors(const vorocl_diagram* diagram, const vorocl
   });
 }
 
-vorocl_status vorocl_energy(const vorocl_diagram* diagram, uint64_t* sum) {
+vorocl_status vorocl_energy(const vorocl_diagram* diagram, double* sum) {
   return answer(sum, "energy", [&] { return energy(of(diagram)); });
 }
 

@@ -74,7 +74,7 @@ vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, voro
 }
 
 vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
-                           const vorocl_method_options* options, int rounds, uint64_t* energies,
+                           const vorocl_method_options* options, int rounds, double* energies,
                            size_t* moved, vorocl_relaxation* relaxation) {
   return guarded([&] {
     const Method& wanted = method(&given(name, "method"));

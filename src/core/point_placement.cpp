@@ -12,8 +12,9 @@ namespace vorocl {
 
 namespace {
 
-/// Positions are int32, and so are their differences from all pixels of a window.
-constexpr std::int64_t most_pixels_away = (std::int64_t{1} << 19) - Window::max_side - 1;
+/// Positions are int32, and so are their differences from all pixels of a window; and there is room behind them for what is
+/// nowhere (kernels/exact/points/index.cl).
+constexpr std::int64_t most_pixels_away = std::int64_t{1} << 18;
 
 std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
 std::int64_t centre_of(std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; }

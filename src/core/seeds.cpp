@@ -141,12 +141,8 @@ std::vector<std::optional<Point>> Seeds::read_pixels() const {
   const SeedsFrame& frame = *state().frame();
   std::vector<std::optional<Point>> points(size());
   const std::vector<PlanePosition> pixels = frame.read_pixels();
-  constexpr Fraction centre = {fractions_of_pixel / 2, fractions_of_pixel / 2};
   for (std::size_t id = 0; id < points.size(); ++id) {
-    if (is_absent(pixels[id])) continue;
-    const Fraction& in = frame.fractions ? (*frame.fractions)[id] : centre;
-    points[id] = {pixels[id].s[0] + static_cast<double>(in.x) / fractions_of_pixel,
-                  pixels[id].s[1] + static_cast<double>(in.y) / fractions_of_pixel};
+    if (!is_absent(pixels[id])) points[id] = frame.position(id, pixels[id]);
   }
   return points;
 }

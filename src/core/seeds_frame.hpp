@@ -110,6 +110,14 @@ struct SeedsFrame {
   /// The same from the frame before.
   double way_of_last_move() const;
 
+  /// The position in pixels of a seed in this pixel: of its point, or the pixel's centre.
+  Point position(std::size_t id, const PlanePosition& pixel) const {
+    constexpr Fraction centre = {fractions_of_pixel / 2, fractions_of_pixel / 2};
+    const Fraction& in = fractions ? (*fractions)[id] : centre;
+    return {pixel.s[0] + static_cast<double>(in.x) / fractions_of_pixel,
+            pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel};
+  }
+
   /// The pixels, from the device where the host has none. Waits.
   std::vector<PlanePosition> read_pixels() const;
 };

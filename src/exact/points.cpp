@@ -58,6 +58,7 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
   kernel("list_points", group)
       .over_items(points.count, points.places, has_ids ? points.ids : points.places, cl_int{has_ids}, points.count,
                   bits, width, height, memory.starts, memory.numbers, memory.list, memory.ids);
+  kernel("drop_repeats", 8).over_items(rows, memory.starts, bits, width, height, memory.list, memory.ids);
   // Work-items that do much each: small groups spread them over the compute units.
   const cl::Event last =
       kernel("label_tiles", 8)

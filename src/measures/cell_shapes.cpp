@@ -55,7 +55,8 @@ Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
 
 namespace {
 
-std::vector<std::int64_t> largest_distances_on_host(const CellShapesState& shapes) {
+/// Those of empty cells are negative.
+std::vector<double> largest_distances_on_host(const CellShapesState& shapes) {
   const Device& device = shapes.of->device;
   if (!shapes.is_far()) {
     const auto distances = download<cl_int>(device, shapes.distances, shapes.size());
@@ -63,10 +64,11 @@ std::vector<std::int64_t> largest_distances_on_host(const CellShapesState& shape
   }
   const auto upper = download<cl_int>(device, shapes.upper_words, shapes.size());
   const auto lower = download<cl_uint>(device, shapes.lower_words, shapes.size());
-  std::vector<std::int64_t> distances;
+  std::vector<double> distances;
   distances.reserve(upper.size());
   for (std::size_t id = 0; id < upper.size(); ++id) {
-    distances.push_back(upper[id] < 0 ? -1 : std::int64_t{upper[id]} << 32 | lower[id]);
+    const auto distance = static_cast<double>(std::int64_t{upper[id]} << 32 | lower[id]);
+    distances.push_back(upper[id] < 0 ? -1 : shapes.of->in_pixels(distance));
   }
   return distances;
 }

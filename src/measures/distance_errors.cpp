@@ -18,14 +18,15 @@ void check_labels_fit(const Diagram& a, const Diagram& b) {
 MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
   check_labels_fit(a, b);
   MeasuredDiagram one = cells_of(a);
-  const MeasuredDiagram other = cells_of(b);
+  MeasuredDiagram other = cells_of(b);
   if (one.metric != other.metric)
     throw Error("diagrams of different metrics cannot be compared by distances");
   // Clones of seeds have frames of their own, but share where they lie.
   if (one.placement != other.placement) {
     throw Error("the diagrams are of different frames of seeds, and cannot be compared by distances");
   }
-  return one;
+  // Labels of points are judged by points, also where the others are of pixels.
+  return one.points ? std::move(one) : std::move(other);
 }
 
 // --- errors ---

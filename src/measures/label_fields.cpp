@@ -29,13 +29,14 @@ Report map_by(Measuring<LabelState>& measuring, MeasuredDiagram&& of, const Diag
 
 /// The greatest compared distance of no more than so many pixels. Roots are rounded: a distance of
 /// std::sqrt(13) takes in pixels whose squared distance is 13.
-cl_long greatest_compared(Metric metric, double pixels) {
+cl_long greatest_compared(const MeasuredDiagram& of, double pixels) {
   constexpr double past_all = 9e18;
-  const double compared = as_compared(metric, pixels);
+  const double units = of.units_of_pixel();
+  const double compared = as_compared(of.metric, pixels * units);
   if (compared >= past_all) return static_cast<cl_long>(past_all);
   auto greatest = static_cast<cl_long>(compared);
   const auto reaches = [&](cl_long distance) {
-    return in_pixels(metric, static_cast<double>(distance)) <= pixels;
+    return in_pixels(of.metric, static_cast<double>(distance)) / units <= pixels;
   };
   while (reaches(greatest + 1)) ++greatest;
   while (!reaches(greatest)) --greatest;
@@ -79,7 +80,7 @@ Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_
   const cl::Event event =
       state.kernel(of, "expand_labels", of.options())
           .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.grid.width(),
-                     of.grid.height(), greatest_compared(of.metric, distance), state.values);
+                     of.grid.height(), greatest_compared(of, distance), state.values);
   return measuring.commit(std::move(of), event, event);
 }
 

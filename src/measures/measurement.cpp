@@ -54,6 +54,7 @@ MeasuredDiagram labels_of(const Diagram& diagram) {
   measured.seeds = state.contents->seeds;
   measured.placement = state.contents->placement;
   measured.metric = state.contents->metric;
+  measured.points = state.contents->points;
   return measured;
 }
 

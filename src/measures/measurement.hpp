@@ -24,17 +24,33 @@ struct MeasuredDiagram {
   std::shared_ptr<const SeedsFrame> seeds;     // null: the labels name none
   std::shared_ptr<const Placement> placement;  // null likewise
   Metric metric;
+  std::shared_ptr<const PointPlacement> points = nullptr;  // where the labels are those of points
 
   // What kernels get of the seeds: SEED_PARAMETERS of seed_place.cl, and the options that they are built
   // for. Only where there are seeds.
-  const cl::Buffer& positions() const { return outer() ? outer()->seeds : *placement->positions; }
+  const cl::Buffer& positions() const {
+    if (points) return points->seeds;
+    return outer() ? outer()->seeds : *placement->positions;
+  }
   cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
-  cl_uint2 periods() const { return outer() ? outer()->periods : cl_uint2{}; }
+  cl_uint2 periods() const {
+    if (points) return points->periods;
+    return outer() ? outer()->periods : cl_uint2{};
+  }
+
+  /// The unit of distances: so many are a pixel.
+  int units_of_pixel() const { return points ? fractions_of_pixel : 1; }
+
+  /// A distance of the kernels', which is squared if Euclidean, in pixels.
+  double in_pixels(double distance) const {
+    const double units = units_of_pixel();
+    return distance / (metric == Metric::euclidean ? units * units : units);
+  }
   KernelOptions options() const { return {metric, Neighbourhood::moore, extent()}; }
   KernelOptions options_without_metric() const { return {{}, Neighbourhood::moore, extent()}; }
 
   /// Whether distances may take more than 32 bits.
-  bool is_far() const { return extent() == Extent::far; }
+  bool is_far() const { return extent() >= Extent::far; }
 
   /// Throws BadPoint if the seeds had one. May wait for the device.
   void check() const {
@@ -43,7 +59,10 @@ struct MeasuredDiagram {
 
  private:
   const OuterSeeds* outer() const { return placement->outer.get(); }
-  Extent extent() const { return outer() ? outer()->extent : Extent::grid; }
+  Extent extent() const {
+    if (points) return Extent::fractions;
+    return outer() ? outer()->extent : Extent::grid;
+  }
 };
 
 /// A diagram for a measure that looks at labels alone.

@@ -1,5 +1,9 @@
 #include "vorocl/relaxation.hpp"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <numeric>
 #include <string>
 
@@ -22,9 +26,58 @@ struct Rounds {
   cl::Buffer moved_and_displacement;  // two words: see relaxation.cl
 };
 
-/// Returns how many seeds moved.
-std::size_t move_to_centroids(Seeds& seeds, Rounds& rounds) {
+/// What a round does: how many seeds it moves, and how far along an axis.
+struct Move {
+  std::size_t seeds = 0;
+  double displacement = 0;  // in pixels
+};
+
+/// The position nearest to a centroid, given by the pixels of a cell and the sum of their coordinates along an axis, in
+/// fractions of a pixel.
+std::int64_t position_of_centroid(std::uint32_t area, std::int64_t sum) {
+  const std::int64_t twice = 2 * area, parts = fractions_of_pixel;
+  // The mean of the pixels' centres, which are half a pixel behind their starts; in two steps, as the product may be long.
+  const std::int64_t doubled = 2 * sum + area, whole = doubled >= 0 ? doubled / twice : -((twice - 1 - doubled) / twice);
+  return whole * parts + ((doubled - whole * twice) * parts + area) / twice;
+}
+
+Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
+  const SeedsFrame& frame = *state.frame();
+  const std::vector<CellSums> cells = rounds.cells.read();
+  const auto pixels = std::make_shared<std::vector<PlanePosition>>(*frame.pixels);
+  const auto fractions = std::make_shared<std::vector<Fraction>>(*frame.fractions);
+  const auto go = [](const Axis& axis, std::int64_t to, cl_int& pixel, std::uint16_t& fraction) {
+    const std::int64_t parts = fractions_of_pixel, period = axis.pixels() * parts;
+    std::int64_t way = to - (pixel * parts + fraction);
+    if (axis.is_periodic()) {
+      to = (to % period + period) % period;
+      way = (way % period + period) % period;
+      way = std::min(way, period - way);
+    }
+    pixel = static_cast<cl_int>(to / parts);
+    fraction = static_cast<std::uint16_t>(to % parts);
+    return std::abs(way);
+  };
+  Move move;
+  std::int64_t greatest = 0;
+  for (std::size_t id = 0; id < cells.size(); ++id) {
+    if (cells[id].area == 0) continue;
+    PlanePosition& pixel = (*pixels)[id];
+    Fraction& fraction = (*fractions)[id];
+    const std::int64_t x = go(frame.grid.x(), position_of_centroid(cells[id].area, cells[id].sum_x), pixel.s[0], fraction.x);
+    const std::int64_t y = go(frame.grid.y(), position_of_centroid(cells[id].area, cells[id].sum_y), pixel.s[1], fraction.y);
+    move.seeds += x > 0 || y > 0 ? 1 : 0;
+    greatest = std::max({greatest, x, y});
+  }
+  move.displacement = static_cast<double>(greatest) / fractions_of_pixel;
+  if (move.displacement >= tolerance) state.place(frame.grid, pixels, nullptr, fractions);
+  return move;
+}
+
+Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
+  SeedsState& state = Internal::state(seeds);
+  if (state.frame()->fractions) return move_points_to_centroids(seeds, rounds, tolerance);
   const std::shared_ptr<cl::Buffer> positions = state.copy_to_move("Lloyd relaxation");
   const Device& device = state.device;
   const PixelGrid grid{Window(state.grid())};
@@ -36,33 +89,40 @@ std::size_t move_to_centroids(Seeds& seeds, Rounds& rounds) {
                   rounds.cells.area(), rounds.cells.sum_x(), rounds.cells.sum_y(), grid.width(),
                   grid.height(), rounds.moved_and_displacement);
   const auto words = download<cl_uint>(device, rounds.moved_and_displacement, 2);
-  if (words[0] > 0) state.moved(positions, words[1]);
-  return words[0];
+  const Move move = {words[0], static_cast<double>(words[1])};
+  if (move.displacement >= tolerance) state.moved(positions, move.displacement);
+  return move;
 }
 
-std::uint64_t energy_of(const Diagram& diagram, Rounds& rounds) {
+double energy_of(const Diagram& diagram, Rounds& rounds) {
   const MeasuredDiagram of = cells_of(diagram);
   refuse_outer_seeds(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
   const Blocks blocks(of.device, of.grid);
   make_room(rounds.partial, of.device, blocks.count() * sizeof(cl_ulong));
-  blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", {}, diagram.labels(), of.positions(),
+  blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(), diagram.labels(), of.positions(),
              of.count(), of.periods(), of.grid.width(), of.grid.height(), blocks.wide(), blocks.high(),
              rounds.partial);
   diagram.wait();
   const auto energies = download<cl_ulong>(of.device, rounds.partial, blocks.count());
-  return std::accumulate(energies.begin(), energies.end(), std::uint64_t{0});
+  return static_cast<double>(std::accumulate(energies.begin(), energies.end(), std::uint64_t{0})) /
+         of.units_of_pixel();
 }
 
 }  // namespace
 
-std::uint64_t energy(const Diagram& diagram) {
+double energy(const Diagram& diagram) {
   Rounds rounds;
   return energy_of(diagram, rounds);
 }
 
 Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
-                 const RelaxationObserver& observer) {
+                 const RelaxationObserver& observer, const RelaxOptions& options) {
   if (rounds < 0) throw Error("a relaxation of " + std::to_string(rounds) + " rounds; 0 is the least");
+  // Written so that a NaN fails.
+  if (!(options.tolerance > 0)) {
+    throw Error("a relaxation with a tolerance of " + std::to_string(options.tolerance) +
+                " pixels; it must be above 0");
+  }
   if (!engine) throw Error("a relaxation needs an engine that fills the diagram");
   refuse_outer_seeds(*Internal::state(diagram).place(seeds), *Internal::state(seeds).frame(),
                      "Lloyd relaxation");
@@ -77,12 +137,12 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
     const bool goes_on = !observer || observer(seeds, diagram, relaxation);
     if (!goes_on || relaxation.rounds() == rounds) return relaxation;
     cell_sums(diagram, state.cells);
-    const std::size_t moved = move_to_centroids(seeds, state);
-    if (moved == 0) {
+    const Move move = move_to_centroids(seeds, state, options.tolerance);
+    if (move.displacement < options.tolerance) {
       relaxation.converged = true;
       return relaxation;
     }
-    relaxation.moved.push_back(moved);
+    relaxation.moved.push_back(move.seeds);
   }
 }
 

@@ -29,7 +29,8 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (options.neighbourhood == Neighbourhood::moore ? " -DVOROCL_NEIGHBOURS=9"
                                                         : " -DVOROCL_NEIGHBOURS=5") +
          (options.extent != Extent::grid ? " -DVOROCL_OUTER_SEEDS" : "") +
-         (options.extent == Extent::far ? " -DVOROCL_FAR" : "") +
+         (options.extent >= Extent::far ? " -DVOROCL_FAR" : "") +
+         (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
          (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "");

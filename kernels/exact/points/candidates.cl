@@ -130,14 +130,17 @@ static inline int least_of(int8 values) {
   return min(b.x, b.y);
 }
 
-// A place that is nearest to (x, y), or nearly so.
-static inline int nearest_to(const list_t* list, int count, float x, float y) {
+// The number of a place that is nearest to (x, y), or nearly so.
+static inline int nearest_to(const float* places_x, const float* places_y, int count, float x, float y) {
   int8 best = INT_MAX;
   for (int k = 0; k < count; k += 8) {
-    best = min(best, nearest_key(away_from(vload8(0, list->x + k) - x, vload8(0, list->y + k) - y), k) |
+    best = min(best, nearest_key(away_from(vload8(0, places_x + k) - x, vload8(0, places_y + k) - y), k) |
                          beyond_end(k, count));
   }
   return least_of(best) & PLACE_MASK;
+}
+static inline int nearest_of(const list_t* list, int count, float x, float y) {
+  return nearest_to(list->x, list->y, count, x, y);
 }
 
 // Copies the places that stay, relative to (x, y), the centre of a box; `rival` is relative to it too. To another list,

@@ -110,39 +110,42 @@ static inline void load_places(const scene_t* scene, uint from, int2 origin, flo
 }
 
 // Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
-// MOST_LISTED if so many may win. `nearest` is one near the centre.
+// MOST_LISTED if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do not
+// come in.
 NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, float w, int* nearest) {
   int8 best = INT_MAX;
   int count = 0;
-  bool is_thinned = false;
+  bool was_full = false;
+  rival_t rival = {0, 0, 0};
   walk_t walk = walk_over(scene, x, y);
   uint2 range;
   while (next_range(scene, &walk, &range)) {
     const int2 origin = origin_of(scene, &walk, centre);
-    for (uint begin = range.s0; begin < range.s1;) {
-      const int most = min((int)(range.s1 - begin), MOST_LISTED / 2);
-      if (count + most > MOST_LISTED) {
-        is_thinned = true;
-        *nearest = nearest_to(list, count, 0, 0);
-        count = drop_by(list, count, list, 0, 0, rival_of(list, *nearest), w, w);
+    for (uint at = range.s0; at < range.s1; at += 8) {
+      if (count > MOST_LISTED - 8) {
+        was_full = true;
+        rival = rival_of(list, nearest_of(list, count, 0, 0));
+        count = drop_by(list, count, list, 0, 0, rival, w, w);
         if (count > MOST_LISTED / 2) count = drop_by_corners(list, count, w, w);
-        *nearest = nearest_to(list, count, 0, 0);
+        *nearest = nearest_of(list, count, 0, 0);
         if (count > MOST_LISTED / 2) return MOST_LISTED + 1;
       }
-      for (int i = 0; i < most; i += 8) {
-        float8 px, py;
-        load_places(scene, begin + (uint)i, origin, &px, &py);
-        const int8 key = nearest_key(away_from(px, py), count + i);
-        best = min(best, select(key, (int8)INT_MAX, EIGHT + i >= most));
-        vstore8(px, 0, list->x + count + i);
-        vstore8(py, 0, list->y + count + i);
-        vstore8(begin + (uint)i + as_uint8(EIGHT), 0, list->at + count + i);
+      float8 px, py;
+      load_places(scene, at, origin, &px, &py);
+      const int some = (int)min(range.s1 - at, 8u);
+      if (was_full) {
+        const int8 stays = may_win(px, py, rival, w, w) & (EIGHT < some);
+        if (any(stays)) count = keep(list, count, stays, px, py, at + as_uint8(EIGHT));
+        continue;
       }
-      count += most;
-      begin += (uint)most;
+      best = min(best, select(nearest_key(away_from(px, py), count), (int8)INT_MAX, EIGHT >= some));
+      vstore8(px, 0, list->x + count);
+      vstore8(py, 0, list->y + count);
+      vstore8(at + as_uint8(EIGHT), 0, list->at + count);
+      count += some;
     }
   }
-  *nearest = is_thinned ? nearest_to(list, count, 0, 0) : least_of(best) & PLACE_MASK;
+  *nearest = was_full ? nearest_of(list, count, 0, 0) : least_of(best) & PLACE_MASK;
   return count;
 }
 

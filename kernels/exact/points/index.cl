@@ -74,4 +74,64 @@ kernel void list_points(global const int2* restrict places, global const uint* r
   list_ids[at] = has_ids ? ids[i] : i;
 }
 
+// --- seeds on one point ---
+//
+// None of them is nearer than another, so that lists could drop none. In bins of many places all but the lowest id are
+// moved so far away that they are never nearest.
+
+#define MANY_IN_BIN 64
+#define NOWHERE (INT_MAX - (1 << 28))
+
+static inline bool stands_before(int2 a, uint id_of_a, int2 b, uint id_of_b) {
+  if (a.y != b.y) return a.y < b.y;
+  if (a.x != b.x) return a.x < b.x;
+  return id_of_a < id_of_b;
+}
+
+// Lets the element of a heap that is being made sink to its place.
+static inline void sink(global int2* list, global uint* ids, uint root, uint count) {
+  const int2 place = list[root];
+  const uint id = ids[root];
+  for (uint child = 2 * root + 1; child < count; child = 2 * root + 1) {
+    if (child + 1 < count && stands_before(list[child], ids[child], list[child + 1], ids[child + 1])) ++child;
+    if (!stands_before(place, id, list[child], ids[child])) break;
+    list[root] = list[child];
+    ids[root] = ids[child];
+    root = child;
+  }
+  list[root] = place;
+  ids[root] = id;
+}
+
+static void sort_bin(global int2* list, global uint* ids, uint count) {
+  for (uint root = count / 2; root-- > 0;) sink(list, ids, root, count);
+  for (uint last = count - 1; last > 0; --last) {
+    const int2 place = list[0];
+    const uint id = ids[0];
+    list[0] = list[last];
+    ids[0] = ids[last];
+    list[last] = place;
+    ids[last] = id;
+    sink(list, ids, 0, last);
+  }
+}
+
+kernel void drop_repeats(global const uint* restrict starts, int bits, int width, int height,
+                         global int2* restrict list, global uint* restrict ids) {
+  const bins_t bins = bins_of(bits, width, height);
+  const int row = (int)get_global_id(0);
+  if (row >= bins.rows) return;
+  for (int x = 0; x < bins.columns; ++x) {
+    const uint begin = starts[start_of(&bins, x, row)], count = starts[start_of(&bins, x + 1, row)] - begin;
+    if (count <= MANY_IN_BIN) continue;
+    sort_bin(list + begin, ids + begin, count);
+    int2 last = list[begin];
+    for (uint i = begin + 1; i < begin + count; ++i) {
+      const int2 place = list[i];
+      if (all(place == last)) list[i] = (int2)(NOWHERE, NOWHERE);
+      last = place;
+    }
+  }
+}
+
 #endif

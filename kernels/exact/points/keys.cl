@@ -28,7 +28,7 @@ typedef struct {
   uint high[RANK_ROOM];  // Euclidean: |c|^2 >> LOW_BITS
   int low[RANK_ROOM];    // Euclidean: its low bits; Manhattan: 0
   uint rank[RANK_ROOM];
-  uint labels[RANK_ROOM];  // by rank
+  uint values[RANK_ROOM];  // by rank: what is written for a place
 } places_t;
 
 // The position of a place's seed in the grid.
@@ -56,24 +56,25 @@ static inline int2 way_to(const scene_t* scene, const list_t* list, int i, int2 
 }
 
 // Ranks where the order by low bits and near rows leaves ties.
-NOINLINE static void rank_to_the_end(const scene_t* scene, const list_t* list, places_t* places, int count) {
+NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
   for (int i = 0; i < count; ++i) {
     uint rank = 0;
     for (int j = 0; j < count; ++j) {
       const int way = places->low[j] - places->low[i];
-      rank += way < 0 || (way == 0 && j != i && comes_first(scene, list->at[j], list->at[i]));
+      rank += way < 0 || (way == 0 && j != i && comes_first(scene, at[j], at[i]));
     }
     places->rank[i] = rank;
   }
 }
 
 // Ranks the places, and says which labels the ranks have. Two places of one seed, which are images, have two ranks.
-static inline void rank_places(const scene_t* scene, const list_t* list, places_t* places, int count) {
+static inline void rank_places(const scene_t* scene, const list_t* list, int from, places_t* places, int count) {
   int order[RANK_ROOM];
-  const int first_y = own_position(scene, list->at[0]).y;
+  const uint* const at = list->at + from;
+  const int first_y = own_position(scene, at[0]).y;
   const int most = 1 << (Y_BITS - 1);
   for (int i = 0; i < count; ++i) {
-    const int way = clamp(sub_sat(own_position(scene, list->at[i]).y, first_y), -most, most - 1);
+    const int way = clamp(sub_sat(own_position(scene, at[i]).y, first_y), -most, most - 1);
     order[i] = (int)(((uint)places->low[i] << Y_BITS) + (uint)(way + most)) ^ INT_MIN;
   }
   int8 sum = 0;
@@ -86,30 +87,30 @@ static inline void rank_places(const scene_t* scene, const list_t* list, places_
   }
   const int4 half_sums = sum.lo + sum.hi;
   const bool has_ties = half_sums.x + half_sums.y + half_sums.z + half_sums.w != count * (count - 1) / 2;
-  if (has_ties) rank_to_the_end(scene, list, places, count);
+  if (has_ties) rank_to_the_end(scene, at, places, count);
 }
 
-// A table of up to 8 x `vectors` labels at vectors of ranks.
-static inline __attribute__((always_inline)) void look_up_labels(const uint* table, int vectors, uint8 mask,
-                                                                 const int8* keys, uint8* labels) {
+// A table of up to 8 x `vectors` values at vectors of ranks.
+static inline __attribute__((always_inline)) void look_up_values(const uint* table, int vectors, uint8 mask,
+                                                                 const int8* keys, uint8* values) {
 #pragma unroll
   for (int k = 0; k < 8; ++k) {
     const uint8 rank = as_uint8(keys[k]) & mask;
-    uint8 label = permuted(vload8(0, table), rank & 7u);
+    uint8 value = permuted(vload8(0, table), rank & 7u);
 #pragma unroll
     for (int t = 1; t < vectors; ++t) {
-      label = select(label, permuted(vload8(0, table + 8 * t), rank & 7u), rank >= (uint)(8 * t));
+      value = select(value, permuted(vload8(0, table + 8 * t), rank & 7u), rank >= (uint)(8 * t));
     }
-    labels[k] = label;
+    values[k] = value;
   }
 }
 
-NOINLINE static void look_up_many(const uint* table, uint8 mask, const int8* keys, uint8* labels) {
+NOINLINE static void look_up_many(const uint* table, uint8 mask, const int8* keys, uint8* values) {
   for (int k = 0; k < 8; ++k) {
     uint lane[8];
     vstore8(as_uint8(keys[k]) & mask, 0, lane);
     for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
-    labels[k] = vload8(0, lane);
+    values[k] = vload8(0, lane);
   }
 }
 
@@ -130,9 +131,9 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
 #endif
 }
 
-// Labels a box of SIDE x SIDE pixels.
-#define DEFINE_LABEL_BY_KEYS(name, SIDE)                                                                           \
-  NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* labels) {                \
+// Writes the values of the nearest places of a box of SIDE x SIDE pixels.
+#define DEFINE_FIND_BY_KEYS(name, SIDE)                                                                           \
+  NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* out, int stride) {       \
     uint8 columns[MOST_RANKED * (SIDE / 8)];                                                                       \
     uint rows[MOST_RANKED * 8];                                                                                    \
     const uint8 mask = (1u << bits) - 1;                                                                           \
@@ -164,35 +165,36 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
         const int8 keys[8] = {a, b, c, d, e, f, g, h};                                                             \
         uint8 found[8];                                                                                            \
         switch ((count + 7) / 8) {                                                                                 \
-          case 1: look_up_labels(places->labels, 1, mask, keys, found); break;                                     \
-          case 2: look_up_labels(places->labels, 2, mask, keys, found); break;                                     \
-          case 3: look_up_labels(places->labels, 3, mask, keys, found); break;                                     \
-          case 4: look_up_labels(places->labels, 4, mask, keys, found); break;                                     \
-          default: look_up_many(places->labels, mask, keys, found);                                                \
+          case 1: look_up_values(places->values, 1, mask, keys, found); break;                                     \
+          case 2: look_up_values(places->values, 2, mask, keys, found); break;                                     \
+          case 3: look_up_values(places->values, 3, mask, keys, found); break;                                     \
+          case 4: look_up_values(places->values, 4, mask, keys, found); break;                                     \
+          default: look_up_many(places->values, mask, keys, found);                                                \
         }                                                                                                          \
         _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                            \
           const int y = top + part + (SIDE == 16 ? k / 2 : k), x = SIDE == 16 ? k % 2 * 8 : 0;                     \
-          vstore8(found[k], 0, labels + y * POINTS_TILE + x);                                                      \
+          vstore8(found[k], 0, out + y * stride + x);                                                              \
         }                                                                                                          \
       }                                                                                                            \
     }                                                                                                              \
   }
-DEFINE_LABEL_BY_KEYS(label_8_by_keys, 8)
-DEFINE_LABEL_BY_KEYS(label_16_by_keys, 16)
+DEFINE_FIND_BY_KEYS(find_8_by_keys, 8)
+DEFINE_FIND_BY_KEYS(find_16_by_keys, 16)
 
 // Whether keys of so many rank bits hold what can be found in a list: differences of distances from all pixels of the
-// box. `reach`: no place is farther along an axis from a pixel. `base` is the place that is subtracted; -1: none.
-static inline bool keys_hold(const list_t* list, int count, float w, float reach, int bits, int* base) {
+// box. `reach`: no place is farther along an axis from a pixel. `base` is the place that is subtracted, of this part of
+// the list; -1: none.
+static inline bool keys_hold(const list_t* list, int from, int count, float w, float reach, int bits, int* base) {
   const float ranks = (float)(1 << bits);
 #ifdef VOROCL_EUCLIDEAN
   const float of_unit = (float)(1 << (2 * FRACTION_BITS - LOW_BITS));
   *base = -1;
   if ((2 * reach * reach * of_unit + 2) * ranks < 0x1.fp30f) return true;
-  *base = nearest_to(list, count, 0, 0);
-  const rival_t rival = rival_of(list, *base);
+  *base = nearest_to(list->x + from, list->y + from, count, 0, 0);
+  const rival_t rival = rival_of(list, from + *base);
   float8 most = 0;
   for (int k = 0; k < count; k += 8) {
-    const float8 x = vload8(0, list->x + k), y = vload8(0, list->y + k), along = fma(x, x, y * y);
+    const float8 x = vload8(0, list->x + from + k), y = vload8(0, list->y + from + k), along = fma(x, x, y * y);
     const float8 lag = fabs(along - rival.along) + (along + rival.along) * 0x1p-19f +
                        (fabs(x - rival.x) + fabs(y - rival.y)) * (w + 2);
     most = max(most, select(lag, (float8)0, EIGHT + k >= count));
@@ -204,30 +206,34 @@ static inline bool keys_hold(const list_t* list, int count, float w, float reach
   (void)w;
   (void)reach;
   // What may win is at most twice the box's ways farther than the place nearest to the centre.
-  *base = nearest_to(list, count, 0, 0);
+  *base = nearest_to(list->x + from, list->y + from, count, 0, 0);
   return 256.f * ONE_PIXEL * ranks < 0x1.fp30f;
 #endif
 }
 
-// Labels a box of 8 or 16 pixels a side by the places of a list relative to its centre; false if keys do not hold them.
-NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int count, int2 centre, int side,
-                                   float reach, uint* labels) {
+// What is written for a place: the id of its seed, or its number in the list.
+typedef enum { IDS, NUMBERS } values_t;
+
+// Finds the nearest at each pixel of a box of 8 or 16 pixels a side, of `count` places of a list relative to its
+// centre, from the number `from` on; false if keys do not hold them.
+NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int from, int count, int2 centre, int side,
+                                  float reach, values_t values, uint* out, int stride) {
   if (count == 1) {
-    const uint8 label = scene->ids[list->at[0]];
+    const uint8 value = values == IDS ? scene->ids[list->at[from]] : (uint)from;
     for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; x += 8) vstore8(label, 0, labels + y * POINTS_TILE + x);
+      for (int x = 0; x < side; x += 8) vstore8(value, 0, out + y * stride + x);
     }
     return true;
   }
   if (count > MOST_RANKED) return false;
   const int bits = 32 - (int)clz((uint)count - 1);
   int base;
-  if (!keys_hold(list, count, (float)(side - 1), reach, bits, &base)) return false;
+  if (!keys_hold(list, from, count, (float)(side - 1), reach, bits, &base)) return false;
 
   places_t places;
   const int2 origin = centre + HALF_PIXEL;
   for (int i = 0; i < count; ++i) {
-    const int2 way = way_to(scene, list, i, origin);
+    const int2 way = way_to(scene, list, from + i, origin);
     places.x[i] = way.x;
     places.y[i] = way.y;
   }
@@ -246,8 +252,10 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
     vstore8((int8)0, 0, places.low + k);
 #endif
   }
-  rank_places(scene, list, &places, count);
-  for (int i = 0; i < count; ++i) places.labels[places.rank[i]] = scene->ids[list->at[i]];
+  rank_places(scene, list, from, &places, count);
+  for (int i = 0; i < count; ++i) {
+    places.values[places.rank[i]] = values == IDS ? scene->ids[list->at[from + i]] : (uint)(from + i);
+  }
   uint subtracted = 0;
 #ifdef VOROCL_EUCLIDEAN
   if (base >= 0) {
@@ -262,9 +270,9 @@ NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int
   subtracted = abs(places.x[base]) + abs(places.y[base]);
 #endif
   if (side == 8) {
-    label_8_by_keys(&places, count, bits, subtracted, labels);
+    find_8_by_keys(&places, count, bits, subtracted, out, stride);
   } else {
-    label_16_by_keys(&places, count, bits, subtracted, labels);
+    find_16_by_keys(&places, count, bits, subtracted, out, stride);
   }
   return true;
 }

@@ -8,7 +8,7 @@
 
 #define FEW_PLACES 8      // of which more are not dropped by corners
 #define MOST_OF_BOX 48    // a box of 16 pixels with more is labelled in quarters
-#define MOST_OF_WIDE 32   // likewise, where keys do not hold the distances
+#define MOST_OF_PARTS 32  // likewise, where keys do not hold the distances
 #define FEW_OF_TILE 24    // a tile of fewer is labelled from one list
 
 static inline ulong distance_in_units(long x, long y) {
@@ -19,42 +19,53 @@ static inline ulong distance_in_units(long x, long y) {
 #endif
 }
 
-// The nearest so far of each pixel of 4 x 4, in 64 bits.
+// The nearest so far of a box's pixels.
 typedef struct {
-  ulong distance[16];
-  uint at[16];
+  ulong distance[16 * 16];
+  uint place[16 * 16];  // its number, in a list or in the index
 } found_t;
 
-// Holds a place against what is found. (x, y) is its way from the centre of the 4 x 4 pixels.
-static inline void hold_against(const scene_t* scene, found_t* found, long x, long y, uint at) {
-  for (int i = 0; i < 16; ++i) {
-    const ulong distance = distance_in_units(x - (i % 4 - 2) * ONE_PIXEL - HALF_PIXEL,
-                                             y - (i / 4 - 2) * ONE_PIXEL - HALF_PIXEL);
-    if (distance > found->distance[i]) continue;
-    if (distance == found->distance[i] && !comes_first(scene, at, found->at[i])) continue;
-    found->distance[i] = distance;
-    found->at[i] = at;
-  }
+static inline void find_nothing(found_t* found, int side) {
+  for (int i = 0; i < side * side; ++i) found->distance[i] = ULONG_MAX;
 }
 
-static inline void write_found(const scene_t* scene, const found_t* found, uint* labels) {
-  for (int i = 0; i < 16; ++i) labels[i / 4 * POINTS_TILE + i % 4] = scene->ids[found->at[i]];
+// From the centre of a box to a pixel's.
+static inline int2 way_to_pixel(int pixel, int side) {
+  return (int2)(pixel % side - side / 2, pixel / side - side / 2) * ONE_PIXEL + HALF_PIXEL;
 }
 
-// Labels a box by any list, in 64 bits.
-NOINLINE static void label_wide(const scene_t* scene, const list_t* list, int count, int2 centre, int side,
-                                uint* labels) {
-  for (int top = 0; top < side; top += 4) {
-    for (int left = 0; left < side; left += 4) {
-      const int2 from_centre = (int2)(left + 2 - side / 2, top + 2 - side / 2) * ONE_PIXEL;
-      found_t found;
-      for (int i = 0; i < 16; ++i) found.distance[i] = ULONG_MAX;
-      for (int i = 0; i < count; ++i) {
-        const int2 way = way_to(scene, list, i, centre);
-        hold_against(scene, &found, (long)way.x - from_centre.x, (long)way.y - from_centre.y, list->at[i]);
+// The distance from a pixel of a box to a place, given the place's way from the box's centre.
+static inline ulong distance_from(int pixel, int side, int2 way) {
+  const int2 to = way_to_pixel(pixel, side);
+  return distance_in_units((long)way.x - to.x, (long)way.y - to.y);
+}
+
+// Labels a box of at most 16 pixels a side by any list: its places stand against each other in parts, the winners of the
+// parts in 64 bits.
+NOINLINE static void label_in_parts(const scene_t* scene, const list_t* list, int count, int2 centre, int side,
+                                    float reach, uint* labels) {
+  found_t found;
+  find_nothing(&found, side);
+  uint winners[16 * 16];
+  for (int from = 0; from < count; from += MOST_RANKED) {
+    const int some = min(count - from, MOST_RANKED);
+    const bool has_winners = side >= 8 && find_by_keys(scene, list, from, some, centre, side, reach, NUMBERS, winners, side);
+    for (int pixel = 0; pixel < side * side; ++pixel) {
+      const int first = has_winners ? (int)winners[pixel] : from, end = has_winners ? first + 1 : from + some;
+      for (int i = first; i < end; ++i) {
+        const ulong distance = distance_from(pixel, side, way_to(scene, list, i, centre));
+        if (distance > found.distance[pixel]) continue;
+        if (distance == found.distance[pixel] &&
+            !comes_first(scene, list->at[i], list->at[found.place[pixel]])) {
+          continue;
+        }
+        found.distance[pixel] = distance;
+        found.place[pixel] = (uint)i;
       }
-      write_found(scene, &found, labels + top * POINTS_TILE + left);
     }
+  }
+  for (int pixel = 0; pixel < side * side; ++pixel) {
+    labels[pixel / side * POINTS_TILE + pixel % side] = scene->ids[list->at[found.place[pixel]]];
   }
 }
 
@@ -82,10 +93,10 @@ NOINLINE static void search_square(const scene_t* scene, span_t x, span_t y, int
   }
   float limits[16];
   found_t found;
+  find_nothing(&found, 4);
   for (int i = 0; i < 16; ++i) {
     const float4 halves = fmin(least[i].lo, least[i].hi);
     limits[i] = fmin(fmin(halves.x, halves.y), fmin(halves.z, halves.w)) * (1 + 0x1p-18f) + 0x1p-9f;
-    found.distance[i] = ULONG_MAX;
   }
   walk = walk_over(scene, x, y);
   while (next_range(scene, &walk, &range)) {
@@ -98,12 +109,19 @@ NOINLINE static void search_square(const scene_t* scene, span_t x, span_t y, int
       for (int i = 0; i < 16; ++i) is_near |= float_distance(px, py, i) <= limits[i];
       if (!any(is_near)) continue;
       for (uint i = at; i < min(at + 8, range.s1); ++i) {
-        const int2 way = scene->list[i] - origin;
-        hold_against(scene, &found, way.x, way.y, i);
+        for (int pixel = 0; pixel < 16; ++pixel) {
+          const ulong distance = distance_from(pixel, 4, scene->list[i] - origin);
+          if (distance > found.distance[pixel]) continue;
+          if (distance == found.distance[pixel] && !comes_first(scene, i, found.place[pixel])) continue;
+          found.distance[pixel] = distance;
+          found.place[pixel] = i;
+        }
       }
     }
   }
-  write_found(scene, &found, labels);
+  for (int pixel = 0; pixel < 16; ++pixel) {
+    labels[pixel / 4 * POINTS_TILE + pixel % 4] = scene->ids[found.place[pixel]];
+  }
 }
 
 static inline void label_nothing(int side, uint* labels) {
@@ -158,9 +176,9 @@ static inline __attribute__((always_inline)) uint label_square(const scene_t* sc
   count = drop_by(a, count, b, 0, 0, rival, w, w);
   if (count > FEW_PLACES) count = drop_by_corners(b, count, w, w);
   if (side <= 16 && (count <= MOST_OF_BOX || side == side_of_box)) {
-    if (side >= 8 && label_by_keys(scene, b, count, centre, side, most_reach, labels)) return 0;
-    if (side > 8 && count > MOST_OF_WIDE) return all;
-    label_wide(scene, b, count, centre, side, labels);
+    if (side >= 8 && find_by_keys(scene, b, 0, count, centre, side, most_reach, IDS, labels, POINTS_TILE)) return 0;
+    if (side > 8 && count > MOST_OF_PARTS) return all;
+    label_in_parts(scene, b, count, centre, side, most_reach, labels);
     return 0;
   }
 
@@ -170,16 +188,16 @@ static inline __attribute__((always_inline)) uint label_square(const scene_t* sc
       if (left + u * side_of_box >= scene->width || top + v * side_of_box >= scene->height) continue;
       const int2 from_centre = (int2)(u, v) * side_of_box + side_of_box / 2 - side / 2;
       const float mx = (float)from_centre.x, my = (float)from_centre.y;
-      const int i = nearest_to(b, count, mx, my);
+      const int i = nearest_of(b, count, mx, my);
       const rival_t here = rival_at(b->x[i] - mx, b->y[i] - my);
       int some = drop_by(b, count, a, mx, my, here, w_of_box, w_of_box);
       if (some > FEW_PLACES) some = drop_by_corners(a, some, w_of_box, w_of_box);
       const float reach_here = fmin(most_reach, longest(reach_of(here, w_of_box)) + (float)side_of_box);
       const int2 centre_here = centre + from_centre * ONE_PIXEL;
       uint* const labels_here = labels + v * side_of_box * POINTS_TILE + u * side_of_box;
-      if (label_by_keys(scene, a, some, centre_here, side_of_box, reach_here, labels_here)) continue;
-      if (some <= MOST_OF_WIDE) {
-        label_wide(scene, a, some, centre_here, side_of_box, labels_here);
+      if (find_by_keys(scene, a, 0, some, centre_here, side_of_box, reach_here, IDS, labels_here, POINTS_TILE)) continue;
+      if (some <= MOST_OF_PARTS || side_of_box == 8) {
+        label_in_parts(scene, a, some, centre_here, side_of_box, reach_here, labels_here);
       } else {
         left_over |= 1u << (v * boxes + u);
       }

@@ -87,7 +87,7 @@ void write_energies(const OutputFile& file, const Relaxation& relaxation) {
   GrowingFile table(file);
   table << "round,energy,moved\n";
   for (std::size_t round = 0; round < relaxation.energies.size(); ++round) {
-    table << fmt::format("{},{},{}\n", round, relaxation.energies[round],
+    table << fmt::format("{},{:.17g},{}\n", round, relaxation.energies[round],
                          round == 0 ? 0 : relaxation.moved[round - 1]);
   }
   table.finish();
@@ -141,7 +141,7 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
   print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
         seeds.grid().height(), counted(relaxation.rounds(), "round"),
         relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
-  print("energy: {} at the start, {} at the end\n", relaxation.energies.front(), relaxation.energies.back());
+  print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(), relaxation.energies.back());
   print_written(requested_files(options));
 }
 
