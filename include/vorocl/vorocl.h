@@ -214,20 +214,29 @@ typedef struct vorocl_seeds vorocl_seeds;
 typedef int vorocl_outside;
 enum { VOROCL_OUTSIDE_COUNTS = 0, VOROCL_OUTSIDE_IS_ABSENT = 1, VOROCL_OUTSIDE_IS_REFUSED = 2 };
 
-/// `outside` holds for all frames.
+/// What becomes of a point within its pixel: see vorocl::Snap. With VOROCL_SNAP_NONE exact diagrams take the
+/// point itself, rounded to 1/4096 of a pixel; with VOROCL_SNAP_TO_PIXELS the centre of its pixel. Flooding
+/// methods snap.
+typedef int vorocl_snap;
+enum { VOROCL_SNAP_TO_PIXELS = 0, VOROCL_SNAP_NONE = 1 };
+
+/// `outside` and `snap` hold for all frames.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
-                                                  size_t count, vorocl_outside outside, vorocl_seeds** seeds);
+                                                  size_t count, vorocl_outside outside, vorocl_snap snap,
+                                                  vorocl_seeds** seeds);
 
 /// What a buffer of points holds: two floats or two doubles per point. One of VOROCL_FLOAT2, VOROCL_DOUBLE2.
 typedef int vorocl_point_format;
 enum { VOROCL_FLOAT2 = 0, VOROCL_DOUBLE2 = 1 };
 
-/// From the caller's buffers. Unless points outside count, the device reads and checks them when it comes to
-/// it: VOROCL_BAD_POINT comes from the first call that waits for what was made of them.
+/// From the caller's buffers. Floats that are snapped stay on the device unless points outside count: it
+/// checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call that waits for what was
+/// made of them.
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, vorocl_point_format format, cl_mem present,
-                                                  size_t count, vorocl_outside outside, vorocl_seeds** seeds);
+                                                  size_t count, vorocl_outside outside, vorocl_snap snap,
+                                                  vorocl_seeds** seeds);
 
 /// A seed for each pixel of the mask that is not 0, row-major: `count` must be the grid's pixels.
 VOROCL_API vorocl_status vorocl_seeds_from_mask(const vorocl_device* device, vorocl_grid grid,
@@ -284,7 +293,8 @@ VOROCL_API vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displac
 /// for a seed that is absent. `count` must be that of the seeds. Waits where the device has them.
 VOROCL_API vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points, size_t count);
 
-/// As above, the centres of the seeds' pixels, in pixels from the grid's first one.
+/// As above, the positions that exact diagrams take, in pixels from the grid's first one: the centres of the
+/// seeds' pixels, or whole numbers of 1/4096 with VOROCL_SNAP_NONE.
 VOROCL_API vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points,
                                                   size_t count);
 

@@ -53,8 +53,17 @@ void show(Diagram& diagram, const Grid& grid) {
   if (fits && own != grid) diagram = Diagram(diagram.device(), grid, diagram.labels());
 }
 
-/// Remembers the seeds that the labels name; a clone shares their frame.
-void remember(DiagramObject& diagram, const Seeds& seeds) { diagram.seeds = seeds.clone(); }
+/// Remembers the seeds that the labels name; a clone shares their frame. `snap` says what of them is the
+/// truth.
+void remember(DiagramObject& diagram, const Seeds& seeds, Snap snap = Snap::to_pixels) {
+  diagram.seeds = seeds.clone();
+  diagram.snap = snap;
+}
+
+/// What a method's labels are the truth of.
+Snap truth_of(const Method& method, const SeedsObject& seeds) {
+  return method.exact ? seeds.snap : Snap::to_pixels;
+}
 
 Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
             std::optional<double> max_displacement) {
@@ -65,7 +74,7 @@ Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
   Report report = filling.run(seeds.seeds, diagram.diagram, options);
-  remember(diagram, seeds.seeds);
+  remember(diagram, seeds.seeds, truth_of(filling, seeds));
   return report;
 }
 
@@ -155,8 +164,8 @@ Row row_of(const std::optional<Point>& seed, const CellSums& sums, const CellSha
   if (sums.area == 0) {
     return {place.x, place.y, centroid.x, centroid.y, none, 0, perimeter, neighbours, 0, 0, -1, -1, false};
   }
-  const double distance = shape.largest_distance;
-  const double farthest = metric == Metric::euclidean ? std::sqrt(distance) : distance;
+  const double farthest =
+      metric == Metric::euclidean ? std::sqrt(shape.largest_distance) : shape.largest_distance;
   return {place.x,    place.y,    centroid.x, centroid.y,  farthest,     sums.area,           perimeter,
           neighbours, shape.left, shape.top,  shape.right, shape.bottom, shape.touches_border};
 }
@@ -246,9 +255,12 @@ nb::ndarray<nb::numpy, double, nb::ndim<2>> find_vertices(DiagramObject& diagram
   return to_numpy<double>(std::move(corners));
 }
 
-DistanceErrors errors(DiagramObject& diagram) {
+/// By the points that were given, or the centres of their pixels; else by what the labels were made of.
+DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
-  const Seeds& seeds = seeds_of(diagram);
+  const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
+  const Seeds& named = seeds_of(diagram);
+  const Seeds seeds(named.device(), named.grid(), named.read(), Outside::count, snap);
   const Metric metric = diagram.diagram.metric();
   const Device& device = diagram.diagram.device();
   Diagram exact(device, diagram.diagram.window()), judged(device, diagram.diagram.window());
@@ -272,7 +284,7 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
   Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
-  remember(diagram, seeds.seeds);
+  remember(diagram, seeds.seeds, truth_of(method(name), seeds));
   return done;
 }
 
@@ -321,7 +333,7 @@ void bind_diagrams(nb::module_& module) {
       .def("adjacency", find_adjacency)
       .def("count_vertices", count_vertices, without_gil())
       .def("vertices", find_vertices)
-      .def("errors", errors, without_gil())
+      .def("errors", errors, nb::arg("of_points").none(), without_gil())
       .def("relax", relax, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("rounds"),
            without_gil());
 }

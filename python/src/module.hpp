@@ -60,10 +60,11 @@ Handle retained(std::uintptr_t handle) {
 
 /// Seeds. The library wants one thread at a time; threads of Python take turns.
 struct SeedsObject {
-  explicit SeedsObject(Seeds made) : seeds(std::move(made)) {}
+  explicit SeedsObject(Seeds made, Snap snapped = Snap::to_pixels) : seeds(std::move(made)), snap(snapped) {}
 
   std::mutex mutex;
   Seeds seeds;
+  Snap snap;
   std::vector<std::uint8_t> present;  // of the last points, so that a move allocates nothing
 };
 
@@ -73,7 +74,8 @@ struct DiagramObject {
 
   std::mutex mutex;
   Diagram diagram;
-  std::optional<Seeds> seeds;  // in the frame that its labels name; none if it is not known
+  std::optional<Seeds> seeds;   // in the frame that its labels name; none if it is not known
+  Snap snap = Snap::to_pixels;  // where an exact method has made the labels
   CellSumsResult sums;
   CellShapesResult shapes;
   AdjacencyResult adjacency;

@@ -32,9 +32,10 @@ Points view(const Rows& rows, std::vector<std::uint8_t>& present) {
 }
 
 void make(SeedsObject* memory, const Device& device, const Grid& grid, const Rows& rows,
-          const std::string& outside) {
+          const std::string& outside, bool snap) {
   std::vector<std::uint8_t> present;
-  new (memory) SeedsObject(Seeds(device, grid, view(rows, present), outside_of(outside)));
+  const Snap snapped = snap ? Snap::to_pixels : Snap::none;
+  new (memory) SeedsObject(Seeds(device, grid, view(rows, present), outside_of(outside), snapped), snapped);
 }
 
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
@@ -69,16 +70,16 @@ std::size_t alive(SeedsObject& seeds) {
   return seeds.seeds.alive();
 }
 
-/// The centres of the seeds' pixels, in pixels or in the units of their points.
+/// Where exact diagrams have the seeds, in pixels or in the units of their points.
 void read(SeedsObject& seeds, const Array<double, nb::shape<-1, 2>>& points, bool in_pixels) {
   const Turn turn(seeds.mutex);
-  const std::vector<std::optional<Point>> centres = seeds.seeds.read_pixels();
-  if (centres.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
+  const std::vector<std::optional<Point>> places = seeds.seeds.read_pixels();
+  if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Grid grid = seeds.seeds.grid();
   double* xy = points.data();
-  for (const std::optional<Point>& centre : centres) {
-    const Point point = !centre ? Point{none, none} : in_pixels ? *centre : grid.point(*centre);
+  for (const std::optional<Point>& place : places) {
+    const Point point = !place ? Point{none, none} : in_pixels ? *place : grid.point(*place);
     *xy++ = point.x;
     *xy++ = point.y;
   }
@@ -89,7 +90,7 @@ void read(SeedsObject& seeds, const Array<double, nb::shape<-1, 2>>& points, boo
 void bind_seeds(nb::module_& module) {
   nb::class_<SeedsObject>(module, "Seeds")
       .def("__init__", make, nb::arg("device"), nb::arg("grid"), nb::arg("points"), nb::arg("outside"),
-           without_gil())
+           nb::arg("snap"), without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
       .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), without_gil())
       .def_prop_ro("displacement", displacement, without_gil())

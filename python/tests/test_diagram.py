@@ -1,8 +1,10 @@
 """Labels, against brute force and SciPy's k-d tree."""
 
+import re
+
 import numpy as np
 import pytest
-from oracles import assert_nearest, brute_force
+from oracles import assert_nearest, brute_force, from_below
 
 import vorocl
 
@@ -12,29 +14,68 @@ rng = np.random.default_rng(17)
 
 @pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
 @pytest.mark.parametrize("periodic", AXES)
+@pytest.mark.parametrize("snap", [True, False])
 @pytest.mark.parametrize("count, shape", [(1, (5, 9)), (12, (31, 17)), (300, (40, 63))])
-def test_ties_fall_as_defined(count, shape, periodic, metric):
+def test_ties_fall_as_defined(count, shape, snap, periodic, metric):
     points = rng.uniform(0, shape[::-1], (count, 2))  # many share a pixel
-    labels = vorocl.diagram(points, shape, periodic=periodic, metric=metric)
+    points[: count // 2] = np.round(points[: count // 2] * 2) / 2 % shape[::-1]  # and pixels are equally near to some
+    labels = vorocl.diagram(points, shape, periodic=periodic, metric=metric, snap=snap)
     assert labels.dtype == np.uint32 and labels.shape == shape
-    np.testing.assert_array_equal(labels, brute_force(points, shape, periodic, metric))
+    np.testing.assert_array_equal(labels, brute_force(points, shape, periodic, metric, snap))
 
 
 @pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
 @pytest.mark.parametrize("periodic", AXES)
-def test_the_k_d_tree_finds_nothing_nearer(periodic, metric):
+@pytest.mark.parametrize("snap", [True, False])
+def test_the_k_d_tree_finds_nothing_nearer(snap, periodic, metric):
     points = rng.uniform(0, (511, 300), (2000, 2))
-    assert_nearest(vorocl.diagram(points, (300, 511), periodic=periodic, metric=metric), points, periodic, metric)
+    labels = vorocl.diagram(points, (300, 511), periodic=periodic, metric=metric, snap=snap)
+    assert_nearest(labels, points, periodic, metric, snap)
 
 
-@pytest.mark.parametrize(
-    "method", ["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution"]
-)
+def test_points_of_one_pixel_own_pixels_each():
+    points = np.array([(20.125, 20.5), (20.875, 20.5), (20.5, 20.125), (20.5, 20.875)])
+    labels = vorocl.diagram(points, (41, 41), snap=False)
+    assert (labels[20, [0, 40]] == (0, 1)).all() and (labels[[0, 40], 20] == (2, 3)).all()
+    assert (vorocl.diagram(points, (41, 41), snap=True) == 0).all()
+    assert (vorocl.diagram(points, (41, 41), method="jfa") == 0).all()
+
+
+@pytest.mark.parametrize("snap", [True, False])
+@pytest.mark.parametrize("periodic", [(False, False), (True, False)])
+def test_bounds_make_positions_in_pixels(periodic, snap):
+    points = rng.uniform((-1, -1), (1, 1), (300, 2))
+    labels = vorocl.diagram(points, (50, 70), bounds=(-1, -1, 1, 1), periodic=periodic, y_up=True, snap=snap)
+    pixels = (points + 1) * (35, 25)
+    pixels[:, 1] = from_below(pixels[:, 1], 50)
+    np.testing.assert_array_equal(labels, brute_force(pixels, (50, 70), periodic, snap=snap))
+
+
+FLOODING = ["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution"]
+
+
+@pytest.mark.parametrize("method", FLOODING)
+def test_methods_that_flood_take_no_points_within_pixels(method):
+    for call in vorocl.diagram, vorocl.cells, vorocl.areas, vorocl.relax:
+        with pytest.raises(vorocl.BadArgument, match=f'"{re.escape(method)}".*snap=False is for "exact"'):
+            call([(1, 1)], (4, 8), method=method, snap=False)
+    with pytest.raises(vorocl.BadArgument, match="snap=False"):
+        vorocl.Simulation((4, 8), method=method, snap=False)
+    points = rng.uniform(0, 64, (50, 2))
+    expected = vorocl.diagram(np.floor(points) + 0.5, (64, 64), method=method)
+    for snap in None, True:
+        np.testing.assert_array_equal(vorocl.diagram(points, (64, 64), method=method, snap=snap), expected)
+    diagram = vorocl.Diagram((64, 64))
+    diagram.fill(vorocl.Seeds(points, (64, 64), snap=False), method)
+    np.testing.assert_array_equal(diagram.read(), expected)
+
+
+@pytest.mark.parametrize("method", FLOODING)
 def test_methods_that_flood_are_nearly_right(method):
     points = rng.uniform(0, 128, (60, 2))
     vorocl.diagram(rng.uniform(0, 128, (60, 2)), (128, 128), method=method)
     labels = vorocl.diagram(points, (128, 128), method=method)
-    assert vorocl.similarity(labels, brute_force(points, (128, 128))) > 98
+    assert vorocl.similarity(labels, brute_force(points, (128, 128), snap=True)) > 98
     again = vorocl.diagram(points, (128, 128), method=method)
     np.testing.assert_array_equal(labels, again)  # whatever the call before was
 
@@ -56,26 +97,26 @@ def test_no_points_leave_no_label():
 def test_bounds_map_to_pixels():
     points = rng.uniform((-180, -90), (180, 90), (50, 2))
     points[0] = 180, 90  # falls in the last pixel where points outside are refused
-    pixels = np.minimum(np.floor((points + (180, 90)) * (144, 72) / (360, 180)), (143, 71))
+    pixels = np.minimum((points + (180, 90)) * (144, 72) / (360, 180), np.nextafter((144, 72), 0))
     plane = {"shape": (72, 144), "bounds": (-180, -90, 180, 90), "outside": "refuse"}
     np.testing.assert_array_equal(vorocl.diagram(points, **plane), brute_force(pixels, (72, 144)))
     upside_down = vorocl.diagram(points, **plane, y_up=True)
-    pixels[:, 1] = 71 - pixels[:, 1]
+    pixels[:, 1] = from_below(pixels[:, 1], 72)
     np.testing.assert_array_equal(upside_down, brute_force(pixels, (72, 144)))
 
 
 def test_y_goes_up_in_pixels():
     points = rng.uniform(0, (40, 30), (20, 2))
-    flipped = np.column_stack([points[:, 0], 29 - np.floor(points[:, 1])])
+    flipped = np.column_stack([points[:, 0], from_below(points[:, 1], 30)])
     np.testing.assert_array_equal(vorocl.diagram(points, (30, 40), y_up=True), brute_force(flipped, (30, 40)))
 
 
 @pytest.mark.parametrize("bounds", [None, (0, 0, 40, 30), (-20.0, 5.0, 20.0, 35.0)])
 def test_points_wrap_along_periodic_axes(bounds):
-    points = rng.uniform(0, (40, 30), (20, 2)) + ((bounds or (0, 0))[:2])
+    points = np.round(rng.uniform(0, (40, 30), (20, 2)) * 1024) / 1024 + ((bounds or (0, 0))[:2])
     periods = rng.integers(-3, 4, (20, 2)) * (40, 30)
     inside = vorocl.diagram(points, (30, 40), periodic=(True, True), bounds=bounds)
-    wrapped = vorocl.diagram(np.round(points, 3) + periods, (30, 40), periodic=(True, True), bounds=bounds)
+    wrapped = vorocl.diagram(points + periods, (30, 40), periodic=(True, True), bounds=bounds)
     np.testing.assert_array_equal(inside, wrapped)
     edge = vorocl.diagram([(-1e-20, 3)], (30, 40), periodic=(True, False))  # -1e-20 + 40 is 40
     assert (edge == 0).all()
@@ -102,14 +143,16 @@ def test_points_outside_count(bounds, metric):
     labels = vorocl.diagram(points, shape, bounds=bounds, metric=metric)
     np.testing.assert_array_equal(labels, brute_force(pixels, shape, metric=metric))
     assert_nearest(labels, pixels, metric=metric)
-    pixels[:, 1] = 29 - np.floor(pixels[:, 1])
+    pixels[:, 1] = from_below(pixels[:, 1], 30)
     upside_down = vorocl.diagram(points, shape, bounds=bounds, metric=metric, y_up=True)
     np.testing.assert_array_equal(upside_down, brute_force(pixels, shape, metric=metric))
 
 
 def test_one_far_point_owns_the_window():
-    assert (vorocl.diagram([(2e9, -2e9)], (3, 5)) == 0).all()
+    assert (vorocl.diagram([(2e9, -2e9)], (3, 5), snap=True) == 0).all()
     assert (vorocl.diagram([(2e9, -2e9), (-1, 1)], (3, 5)) == 1).all()
+    with pytest.raises(vorocl.BadArgument, match="snap"):
+        vorocl.diagram([(2e9, -2e9)], (3, 5), snap=False)
     with pytest.raises(vorocl.BadPoint, match="point 1"):
         vorocl.diagram([(0, 0), (2.0**31, 0)], (3, 5))
     assert (vorocl.diagram([(2, 2)], (3, 5)) == 0).all()  # the window before is forgotten
@@ -129,7 +172,7 @@ def test_points_outside_count_along_the_other_axis_of_a_periodic_grid(periodic):
     inside -= np.where(inside > 2**19, 2**20, 0)
     np.testing.assert_array_equal(labels, brute_force(inside, (30, 40), periodic))
     bounded = vorocl.diagram([(0, 0), (20, 4)], (4, 8), bounds=(0, 0, 8, 4), periodic=(True, False))
-    np.testing.assert_array_equal(bounded, brute_force([(0, 0), (4, 3)], (4, 8), (True, False)))
+    np.testing.assert_array_equal(bounded, brute_force([(0, 0), (4, np.nextafter(4, 0))], (4, 8), (True, False)))
 
 
 @pytest.mark.parametrize("bounds", [None, (0, 0, 40, 30)])
@@ -137,7 +180,7 @@ def test_points_outside_are_absent(bounds):
     points = rng.uniform(-20, 60, (60, 2))
     within = ((points >= 0) & (points < (40, 30))).all(axis=1)
     labels = vorocl.diagram(points, (30, 40), bounds=bounds, outside="absent", method="jfa+2")
-    expected = brute_force(np.where(within[:, None], points, np.nan), (30, 40))
+    expected = brute_force(np.where(within[:, None], points, np.nan), (30, 40), snap=True)
     assert vorocl.similarity(labels, expected) > 99
     assert vorocl.Seeds(points, (30, 40), bounds=bounds, outside="absent").alive == within.sum()
 

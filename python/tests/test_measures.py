@@ -4,7 +4,7 @@ import freud
 import numpy as np
 import pandas
 import pytest
-from oracles import brute_force, offsets, pixel_centres
+from oracles import USUAL_SNAP, brute_force, offsets, pixel_centres, rounded
 
 import vorocl
 
@@ -32,7 +32,7 @@ def test_cells_are_measured_as_numpy_does(points):
         assert cell["area"] == len(x)
         if len(x) == 0:
             continue
-        assert (cell["x"], cell["y"]) == tuple(np.floor(points[row]) + 0.5)
+        assert (cell["x"], cell["y"]) == tuple(rounded(points[row]))
         assert (cell["left"], cell["top"], cell["right"], cell["bottom"]) == (x.min(), y.min(), x.max(), y.max())
         np.testing.assert_allclose((cell["centroid_x"], cell["centroid_y"]), (x.mean() + 0.5, y.mean() + 0.5))
         farthest = np.hypot(x + 0.5 - cell["x"], y + 0.5 - cell["y"]).max()
@@ -161,27 +161,64 @@ def test_relaxed_points_are_centroids():
         place = ((x + 1) * 40, 80 - (y - 2) * 40)
         assert np.abs(own.mean(axis=0) - place).max() <= 0.5
         energy += ((own - place) ** 2).sum()
-    assert round(energy) == relaxed.energies[-1]
+    np.testing.assert_allclose(relaxed.energies[-1], energy, rtol=1e-6)
     assert len(vorocl.relax(points, (80, 80), rounds=0, bounds=bounds).energies) == 1
 
 
-def test_errors_are_those_of_brute_force():
+@pytest.mark.parametrize("truth", ["snapped", "true"])
+def test_errors_are_those_of_brute_force(truth):
     points = rng.uniform(0, (60, 50), (40, 2))
-    right = brute_force(points, (50, 60), (True, False))
+    snap = truth == "snapped"
+    right = brute_force(points, (50, 60), (True, False), snap=snap)
     labels = np.where(rng.random((50, 60)) < 0.1, rng.integers(0, 40, (50, 60)), right)
     labels[3, 4] = 40  # no point's
-    found = vorocl.errors(labels, points, periodic=(True, False))
-    centres, snapped = pixel_centres((50, 60)), np.floor(points) + 0.5
+    found = vorocl.errors(labels, points, periodic=(True, False), truth=truth)
+    centres, places = pixel_centres((50, 60)), rounded(points, snap)
 
     def distances(of):
-        return np.linalg.norm(offsets(centres, snapped[of.ravel()], (50, 60), (True, False)), axis=1)
+        return np.linalg.norm(offsets(centres, places[of.ravel()], (50, 60), (True, False)), axis=1)
 
     excess = distances(np.where(labels == 40, right, labels)) - distances(right)
     assert found.pixels == 3000 and found.unlabelled_pixels == 1
     assert found.wrong_pixels == (excess > 0).sum() + 1
     np.testing.assert_allclose((found.largest_excess, found.mean_excess), (excess.max(), excess.mean()), rtol=2e-4)
     assert found.wrong_percent == 100 * found.wrong_pixels / 3000
-    assert vorocl.similarity(labels, right) == 100 * (labels == right).mean()
+    assert vorocl.similarity(labels, right) == 100 * np.count_nonzero(labels == right) / 3000
+
+
+def test_a_diagram_is_judged_by_what_it_was_made_of():
+    points = rng.uniform(0, (60, 50), (400, 2))
+    seeds, diagram = vorocl.Seeds(points, (50, 60), snap=False), vorocl.Diagram((50, 60))
+    diagram.fill(seeds)
+    labels = diagram.read()
+    assert diagram.errors().wrong_pixels == diagram.errors("true").wrong_pixels == 0
+    assert diagram.errors("snapped").wrong_pixels == vorocl.errors(labels, points).wrong_pixels > 100
+    diagram.fill(seeds, "jfa+2")
+    assert diagram.errors().wrong_pixels == diagram.errors("snapped").wrong_pixels < 30
+    assert diagram.errors("true").wrong_pixels > 100
+    diagram.fill(vorocl.Seeds(points, (50, 60), snap=True))
+    assert diagram.errors().wrong_pixels == 0 < diagram.errors("true").wrong_pixels
+    diagram.write(labels, seeds)
+    assert diagram.errors("true").wrong_pixels == 0 < diagram.errors().wrong_pixels
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (True, True)])
+@pytest.mark.parametrize("metric", ["euclidean", "manhattan"])
+def test_measures_are_of_the_points_themselves(metric, periodic):
+    points = rng.uniform(0, SHAPE[::-1], (900, 2))
+    plane = dict(metric=metric, periodic=periodic, snap=False)
+    labels = brute_force(points, SHAPE, periodic, metric, snap=False)
+    cells = vorocl.cells(points, SHAPE, **plane)
+    np.testing.assert_array_equal(np.column_stack([cells["x"], cells["y"]]), rounded(points, snap=False))
+    np.testing.assert_array_equal(cells["area"], np.bincount(labels.ravel(), minlength=900))
+    apart = offsets(pixel_centres(SHAPE), rounded(points, snap=False)[labels.ravel()], SHAPE, periodic)
+    distances = np.hypot(*apart.T) if metric == "euclidean" else apart.sum(axis=1)
+    np.testing.assert_allclose(vorocl.distances(points, SHAPE, **plane).ravel(), distances, rtol=1e-6)
+    farthest = np.zeros(900)
+    np.maximum.at(farthest, labels.ravel(), distances)
+    full = cells["area"] > 0
+    np.testing.assert_allclose(cells["largest_distance"][full], farthest[full], rtol=1e-6)
+    assert full.sum() > vorocl.areas(points, SHAPE, metric=metric, periodic=periodic, snap=True).astype(bool).sum()
 
 
 def test_measures_know_the_points_outside():
@@ -189,10 +226,10 @@ def test_measures_know_the_points_outside():
     labels = brute_force(points, SHAPE)
     cells = vorocl.cells(points, SHAPE)
     np.testing.assert_array_equal(cells["area"], np.bincount(labels.ravel(), minlength=90))
-    np.testing.assert_array_equal(cells["x"], np.floor(points[:, 0]) + 0.5)
-    apart = offsets(pixel_centres(SHAPE), np.floor(points)[labels.ravel()] + 0.5, SHAPE, (False, False))
+    np.testing.assert_array_equal(cells["x"], rounded(points)[:, 0])
+    apart = offsets(pixel_centres(SHAPE), rounded(points)[labels.ravel()], SHAPE, (False, False))
     np.testing.assert_allclose(vorocl.distances(points, SHAPE).ravel(), np.hypot(*apart.T), rtol=1e-6)
-    wrong = vorocl.errors(labels, points)
+    wrong = vorocl.errors(labels, points, truth="snapped" if USUAL_SNAP else "true")
     assert wrong.wrong_pixels == 0 and f"(pixels={labels.size}, wrong_pixels=0," in repr(wrong)
     pairs, lengths = vorocl.adjacency(points, SHAPE)
     assert lengths.sum() == (labels[1:] != labels[:-1]).sum() + (labels[:, 1:] != labels[:, :-1]).sum()

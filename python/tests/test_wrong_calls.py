@@ -50,6 +50,8 @@ WRONG = {
     "periodic": NO_NUMBERS + [True, 1, (True,), (True, False, True), (1, 0), ("x", "y"), (None, None), "xy", np.nan],
     "outside": [None, "Count", "drop", 1, True, [], Hostile()],
     "units": ["px", "Data", 1, True, [], b"data", Hostile()],
+    "snap": ["yes", 1, 0, np.zeros(2), [], Hostile()],
+    "truth": [None, True, "True", "snap", b"true", [], Hostile()],
     "y_up": [None, 1, 0, "yes", [], np.zeros(2), Hostile()],
     "device": [1, "cpu", object(), vorocl.Device, vorocl.devices()[0], [], Hostile()],
     "out": NO_NUMBERS[1:]
@@ -66,7 +68,7 @@ WRONG = {
 WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
-POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "outside", "y_up", "device")
+POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "outside", "y_up", "snap", "device")
 CALLS = {
     vorocl.diagram: POINTS + ("out",),
     vorocl.distances: POINTS + ("out", "units"),
@@ -74,14 +76,14 @@ CALLS = {
     vorocl.areas: POINTS + ("units",),
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
-    vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "device"),
+    vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),
     vorocl.similarity: ("a", "b"),
-    vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "outside", "y_up", "device"),
-    vorocl.Seeds: ("points", "shape", "bounds", "periodic", "outside", "y_up", "device"),
+    vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "outside", "y_up", "truth", "device"),
+    vorocl.Seeds: ("points", "shape", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.Diagram: ("shape", "periodic", "device", "labels"),
-    vorocl.Simulation: ("shape", "bounds", "periodic", "outside", "y_up", "device"),
+    vorocl.Simulation: ("shape", "bounds", "periodic", "outside", "y_up", "snap", "device"),
 }
 RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), "mask": LABELS, "labels": LABELS, "a": LABELS, "b": LABELS}
 RIGHT_VALUES["outside"] = "refuse"
@@ -127,6 +129,7 @@ def test_a_thousand_wrong_calls():
     calls += [(diagram.read, {"out": value}) for value in WRONG["out"]]
     calls += [(diagram.write, {"labels": value}) for value in WRONG["labels"] + [np.zeros((3, 3), int)]]
     calls += [(vorocl.Device, {"request": value}) for value in NO_NUMBERS[:1] + NO_NUMBERS[2:] + ["none like this"]]
+    calls += [(diagram.errors, {"truth": value}) for value in WRONG["truth"] if value is not None]
     calls += [(call, {}) for call in CALLS] + [(call, {"nonsense": 1}) for call in CALLS]
     assert len(calls) >= 1000
     random.Random(1).shuffle(calls)

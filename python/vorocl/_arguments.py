@@ -20,6 +20,11 @@ Metric = Literal["euclidean", "manhattan"]
 Outside = Literal["count", "absent", "refuse"]
 Units = Literal["data", "pixels"]
 
+Truth = Literal["snapped", "true"]
+
+USUAL_SNAP = True
+"""Whether exact diagrams move points to the centres of their pixels where no `snap` is given."""
+
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
 
@@ -112,6 +117,26 @@ def to_outside(outside: Outside) -> Outside:
     if not isinstance(outside, str) or outside not in ("count", "absent", "refuse"):
         raise BadArgument(f'outside must be "count", "absent" or "refuse"; this is {shown(outside)}')
     return outside
+
+
+_FLOODING = {method.name for method in _vorocl.methods() if not method.exact}
+
+
+def to_snap(snap: Optional[bool], method: str = "exact") -> bool:
+    """Whether points are moved to the centres of their pixels, which methods that flood always do."""
+    floods = to_text(method, "method") in _FLOODING
+    if snap is None:
+        return floods or USUAL_SNAP
+    if not to_flag(snap, "snap") and floods:
+        raise BadArgument(f'the method "{method}" moves points to the centres of their pixels: snap=False is for "exact"')
+    return snap
+
+
+def to_truth(truth: Truth) -> bool:
+    """Whether labels are judged by the points themselves."""
+    if not isinstance(truth, str) or truth not in ("snapped", "true"):
+        raise BadArgument(f'truth must be "snapped" or "true"; this is {shown(truth)}')
+    return truth == "true"
 
 
 def to_units(units: Optional[Units], are_in_data: bool) -> bool:

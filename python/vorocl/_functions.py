@@ -17,6 +17,7 @@ from ._arguments import (
     Outside,
     Periodic,
     Shape,
+    Truth,
     Units,
     output,
     shape_of,
@@ -29,7 +30,9 @@ from ._arguments import (
     to_number,
     to_outside,
     to_points,
+    to_snap,
     to_text,
+    to_truth,
     to_units,
 )
 from ._device import Device, to_device
@@ -63,6 +66,7 @@ def _filled(
     periodic: Periodic,
     outside: Outside,
     y_up: bool,
+    snap: Optional[bool],
     device: Optional[Device],
     labels: Optional[NDArray[np.uint32]] = None,
 ) -> Diagram:
@@ -70,11 +74,19 @@ def _filled(
     grid = to_grid(shape, periodic, bounds, outside, y_up)
     shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
     corners, array = to_bounds(bounds), to_points(points)
-    wanted = (shape, periodic, corners, to_outside(outside), y_up, to_device(device))
+    snapped = to_snap(snap, method)
+    wanted = (shape, periodic, corners, to_outside(outside), y_up, snapped, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
         seeds = Seeds(
-            array, shape, bounds=corners, periodic=periodic, outside=outside, y_up=y_up, device=device
+            array,
+            shape,
+            bounds=corners,
+            periodic=periodic,
+            outside=outside,
+            y_up=y_up,
+            snap=snapped,
+            device=device,
         )
         _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
         _workspace.made_for = wanted
@@ -101,18 +113,20 @@ def diagram(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     out: Optional[NDArray[np.uint32]] = None,
     device: Optional[Device] = None,
 ) -> NDArray[np.uint32]:
     """Give every pixel the row of its nearest point.
 
-    Distances are between pixel centres, in integers: points are snapped to pixels, which limits their accuracy to
-    half a pixel, and "exact" labels are the same on every device. Of several points at the least distance the one
-    that comes first, row by row of the grid, wins; of points in one pixel the one with the lowest row of `points`.
+    "exact" takes the points themselves, rounded to 1/4096 of a pixel of the grid, and computes in integers: its labels
+    are those of the point nearest to the pixel's centre, the same on every device. Of several points at the least
+    distance the one with the least y wins, counted down the grid, then the one with the least x, then the one with the
+    lowest row of `points`. A method that floods, and ``snap=True``, move points to the centres of their pixels first.
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up>
+    <points, shape, method, metric, bounds, periodic, outside, y_up, snap>
     out : ndarray, optional
         Where the labels go: uint32, shape (H, W), C-contiguous. Without it, a new array.
     <device>
@@ -136,16 +150,16 @@ def diagram(
     Examples
     --------
     >>> import vorocl
-    >>> vorocl.diagram([(0, 0), (7, 3)], (4, 8))
+    >>> vorocl.diagram([(0.5, 0.5), (7.5, 3.5)], (4, 8))
     array([[0, 0, 0, 0, 0, 1, 1, 1],
            [0, 0, 0, 0, 1, 1, 1, 1],
            [0, 0, 0, 0, 1, 1, 1, 1],
            [0, 0, 0, 1, 1, 1, 1, 1]], dtype=uint32)
-    >>> vorocl.diagram([(-180, 0), (0, 0)], (1, 8), bounds=(-180, -90, 180, 90), periodic=(True, False))
+    >>> vorocl.diagram([(-157.5, 0), (22.5, 0)], (1, 8), bounds=(-180, -90, 180, 90), periodic=(True, False))
     array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
     """
     labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
-    _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device, labels)
+    _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device, labels)
     return labels
 
 
@@ -273,6 +287,7 @@ def distances(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     units: Optional[Units] = None,
     out: Optional[NDArray[np.float32]] = None,
     device: Optional[Device] = None,
@@ -289,7 +304,7 @@ def distances(
     Returns
     -------
     ndarray
-        float32, shape (H, W): between pixel centres, within 3 units in the last place; infinite without points. Where
+        float32, shape (H, W): of the pixels' centres, within 3 units in the last place; infinite without points. Where
         pixels are no squares in the units of `bounds` a length has no scale: then ``units="pixels"`` is needed.
 
     Raises
@@ -299,13 +314,13 @@ def distances(
     Examples
     --------
     >>> import vorocl
-    >>> vorocl.distances([(0, 0)], (2, 4), metric="manhattan")
+    >>> vorocl.distances([(0.5, 0.5)], (2, 4), metric="manhattan")
     array([[0., 1., 2., 3.],
            [1., 2., 3., 4.]], dtype=float32)
     """
     to_units(units, True)
     values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).distances(values, units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).distances(values, units=units)
 
 
 @with_parameters
@@ -319,6 +334,7 @@ def cells(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     units: Optional[Units] = None,
     device: Optional[Device] = None,
 ) -> NDArray[Any]:
@@ -326,7 +342,7 @@ def cells(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, units, device>
+    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -336,9 +352,9 @@ def cells(
         way round from the point, which may be outside the grid. The fields are
 
         ``x``, ``y``
-            The centre of the point's pixel; NaN if the point is absent.
+            The point's position in the diagram; NaN if the point is absent.
         ``area``
-            0 if the point is absent or not the first in its pixel. Areas sum to that of the grid.
+            0 if the point is absent, or others are nearer to all pixels. Areas sum to that of the grid.
         ``centroid_x``, ``centroid_y``
             The mean of the centres of the pixels; NaN of an empty cell.
         ``left``, ``top``, ``right``, ``bottom``
@@ -363,7 +379,7 @@ def cells(
     Examples
     --------
     >>> import vorocl
-    >>> cells = vorocl.cells([(0, 0), (7, 3)], (4, 8))
+    >>> cells = vorocl.cells([(0.5, 0.5), (7.5, 3.5)], (4, 8))
     >>> cells["area"]
     array([16, 16], dtype=uint32)
     >>> cells[["left", "top", "right", "bottom"]][1].tolist()
@@ -373,7 +389,7 @@ def cells(
     (8.0, 2.0, 1.0, 2.0)
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).cells(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).cells(units=units)
 
 
 @with_parameters
@@ -387,6 +403,7 @@ def areas(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     units: Optional[Units] = None,
     device: Optional[Device] = None,
 ) -> NDArray[Any]:
@@ -394,7 +411,7 @@ def areas(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, units, device>
+    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -408,13 +425,13 @@ def areas(
     Examples
     --------
     >>> import vorocl
-    >>> vorocl.areas([(0, 0), (7, 3)], (4, 8))
+    >>> vorocl.areas([(0.5, 0.5), (7.5, 3.5)], (4, 8))
     array([16, 16], dtype=uint32)
     >>> vorocl.areas([(0.25, 0.25), (3.75, 1.75)], (4, 8), bounds=(0, 0, 4, 2))
     array([4., 4.])
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).areas(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).areas(units=units)
 
 
 @with_parameters
@@ -428,6 +445,7 @@ def adjacency(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     units: Optional[Units] = None,
     device: Optional[Device] = None,
 ) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
@@ -438,7 +456,7 @@ def adjacency(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, units, device>
+    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -455,12 +473,12 @@ def adjacency(
     Examples
     --------
     >>> import vorocl
-    >>> pairs, lengths = vorocl.adjacency([(0, 0), (4, 0), (8, 0)], (2, 9))
+    >>> pairs, lengths = vorocl.adjacency([(0.5, 0.5), (4.5, 0.5), (8.5, 0.5)], (2, 9))
     >>> pairs.tolist(), lengths.tolist()
     ([[0, 1], [1, 2]], [2, 2])
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).adjacency(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).adjacency(units=units)
 
 
 @with_parameters
@@ -474,6 +492,7 @@ def vertices(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     units: Optional[Units] = None,
     device: Optional[Device] = None,
 ) -> NDArray[np.float64]:
@@ -481,7 +500,7 @@ def vertices(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, units, device>
+    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -496,11 +515,11 @@ def vertices(
     Examples
     --------
     >>> import vorocl
-    >>> vorocl.vertices([(0, 0), (3, 0), (1, 3)], (4, 4)).tolist()
+    >>> vorocl.vertices([(0.5, 0.5), (3.5, 0.5), (1.5, 3.5)], (4, 4)).tolist()
     [[2.0, 2.0]]
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, device).vertices(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).vertices(units=units)
 
 
 class Relaxation(NamedTuple):
@@ -508,12 +527,12 @@ class Relaxation(NamedTuple):
 
     points: NDArray[np.float64]
     """(N, 2): the points at the end, in the units that they were given in; NaN for absent ones."""
-    energies: NDArray[np.uint64]
-    """At the start and after each round: the sum of the squared distances of all pixels to their points."""
+    energies: NDArray[np.float64]
+    """At the start and after each round: the sum of the squared distances of all pixels to their points, in pixels."""
     moved: NDArray[np.int64]
     """The points that each round moved: one entry less than the energies."""
     converged: bool
-    """Whether no point would move any more."""
+    """Whether no point would move by 1/64 of a pixel or more."""
 
 
 @with_parameters
@@ -527,24 +546,25 @@ def relax(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    snap: Optional[bool] = None,
     device: Optional[Device] = None,
 ) -> Relaxation:
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
 
-    A round moves every point to the pixel that is nearest to its cell's centroid, in Euclidean diagrams. Ctrl-C ends it
-    after a round.
+    A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
+    that is nearest to it where points are snapped. Ctrl-C ends it after a round.
 
     Parameters
     ----------
     <points, shape>
     rounds : int, optional
-        How many at most. It ends before if no point moves any more.
-    <method, bounds, periodic, outside, y_up, device>
+        How many at most. It ends before if no point would move by 1/64 of a pixel or more.
+    <method, bounds, periodic, outside, y_up, snap, device>
 
     Returns
     -------
     Relaxation
-        With `points`, the centres of their pixels in the units that they were given in, `energies`, `moved` and
+        With `points` in the units that they were given in, where they are at the end, `energies`, `moved` and
         `converged`.
 
     Raises
@@ -554,17 +574,26 @@ def relax(
     Examples
     --------
     >>> import vorocl
-    >>> relaxed = vorocl.relax([(0, 0), (1, 0)], (4, 8))
+    >>> relaxed = vorocl.relax([(0.5, 0.5), (1.5, 0.5)], (4, 8), snap=False)
     >>> relaxed.points.tolist(), relaxed.converged
-    ([[1.5, 1.5], [5.5, 1.5]], True)
+    ([[2.0, 2.0], [6.0, 2.0]], True)
     """
-    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
+    seeds = Seeds(
+        points,
+        shape,
+        bounds=bounds,
+        periodic=periodic,
+        outside=outside,
+        y_up=y_up,
+        snap=to_snap(snap, method),
+        device=device,
+    )
     made = Diagram(shape, periodic=periodic, device=device)
     done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
     places = np.empty((len(seeds), 2))
     seeds._seeds.read(places, in_pixels=False)
     return Relaxation(
-        places, np.array(done.energies, np.uint64), np.array(done.moved, np.int64), done.converged
+        places, np.array(done.energies), np.array(done.moved, np.int64), done.converged
     )
 
 
@@ -607,9 +636,10 @@ def errors(
     periodic: Periodic = (False, False),
     outside: Outside = "count",
     y_up: bool = False,
+    truth: Truth = "snapped",
     device: Optional[Device] = None,
 ) -> _vorocl.DistanceErrors:
-    """Judge labels by the exact diagram of the points: how many are wrong, and by how many pixels.
+    """Judge labels by an exact diagram of the points: how many are wrong, and by how many pixels.
 
     A pixel that is as near to the point of its label as to that of the exact one is right: a tie may be given to any
     point.
@@ -618,7 +648,7 @@ def errors(
     ----------
     labels : array_like
         Integers, shape (H, W): rows of `points`.
-    <points, metric, bounds, periodic, outside, y_up, device>
+    <points, metric, bounds, periodic, outside, y_up, truth, device>
 
     Returns
     -------
@@ -634,13 +664,14 @@ def errors(
     Examples
     --------
     >>> import vorocl
-    >>> wrong = vorocl.errors([[0, 0, 0, 1]], [(0, 0), (3, 0)])
+    >>> wrong = vorocl.errors([[0, 0, 0, 1]], [(0.5, 0.5), (3.5, 0.5)])
     >>> wrong.wrong_pixels, wrong.largest_excess
     (1, 1.0)
     """
     image = to_labels(labels)
+    to_truth(truth)
     shape = image.shape
     seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
     judged = Diagram(shape, periodic=periodic, device=device)
     judged.write(image, seeds, metric)
-    return judged.errors()
+    return judged.errors(truth)

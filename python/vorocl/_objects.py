@@ -16,6 +16,7 @@ from ._arguments import (
     Outside,
     Periodic,
     Shape,
+    Truth,
     Units,
     output,
     shape_of,
@@ -24,7 +25,9 @@ from ._arguments import (
     to_number,
     to_outside,
     to_points,
+    to_snap,
     to_text,
+    to_truth,
     to_units,
 )
 from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
@@ -60,14 +63,15 @@ def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
 
 @with_parameters
 class Seeds(OnDevice):
-    """Points as seeds of a diagram, on the device: each is snapped to the pixel that holds it.
+    """Points as seeds of a diagram, on the device.
 
-    A seed's id is its row. A seed may be absent: it has an id and no cell. Of seeds that share a pixel the lowest id
-    owns the cell, and the others have empty cells.
+    A seed's id is its row. A seed may be absent: it has an id and no cell. Exact diagrams take the points themselves
+    unless they are snapped; a method that floods takes the pixels that hold them, and of seeds that share a pixel the
+    lowest id owns the cell then.
 
     Parameters
     ----------
-    <points, shape, bounds, periodic, outside, y_up, device>
+    <points, shape, bounds, periodic, outside, y_up, snap, device>
 
     Raises
     ------
@@ -78,13 +82,15 @@ class Seeds(OnDevice):
     Examples
     --------
     >>> import numpy as np, vorocl
-    >>> seeds = vorocl.Seeds([(0.2, 0.9), (np.nan, 1), (7, 3)], (4, 8))
+    >>> seeds = vorocl.Seeds([(0.25, 0.75), (np.nan, 1), (7, 3)], (4, 8), snap=False)
     >>> len(seeds), seeds.alive
     (3, 2)
     >>> seeds.read()
-    array([[0.5, 0.5],
-           [nan, nan],
-           [7.5, 3.5]])
+    array([[0.25, 0.75],
+           [ nan,  nan],
+           [7.  , 3.  ]])
+    >>> vorocl.Seeds([(0.25, 0.75)], (4, 8), snap=True).read()
+    array([[0.5, 0.5]])
     """
 
     def __init__(
@@ -96,6 +102,7 @@ class Seeds(OnDevice):
         periodic: Periodic = (False, False),
         outside: Outside = "count",
         y_up: bool = False,
+        snap: Optional[bool] = None,
         device: Optional[Device] = None,
     ) -> None:
         grid = to_grid(shape, periodic, bounds, outside, y_up)
@@ -103,7 +110,7 @@ class Seeds(OnDevice):
         self._shape, self._periodic, self._outside, self._y_up = shape, periodic, outside, y_up
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside))
+        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap))
 
     @property
     def device(self) -> Device:
@@ -159,7 +166,7 @@ class Seeds(OnDevice):
 
     @with_parameters
     def read(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
-        """Return the centres of the seeds' pixels.
+        """Return where exact diagrams have the seeds: the points, rounded to 1/4096 of a pixel, or snapped.
 
         Parameters
         ----------
@@ -200,7 +207,7 @@ class Diagram(OnDevice):
     Examples
     --------
     >>> import vorocl
-    >>> seeds = vorocl.Seeds([(0, 0), (7, 3)], (4, 8))
+    >>> seeds = vorocl.Seeds([(0.5, 0.5), (7.5, 3.5)], (4, 8))
     >>> diagram = vorocl.Diagram((4, 8))
     >>> _ = diagram.fill(seeds)
     >>> diagram.read()
@@ -454,9 +461,15 @@ class Diagram(OnDevice):
         """Count the pixel corners where three or more cells meet, on the device."""
         return self._diagram.count_vertices()
 
-    def errors(self) -> _vorocl.DistanceErrors:
-        """Judge the labels by the exact diagram: see `vorocl.errors`."""
-        return self._diagram.errors()
+    def errors(self, truth: Optional[Truth] = None) -> _vorocl.DistanceErrors:
+        """Judge the labels by an exact diagram: see `vorocl.errors`.
+
+        Parameters
+        ----------
+        truth : {"snapped", "true"}, optional
+            Without it, what an exact diagram was made of; "snapped" for all other labels.
+        """
+        return self._diagram.errors(None if truth is None else to_truth(truth))
 
 
 def _handle(buffer: Buffer) -> int:
@@ -474,7 +487,7 @@ class Simulation(OnDevice):
     <shape>
     method : str, optional
         As that of `Diagram.fill`. "djfa" goes on from the last frame; "exact" is faster, and right.
-    <metric, bounds, periodic, outside, y_up, device>
+    <metric, bounds, periodic, outside, y_up, snap, device>
 
     Attributes
     ----------
@@ -507,12 +520,20 @@ class Simulation(OnDevice):
         periodic: Periodic = (False, False),
         outside: Outside = "count",
         y_up: bool = False,
+        snap: Optional[bool] = None,
         device: Optional[Device] = None,
     ) -> None:
         self._method, self._metric = to_text(method, "method"), to_text(metric, "metric")
         self.diagram = Diagram(shape, periodic=periodic, device=device)
         self.seeds = Seeds(
-            (), shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=self.diagram.device
+            (),
+            shape,
+            bounds=bounds,
+            periodic=periodic,
+            outside=outside,
+            y_up=y_up,
+            snap=to_snap(snap, self._method),
+            device=self.diagram.device,
         )
         self.report: Optional[_vorocl.Report] = None
 

@@ -10,6 +10,15 @@ _TEXTS = {
 points : array_like
     Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
     [i, i + 1). A row with a NaN is absent, and so is a row that is masked.""",
+    "snap": """\
+snap : bool, optional
+    Whether points are moved to the centres of their pixels, as methods that flood always do. Without it, "exact" takes
+    the points themselves, rounded to 1/4096 of a pixel, and "exact" alone can: several points of one pixel may own
+    pixels then.""",
+    "truth": """\
+truth : {"snapped", "true"}, optional
+    Whether points at the centres of their pixels are the truth, as for methods that flood, or the points themselves,
+    rounded to 1/4096 of a pixel.""",
     "shape": """\
 shape : (int, int)
     The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
@@ -20,7 +29,7 @@ method : str, optional
     "low-resolution".""",
     "metric": """\
 metric : {"euclidean", "manhattan"}, optional
-    How far apart two pixel centres are.""",
+    How far a pixel's centre is from a point.""",
     "bounds": """\
 bounds : (float, float, float, float), optional
     (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column

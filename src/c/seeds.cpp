@@ -30,6 +30,12 @@ Outside to_outside(vorocl_outside outside) {
   refuse("choice for points outside", outside);
 }
 
+Snap to_snap(vorocl_snap snap) {
+  if (snap == VOROCL_SNAP_TO_PIXELS) return Snap::to_pixels;
+  if (snap == VOROCL_SNAP_NONE) return Snap::none;
+  refuse("choice for points within a pixel", snap);
+}
+
 Border to_border(vorocl_border border) {
   if (border == VOROCL_REFLECT) return Border::reflect;
   if (border == VOROCL_PERIODIC) return Border::periodic;
@@ -45,19 +51,19 @@ void store(const std::vector<std::optional<Point>>& list, vorocl_point* points) 
 
 vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                        const vorocl_point* points, const uint8_t* present, size_t count,
-                                       vorocl_outside outside, vorocl_seeds** seeds) {
+                                       vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{
-        Seeds(of(device), to_grid(grid), to_points(points, present, count), to_outside(outside))};
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count),
+                              to_outside(outside), to_snap(snap))};
   });
 }
 
 vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem points,
                                        vorocl_point_format format, cl_mem present, size_t count,
-                                       vorocl_outside outside, vorocl_seeds** seeds) {
+                                       vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{
-        Seeds(of(device), to_grid(grid), to_points(points, format, present, count), to_outside(outside))};
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, format, present, count),
+                              to_outside(outside), to_snap(snap))};
   });
 }
 

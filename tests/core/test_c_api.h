@@ -43,7 +43,8 @@ static inline vorocl_window window_of(int64_t columns, int64_t rows) {
 /* Seeds on the grid at the points above. */
 static inline vorocl_seeds* make_seeds(const vorocl_device* device) {
   vorocl_seeds* seeds = NULL;
-  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, VOROCL_OUTSIDE_COUNTS,
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
   return seeds;
 }
 

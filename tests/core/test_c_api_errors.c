@@ -74,7 +74,7 @@ static void test_bad_devices(const vorocl_device* device) {
   /* Objects of another context. */
   foreign = clCreateBuffer(other, CL_MEM_READ_WRITE, pixels * sizeof(uint32_t), NULL, &code);
   FAILS(vorocl_seeds_from_buffer(device, grid, foreign, VOROCL_FLOAT2, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED,
-                                 &seeds),
+                                 VOROCL_SNAP_TO_PIXELS, &seeds),
         VOROCL_BAD_ARGUMENT, "another OpenCL context");
   FAILS(vorocl_diagram_over_buffer(device, window, foreign, &diagram), VOROCL_BAD_ARGUMENT,
         "another OpenCL context");
@@ -107,13 +107,17 @@ static void test_bad_seeds(const vorocl_device* device) {
   size_t count = 0;
   double displacement = 0;
   vorocl_grid read_grid;
-  FAILS(vorocl_seeds_from_points(device, grid, NULL, NULL, 1, VOROCL_OUTSIDE_COUNTS, &made),
+  FAILS(vorocl_seeds_from_points(device, grid, NULL, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                                 &made),
         VOROCL_NULL_ARGUMENT, "points is NULL");
-  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, (size_t)-1, VOROCL_OUTSIDE_COUNTS, &made),
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, (size_t)-1, VOROCL_OUTSIDE_COUNTS,
+                                 VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "too many");
-  FAILS(vorocl_seeds_from_points(NULL, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, &made),
+  FAILS(vorocl_seeds_from_points(NULL, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                                 &made),
         VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, NULL),
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                                 NULL),
         VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_seeds_random(device, window_of(0, height).grid, 1, 1, &made), VOROCL_BAD_ARGUMENT, "0 pixels");
   FAILS(vorocl_seeds_random(NULL, grid, 1, 1, &made), VOROCL_NULL_ARGUMENT, "device is NULL");
@@ -127,30 +131,37 @@ static void test_bad_seeds(const vorocl_device* device) {
   buffer = clCreateBuffer(context, CL_MEM_READ_ONLY, 5 * 2 * sizeof(float), NULL, &code);
   few_marks = clCreateBuffer(context, CL_MEM_READ_ONLY, 4, NULL, &code);
   FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 6, VOROCL_OUTSIDE_IS_REFUSED,
-                                 &made),
+                                 VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "40 bytes; 48 are needed");
   FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, few_marks, 5, VOROCL_OUTSIDE_IS_REFUSED,
-                                 &made),
+                                 VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "4 bytes; 5 are needed");
-  FAILS(
-      vorocl_seeds_from_buffer(device, grid, NULL, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED, &made),
-      VOROCL_NULL_ARGUMENT, "points is NULL");
-  FAILS(
-      vorocl_seeds_from_buffer(NULL, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED, &made),
-      VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(
-      vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED, NULL),
-      VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_seeds_from_buffer(device, grid, NULL, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+                                 VOROCL_SNAP_TO_PIXELS, &made),
+        VOROCL_NULL_ARGUMENT, "points is NULL");
+  FAILS(vorocl_seeds_from_buffer(NULL, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+                                 VOROCL_SNAP_TO_PIXELS, &made),
+        VOROCL_NULL_ARGUMENT, "device is NULL");
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+                                 VOROCL_SNAP_TO_PIXELS, NULL),
+        VOROCL_NULL_ARGUMENT, "seeds is NULL");
 
   FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_DOUBLE2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
-                                 &made),
+                                 VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, 2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED, &made),
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, 2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
+                                 VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "format of points 2");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 5, 3, &made), VOROCL_BAD_ARGUMENT,
-        "points outside 3");
-  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, -1, &made), VOROCL_BAD_ARGUMENT,
-        "points outside -1");
+  FAILS(
+      vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 5, 3, VOROCL_SNAP_TO_PIXELS, &made),
+      VOROCL_BAD_ARGUMENT, "points outside 3");
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, -1, VOROCL_SNAP_TO_PIXELS, &made),
+        VOROCL_BAD_ARGUMENT, "points outside -1");
+  FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, 2, &made),
+        VOROCL_BAD_ARGUMENT, "points within a pixel 2");
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED, -1,
+                                 &made),
+        VOROCL_BAD_ARGUMENT, "points within a pixel -1");
   CHECK(made == NULL);
 
   seeds = make_seeds(device);
@@ -210,13 +221,15 @@ static void test_bad_points(const vorocl_device* device) {
   uint32_t labels[pixels];
   size_t index = 0;
   FAILS(vorocl_bad_point(&index, &point), VOROCL_BAD_ARGUMENT, "no call");
-  FAILS(vorocl_seeds_from_points(device, grid, list, NULL, 3, VOROCL_OUTSIDE_COUNTS, &seeds),
+  FAILS(vorocl_seeds_from_points(device, grid, list, NULL, 3, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                                 &seeds),
         VOROCL_BAD_POINT, "point 2 (nan, 3");
   CHECK(seeds == NULL);
   OK(vorocl_bad_point(&index, &point));
   CHECK(index == 2 && isnan(point.x) && point.y == 3);
 
-  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, points, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED,
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
   FAILS(vorocl_seeds_move_to(seeds, list, NULL, 3), VOROCL_BAD_POINT, "not finite");
   OK(vorocl_seeds_count(seeds, &index));
   CHECK(index == seed_count); /* they stay as they were */

@@ -263,7 +263,8 @@ static void test_failures(const vorocl_device* device) {
   options.metric = 9;
   FAILS(vorocl_relax(seeds, diagram, "exact", &options, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
         "metric 9");
-  OK(vorocl_seeds_from_points(device, grid, &outside, NULL, 1, VOROCL_OUTSIDE_COUNTS, &outer));
+  OK(vorocl_seeds_from_points(device, grid, &outside, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                              &outer));
   FAILS(vorocl_relax(outer, diagram, "exact", NULL, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
         "outside");
   OK(vorocl_relax(seeds, diagram, "exact", NULL, 1, NULL, NULL, &relaxation)); /* they are as they were */

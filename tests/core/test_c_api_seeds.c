@@ -90,7 +90,8 @@ static void test_seeds(const vorocl_device* device) {
   vorocl_seeds_free(again);
 
   /* No seeds are allowed. */
-  OK(vorocl_seeds_from_points(device, grid, NULL, NULL, 0, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, NULL, NULL, 0, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                              &seeds));
   OK(vorocl_seeds_read(seeds, NULL, 0));
   OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
   search_all(NULL, NULL, 0, VOROCL_EUCLIDEAN, nearest);
@@ -131,7 +132,7 @@ static void test_own_buffers(const vorocl_device* device) {
         CL_SUCCESS);
   OK(vorocl_device_wait_for(device, 1, &uploaded));
   OK(vorocl_seeds_from_buffer(device, grid, own_points, VOROCL_FLOAT2, own_marks, seed_count,
-                              VOROCL_OUTSIDE_IS_REFUSED, &seeds));
+                              VOROCL_OUTSIDE_IS_REFUSED, VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_seeds_alive(seeds, &alive));
   CHECK(alive == seed_count - 1);
   OK(vorocl_diagram_over_buffer(device, window, own_labels, &diagram));
@@ -181,7 +182,7 @@ static void test_axes(const vorocl_device* device) {
   }
   list[3].x = 1; /* the last column, as the axis is closed */
   OK(vorocl_seeds_from_points(device, stretched, list, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED,
-                              &seeds));
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_seeds_grid(seeds, &read_grid));
   CHECK(is_grid(&read_grid, &stretched));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(stretched), &diagram));
@@ -214,7 +215,8 @@ static void test_points_outside(const vorocl_device* device) {
   uint32_t labels[pixels];
   size_t count = 0, index = 7;
   OK(vorocl_diagram_create(device, window, &diagram));
-  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                              &seeds));
   OK(vorocl_seeds_outside(seeds, &count));
   CHECK(count == 2);
   OK(vorocl_seeds_read(seeds, read, 2));
@@ -226,20 +228,104 @@ static void test_points_outside(const vorocl_device* device) {
   memset(labels, 0, sizeof labels); /* the first one is nearer everywhere */
   CHECK(has_labels(diagram, labels));
 
-  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_ABSENT, &few));
+  OK(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_ABSENT, VOROCL_SNAP_TO_PIXELS,
+                              &few));
   OK(vorocl_seeds_alive(few, &count));
   CHECK(count == 0);
   OK(vorocl_seeds_move_to(few, &inside, NULL, 1));
   OK(vorocl_seeds_alive(few, &count));
   CHECK(count == 1);
   vorocl_seeds_free(few);
-  FAILS(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED, &few),
+  FAILS(vorocl_seeds_from_points(device, grid, outside, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED,
+                                 VOROCL_SNAP_TO_PIXELS, &few),
         VOROCL_BAD_POINT, "point 0 (-0.5");
   CHECK(few == NULL);
   OK(vorocl_bad_point(&index, NULL));
   CHECK(index == 0);
   vorocl_diagram_free(diagram);
   vorocl_seeds_free(seeds);
+}
+
+/* A position in units of 1/4096 pixel. */
+static int64_t parts_of(double at) {
+  return (int64_t)floor(at) * 4096 + (int64_t)nearbyint((at - floor(at)) * 4096);
+}
+
+/* The label of every pixel by a search of all points: the least distance from its centre, of equal ones the
+   first point row by row, of one point the lowest id. */
+static void search_all_points(const vorocl_point* list, uint32_t count, uint32_t* labels) {
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    const int64_t x = pixel % width * 4096 + 2048, y = pixel / width * 4096 + 2048;
+    int64_t least = INT64_MAX, first_x = 0, first_y = 0;
+    for (uint32_t seed = 0; seed < count; ++seed) {
+      const int64_t at_x = parts_of(list[seed].x), at_y = parts_of(list[seed].y);
+      const int64_t d = (at_x - x) * (at_x - x) + (at_y - y) * (at_y - y);
+      if (d > least || (d == least && (at_y > first_y || (at_y == first_y && at_x >= first_x)))) continue;
+      least = d;
+      first_x = at_x;
+      first_y = at_y;
+      labels[pixel] = seed;
+    }
+  }
+}
+
+/* Points that are not snapped: several of one pixel own pixels, and flooding methods snap them still. */
+static void test_true_positions(const vorocl_device* device) {
+  enum { count = 6 };
+  const vorocl_point list[count] = {{20.1, 20.5},  {20.9, 20.5}, {20.5, 20.125},
+                                    {-3.25, 7.75}, {20.9, 20.5}, {50.3, 9.7}};
+  float pairs[2 * count];
+  vorocl_point read[count], exact_in_float[count];
+  uint32_t nearest[pixels], labels[pixels];
+  vorocl_seeds* seeds = NULL;
+  vorocl_diagram* diagram = NULL;
+  cl_context context = NULL;
+  cl_mem buffer = NULL;
+  cl_int code = CL_SUCCESS;
+  OK(vorocl_diagram_create(device, window, &diagram));
+  OK(vorocl_seeds_from_points(device, grid, list, NULL, count, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
+                              &seeds));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  search_all_points(list, count, nearest);
+  CHECK(has_labels(diagram, nearest));
+  CHECK(nearest[20 * width + 19] == 0 && nearest[20 * width + 21] == 1 && nearest[19 * width + 20] == 2);
+  OK(vorocl_seeds_read_pixels(seeds, read, count));
+  for (int id = 0; id < count; ++id) {
+    CHECK(read[id].x == (double)parts_of(list[id].x) / 4096 &&
+          read[id].y == (double)parts_of(list[id].y) / 4096);
+  }
+  OK(vorocl_seeds_read(seeds, read, count));
+  CHECK(read[0].x == list[0].x && read[3].y == list[3].y);
+
+  /* Later frames too; a method that floods takes the pixels. */
+  OK(vorocl_seeds_move_to(seeds, list, NULL, 3));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  search_all_points(list, 3, nearest);
+  CHECK(has_labels(diagram, nearest));
+  OK(run("jfa", seeds, diagram, VOROCL_EUCLIDEAN));
+  memset(labels, 0, sizeof labels); /* the lowest id of the pixel */
+  CHECK(has_labels(diagram, labels));
+  vorocl_seeds_free(seeds);
+
+  /* The same points in a buffer. */
+  for (int id = 0; id < count; ++id) {
+    pairs[2 * id] = (float)list[id].x;
+    pairs[2 * id + 1] = (float)list[id].y;
+    exact_in_float[id].x = (double)pairs[2 * id];
+    exact_in_float[id].y = (double)pairs[2 * id + 1];
+  }
+  OK(vorocl_device_context(device, &context));
+  buffer = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof pairs, pairs, &code);
+  OK(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, count, VOROCL_OUTSIDE_IS_ABSENT,
+                              VOROCL_SNAP_NONE, &seeds));
+  OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  exact_in_float[3] =
+      exact_in_float[0]; /* outside: it is absent, and this one has no pixel beside the first */
+  search_all_points(exact_in_float, count, nearest);
+  CHECK(has_labels(diagram, nearest));
+  clReleaseMemObject(buffer);
+  vorocl_seeds_free(seeds);
+  vorocl_diagram_free(diagram);
 }
 
 /* A window shows the labels of its pixels of the grid, across the end of a period too. */
@@ -255,14 +341,15 @@ static void test_windows(const vorocl_device* device) {
   memcpy(moved, points, sizeof moved);
   for (int i = 0; i < seed_count; ++i) moved[i].x += (i % 3 - 1) * width;
 
-  OK(vorocl_seeds_from_points(device, periodic, points, present, seed_count, VOROCL_OUTSIDE_COUNTS, &seeds));
+  OK(vorocl_seeds_from_points(device, periodic, points, present, seed_count, VOROCL_OUTSIDE_COUNTS,
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(periodic), &whole));
   OK(run("exact", seeds, whole, VOROCL_EUCLIDEAN));
   OK(vorocl_diagram_read(whole, labels, pixels));
 
   /* Points wrap. */
   OK(vorocl_seeds_from_points(device, periodic, moved, present, seed_count, VOROCL_OUTSIDE_IS_REFUSED,
-                              &wrapped));
+                              VOROCL_SNAP_TO_PIXELS, &wrapped));
   OK(run("exact", wrapped, whole, VOROCL_EUCLIDEAN));
   CHECK(has_labels(whole, labels));
 
@@ -292,6 +379,7 @@ int main(void) {
   test_own_buffers(device);
   test_axes(device);
   test_points_outside(device);
+  test_true_positions(device);
   test_windows(device);
   vorocl_device_free(device);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
