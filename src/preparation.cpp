@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "exact_cells/has_doubles.hpp"
 #include "runtime/binary_cache.hpp"
 #include "runtime/program.hpp"
 #include "vorocl/analysis.hpp"
@@ -70,6 +71,24 @@ void measure(const Diagram& diagram, const Diagram& other) {
   vertices_found.read();
 }
 
+/// Those of few seeds around one, which has more edges than a kernel has private room for, and those of many.
+void prepare_exact_cells(const Device& device) {
+  if (!has_doubles(device)) return;
+  std::vector<Point> star = {{0, 0}};
+  for (int i = 0; i < 200; ++i) star.push_back({std::cos(i), std::sin(i)});
+  std::vector<Point> spread;
+  for (std::size_t i = 0; i < scales[1].seeds; ++i) {
+    const auto number = static_cast<double>(i);
+    spread.push_back({std::fmod(number * 0.6180339887, 1), std::fmod(number * 0.4142135624, 1)});
+  }
+  for (const std::vector<Point>& points : {star, spread}) {
+    ExactCellsResult cells;
+    exact_cells(Seeds(device, Grid(Axis(1, -2, 2), Axis(1, -2, 2)), points), cells);
+    cells.edges();
+  }
+  device.finish();
+}
+
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
@@ -114,6 +133,7 @@ std::size_t prepare_programs(const Device& device, const PreparationPart& part) 
   for (std::size_t i = part.index; i < std::size(specialisations); i += part.count) {
     for (const Scale& scale : scales) prepare_at(scale, device, specialisations[i]);
     prepare_windows(device, specialisations[i]);
+    if (i == 0) prepare_exact_cells(device);
   }
   return keep_programs(device);
 }

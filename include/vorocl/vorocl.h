@@ -581,6 +581,61 @@ VOROCL_API vorocl_status vorocl_adjacency_read_cells(const vorocl_adjacency* adj
                                                      uint32_t* perimeters, size_t count);
 
 /// @}
+/// @name Cells as polygons: see vorocl::exact_cells()
+/// @{
+
+/// What was cut, on the device; to be used frame after frame. As vorocl::ExactCellsResult.
+typedef struct vorocl_exact_cells vorocl_exact_cells;
+
+VOROCL_API vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells);
+VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
+
+/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. Enqueues and returns.
+/// VOROCL_DEVICE_ERROR if the device has no doubles.
+VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
+
+/// The cells, one per seed; 0 if it is empty.
+VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);
+
+/// As vorocl::ExactCell, in the units of the data. An empty cell has the area 0 and the centroid (NaN, NaN).
+typedef struct vorocl_exact_cell {
+  double area;
+  vorocl_point centroid;
+  double perimeter;
+  uint32_t neighbours;  ///< edges that it shares with cells
+  int touches_border;   ///< 1 if a side of the rectangle bounds it, else 0
+  int certified;        ///< 1: all decisions were certain
+} vorocl_exact_cell;
+
+/// All cells, by id: `count` must be their number. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_read(const vorocl_exact_cells* all, vorocl_exact_cell* cells,
+                                                 size_t count);
+
+/// Per cell its area (double), centroid (2 doubles), perimeter (double), neighbours (uint32_t) and flags (a
+/// byte: 1 touches the border, 2 certified). Each may be NULL. The buffers are valid until the next cut.
+/// Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_buffers(const vorocl_exact_cells* cells, cl_mem* areas,
+                                                    cl_mem* centroids, cl_mem* perimeters, cl_mem* neighbours,
+                                                    cl_mem* flags);
+
+/// The edges of all polygons. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_edges(const vorocl_exact_cells* cells, size_t* edges);
+
+/// The polygons: those edges of a cell that begin at its offset (uint32_t per cell, and one),
+/// counter-clockwise where y points up. Per edge the vertex where it begins (2 doubles), the cell behind it
+/// (uint32_t; VOROCL_NO_LABEL: a side of the rectangle) and its length (double). Each may be NULL. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_polygon_buffers(const vorocl_exact_cells* cells, cl_mem* offsets,
+                                                            cl_mem* vertices, cl_mem* neighbours,
+                                                            cl_mem* lengths);
+
+/// The same on the host: `count` must be the number of cells, `offsets` has one more, and the others have
+/// `edges`, which must be all. Each may be NULL. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_read_polygons(const vorocl_exact_cells* cells, uint32_t* offsets,
+                                                          size_t count, vorocl_point* vertices,
+                                                          uint32_t* neighbours, double* lengths,
+                                                          size_t edges);
+
+/// @}
 /// @name Images: see vorocl::Field
 /// @{
 

@@ -9,5 +9,6 @@ NB_MODULE(_vorocl, module) {
   bind_devices(module);
   bind_seeds(module);
   bind_diagrams(module);
+  bind_exact_cells(module);
   bind_known_answers(module);
 }

@@ -86,6 +86,7 @@ void bind_errors(nb::module_& module);
 void bind_devices(nb::module_& module);
 void bind_seeds(nb::module_& module);
 void bind_diagrams(nb::module_& module);
+void bind_exact_cells(nb::module_& module);
 void bind_known_answers(nb::module_& module);
 
 }  // namespace vorocl::python

@@ -76,6 +76,7 @@ CALLS = {
     vorocl.areas: POINTS + ("units",),
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
+    vorocl.exact_cells: ("points", "bounds", "periodic", "outside", "device"),
     vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),
@@ -105,6 +106,8 @@ def wrong_calls():
         required = {name: RIGHT_VALUES[name] for name in names if name in RIGHT_VALUES}
         if call is vorocl.Diagram:
             del required["labels"]
+        if call is vorocl.exact_cells:
+            required["bounds"] = (0, 0, 10, 8)
         for name in names:
             for value in WRONG["a" if name == "b" else name]:
                 if any(value is allowed for allowed in ALLOWED.get((call, name), [])):

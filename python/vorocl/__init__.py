@@ -1,7 +1,7 @@
 """VoroCL: raster Voronoi diagrams of seeds that stand still or move, in OpenCL.
 
 `diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `areas`, `adjacency`, `vertices`
-and `relax` measure the diagram of points or change it; `from_mask` and `expand_labels` take images; `similarity` and
+and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons; `from_mask` and `expand_labels` take images; `similarity` and
 `errors` compare labels. `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs
 that use OpenCL too.
 """
@@ -21,6 +21,7 @@ from ._errors import (
     HostMemoryError,
     KernelBuildError,
 )
+from ._exact_cells import EXACT_CELL, EXACT_PAIR, ExactCells, exact_cells
 from ._functions import (
     NO_LABEL,
     Relaxation,
@@ -50,7 +51,10 @@ __all__ = [
     "DeviceMemoryError",
     "Diagram",
     "DistanceErrors",
+    "EXACT_CELL",
+    "EXACT_PAIR",
     "Error",
+    "ExactCells",
     "FileError",
     "HostMemoryError",
     "KernelBuildError",
@@ -66,6 +70,7 @@ __all__ = [
     "diagram",
     "distances",
     "errors",
+    "exact_cells",
     "expand_labels",
     "from_mask",
     "prepare",

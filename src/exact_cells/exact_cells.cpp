@@ -4,10 +4,10 @@
 #include <limits>
 #include <tuple>
 
+#include "exact_cells/has_doubles.hpp"
 #include "exact_cells/sites.hpp"
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
-#include "runtime/opencl_info.hpp"
 #include "runtime/stopwatch.hpp"
 
 namespace vorocl {
@@ -25,8 +25,7 @@ constexpr std::size_t bytes_of_edge = 64;              // edge_t of polygon.cl
 std::size_t most_edges(std::size_t sites) { return 6 * sites + 24; }
 
 void require_doubles(const Device& device) {
-  const auto extensions = device_info<std::string>(device.cl_device()(), CL_DEVICE_EXTENSIONS);
-  if (extensions.find("cl_khr_fp64") != std::string::npos) return;
+  if (has_doubles(device)) return;
   throw Error("exact cells need double precision (cl_khr_fp64), which " + device.name() +
                   " does not have; use another device",
               ErrorKind::device);

@@ -2,6 +2,7 @@
 // and fails if the sources hold a kernel that was not launched.
 #include <dlfcn.h>
 
+#include <cmath>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -184,6 +185,18 @@ void make_tiles(const Device& device, Metric metric) {
   device.finish();
 }
 
+/// Of few seeds, and of one with more neighbours than the first kernel has room for.
+void cut_exact_cells(const Device& device) {
+  std::vector<Point> star = {{50, 50}};
+  for (int i = 0; i < 30; ++i) star.push_back({50 + 40 * std::cos(0.2 * i), 50 + 40 * std::sin(0.2 * i)});
+  for (const Grid& grid : {Grid(100, 100), Grid(100, 100, Periodic::xy)}) {
+    ExactCellsResult cells;
+    exact_cells(Seeds(device, grid, star), cells);
+    const ExactCellsCheck check = cells.check();
+    if (check.not_mutual > 0 || check.uncertified > 0) throw Error("exact cells are wrong");
+  }
+}
+
 }  // namespace
 
 int main() {
@@ -207,6 +220,7 @@ int main() {
     }
   }
   measure_many_cells(device, Grid(13, 9));
+  cut_exact_cells(device);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;
   for (const std::string& name : kernels) {

@@ -265,6 +265,10 @@ BOOST_AUTO_TEST_CASE(measures_that_fail_are_empty) {
                       [&] { return errors.read().wrong_pixels == 0; });
   fails_when_measured([&] { vertices(diagram, corners); },
                       [&] { return corners.count() == 0 && corners.read().empty(); });
+  ExactCellsResult exact;
+  fails_when_measured(
+      [&] { exact_cells(seeds, exact); },
+      [&] { return exact.size() == 0 && exact.areas()() == nullptr && exact.read().empty(); });
 }
 
 // While an event holds the queue back, a thread that makes one frame after the other stops.

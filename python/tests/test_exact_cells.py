@@ -1,0 +1,94 @@
+"""Cells as polygons, against SciPy, freud, Shapely and GeoPandas."""
+
+import freud
+import geopandas
+import numpy as np
+import pandas
+import pytest
+import shapely
+from scipy.spatial import Voronoi
+
+import vorocl
+
+rng = np.random.default_rng(30)
+BOUNDS = (-1.0, 2.0, 3.0, 4.0)
+
+
+@pytest.fixture(scope="module")
+def points():
+    return rng.uniform(BOUNDS[:2], BOUNDS[2:], (400, 2))
+
+
+def edges_of(pairs):
+    return {(int(a), int(b)) for a, b in pairs[["a", "b"]].tolist()}
+
+
+def test_inner_cells_are_those_of_scipy(points):
+    found = vorocl.exact_cells(points, BOUNDS)
+    assert len(found) == 400 and found.cells.dtype == vorocl.EXACT_CELL and found.pairs.dtype == vorocl.EXACT_PAIR
+    assert found.cells["certified"].all()
+    assert found.cells["area"].sum() == pytest.approx(8, rel=1e-14)
+    voronoi = Voronoi(points)
+    inner = 0
+    for row, region in enumerate(voronoi.point_region):
+        corners = voronoi.regions[region]
+        vertices = voronoi.vertices[corners]
+        if -1 in corners or (vertices < BOUNDS[:2]).any() or (vertices > BOUNDS[2:]).any():
+            continue
+        inner += 1
+        polygon = shapely.MultiPoint(vertices).convex_hull
+        assert found.cells["area"][row] == pytest.approx(polygon.area, rel=1e-7)
+        assert found.cells["perimeter"][row] == pytest.approx(polygon.length, rel=1e-7)
+        assert found.cells["centroid_x"][row] == pytest.approx(polygon.centroid.x, abs=1e-7)
+        assert not found.cells["touches_border"][row]
+    assert inner > 300
+    there = {(min(a, b), max(a, b)) for a, b in voronoi.ridge_points.tolist()}
+    assert edges_of(found.pairs) <= there
+    np.testing.assert_array_equal(
+        np.bincount(np.concatenate([found.pairs["a"], found.pairs["b"]]), minlength=400), found.cells["neighbours"]
+    )
+
+
+def test_periodic_cells_are_those_of_freud(points):
+    found = vorocl.exact_cells(points, BOUNDS, periodic=(True, True))
+    box = freud.box.Box(4, 2, is2D=True)
+    centred = np.column_stack([points - (1, 3), np.zeros(400)])
+    voronoi = freud.locality.Voronoi().compute((box, centred))
+    np.testing.assert_allclose(found.cells["area"], voronoi.volumes, rtol=1e-4)  # freud's are made in floats
+    assert len(found.pairs) == 1200  # Euler's, on a torus
+    there = {(min(a, b), max(a, b)) for a, b in voronoi.nlist[:].tolist()}
+    assert len(edges_of(found.pairs) ^ there) <= 2  # edges of a float's rounding
+    assert not found.cells["touches_border"].any()
+
+
+def test_shapely_and_geopandas_by_one_call(points, tmp_path):
+    given = points.copy()
+    given[7] = np.nan
+    given[9] = given[8]
+    found = vorocl.exact_cells(given, BOUNDS)
+    polygons = found.to_shapely()
+    assert polygons[7].is_empty and polygons[9].is_empty and shapely.is_valid(polygons).all()
+    np.testing.assert_allclose(shapely.area(polygons), found.cells["area"], atol=1e-14)
+    np.testing.assert_allclose(shapely.length(polygons), found.cells["perimeter"], atol=1e-13)
+    assert shapely.union_all(polygons).area == pytest.approx(8)
+    assert shapely.is_ccw(shapely.get_exterior_ring(polygons[0]))
+    assert all(polygons[row].covers(shapely.Point(given[row])) for row in range(7))
+    np.testing.assert_array_equal(found.polygon(0), shapely.get_coordinates(polygons[0])[:-1])
+    frame = found.to_geopandas(crs="EPSG:32632")
+    frame.to_file(tmp_path / "cells.geojson")
+    again = geopandas.read_file(tmp_path / "cells.geojson")
+    assert len(again) == 400 and again.geometry.area.sum() == pytest.approx(8)
+    table = found.to_pandas()
+    assert list(table.columns[:3]) == ["x", "y", "area"] and isinstance(table, pandas.DataFrame)
+    assert vorocl.exact_cells(np.zeros((0, 2)), BOUNDS).to_shapely().shape == (0,)
+
+
+def test_points_outside(points):
+    moved = points + (2, 0)
+    absent = vorocl.exact_cells(moved, BOUNDS, outside="absent").cells["area"]
+    outside = moved[:, 0] > 3
+    assert (absent[outside] == 0).all() and absent.sum() == pytest.approx(8)
+    counted = vorocl.exact_cells(moved, BOUNDS).cells["area"]
+    assert counted.sum() == pytest.approx(8) and 0 < (counted[outside] > 0).sum() < outside.sum()
+    with pytest.raises(vorocl.BadPoint):
+        vorocl.exact_cells(moved, BOUNDS, outside="refuse")

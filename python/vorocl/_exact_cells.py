@@ -1,0 +1,179 @@
+"""Cells as polygons, without pixels."""
+
+from __future__ import annotations
+
+from typing import Any, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _vorocl
+from ._arguments import Bounds, Outside, Periodic, shown, to_grid, to_outside, to_points
+from ._device import Device, to_device
+from ._errors import BadArgument
+from ._parameters import with_parameters
+
+EXACT_CELL = np.dtype(
+    [
+        ("area", np.float64),
+        ("centroid_x", np.float64),
+        ("centroid_y", np.float64),
+        ("perimeter", np.float64),
+        ("neighbours", np.uint32),
+        ("touches_border", np.bool_),
+        ("certified", np.bool_),
+    ],
+    align=True,
+)
+"""One row of ``ExactCells.cells``."""
+
+EXACT_PAIR = np.dtype(
+    [
+        ("a", np.uint32),
+        ("b", np.uint32),
+        ("length", np.float64),
+        ("midpoint_x", np.float64),
+        ("midpoint_y", np.float64),
+    ],
+    align=True,
+)
+"""One row of ``ExactCells.pairs``."""
+
+
+class ExactCells:
+    """The cells of points as polygons, in the units of the points: what `exact_cells` returns.
+
+    Attributes
+    ----------
+    points : ndarray
+        Shape (N, 2): the points that were given.
+    cells : ndarray
+        Structured, one row per point: ``area``, ``centroid_x``, ``centroid_y``, ``perimeter`` (with the sides of the
+        rectangle), ``neighbours`` (edges that it shares with cells), ``touches_border``, ``certified`` (all decisions
+        were certain). ``pandas.DataFrame(cells)`` makes a table of it. The cell of an absent point, or of one that is
+        not the first at its place, is empty: its area is 0, its centroid NaN.
+    pairs : ndarray
+        Structured, one row per edge between two cells, sorted: ``a``, ``b`` (rows of the points, a <= b), ``length``,
+        ``midpoint_x``, ``midpoint_y``. Across the ends of periods two cells may share several edges, and a cell may be
+        its own neighbour.
+    offsets, vertices, neighbours, lengths : ndarray
+        The polygons: that of point i has the edges from ``offsets[i]`` up to ``offsets[i + 1]``. Each begins at its row
+        of `vertices`, counter-clockwise where y points up, has a length, and the cell `neighbours` behind it:
+        ``NO_LABEL`` is a side of the rectangle.
+    """
+
+    def __init__(self, points: NDArray[np.float64], cut: _vorocl.ExactCells) -> None:
+        self.points = points
+        self.cells: NDArray[Any] = cut.cells().view(EXACT_CELL)[:, 0]
+        self.pairs: NDArray[Any] = cut.pairs().view(EXACT_PAIR)[:, 0]
+        self.offsets: NDArray[np.uint32] = cut.offsets()[:, 0]
+        self.vertices: NDArray[np.float64] = cut.vertices()
+        self.neighbours: NDArray[np.uint32] = cut.neighbours()[:, 0]
+        self.lengths: NDArray[np.float64] = cut.lengths()[:, 0]
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def __repr__(self) -> str:
+        return f"<vorocl.ExactCells of {len(self)} points>"
+
+    def polygon(self, row: int) -> NDArray[np.float64]:
+        """Return the vertices of one cell, shape (K, 2): those of an empty cell are none."""
+        return self.vertices[self.offsets[row] : self.offsets[row + 1]]
+
+    def to_shapely(self) -> NDArray[Any]:
+        """Return the polygons of Shapely, one per point, by one call of it; empty ones of empty cells.
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> polygons = vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2)).to_shapely()
+        >>> [polygon.area for polygon in polygons]
+        [4.0, 4.0]
+        """
+        import shapely
+
+        counts = np.diff(self.offsets.astype(np.int64))
+        full = np.flatnonzero(counts)
+        starts, counts = self.offsets[full].astype(np.int64), counts[full]
+        # Each ring ends with its first vertex.
+        at = np.concatenate([[0], np.cumsum(counts + 1)])
+        rows = np.arange(at[-1]) - np.repeat(at[:-1] - starts, counts + 1)
+        rows[at[1:] - 1] = starts
+        polygons = np.full(len(self), shapely.Polygon(), dtype=object)
+        if len(full) > 0:
+            rings = shapely.linearrings(self.vertices[rows], indices=np.repeat(np.arange(len(full)), counts + 1))
+            polygons[full] = shapely.polygons(rings)
+        return polygons
+
+    def to_geopandas(self, crs: Any = None) -> Any:
+        """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system."""
+        import geopandas
+        import pandas
+
+        return geopandas.GeoDataFrame(pandas.DataFrame(self.cells), geometry=self.to_shapely(), crs=crs)
+
+    def to_pandas(self) -> Any:
+        """Return a DataFrame of pandas: ``x`` and ``y`` of the points, and the fields of `cells`."""
+        import pandas
+
+        frame = pandas.DataFrame(self.cells)
+        frame.insert(0, "x", self.points[:, 0])
+        frame.insert(1, "y", self.points[:, 1])
+        return frame
+
+
+@with_parameters
+def exact_cells(
+    points: ArrayLike,
+    bounds: Bounds,
+    *,
+    periodic: Periodic = (False, False),
+    outside: Outside = "count",
+    device: Optional[Device] = None,
+) -> ExactCells:
+    """Cut a rectangle into the Euclidean Voronoi cells of points, as polygons and without pixels.
+
+    Points, and the rectangle, are rounded to a power of two that is at most 2**-29 of the longer side; whole numbers,
+    halves and so on stay as they are. Of these points the cells are exact: neighbours are decided in whole numbers, and
+    cells that touch in a point are none. Vertices are right to about 2**-50 of their distance from the point.
+
+    Parameters
+    ----------
+    points : array_like
+        Shape (N, 2), rows (x, y), in the units of `bounds`. A row with a NaN is absent, and so is a row that is masked.
+    bounds : (float, float, float, float)
+        (x0, y0, x1, y1), the rectangle.
+    periodic : (bool, bool), optional
+        Which axes, x and y, are periodic: the rectangle is the period. Cells are whole across its ends, where they reach
+        beyond it.
+    outside : {"count", "absent", "refuse"}, optional
+        What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them. "absent":
+        they have no cell. "refuse": they are an error.
+    <device>
+
+    Returns
+    -------
+    ExactCells
+
+    Raises
+    ------
+    DeviceError
+        Also if the device has no double precision (cl_khr_fp64).
+    BadPoint, BadArgument, DeviceMemoryError
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> found = vorocl.exact_cells([(1, 1), (3, 1), (1, 3), (3, 3)], (0, 0, 4, 4))
+    >>> found.cells["area"]
+    array([4., 4., 4., 4.])
+    >>> found.pairs[["a", "b", "length"]].tolist()
+    [(0, 1, 2.0), (0, 2, 2.0), (1, 3, 2.0), (2, 3, 2.0)]
+    """
+    if bounds is None:
+        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); these are {shown(bounds)}")
+    grid = to_grid((1, 1), periodic, bounds, outside)
+    array = to_points(points)
+    seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside))
+    return ExactCells(array, _vorocl.exact_cells(seeds))

@@ -1,0 +1,175 @@
+// vorocl cells --exact: its files against each other, and against plain sums over what they hold.
+#define BOOST_TEST_MODULE exact_cells_command
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "host_measures.hpp"
+#include "run_command.hpp"
+
+using namespace vorocl;
+using nlohmann::json;
+
+namespace {
+
+constexpr double rounding = 1e-12;
+
+json geojson(const TemporaryFolder& folder, const std::string& name) {
+  return json::parse(std::ifstream(folder / name));
+}
+
+/// The area within a ring whose last vertex is its first.
+double area_of(const std::vector<std::pair<double, double>>& ring) {
+  double twice = 0;
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i)
+    twice += ring[i].first * ring[i + 1].second - ring[i + 1].first * ring[i].second;
+  return twice / 2;
+}
+
+std::vector<std::pair<double, double>> ring_of(const json& feature) {
+  return feature.at("geometry").at("coordinates").at(0).get<std::vector<std::pair<double, double>>>();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(cities_fill_the_map) {
+  const TemporaryFolder folder;
+  const json result = json::parse(succeeds(
+      folder,
+      "cells --exact --points '" VOROCL_SAMPLES
+      "/cities-5000.csv' --bounds 0,0,360,180 --cells c.csv --adjacency a.csv --polygons p.geojson --json"));
+  BOOST_TEST(result.at("cells") == 5000);
+  BOOST_TEST(result.at("area").get<double>() == 64800, boost::test_tools::tolerance(rounding));
+  BOOST_TEST(result.at("not_mutual") == 0);
+  BOOST_TEST(result.at("uncertified") == 0);
+  BOOST_TEST(result.at("rectangle") == json({0.0, 0.0, 360.0, 180.0}));
+  const Table cells = read_table(folder / "c.csv"), pairs = read_table(folder / "a.csv");
+  BOOST_TEST(cells.header ==
+             "id,x,y,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,largest_distance,"
+             "touches_border");
+  BOOST_TEST(pairs.header == "a,b,length,midpoint_x,midpoint_y");
+  BOOST_TEST(result.at("pairs") == pairs.rows.size());
+  const json polygons = geojson(folder, "p.geojson").at("features");
+  BOOST_TEST_REQUIRE(cells.rows.size() == 5000u);
+  BOOST_TEST_REQUIRE(polygons.size() == 5000u);
+  std::vector<double> neighbours(5000), lengths(5000);
+  for (const TableRow& pair : pairs.rows) {
+    BOOST_TEST_REQUIRE(*pair[0] < *pair[1]);
+    for (const std::size_t end : {0, 1}) {
+      neighbours[static_cast<std::size_t>(*pair[end])] += 1;
+      lengths[static_cast<std::size_t>(*pair[end])] += *pair[2];
+    }
+  }
+  std::size_t at_border = 0;
+  for (std::size_t id = 0; id < 5000; ++id) {
+    const TableRow& row = cells.rows[id];
+    BOOST_TEST_REQUIRE(*row[0] == static_cast<double>(id));
+    BOOST_TEST(*row[11] == neighbours[id]);
+    const auto ring = ring_of(polygons[id]);
+    BOOST_TEST((ring.front() == ring.back()));
+    BOOST_TEST(std::abs(area_of(ring) - *row[3]) < 1e-9);  // far from the origin a sum loses digits
+    double left = INFINITY, top = -INFINITY, perimeter = 0, farthest = 0;
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+      left = std::min(left, ring[i].first);
+      top = std::max(top, ring[i].second);
+      perimeter += std::hypot(ring[i + 1].first - ring[i].first, ring[i + 1].second - ring[i].second);
+      farthest = std::max(farthest, std::hypot(ring[i].first - *row[1], ring[i].second - *row[2]));
+    }
+    BOOST_TEST(*row[6] == left);
+    BOOST_TEST(*row[7] == top);
+    BOOST_TEST(std::abs(*row[10] - perimeter) < 1e-10);
+    BOOST_TEST(std::abs(*row[12] - farthest) < 1e-10);
+    at_border += *row[13] == 1 ? 1 : 0;
+    if (*row[13] == 0) BOOST_TEST(std::abs(lengths[id] - *row[10]) < 1e-10);
+  }
+  BOOST_TEST((at_border > 20 && at_border < 500));
+}
+
+BOOST_AUTO_TEST_CASE(four_cells_of_a_square_in_every_format) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n1,1\n3,1\n1,3\n3,3\n3,3\n");
+  const std::string cells = "cells --exact --points p.csv --bounds 0,0,4,4 ";
+  const std::string out =
+      succeeds(folder, cells + "--polygons p.csv.json --cells c.csv --cell-columns area,id");
+  for (const char* part : {"exact cells: 5 seeds in 0,0,4,4", "1 seed", "4 edges", "wrote p.csv.json"})
+    BOOST_TEST(out.find(part) != std::string::npos, part);
+  const Table table = read_table(folder / "c.csv");
+  BOOST_TEST(table.header == "area,id");
+  BOOST_TEST((table.rows == std::vector<TableRow>{{4, 0}, {4, 1}, {4, 2}, {4, 3}, {0, 4}}));
+  const json features = geojson(folder, "p.csv.json").at("features");
+  BOOST_TEST(ring_of(features[0]).size() == 5u);
+  BOOST_TEST(features[4].at("geometry").is_null());
+  succeeds(folder, cells + "--polygons w.csv --adjacency a.csv");
+  const std::string wkt = content_of(folder / "w.csv");
+  BOOST_TEST(wkt.find("id,x,y,area,neighbours,wkt\n0,1,1,4,2,\"POLYGON ((") == 0u);
+  BOOST_TEST(wkt.find("4,3,3,0,0,POLYGON EMPTY\n") != std::string::npos);
+  BOOST_TEST((read_table(folder / "a.csv").rows ==
+              std::vector<TableRow>{{0, 1, 2, 2, 1}, {0, 2, 2, 1, 2}, {1, 3, 2, 3, 2}, {2, 3, 2, 2, 3}}));
+  succeeds(folder, cells + "--polygons p.vtp");
+  const std::string vtp = content_of(folder / "p.vtp");
+  BOOST_TEST(vtp.find("NumberOfPoints=\"16\"") != std::string::npos);
+  BOOST_TEST(vtp.find("NumberOfPolys=\"4\"") != std::string::npos);
+  succeeds(folder, cells + "--periodic xy --adjacency t.csv");
+  BOOST_TEST(read_table(folder / "t.csv").rows.size() == 8u);
+}
+
+BOOST_AUTO_TEST_CASE(particles_fill_their_periodic_box) {
+  const TemporaryFolder folder;
+  const json result =
+      json::parse(succeeds(folder, "cells --exact --trajectory '" VOROCL_SAMPLES
+                                   "/lj-melt.lammpstrj' --frame 3 --cells c.csv --polygons p.json --json"));
+  const auto box = result.at("rectangle").get<std::vector<double>>();
+  BOOST_TEST(result.at("periodic") == "xy");
+  BOOST_TEST(result.at("pairs") == 3 * result.at("cells").get<int>());  // Euler's, on a torus
+  BOOST_TEST(result.at("area").get<double>() == (box[2] - box[0]) * (box[3] - box[1]),
+             boost::test_tools::tolerance(1e-8));
+  BOOST_TEST(*read_table(folder / "c.csv").rows.front().front() == 1);  // ids of the file
+  BOOST_TEST(geojson(folder, "p.json").at("features").front().at("id") == 1);
+}
+
+BOOST_AUTO_TEST_CASE(random_seeds_are_centres_of_pixels) {
+  const TemporaryFolder folder;
+  succeeds(folder, "cells --exact --random 40 --size 60x50 --cells exact.csv");
+  succeeds(folder, "cells --random 40 --size 60x50 --cells pixels.csv");
+  const Table exact = read_table(folder / "exact.csv"), pixels = read_table(folder / "pixels.csv");
+  BOOST_TEST_REQUIRE(exact.rows.size() == pixels.rows.size());
+  double sum = 0;
+  for (std::size_t i = 0; i < exact.rows.size(); ++i) {
+    sum += *exact.rows[i][3];
+    BOOST_TEST(*exact.rows[i][1] == *pixels.rows[i][1]);
+    BOOST_TEST(std::abs(*exact.rows[i][3] - *pixels.rows[i][3]) < 30);  // about a perimeter's worth
+  }
+  BOOST_TEST(sum == 3000, boost::test_tools::tolerance(rounding));
+}
+
+BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n1,1\n9,3\n");
+  folder.file("tilted.xyz",
+              "1\nLattice=\"4 0 0 1 4 0 0 0 4\" Properties=species:S:1:pos:R:3 pbc=\"T T T\"\nA 1 1 0\n");
+  // A device that does not exist would be the next error: it is not reached.
+  const std::string exact = "cells --exact --points p.csv --device none ";
+  refuses(folder, exact, usage, {"nothing to write", "--cells", "--adjacency", "--polygons"});
+  refuses(folder, exact + "--cells c.csv --method jfa", usage, {"--method", "--exact"});
+  refuses(folder, exact + "--cells c.csv --metric manhattan", usage, {"--metric", "--exact"});
+  refuses(folder, exact + "--cells c.csv --extra-waves 1", usage, {"--extra-waves", "--exact"});
+  refuses(folder, exact + "--labels l.npy", usage, {"--labels", "--exact"});
+  refuses(folder, exact + "--distance l.npy", usage, {"--distance", "--exact"});
+  refuses(folder, exact + "--cells c.csv --border l.npy", usage, {"--border", "--exact"});
+  refuses(folder, exact + "--cells c.csv --units px", usage, {"--units px", "--exact"});
+  refuses(folder, exact + "--polygons p.txt", usage, {"p.txt", ".geojson, .json, .csv, .vtp"});
+  refuses(folder, exact + "--polygons p.csv", usage, {"p.csv", "--points"});
+  refuses(folder, exact + "--polygons c.csv --cells c.csv", usage, {"--cells and --polygons"});
+  refuses(folder, "cells --points p.csv --width 9 --polygons p.vtp", usage, {"--polygons requires --exact"});
+  refuses(folder, exact + "--cells c.csv --bounds 0,0,5,5 --outside refuse", failure, {"none"});
+  refuses(folder, "cells --exact --points p.csv --cells c.csv --bounds 0,0,5,5 --outside refuse", failure,
+          {"p.csv", "point 1", "outside"});
+  refuses(folder, exact + "--cells c.csv --periodic x --domain 0,0,10,10 --bounds 0,0,5,10", failure,
+          {"p.csv", "whole periods", "0,0,10,10"});
+  refuses(folder, "cells --exact --trajectory tilted.xyz --cells c.csv --device none", failure,
+          {"tilted.xyz", "frame 0", "tilted"});
+  refuses(folder, "cells --exact --trajectory tilted.xyz --frame 4 --cells c.csv --device none", failure,
+          {"tilted.xyz", "no frame 4"});
+  BOOST_TEST((folder.names() == std::set<std::string>{"p.csv", "tilted.xyz"}));
+}
