@@ -99,7 +99,8 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   FAILS(vorocl_exact_cells_read(all, NULL, seed_count), VOROCL_NULL_ARGUMENT, "cells is NULL");
   FAILS(vorocl_exact_cells_read_polygons(all, NULL, seed_count, NULL, NULL, NULL, 1), VOROCL_BAD_ARGUMENT,
         "edges");
-  OK(vorocl_seeds_from_points(device, flat, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, &of_flat));
+  OK(vorocl_seeds_from_points(device, flat, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                              &of_flat));
   FAILS(vorocl_exact_cells_cut(all, of_flat), VOROCL_BAD_ARGUMENT, "extent");
   OK(vorocl_exact_cells_count(all, &count));
   CHECK(count == 0);
