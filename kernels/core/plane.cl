@@ -19,8 +19,8 @@
 #define MOST_LENGTH INT_MAX
 #endif
 
-// UNITS. Positions and ways are whole numbers of pixels: between the centres of pixels. With VOROCL_FRACTIONS, which comes
-// with VOROCL_FAR, they are whole numbers of 1/4096 pixel, and a pixel's centre is CENTRE behind its start.
+// UNITS. Positions and ways are whole numbers of pixels: between the centres of pixels. With VOROCL_FRACTIONS, which
+// comes with VOROCL_FAR, they are whole numbers of 1/4096 pixel, and a pixel's centre is CENTRE behind its start.
 #ifdef VOROCL_FRACTIONS
 #define UNIT_BITS 12
 #define CENTRE (UNIT / 2)

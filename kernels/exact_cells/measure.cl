@@ -9,7 +9,8 @@
 #define CERTIFIED 2u
 
 // Which sites there are, what they are called in the caller's list, and the rectangle: left, lower, right and upper
-// sides, in steps; the periods, 0 along an axis without; and where step 0 is, and how long one, in the units of the data.
+// sides, in steps; the periods, 0 along an axis without; and where step 0 is, and how long one, in the units of the
+// data.
 #define SITE_PARAMETERS                                                                                          \
   uint count, global const int *restrict sites, global const int *restrict boxes,                                \
       global const uint *restrict levels, int top, global const uint *restrict ids, int4 rectangle, int2 periods, \

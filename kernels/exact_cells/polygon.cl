@@ -49,8 +49,8 @@ static inline long cross_of(int a, int b, int other_a, int other_b) { return (lo
 
 #define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
-// c b - c' b', right but for 2^-51 of itself. A c of less than 2^53 is a double, and what it loses when it is multiplied
-// is known; a greater one is of seeds that are far from each other, of which there are few.
+// c b - c' b', right but for 2^-51 of itself. A c of less than 2^53 is a double, and what it loses when it is
+// multiplied is known; a greater one is of seeds that are far from each other, of which there are few.
 static inline double difference(long c, int b, long other_c, int other_b) {
   const long most = 1L << 53;
   if (c > most || c < -most || other_c > most || other_c < -most)

@@ -48,7 +48,8 @@ static inline int8 may_cut(const polygon_t* polygon, float8 left, float8 right, 
 
 // Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree sees it.
 static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from) {
-  const int8 x = vload8(2 * (size_t)leaf, tree->sites) - from.s0, y = vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1;
+  const int8 x = vload8(2 * (size_t)leaf, tree->sites) - from.s0;
+  const int8 y = vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1;
   const float8 rough_x = convert_float8(x), rough_y = convert_float8(y);
   const int8 hits = may_cut(polygon, rough_x, rough_x, rough_y, rough_y);
   if (!any(hits)) return;

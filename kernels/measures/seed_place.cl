@@ -110,8 +110,8 @@ static inline LENGTH distance_to(seed_t seed, int x, int y, window_t window) {
   return is_there(seed) ? distance_of_ways(way_x(seed, x, window), way_y(seed, y, window)) : NO_SEED;
 }
 
-// Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without a
-// jump.
+// Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without
+// a jump.
 static inline bool goes_on(int way, int step, int period) {
   const long round = (long)period * UNIT, next = (long)way + step * UNIT;
   return period == 0 || (next <= round / 2 && next >= -((round - 1) / 2));

@@ -1,11 +1,11 @@
 // Lists of the places that may be nearest to a pixel of a box, and dropping those that another one dominates.
 //
-// DOMINANCE. What is nearer than a place at every pixel of a box drops it. A box is a rectangle of pixel centres, and for
-// both metrics the least of "how much farther is c than d" over it is at one of its corners (docs/exact.md): with the
-// origin at the box's centre and w, h from its first pixel centre to its last, for the Euclidean metric
+// DOMINANCE. What is nearer than a place at every pixel of a box drops it. A box is a rectangle of pixel centres, and
+// for both metrics the least of "how much farther is c than d" over it is at one of its corners (docs/exact.md): with
+// the origin at the box's centre and w, h from its first pixel centre to its last, for the Euclidean metric
 //   |c|^2 - |d|^2 - w |cx - dx| - h |cy - dy|.
-// It is computed in float. A place stays unless that is above a margin which is greater than every error, so that floats
-// drop places and decide nothing.
+// It is computed in float. A place stays unless that is above a margin which is greater than every error, so that
+// floats drop places and decide nothing.
 
 #ifndef VOROCL_POINTS_CANDIDATES
 #define VOROCL_POINTS_CANDIDATES
@@ -147,7 +147,8 @@ static inline int nearest_of(const list_t* list, int count, float x, float y) {
 
 // Copies the places that stay, relative to (x, y), the centre of a box; `rival` is relative to it too. To another list,
 // or to the same one.
-static inline int drop_by(const list_t* from, int count, list_t* to, float x, float y, rival_t rival, float w, float h) {
+static inline int drop_by(const list_t* from, int count, list_t* to, float x, float y, rival_t rival, float w,
+                          float h) {
   int kept = 0;
   for (int k = 0; k < count; k += 8) {
     const float8 px = vload8(0, from->x + k) - x, py = vload8(0, from->y + k) - y;

@@ -110,8 +110,8 @@ static inline void load_places(const scene_t* scene, uint from, int2 origin, flo
 }
 
 // Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
-// MOST_LISTED if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do not
-// come in.
+// MOST_LISTED if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do
+// not come in.
 NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, float w, int* nearest) {
   int8 best = INT_MAX;
   int count = 0;
@@ -173,7 +173,9 @@ static inline reach_t reach_of(rival_t rival, float w) {
   return reach;
 }
 
-static inline float longest(reach_t reach) { return fmax(fmax(reach.west, reach.east), fmax(reach.north, reach.south)); }
+static inline float longest(reach_t reach) {
+  return fmax(fmax(reach.west, reach.east), fmax(reach.north, reach.south));
+}
 
 // The pixels of an axis that a box of pixels needs to know. A reach can be longer than the numbers of pixels.
 static inline span_t span_of_reach(span_t box, float before, float behind) {

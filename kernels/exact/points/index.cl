@@ -1,6 +1,6 @@
 // The index of points: a counting sort by bins, squares of pixels whose side is a power of two. The places of a row of
-// bins stand next to each other, so that a range of bins of a row is one range of the list; the rows stand in any order,
-// and so do the places of one bin.
+// bins stand next to each other, so that a range of bins of a row is one range of the list; the rows stand in any
+// order, and so do the places of one bin.
 //
 // Places outside the pixels stand in the bin at the border that is nearest to them. Rounding a coordinate into a range
 // keeps order, so that the bins of a rectangle hold all places of that rectangle, also where it ends outside.

@@ -2,10 +2,10 @@
 // vector of pixels.
 //
 // KEYS. With the origin at a pixel centre, a place c in units of 2^-F pixels (F: FRACTION_BITS) and a pixel p in whole
-// pixels, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(F + 1) p.c. The low F + 1 bits of it are
-// those of |c|^2 at every pixel. They go into the RANK of a place: its number in the order of (these bits, y, x, id). A
-// key is the other bits, and below them the rank. The least key is that of the nearest seed, by the tie rule of design:
-// the first in the order (y, x) of its position in the grid, then that of the lowest id.
+// pixels, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(F + 1) p.c. The low F + 1 bits of it
+// are those of |c|^2 at every pixel. They go into the RANK of a place: its number in the order of (these bits, y, x,
+// id). A key is the other bits, and below them the rank. The least key is that of the nearest seed, by the tie rule of
+// design: the first in the order (y, x) of its position in the grid, then that of the lowest id.
 // By the Manhattan metric a key is the distance, less that of one place from the box's centre, and the rank.
 
 #ifndef VOROCL_POINTS_KEYS

@@ -40,8 +40,8 @@ static inline ulong distance_from(int pixel, int side, int2 way) {
   return distance_in_units((long)way.x - to.x, (long)way.y - to.y);
 }
 
-// Labels a box of at most 16 pixels a side by any list: its places stand against each other in parts, the winners of the
-// parts in 64 bits.
+// Labels a box of at most 16 pixels a side by any list: its places stand against each other in parts, the winners of
+// the parts in 64 bits.
 NOINLINE static void label_in_parts(const scene_t* scene, const list_t* list, int count, int2 centre, int side,
                                     float reach, uint* labels) {
   found_t found;
@@ -49,7 +49,8 @@ NOINLINE static void label_in_parts(const scene_t* scene, const list_t* list, in
   uint winners[16 * 16];
   for (int from = 0; from < count; from += MOST_OF_KEYS) {
     const int some = min(count - from, MOST_OF_KEYS);
-    const bool has_winners = side >= 8 && find_by_keys(scene, list, from, some, centre, side, reach, NUMBERS, winners, side);
+    const bool has_winners =
+        side >= 8 && find_by_keys(scene, list, from, some, centre, side, reach, NUMBERS, winners, side);
     for (int pixel = 0; pixel < side * side; ++pixel) {
       const int first = has_winners ? (int)winners[pixel] : from, end = has_winners ? first + 1 : from + some;
       for (int i = first; i < end; ++i) {
@@ -195,7 +196,9 @@ static inline __attribute__((always_inline)) uint label_square(const scene_t* sc
       const float reach_here = fmin(most_reach, longest(reach_of(here, w_of_box)) + (float)side_of_box);
       const int2 centre_here = centre + from_centre * ONE_PIXEL;
       uint* const labels_here = labels + v * side_of_box * POINTS_TILE + u * side_of_box;
-      if (find_by_keys(scene, a, 0, some, centre_here, side_of_box, reach_here, IDS, labels_here, POINTS_TILE)) continue;
+      if (find_by_keys(scene, a, 0, some, centre_here, side_of_box, reach_here, IDS, labels_here, POINTS_TILE)) {
+        continue;
+      }
       if (some <= MOST_OF_PARTS || side_of_box == 8) {
         label_in_parts(scene, a, some, centre_here, side_of_box, reach_here, labels_here);
       } else {
@@ -262,7 +265,8 @@ kernel void label_tiles(global const uint* restrict starts, global const int2* r
   const int left = item % across * POINTS_TILE, top = item / across * POINTS_TILE;
   if (top >= height) return;
   uint labels[POINTS_TILE * POINTS_TILE];
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0, labels};
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids,
+                         has_images ? seeds : 0,       labels};
   label_tile(&scene, left, top, labels);
   const int end = min(POINTS_TILE, width - left), bottom = min(POINTS_TILE, height - top);
   const bool is_inside = left >= region.s0 && top >= region.s1 && left + end - 1 <= region.s2 &&

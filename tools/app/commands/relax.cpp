@@ -142,7 +142,8 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
   print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
         seeds.grid().height(), counted(relaxation.rounds(), "round"),
         relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
-  print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(), relaxation.energies.back());
+  print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(),
+        relaxation.energies.back());
   print_written(requested_files(options));
 }
 
