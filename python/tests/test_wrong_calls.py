@@ -107,7 +107,7 @@ def wrong_calls():
         if call is vorocl.Diagram:
             del required["labels"]
         if call is vorocl.exact_cells:
-            required["bounds"] = (0, 0, 10, 8)
+            required["bounds"] = (0, 0, 9.5, 7.5)  # ends are inside
         for name in names:
             for value in WRONG["a" if name == "b" else name]:
                 if any(value is allowed for allowed in ALLOWED.get((call, name), [])):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any, Optional
 
 import numpy as np
@@ -91,11 +92,10 @@ class ExactCells:
         >>> [polygon.area for polygon in polygons]
         [4.0, 4.0]
         """
-        import shapely
-
-        counts = np.diff(self.offsets.astype(np.int64))
-        full = np.flatnonzero(counts)
-        starts, counts = self.offsets[full].astype(np.int64), counts[full]
+        shapely: Any = import_module("shapely")
+        begins, ends = self.offsets[:-1].astype(np.int64), self.offsets[1:].astype(np.int64)
+        full = np.flatnonzero(ends > begins)
+        starts, counts = begins[full], (ends - begins)[full]
         # Each ring ends with its first vertex.
         at = np.concatenate([[0], np.cumsum(counts + 1)])
         rows = np.arange(at[-1]) - np.repeat(at[:-1] - starts, counts + 1)
@@ -108,15 +108,13 @@ class ExactCells:
 
     def to_geopandas(self, crs: Any = None) -> Any:
         """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system."""
-        import geopandas
-        import pandas
-
+        geopandas: Any = import_module("geopandas")
+        pandas: Any = import_module("pandas")
         return geopandas.GeoDataFrame(pandas.DataFrame(self.cells), geometry=self.to_shapely(), crs=crs)
 
     def to_pandas(self) -> Any:
         """Return a DataFrame of pandas: ``x`` and ``y`` of the points, and the fields of `cells`."""
-        import pandas
-
+        pandas: Any = import_module("pandas")
         frame = pandas.DataFrame(self.cells)
         frame.insert(0, "x", self.points[:, 0])
         frame.insert(1, "y", self.points[:, 1])

@@ -72,7 +72,7 @@ class VtkArrays {
   template <typename T>
   std::string add(const char* type, const char* name, const std::vector<T>& values, int components = 1) {
     const std::uint64_t bytes = values.size() * sizeof(T);
-    const std::string element = fmt::format(
+    std::string element = fmt::format(
         R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)", type,
         name, components, bytes_.size());
     append(&bytes, sizeof bytes);
