@@ -13,14 +13,14 @@
 #include "exact/points/index.cl"
 
 #define EIGHT ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
-#ifndef MOST_LISTED
-#define MOST_LISTED 1000  // places of a list
+#ifndef MOST_IN_LIST
+#define MOST_IN_LIST 1000  // places of a list
 #endif
 #define PLACE_MASK 1023  // their numbers
-#define LIST_ROOM (MOST_LISTED + 3 * LANES_OF_POINTS)
+#define LIST_ROOM (MOST_IN_LIST + 3 * LANES_OF_POINTS)
 #define NOINLINE __attribute__((noinline))
 
-#if MOST_LISTED + 7 > PLACE_MASK
+#if MOST_IN_LIST + 7 > PLACE_MASK
 #error "The number of a place of a list must fit in its bits"
 #endif
 

@@ -104,13 +104,15 @@ static inline int2 origin_of(const scene_t* scene, const walk_t* walk, int2 cent
 
 // Eight places of the list, in pixels from an origin.
 static inline void load_places(const scene_t* scene, uint from, int2 origin, float8* x, float8* y) {
-  const int16 places = vload16(0, (global const int*)(scene->list + from));
-  *x = convert_float8(places.even - origin.x) * (1.f / ONE_PIXEL);
-  *y = convert_float8(places.odd - origin.y) * (1.f / ONE_PIXEL);
+  // Not one vector of 16, in which processors of 256-bit vectors return nothing.
+  const int8 first = vload8(0, (global const int*)(scene->list + from));
+  const int8 second = vload8(1, (global const int*)(scene->list + from));
+  *x = convert_float8((int8)(first.even, second.even) - origin.x) * (1.f / ONE_PIXEL);
+  *y = convert_float8((int8)(first.odd, second.odd) - origin.y) * (1.f / ONE_PIXEL);
 }
 
 // Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
-// MOST_LISTED if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do
+// MOST_IN_LIST if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do
 // not come in.
 NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, float w, int* nearest) {
   int8 best = INT_MAX;
@@ -122,13 +124,13 @@ NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t 
   while (next_range(scene, &walk, &range)) {
     const int2 origin = origin_of(scene, &walk, centre);
     for (uint at = range.s0; at < range.s1; at += 8) {
-      if (count > MOST_LISTED - 8) {
+      if (count > MOST_IN_LIST - 8) {
         was_full = true;
         rival = rival_of(list, nearest_of(list, count, 0, 0));
         count = drop_by(list, count, list, 0, 0, rival, w, w);
-        if (count > MOST_LISTED / 2) count = drop_by_corners(list, count, w, w);
+        if (count > MOST_IN_LIST / 2) count = drop_by_corners(list, count, w, w);
         *nearest = nearest_of(list, count, 0, 0);
-        if (count > MOST_LISTED / 2) return MOST_LISTED + 1;
+        if (count > MOST_IN_LIST / 2) return MOST_IN_LIST + 1;
       }
       float8 px, py;
       load_places(scene, at, origin, &px, &py);

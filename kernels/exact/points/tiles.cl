@@ -164,7 +164,7 @@ static inline __attribute__((always_inline)) uint label_square(const scene_t* sc
     reach = reach_of(rival, w);
     const span_t needed_x = clamped(span_of_reach(own_x, reach.west, reach.east), limits_x);
     const span_t needed_y = clamped(span_of_reach(own_y, reach.north, reach.south), limits_y);
-    if (count > MOST_LISTED) {
+    if (count > MOST_IN_LIST) {
       if (side > 4) return all;
       search_square(scene, needed_x, needed_y, centre, labels);
       return 0;
