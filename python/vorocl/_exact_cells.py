@@ -173,5 +173,5 @@ def exact_cells(
         raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); these are {shown(bounds)}")
     grid = to_grid((1, 1), periodic, bounds, outside)
     array = to_points(points)
-    seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside))
+    seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
     return ExactCells(array, _vorocl.exact_cells(seeds))
