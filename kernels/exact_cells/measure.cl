@@ -11,21 +11,21 @@
 // Which sites there are, what they are called in the caller's list, and the rectangle: left, lower, right and upper
 // sides, in steps; the periods, 0 along an axis without; and where step 0 is, and how long one, in the units of the
 // data.
-#define SITE_PARAMETERS                                                                                          \
-  uint count, global const int *sites, global const int *boxes,                                \
+#define SITE_PARAMETERS \
+  uint count, global const int *sites, global const int *boxes, \
       global const uint *levels, int top, global const uint *ids, int4 rectangle, int2 periods, \
       double2 origin, double step
 
 // By the caller's ids. `begins` is by site: where its edges lie among the found ones, which come in the order in which
 // cells are done. `counters`: the edges found; the cells in the queue of those with more edges than there is room for.
-#define MEASURE_PARAMETERS                                                                                     \
-  global double *areas, global double2 *centroids, global double *perimeters,       \
-      global uint *edge_counts, global uint *neighbours, global uchar *flags,       \
+#define MEASURE_PARAMETERS \
+  global double *areas, global double2 *centroids, global double *perimeters, \
+      global uint *edge_counts, global uint *neighbours, global uchar *flags, \
       global uint *begins, global uint *found_cells, global double2 *found_vertices, \
       uint room_for_edges, global uint *counters, global uint *queue
 
 #define SITE_ARGUMENTS count, sites, boxes, levels, top, ids, rectangle, periods, origin, step
-#define MEASURE_ARGUMENTS                                                                                    \
+#define MEASURE_ARGUMENTS \
   areas, centroids, perimeters, edge_counts, neighbours, flags, begins, found_cells, found_vertices, room_for_edges, \
       counters, queue
 
