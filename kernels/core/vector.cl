@@ -16,7 +16,6 @@
 #if VOROCL_WIDTH == 1
 typedef uint uint_v;
 typedef int int_v;
-typedef ulong ulong_v;
 #define LANES 0u
 #define LOAD_VECTOR(pointer) (*(pointer))
 #define STORE_VECTOR(values, pointer) (*(pointer) = (values))
@@ -25,8 +24,6 @@ typedef ulong ulong_v;
 #define AS_INT_V as_int
 #define AS_UINT_V as_uint
 #define CONVERT_INT_V convert_int
-#define CONVERT_UINT_V convert_uint
-#define CONVERT_ULONG_V convert_ulong
 #define CONVERT_INT_V_DOWN convert_int_rtn
 #define CONVERT_FLOAT_V convert_float
 // any() of a scalar looks at the sign bit, and a scalar comparison gives 1, not -1.
@@ -34,7 +31,6 @@ typedef ulong ulong_v;
 #else
 typedef JOIN(uint, VOROCL_WIDTH) uint_v;
 typedef JOIN(int, VOROCL_WIDTH) int_v;
-typedef JOIN(ulong, VOROCL_WIDTH) ulong_v;
 #define LOAD_VECTOR(pointer) JOIN(vload, VOROCL_WIDTH)(0, pointer)
 #define STORE_VECTOR(values, pointer) JOIN(vstore, VOROCL_WIDTH)(values, 0, pointer)
 // To global memory, in one piece: PoCL's vstore() makes two, and its compiler then makes the values in two halves.
@@ -46,8 +42,6 @@ typedef struct __attribute__((packed)) {
 #define AS_INT_V JOIN(as_int, VOROCL_WIDTH)
 #define AS_UINT_V JOIN(as_uint, VOROCL_WIDTH)
 #define CONVERT_INT_V JOIN(convert_int, VOROCL_WIDTH)
-#define CONVERT_UINT_V JOIN(convert_uint, VOROCL_WIDTH)
-#define CONVERT_ULONG_V JOIN(convert_ulong, VOROCL_WIDTH)
 #define CONVERT_INT_V_DOWN JOIN(CONVERT_INT_V, _rtn)
 #define CONVERT_FLOAT_V JOIN(convert_float, VOROCL_WIDTH)
 #define ANY(condition) any(condition)
