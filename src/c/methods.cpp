@@ -67,15 +67,16 @@ vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_dia
 }
 
 vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, vorocl_window window,
-                             size_t seeds, const vorocl_method_options* options) {
+                             size_t seeds, vorocl_snap snap, const vorocl_method_options* options) {
   return guarded([&] {
-    prepare(method(&given(name, "method")), of(device), to_window(window), seeds, to_options(options));
+    prepare(method(&given(name, "method")), of(device), to_window(window), seeds, to_options(options),
+            to_snap(snap));
   });
 }
 
 vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
-                           const vorocl_method_options* options, int rounds, double* energies,
-                           size_t* moved, vorocl_relaxation* relaxation) {
+                           const vorocl_method_options* options, int rounds, double* energies, size_t* moved,
+                           vorocl_relaxation* relaxation) {
   return guarded([&] {
     const Method& wanted = method(&given(name, "method"));
     vorocl_diagram& to = given(diagram, "diagram");

@@ -61,14 +61,16 @@ struct SeedsState {
   /// Makes the next frame of points in the caller's buffers.
   void place(const PointBuffer& points);
 
-  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` and `fractions`
-  /// may be null.
+  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` and
+  /// `fractions` may be null.
   void place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> pixels,
              std::shared_ptr<const std::vector<Point>> given,
              std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
 
-  /// An empty list of pixels, with the memory of one that no frame remembers any more.
+  /// Empty lists, with the memory of ones that no frame remembers any more.
   std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
+
+  std::shared_ptr<std::vector<Fraction>> list_of_fractions() { return fractions_.take(); }
 
   /// Makes the next frame, of so many seeds that a kernel places: all present.
   void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);

@@ -77,7 +77,7 @@ void each_place(const Region& region, const Periods& periods, const Place& seed,
 /// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
 /// nearer at all its pixels (kernels/exact/dominance.cl says why). Along the region's rim stand witnesses:
 /// the places nearest to each stretch of it. A place is held against the witness of the stretch that it is
-/// nearest to.
+/// nearest to, and against the place nearest to the region's centre, for what is far from all others.
 class Rim {
  public:
   explicit Rim(const Region& region) : region_(region) {
@@ -90,11 +90,14 @@ class Rim {
     std::optional<Witness>& witness = witnesses_[stretch_of(place)];
     const std::int64_t away = distance_to_rim(place);
     if (!witness || away < witness->away) witness = Witness{place, away};
+    const std::int64_t off_centre = std::abs(2 * place.x - region_.left - region_.right) +
+                                    std::abs(2 * place.y - region_.top - region_.bottom);
+    if (!central_ || off_centre < central_->away) central_ = Witness{place, off_centre};
   }
 
   bool rules_out(const Place& place) const {
     const std::optional<Witness>& witness = witnesses_[stretch_of(place)];
-    return witness && is_nearer(witness->place, place);
+    return (witness && is_nearer(witness->place, place)) || (central_ && is_nearer(central_->place, place));
   }
 
  private:
@@ -137,7 +140,8 @@ class Rim {
     return true;
   }
 
-  // A squared distance leaves 64 bits where a unit is a part of a pixel. What is lost to rounding rules out less.
+  // A squared distance leaves 64 bits where a unit is a part of a pixel. What is lost to rounding rules out
+  // less.
   static constexpr double below_one = 1 - 0x1p-48;
   static double squares(std::int64_t dx, std::int64_t dy) {
     const auto x = static_cast<double>(dx), y = static_cast<double>(dy);
@@ -147,6 +151,7 @@ class Rim {
   Region region_;
   int shift_ = 0;  // a stretch has 2^shift pixels
   std::vector<std::optional<Witness>> witnesses_;
+  std::optional<Witness> central_;
 };
 
 }  // namespace vorocl

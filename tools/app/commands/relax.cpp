@@ -141,7 +141,8 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
   print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
         seeds.grid().height(), counted(relaxation.rounds(), "round"),
         relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
-  print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(), relaxation.energies.back());
+  print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(),
+        relaxation.energies.back());
   print_written(requested_files(options));
 }
 
@@ -172,6 +173,7 @@ void add_relax(CommandLine& line) {
   Command command = line.add("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   command
       .add("--rounds", options->rounds,
