@@ -34,9 +34,9 @@ struct CellSums {
 /// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top and largest_distance -1.
 struct CellShape {
   int left = 0, top = 0, right = 0,
-      bottom = 0;                     ///< the bounding box of the pixels, where CellSums counts them
+      bottom = 0;               ///< the bounding box of the pixels, where CellSums counts them
   double largest_distance = 0;  ///< of its pixels to its seed, in pixels; squared if Euclidean
-  bool touches_border = false;        ///< it has a pixel next to a border; a periodic axis has none
+  bool touches_border = false;  ///< it has a pixel next to a border; a periodic axis has none
 };
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again

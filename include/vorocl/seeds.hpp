@@ -34,9 +34,10 @@ enum class Snap {
 /// be absent: it has an id and no cell. A seed lies in the pixel of its point (Axis::pixel()). Seeds that
 /// share a pixel are allowed: the lowest id owns the cell, the others have empty cells.
 ///
-/// With Snap::none an exact diagram is exact for the points themselves, each rounded to 1/4096 of a pixel of the grid,
-/// once and never out of its pixel: several of one pixel may own pixels then, and measures take the same positions.
-/// Flooding methods, and what is made by the device alone (random(), from_mask(), random_step()), know whole pixels.
+/// With Snap::none an exact diagram is exact for the points themselves, each rounded to 1/4096 of a pixel of
+/// the grid, once and never out of its pixel: several of one pixel may own pixels then, and measures take the
+/// same positions. Flooding methods, and what is made by the device alone (random(), from_mask(),
+/// random_step()), know whole pixels.
 ///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
@@ -55,9 +56,9 @@ enum class Snap {
 /// Ordering: points are read, and seeds moved, in the order of the calls on the device's queue.
 class VOROCL_API Seeds {
  public:
-  /// From points on the host. `outside` and `snap` hold for all frames. Throws BadPoint naming the first point that is
-  /// NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid along an
-  /// axis, before any device work. No points at all are allowed.
+  /// From points on the host. `outside` and `snap` hold for all frames. Throws BadPoint naming the first
+  /// point that is NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid
+  /// along an axis, before any device work. No points at all are allowed.
   Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count,
         Snap snap = Snap::to_pixels);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
@@ -67,8 +68,9 @@ class VOROCL_API Seeds {
   /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
   /// Points in floats, on a grid as Grid(width, height) makes it of which a flood takes a diagram, stay on
-  /// the device with Outside::refuse and Outside::absent if they are snapped. The call returns at once then, and the BadPoint
-  /// that names a bad one comes at the wait of every diagram and result that is made from this frame.
+  /// the device with Outside::refuse and Outside::absent if they are snapped. The call returns at once then,
+  /// and the BadPoint that names a bad one comes at the wait of every diagram and result that is made from
+  /// this frame.
   ///
   /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse,

@@ -23,10 +23,10 @@ struct DiagramContents {
   std::shared_ptr<const SeedsFrame> seeds;     // that they name; null: the caller wrote them, and named none
   std::shared_ptr<const Placement> placement;  // of these seeds, in the diagram's window; null likewise
   std::shared_ptr<const PointPlacement> points;  // where the labels are those of points; else null
-  Metric metric = Metric::euclidean;           // not known without seeds
-  std::string method;                          // empty: the caller wrote them
-  cl::Event last;                              // the command that finished them
-  int age = 0;                                 // frames since they were last made from nothing
+  Metric metric = Metric::euclidean;             // not known without seeds
+  std::string method;                            // empty: the caller wrote them
+  cl::Event last;                                // the command that finished them
+  int age = 0;                                   // frames since they were last made from nothing
 };
 
 struct DiagramState {

@@ -12,8 +12,8 @@ namespace vorocl {
 
 namespace {
 
-/// Positions are int32, and so are their differences from all pixels of a window; and there is room behind them for what is
-/// nowhere (kernels/exact/points/index.cl).
+/// Positions are int32, and so are their differences from all pixels of a window; and there is room behind
+/// them for what is nowhere (kernels/exact/points/index.cl).
 constexpr std::int64_t most_pixels_away = std::int64_t{1} << 18;
 
 std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
@@ -56,8 +56,9 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     const bool there = !is_absent(pixels[id]);
     const Place place = there ? place_of(id) : Place{};
     seeds.push_back(there && fits(place) ? as_int2(place) : absent_point);
-    all_inside = all_inside && (!there || is_inside(shown, {{static_cast<cl_int>(pixels[id].s[0] - window.x()),
-                                                            static_cast<cl_int>(pixels[id].s[1] - window.y())}}));
+    all_inside =
+        all_inside && (!there || is_inside(shown, {{static_cast<cl_int>(pixels[id].s[0] - window.x()),
+                                                    static_cast<cl_int>(pixels[id].s[1] - window.y())}}));
   }
   seeds.push_back(absent_point);
 

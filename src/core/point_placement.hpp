@@ -24,12 +24,13 @@ constexpr int fractions_of_pixel = 4096;
 /// What kernels get of the points of a frame. Nothing of it changes. Positions are in fractions of a pixel
 /// from the window's first pixel.
 struct PointPlacement {
-  PixelGrid grid;     // the window's pixels; its axes are periodic where the kernels themselves go round
-  cl::Buffer seeds;   // int2 by id, and one more that is absent; absent too is what owns no pixel here and lies far away
-  cl::Buffer places;  // int2: those seeds and images that may own a pixel
-  cl::Buffer ids;     // of their seeds; null: they are the seeds
-  cl_uint count = 0;  // of places
-  cl_int4 region{};   // the pixels that get labels: left, top, right, bottom
+  PixelGrid grid;      // the window's pixels; its axes are periodic where the kernels themselves go round
+  cl::Buffer seeds;    // int2 by id, and one more that is absent; absent too is what owns no pixel here and
+                       // lies far away
+  cl::Buffer places;   // int2: those seeds and images that may own a pixel
+  cl::Buffer ids;      // of their seeds; null: they are the seeds
+  cl_uint count = 0;   // of places
+  cl_int4 region{};    // the pixels that get labels: left, top, right, bottom
   cl_uint2 periods{};  // in pixels, 0 along an axis that is not periodic
 };
 

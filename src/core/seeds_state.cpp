@@ -176,9 +176,10 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
 void SeedsState::place(const PointBuffer& points) {
   check_buffers(device, points);
   const Window window(grid());
-  const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count && snap == Snap::to_pixels &&
-                             device_snaps_to(grid().x()) && device_snaps_to(grid().y()) &&
-                             fits_in_a_diagram(grid()) && kernels_go_round(window, PixelGrid(window));
+  const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count &&
+                             snap == Snap::to_pixels && device_snaps_to(grid().x()) &&
+                             device_snaps_to(grid().y()) && fits_in_a_diagram(grid()) &&
+                             kernels_go_round(window, PixelGrid(window));
   if (on_the_device) {
     place_on_the_device(points);
   } else {

@@ -76,8 +76,8 @@ void each_place(const Region& region, const Periods& periods, const Place& seed,
 
 /// Rules out places that own no pixel of the region. Whatever is nearer at the region's four corners is
 /// nearer at all its pixels (kernels/exact/dominance.cl says why). Along the region's rim stand witnesses:
-/// the places nearest to each stretch of it. A place is held against the witness of the stretch that it is
-/// nearest to, and against the place nearest to the region's centre, for what is far from all others.
+/// the places nearest to each stretch of it, and one more in the middle. A place is held against that and the
+/// witness of the stretch that it is nearest to.
 class Rim {
  public:
   explicit Rim(const Region& region) : region_(region) {
@@ -90,14 +90,13 @@ class Rim {
     std::optional<Witness>& witness = witnesses_[stretch_of(place)];
     const std::int64_t away = distance_to_rim(place);
     if (!witness || away < witness->away) witness = Witness{place, away};
-    const std::int64_t off_centre = std::abs(2 * place.x - region_.left - region_.right) +
-                                    std::abs(2 * place.y - region_.top - region_.bottom);
-    if (!central_ || off_centre < central_->away) central_ = Witness{place, off_centre};
+    const std::int64_t to_middle = distance_to_middle(place);
+    if (!middle_ || to_middle < middle_->away) middle_ = Witness{place, to_middle};
   }
 
   bool rules_out(const Place& place) const {
     const std::optional<Witness>& witness = witnesses_[stretch_of(place)];
-    return (witness && is_nearer(witness->place, place)) || (central_ && is_nearer(central_->place, place));
+    return (witness && is_nearer(witness->place, place)) || (middle_ && is_nearer(middle_->place, place));
   }
 
  private:
@@ -110,6 +109,12 @@ class Rim {
   /// The distances to the four sides, negative inside the region.
   std::array<std::int64_t, 4> to_sides(const Place& place) const {
     return {region_.top - place.y, place.y - region_.bottom, region_.left - place.x, place.x - region_.right};
+  }
+
+  /// Along the axis where it is greater.
+  std::int64_t distance_to_middle(const Place& place) const {
+    return std::max(std::abs(place.x - (region_.left + region_.right) / 2),
+                    std::abs(place.y - (region_.top + region_.bottom) / 2));
   }
 
   std::int64_t distance_to_rim(const Place& place) const {
@@ -151,7 +156,7 @@ class Rim {
   Region region_;
   int shift_ = 0;  // a stretch has 2^shift pixels
   std::vector<std::optional<Witness>> witnesses_;
-  std::optional<Witness> central_;
+  std::optional<Witness> middle_;
 };
 
 }  // namespace vorocl

@@ -20,7 +20,15 @@ struct PointsWorkspace {
 
 std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
 
-/// Bins with some three places each, so that neither bins nor places that are too far are what a walk meets most.
+/// The kernels have vectors of their own, so that one program serves every width.
+Device without_vectors(const Device& device) {
+  Tuning tuning = device.tuning();
+  tuning.vector_width = 1;
+  return device.with_tuning(tuning);
+}
+
+/// Bins with some three places each, so that neither bins nor places that are too far are what a walk meets
+/// most.
 int bits_of_bins(const PixelGrid& grid, std::size_t places) {
   constexpr int least = 1, most = 12;
   constexpr std::size_t places_of_bin = 3;
@@ -44,26 +52,27 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
   state.reserve(memory.list, room * sizeof(cl_int2));
   state.reserve(memory.ids, room * word);
 
-  const Tuning& tuning = state.device.tuning();
-  const std::size_t group = tuning.group_width * tuning.group_height;
+  const Device device = without_vectors(state.device);
+  const std::size_t group = device.tuning().group_width * device.tuning().group_height;
   const auto kernel = [&](const char* name, std::size_t most) -> Kernel& {
-    return state.kernels.get(state.device, "exact/points/diagram.cl", name, grid, {filling.metric()})
+    return state.kernels.get(device, "exact/points/diagram.cl", name, grid, {filling.metric()})
         .in_groups_of(std::min(group, most));
   };
   const bool has_ids = points.ids() != nullptr;
   const cl::Event first = fill(state.device, memory.starts, cl_uint{0}, bins + 1);
   kernel("count_points", group)
-      .over_items(points.count, points.places, points.count, bits, width, height, memory.starts, memory.numbers);
+      .over_items(points.count, points.places, points.count, bits, width, height, memory.starts,
+                  memory.numbers);
   kernel("start_bins", 64).over_items(rows, memory.starts, bits, width, height);
   kernel("list_points", group)
-      .over_items(points.count, points.places, has_ids ? points.ids : points.places, cl_int{has_ids}, points.count,
-                  bits, width, height, memory.starts, memory.numbers, memory.list, memory.ids);
+      .over_items(points.count, points.places, has_ids ? points.ids : points.places, cl_int{has_ids},
+                  points.count, bits, width, height, memory.starts, memory.numbers, memory.list, memory.ids);
   kernel("drop_repeats", 8).over_items(rows, memory.starts, bits, width, height, memory.list, memory.ids);
   // Work-items that do much each: small groups spread them over the compute units.
-  const cl::Event last =
-      kernel("label_tiles", 8)
-          .over_items(along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS), memory.starts, memory.list,
-                      memory.ids, points.seeds, cl_int{has_ids}, bits, width, height, points.region, state.labels);
+  const cl::Event last = kernel("label_tiles", 8)
+                             .over_items(along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS),
+                                         memory.starts, memory.list, memory.ids, points.seeds,
+                                         cl_int{has_ids}, bits, width, height, points.region, state.labels);
   return filling.commit(0, first, last);
 }
 

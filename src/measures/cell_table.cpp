@@ -37,7 +37,8 @@ std::vector<CellRow> cell_table(const Diagram& diagram) {
   std::vector<CellRow> rows;
   for (std::uint32_t id = 0; id < pixels.size(); ++id) {
     if (is_absent(pixels[id])) continue;
-    const Point seed = of.seeds->given ? (*of.seeds->given)[id] : grid.point(of.seeds->position(id, pixels[id]));
+    const Point seed =
+        of.seeds->given ? (*of.seeds->given)[id] : grid.point(of.seeds->position(id, pixels[id]));
     rows.push_back({id, seed, sums[id].area, sums[id].area * area_of_pixel,
                     point_in(window, sums[id].centroid()), shapes[id].touches_border, neighbours[id]});
   }

@@ -52,8 +52,9 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   FieldState<std::int32_t>& state = measuring.state();
   MeasuredDiagram of = cells_of(diagram);
   if (of.points) {
-    throw Error("distances to points within their pixels are no whole numbers; ask for a field of floats, or snap "
-                "the seeds to pixels");
+    throw Error(
+        "distances to points within their pixels are no whole numbers; ask for a field of floats, or snap "
+        "the seeds to pixels");
   }
   state.make_room_for(of);
   make_room(state.too_long, of.device, sizeof(cl_uint));

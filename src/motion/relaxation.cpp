@@ -32,12 +32,14 @@ struct Move {
   double displacement = 0;  // in pixels
 };
 
-/// The position nearest to a centroid, given by the pixels of a cell and the sum of their coordinates along an axis, in
-/// fractions of a pixel.
+/// The position nearest to a centroid, given by the pixels of a cell and the sum of their coordinates along
+/// an axis, in fractions of a pixel.
 std::int64_t position_of_centroid(std::uint32_t area, std::int64_t sum) {
   const std::int64_t twice = 2 * area, parts = fractions_of_pixel;
-  // The mean of the pixels' centres, which are half a pixel behind their starts; in two steps, as the product may be long.
-  const std::int64_t doubled = 2 * sum + area, whole = doubled >= 0 ? doubled / twice : -((twice - 1 - doubled) / twice);
+  // The mean of the pixels' centres, which are half a pixel behind their starts; in two steps, as the product
+  // may be long.
+  const std::int64_t doubled = 2 * sum + area,
+                     whole = doubled >= 0 ? doubled / twice : -((twice - 1 - doubled) / twice);
   return whole * parts + ((doubled - whole * twice) * parts + area) / twice;
 }
 
@@ -65,8 +67,10 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
     if (cells[id].area == 0) continue;
     PlanePosition& pixel = (*pixels)[id];
     Fraction& fraction = (*fractions)[id];
-    const std::int64_t x = go(frame.grid.x(), position_of_centroid(cells[id].area, cells[id].sum_x), pixel.s[0], fraction.x);
-    const std::int64_t y = go(frame.grid.y(), position_of_centroid(cells[id].area, cells[id].sum_y), pixel.s[1], fraction.y);
+    const std::int64_t x =
+        go(frame.grid.x(), position_of_centroid(cells[id].area, cells[id].sum_x), pixel.s[0], fraction.x);
+    const std::int64_t y =
+        go(frame.grid.y(), position_of_centroid(cells[id].area, cells[id].sum_y), pixel.s[1], fraction.y);
     move.seeds += x > 0 || y > 0 ? 1 : 0;
     greatest = std::max({greatest, x, y});
   }
@@ -99,9 +103,9 @@ double energy_of(const Diagram& diagram, Rounds& rounds) {
   refuse_outer_seeds(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
   const Blocks blocks(of.device, of.grid);
   make_room(rounds.partial, of.device, blocks.count() * sizeof(cl_ulong));
-  blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(), diagram.labels(), of.positions(),
-             of.count(), of.periods(), of.grid.width(), of.grid.height(), blocks.wide(), blocks.high(),
-             rounds.partial);
+  blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(),
+             diagram.labels(), of.positions(), of.count(), of.periods(), of.grid.width(), of.grid.height(),
+             blocks.wide(), blocks.high(), rounds.partial);
   diagram.wait();
   const auto energies = download<cl_ulong>(of.device, rounds.partial, blocks.count());
   return static_cast<double>(std::accumulate(energies.begin(), energies.end(), std::uint64_t{0})) /

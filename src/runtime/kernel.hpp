@@ -20,8 +20,8 @@ namespace vorocl {
 /// Spare values before and behind the pixels of an image that waves read at an offset (see vector.cl).
 constexpr std::size_t guard = 16;
 
-/// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64; or within their pixels
-/// (kernels/core/plane.cl).
+/// Where seeds lie: in the grid, or outside it too, so that distances to them take 32 bits or 64; or within
+/// their pixels (kernels/core/plane.cl).
 enum class Extent { grid, near, far, fractions };
 
 /// What kernels are specialised for when they are built, besides the vector width and the grid's periodic

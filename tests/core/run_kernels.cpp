@@ -108,6 +108,31 @@ void make_windows(const Device& device, Metric metric) {
   }
 }
 
+/// Points within their pixels: few, several in a pixel, many on one point; also around a window, and relaxed.
+void make_diagrams_of_points(const Device& device, Metric metric) {
+  std::vector<Point> points = {{3.25, 4.5}, {3.5, 4.5}, {30.125, 8.75}};
+  for (int i = 0; i < 70; ++i) points.push_back({20.5, 10.25});
+  for (int i = 0; i < 90; ++i) points.push_back({i * 0.4375, i % 13 * 1.9});
+  for (const Window& window : {Window(Grid(40, 25)), Window(Grid(40, 25, Periodic::xy)),
+                               Window(Grid(30, 18, Periodic::xy), -3, -2, 40, 25)}) {
+    Seeds seeds(device, window.grid(), points, Outside::count, Snap::none);
+    Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
+    exact_diagram(seeds, by_short_lists, {metric});
+    exact_diagram(seeds, diagram, {metric});
+    CellSumsResult sums;
+    CellShapesResult shapes;
+    CellStatisticsResult statistics;
+    Field<float> distances;
+    DistanceErrorsResult errors;
+    cell_sums(diagram, sums);
+    cell_shapes(diagram, shapes);
+    cell_statistics(diagram, statistics);
+    distance_field(diagram, distances);
+    distance_errors(diagram, by_short_lists, errors);
+    device.finish();
+  }
+}
+
 /// In buffers: good points, good ones that have moved, and a bad one.
 void make_seeds(const Device& device, const Grid& grid) {
   Seeds::random(device, grid, 5, 1).read();
@@ -175,6 +200,7 @@ int main() {
       make_exact_diagrams(shaped, Grid(176, 90), metric);
       make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
       make_windows(shaped, metric);
+      make_diagrams_of_points(shaped, metric);
       make_tiles(shaped, metric);
       for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
         measure(shaped, grid, metric);

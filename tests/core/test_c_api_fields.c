@@ -138,14 +138,14 @@ static void test_comparisons(const vorocl_device* device) {
   uint32_t changed_labels[pixels];
   size_t changed = 0, farther = 0, pixels_changed = 0;
   double percent = 0, excess = 0, largest = 0, sum = 0;
-  uint64_t energy = 0, squares = 0;
+  double energy = 0, squares = 0;
   OK(vorocl_diagram_create(device, window, &exact));
   OK(vorocl_diagram_create(device, window, &other));
   OK(run("exact", seeds, exact, VOROCL_EUCLIDEAN));
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, labels);
   for (int pixel = 0; pixel < pixels; ++pixel) {
     const double nearest = sqrt(distance(pixel, pixel_of(points[labels[pixel]]), VOROCL_EUCLIDEAN));
-    squares += (uint64_t)distance(pixel, pixel_of(points[labels[pixel]]), VOROCL_EUCLIDEAN);
+    squares += (double)distance(pixel, pixel_of(points[labels[pixel]]), VOROCL_EUCLIDEAN);
     changed_labels[pixel] = pixel % 7 == 0 ? 0 : labels[pixel];
     changed += changed_labels[pixel] != labels[pixel] ? 1 : 0;
     excess = sqrt(distance(pixel, pixel_of(points[changed_labels[pixel]]), VOROCL_EUCLIDEAN)) - nearest;
@@ -192,7 +192,7 @@ static void test_failures(const vorocl_device* device) {
   cl_mem values = NULL;
   size_t count = 0;
   double percent = 0;
-  uint64_t energy = 0;
+  double energy = 0;
   OK(vorocl_diagram_create(device, window, &empty));
   OK(vorocl_diagram_create(device, window_of(height, width), &other));
   OK(vorocl_field_create(&field));
@@ -286,13 +286,13 @@ static void test_relaxation(const vorocl_device* device) {
   vorocl_relaxation relaxation = {-1, -1};
   vorocl_point places[seed_count], centroids[seed_count];
   uint32_t labels[pixels], area[seed_count];
-  uint64_t energies[201], energy = 0, squares = 0;
+  double energies[201], energy = 0, squares = 0;
   size_t moved[200];
   int waves = -1;
   OK(vorocl_diagram_create(device, window, &diagram));
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, labels);
   for (int i = 0; i < pixels; ++i)
-    squares += (uint64_t)distance(i, pixel_of(points[labels[i]]), VOROCL_EUCLIDEAN);
+    squares += (double)distance(i, pixel_of(points[labels[i]]), VOROCL_EUCLIDEAN);
   OK(vorocl_relax(seeds, diagram, "exact", NULL, 0, energies, NULL, &relaxation));
   CHECK(relaxation.rounds == 0 && !relaxation.converged && energies[0] == squares);
   CHECK(has_labels(diagram, labels));

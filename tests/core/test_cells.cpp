@@ -50,7 +50,8 @@ void check_shapes(const std::string& name, const std::vector<Pixel>& pixels, con
     cell.top = std::min(cell.top, row);
     cell.right = std::max(cell.right, column);
     cell.bottom = std::max(cell.bottom, row);
-    cell.largest_distance = std::max(cell.largest_distance, distance(image, pixels[label], diagram.metric()));
+    cell.largest_distance = std::max(cell.largest_distance,
+                                     static_cast<double>(distance(image, pixels[label], diagram.metric())));
     cell.touches_border |= (!has_x(grid.periodic()) && (x == 0 || x == grid.width() - 1)) ||
                            (!has_y(grid.periodic()) && (y == 0 || y == grid.height() - 1));
   });

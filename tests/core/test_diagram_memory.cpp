@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(measures_are_of_the_frame_that_the_diagram_was_made_from) {
           AllMeasures before, after;
           before.take(diagram, exact);
           const std::vector<double> expected = before.read(), table = table_of(diagram);
-          const std::uint64_t sum = window.is_whole() ? energy(diagram) : 0;
+          const double sum = window.is_whole() ? energy(diagram) : 0;
           move(seeds);
           after.take(diagram, exact);
           BOOST_TEST_CONTEXT(name << ", " << name_of(metric) << ", from column " << window.x()) {
@@ -116,12 +116,12 @@ BOOST_AUTO_TEST_CASE(a_manhattan_diagram_is_measured_by_manhattan) {
       distance_field(diagram, field);
       cell_shapes(diagram, shapes);
       const std::vector<std::int32_t> distances = field.read();
-      std::vector<std::int64_t> largest(pixels.size(), -1);
+      std::vector<double> largest(pixels.size(), -1);
       std::size_t wrong = 0;
       for (std::size_t i = 0; i < labels.size(); ++i) {
         const Pixel at = {static_cast<int>(i % 97), static_cast<int>(i / 97)};
         const std::int64_t d = distance(at, pixels[labels[i]], metric);
-        largest[labels[i]] = std::max(largest[labels[i]], d);
+        largest[labels[i]] = std::max(largest[labels[i]], static_cast<double>(d));
         wrong += distances[i] != d ? 1 : 0;
       }
       BOOST_TEST(wrong == 0u, each.name << ", " << name_of(metric));

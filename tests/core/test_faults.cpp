@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
   Diagram fresh(test_device(), window);
   exact_diagram(around, fresh);
   const std::vector<std::uint32_t> expected = fresh.read();
-  const std::int64_t largest_distance = shapes_of(fresh)[0].largest_distance;
+  const double largest_distance = shapes_of(fresh)[0].largest_distance;
 
   std::optional<Seeds> seeds;
   std::optional<Diagram> diagram;

@@ -11,13 +11,13 @@ namespace {
 
 Report exactly(const Seeds& seeds, Diagram& diagram) { return exact_diagram(seeds, diagram); }
 
-std::uint64_t energy_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
-                             const std::vector<Pixel>& seeds) {
+double energy_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                      const std::vector<Pixel>& seeds) {
   std::uint64_t sum = 0;
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
     sum += static_cast<std::uint64_t>(distance(grid, {x, y}, seeds[label], Metric::euclidean));
   });
-  return sum;
+  return static_cast<double>(sum);
 }
 
 /// A round as its definition says it: of all pixels the one nearest to the centroid, the seed's own first.
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
       Diagram diagram(device, test.grid);
       exact_diagram(seeds, diagram);
       for (int round = 0; round < 2; ++round) {
-        const std::uint64_t expected = energy_on_host(test.grid, diagram.read(), pixels);
+        const double expected = energy_on_host(test.grid, diagram.read(), pixels);
         const std::vector<Pixel> next = round_on_host(test.grid, diagram.read(), pixels);
         BOOST_TEST(energy(diagram) == expected, test.name);
         const Relaxation relaxation = relax(seeds, diagram, exactly, 1);

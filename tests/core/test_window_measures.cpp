@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(cells_of_windows) {
                           shape.top = std::min(shape.top, y);
                           shape.right = std::max(shape.right, x);
                           shape.bottom = std::max(shape.bottom, y);
-                          shape.largest_distance = std::max(shape.largest_distance, d);
+                          shape.largest_distance = std::max(shape.largest_distance, static_cast<double>(d));
                           shape.touches_border |= is_on_border(window, shown);
                           ++sums[label].area;
                           sums[label].sum_x += x;

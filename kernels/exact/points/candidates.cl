@@ -13,13 +13,15 @@
 #include "exact/points/index.cl"
 
 #define EIGHT ((int8)(0, 1, 2, 3, 4, 5, 6, 7))
-#define MOST_LISTED 1000      // places of a list; their numbers are in PLACE_BITS
-#define PLACE_MASK 1023
+#ifndef MOST_LISTED
+#define MOST_LISTED 1000  // places of a list
+#endif
+#define PLACE_MASK 1023  // their numbers
 #define LIST_ROOM (MOST_LISTED + 3 * LANES_OF_POINTS)
 #define NOINLINE __attribute__((noinline))
 
-#if MOST_LISTED > PLACE_MASK
-#error "A place of a list must fit in its bits"
+#if MOST_LISTED + 7 > PLACE_MASK
+#error "The number of a place of a list must fit in its bits"
 #endif
 
 // In pixels from the box's centre; and where the place stands in the index.

@@ -13,8 +13,10 @@
 
 #include "exact/points/gather.cl"
 
-#define MOST_RANKED 128
-#define RANK_ROOM (MOST_RANKED + LANES_OF_POINTS)
+#ifndef MOST_OF_KEYS
+#define MOST_OF_KEYS 128
+#endif
+#define RANK_ROOM (MOST_OF_KEYS + LANES_OF_POINTS)
 #define LOW_BITS (FRACTION_BITS + 1)
 #define Y_BITS (32 - LOW_BITS)  // of the difference of two coordinates beside them
 
@@ -43,7 +45,7 @@ static inline bool comes_first(const scene_t* scene, uint at, uint other) {
   return scene->ids[at] < scene->ids[other];
 }
 
-// A place of the list from an origin, in units: the list's floats say which image of it.
+// A place of the list from the centre that the list is relative to, in units: its floats say which image of it.
 static inline int unwrapped(int way, float pixels, int size, int periodic) {
   if (!periodic) return way;
   const float periods = (pixels * ONE_PIXEL - (float)way) / ((float)size * ONE_PIXEL);
@@ -55,13 +57,13 @@ static inline int2 way_to(const scene_t* scene, const list_t* list, int i, int2 
                 unwrapped(way.y, list->y[i], scene->height, PERIODIC_Y));
 }
 
-// Ranks where the order by low bits and near rows leaves ties.
+// Ranks where the order by low bits and near rows leaves ties. Images of one seed stand in the order of the list.
 NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
   for (int i = 0; i < count; ++i) {
     uint rank = 0;
     for (int j = 0; j < count; ++j) {
       const int way = places->low[j] - places->low[i];
-      rank += way < 0 || (way == 0 && j != i && comes_first(scene, at[j], at[i]));
+      rank += way < 0 || (way == 0 && (j < i ? !comes_first(scene, at[i], at[j]) : comes_first(scene, at[j], at[i])));
     }
     places->rank[i] = rank;
   }
@@ -134,8 +136,8 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
 // Writes the values of the nearest places of a box of SIDE x SIDE pixels.
 #define DEFINE_FIND_BY_KEYS(name, SIDE)                                                                           \
   NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* out, int stride) {       \
-    uint8 columns[MOST_RANKED * (SIDE / 8)];                                                                       \
-    uint rows[MOST_RANKED * 8];                                                                                    \
+    uint8 columns[MOST_OF_KEYS * (SIDE / 8)];                                                                       \
+    uint rows[MOST_OF_KEYS * 8];                                                                                    \
     const uint8 mask = (1u << bits) - 1;                                                                           \
     for (int i = 0; i < count; ++i) {                                                                              \
       for (int q = 0; q < SIDE / 8; ++q) {                                                                         \
@@ -225,15 +227,14 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
     }
     return true;
   }
-  if (count > MOST_RANKED) return false;
+  if (count > MOST_OF_KEYS) return false;
   const int bits = 32 - (int)clz((uint)count - 1);
   int base;
   if (!keys_hold(list, from, count, (float)(side - 1), reach, bits, &base)) return false;
 
   places_t places;
-  const int2 origin = centre + HALF_PIXEL;
   for (int i = 0; i < count; ++i) {
-    const int2 way = way_to(scene, list, from + i, origin);
+    const int2 way = way_to(scene, list, from + i, centre) - HALF_PIXEL;
     places.x[i] = way.x;
     places.y[i] = way.y;
   }

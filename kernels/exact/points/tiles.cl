@@ -47,8 +47,8 @@ NOINLINE static void label_in_parts(const scene_t* scene, const list_t* list, in
   found_t found;
   find_nothing(&found, side);
   uint winners[16 * 16];
-  for (int from = 0; from < count; from += MOST_RANKED) {
-    const int some = min(count - from, MOST_RANKED);
+  for (int from = 0; from < count; from += MOST_OF_KEYS) {
+    const int some = min(count - from, MOST_OF_KEYS);
     const bool has_winners = side >= 8 && find_by_keys(scene, list, from, some, centre, side, reach, NUMBERS, winners, side);
     for (int pixel = 0; pixel < side * side; ++pixel) {
       const int first = has_winners ? (int)winners[pixel] : from, end = has_winners ? first + 1 : from + some;

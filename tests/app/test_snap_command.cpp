@@ -1,5 +1,5 @@
 // Exact diagrams of the points themselves: the command against a search of all points, in 1/4096 pixel.
-#define BOOST_TEST_MODULE true_positions
+#define BOOST_TEST_MODULE snap_command
 #include <fmt/format.h>
 
 #include <cmath>

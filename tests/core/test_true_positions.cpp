@@ -1,0 +1,283 @@
+// Exact diagrams of points within their pixels, judged by every pixel's distances to all seeds in 128-bit
+// integers.
+#define BOOST_TEST_MODULE true_positions
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <random>
+
+#include "brute_force.hpp"
+#include "window_cases.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+/// Many more cases, for minutes instead of seconds.
+const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
+
+__extension__ using Wide = __int128;
+
+/// Whole numbers of 1/4096 pixel.
+using Position = Pixel;
+constexpr std::int64_t parts = 4096;
+
+/// A point's position by its definition: the nearest one that lies in the point's pixel.
+Position position_of(const Grid& grid, const Point& point) {
+  const auto along = [](const Axis& axis, double at) {
+    const double pixel = axis.pixel(at);
+    double place = at;
+    if (axis.is_periodic()) place = at - std::floor(at / axis.to()) * axis.to();
+    const double fraction = std::min(std::max(std::nearbyint((place - pixel) * parts), 0.0), parts - 1.0);
+    return static_cast<std::int64_t>(pixel) * parts + static_cast<std::int64_t>(fraction);
+  };
+  return {along(grid.x(), point.x), along(grid.y(), point.y)};
+}
+
+Wide wide_distance(const Grid& grid, const Position& seed, std::int64_t column, std::int64_t row,
+                   Metric metric) {
+  const auto along = [](const Axis& axis, std::int64_t way) {
+    if (!axis.is_periodic()) return std::abs(way);
+    const std::int64_t period = axis.pixels() * parts, rest = (way % period + period) % period;
+    return std::min(rest, period - rest);
+  };
+  const Wide dx = along(grid.x(), column * parts + parts / 2 - seed.x);
+  const Wide dy = along(grid.y(), row * parts + parts / 2 - seed.y);
+  return metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
+}
+
+/// Whether a window shows a pixel where the grid has it: one that is longer than a period has no labels
+/// beside.
+bool is_labelled(const Axis& axis, std::int64_t at, std::int64_t length) {
+  return !axis.is_periodic() || length <= axis.pixels() || (at >= 0 && at < axis.pixels());
+}
+
+Labels labels_by_definition(const Window& window, const std::vector<std::optional<Position>>& seeds,
+                            Metric metric) {
+  const Grid& grid = window.grid();
+  Labels labels;
+  for (std::int64_t y = window.y(); y < window.y() + window.height(); ++y) {
+    for (std::int64_t x = window.x(); x < window.x() + window.width(); ++x) {
+      std::uint32_t best = no_label;
+      Wide least = 0;
+      const bool shown =
+          is_labelled(grid.x(), x, window.width()) && is_labelled(grid.y(), y, window.height());
+      for (std::uint32_t id = 0; shown && id < seeds.size(); ++id) {
+        if (!seeds[id]) continue;
+        const Wide distance = wide_distance(grid, *seeds[id], x, y, metric);
+        if (best == no_label || distance < least || (distance == least && *seeds[id] < *seeds[best])) {
+          best = id;
+          least = distance;
+        }
+      }
+      labels.push_back(best);
+    }
+  }
+  return labels;
+}
+
+/// One random case: a grid, a window of it, and points that are hard for some part of the engine.
+struct RandomCase {
+  explicit RandomCase(unsigned number) : rng(number) {
+    const auto side = [&] { return below(4) == 0 ? 1 + below(8) : 1 + below(90); };
+    const std::int64_t width = side();
+    grid.emplace(width, side(), static_cast<Periodic>(below(4)));
+    window.emplace(below(3) == 0 ? part() : Window(*grid));
+    make_points();
+  }
+
+  std::mt19937_64 rng;
+  std::optional<Grid> grid;
+  std::optional<Window> window;
+  std::vector<std::optional<Point>> points;
+  unsigned kind = 0;
+
+  std::int64_t below(std::int64_t end) {
+    return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
+  }
+  double between(double from, double to) {
+    return from + (to - from) * static_cast<double>(rng() >> 11) * 0x1p-53;
+  }
+
+ private:
+  Window part() {
+    const auto cut = [&](const Axis& axis) {
+      const std::int64_t pixels = axis.pixels();
+      if (!axis.is_periodic()) {
+        const std::int64_t begin = below(pixels);
+        return std::make_pair(begin, 1 + below(pixels - begin));
+      }
+      return std::make_pair(below(4 * pixels) - 2 * pixels,
+                            1 + below(below(4) == 0 ? pixels + pixels / 2 + 1 : pixels));
+    };
+    const auto x = cut(grid->x()), y = cut(grid->y());
+    return {*grid, x.first, y.first, x.second, y.second};
+  }
+
+  void make_points() {
+    const auto w = static_cast<double>(grid->width()), h = static_cast<double>(grid->height());
+    const double beside = below(3) > 0 ? 0 : below(3) == 0 ? 200000 : 100;
+    const auto anywhere = [&] { return Point{between(-beside, w + beside), between(-beside, h + beside)}; };
+    const Point middle = {between(0, w), between(0, h)};
+    const double step = 1 << below(5);
+    const std::int64_t most = below(3) == 0 ? 2 * grid->width() * grid->height() : 60;
+    const std::int64_t count = below(5) == 0 ? below(4) : 1 + below(most);
+    const bool some_absent = below(4) == 0;
+    kind = static_cast<unsigned>(below(8));
+    for (std::int64_t i = 0; i < count; ++i) {
+      Point point = anywhere();
+      if (kind == 1) point = {std::floor(point.x * 2) / 2, std::floor(point.y * 2) / 2};  // half pixels
+      if (kind == 2)
+        point = {std::floor(point.x / step) * step + 0.25, std::floor(point.y / step) * step + 0.75};
+      if (kind == 3)
+        point = {middle.x + between(-1, 1), middle.y + between(-1, 1)};  // in and around one pixel
+      if (kind == 4)
+        point = {middle.x + static_cast<double>(below(7) - 3) / parts,
+                 middle.y + static_cast<double>(below(7) - 3) / parts};
+      if (kind == 5) {  // a ring: nearly all win at its centre
+        const double angle = between(0, 6.2831853), radius = std::min(w, h) * 0.45;
+        point = {w / 2 + radius * std::cos(angle), h / 2 + radius * std::sin(angle)};
+      }
+      points.emplace_back(point);
+      if (some_absent && below(3) == 0) points.back().reset();
+    }
+  }
+};
+
+Labels labels_of(const Engine& engine, const Window& window, const std::vector<std::optional<Point>>& points,
+                 Metric metric) {
+  Diagram diagram(engine.device, window);
+  exact_diagram(Seeds(engine.device, window.grid(), points, Outside::count, Snap::none), diagram, {metric});
+  return diagram.read();
+}
+
+std::vector<std::optional<Position>> positions_of(const Grid& grid,
+                                                  const std::vector<std::optional<Point>>& points) {
+  std::vector<std::optional<Position>> positions;
+  for (const auto& point : points) {
+    positions.push_back(point ? std::optional<Position>(position_of(grid, *point)) : std::nullopt);
+  }
+  return positions;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(labels_are_those_of_the_rounded_positions) {
+  const unsigned cases = long_tests ? 100000 : 2000;
+  for (unsigned number = 0; number < cases; ++number) {
+    const RandomCase random(number);
+    const Engine& engine = engines()[number % engines().size()];
+    const Metric metric = number % 7 == 0 ? Metric::manhattan : Metric::euclidean;
+    const std::size_t wrong = count_differences(
+        labels_of(engine, *random.window, random.points, metric),
+        labels_by_definition(*random.window, positions_of(*random.grid, random.points), metric));
+    BOOST_TEST(wrong == 0u, "case " << number << ", kind " << random.kind << ": "
+                                    << text_of(*random.window, random.points.size()) << ", " << engine.name
+                                    << ", " << name_of(metric) << ": " << wrong << " wrong");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
+  std::mt19937_64 rng(3);
+  for (const std::size_t count :
+       {std::size_t{1}, std::size_t{40}, std::size_t{700}, std::size_t{9000}, std::size_t{60000}}) {
+    const Grid grid(300, 200, count % 700 == 0 ? Periodic::xy : Periodic::none);
+    std::vector<std::optional<Point>> points;
+    for (std::size_t i = 0; i < count; ++i) {
+      // Half of them in a corner, so that tiles and bins differ.
+      const double w = i % 2 == 0 ? 300 : 30, h = i % 2 == 0 ? 200 : 20;
+      points.emplace_back(Point{w * static_cast<double>(rng() >> 11) * 0x1p-53,
+                                h * static_cast<double>(rng() >> 11) * 0x1p-53});
+    }
+    const Window part(grid, 0, 0, 64, 40);
+    const Labels expected = labels_by_definition(part, positions_of(grid, points), Metric::euclidean);
+    for (const Engine& engine : engines()) {
+      const Labels all = labels_of(engine, grid, points, Metric::euclidean);
+      Labels cut;
+      for (std::int64_t y = 0; y < part.height(); ++y) {
+        cut.insert(cut.end(), all.begin() + y * grid.width(), all.begin() + y * grid.width() + part.width());
+      }
+      BOOST_TEST(count_differences(cut, expected) == 0u, count << " points, " << engine.name);
+      BOOST_TEST(count_differences(labels_of(engine, part, points, Metric::euclidean), expected) == 0u,
+                 count << " points in a window, " << engine.name);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(points_on_pixel_centres_give_the_labels_of_snapped_seeds) {
+  for (unsigned kind = 0; kind < kinds_of_planes; ++kind) {
+    const Grid grid(150, 110, static_cast<Periodic>(kind % 4));
+    const std::vector<Pixel> pixels = seeds_of_plane(grid, kind, kind);
+    for (const Metric metric : both_metrics) {
+      Diagram snapped(test_device(), grid), true_one(test_device(), grid);
+      exact_diagram(Seeds(test_device(), grid, centres(pixels)), snapped, {metric});
+      exact_diagram(Seeds(test_device(), grid, centres(pixels), Outside::count, Snap::none), true_one,
+                    {metric});
+      BOOST_TEST(count_differences(snapped.read(), true_one.read()) == 0u, "kind " << kind);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(several_points_of_a_pixel_own_pixels) {
+  const Grid grid(20, 4);
+  const std::vector<Point> points = {{10.25, 2}, {10.75, 2}};
+  Diagram diagram(test_device(), grid);
+  exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+  const Labels labels = diagram.read();
+  for (std::size_t i = 0; i < labels.size(); ++i) BOOST_TEST(labels[i] == (i % 20 <= 10 ? 0u : 1u));
+  exact_diagram(Seeds(test_device(), grid, points), diagram);
+  const Labels snapped = diagram.read();
+  BOOST_TEST(std::count(snapped.begin(), snapped.end(), 1u) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(positions_are_what_diagrams_take) {
+  const Grid grid(Axis(100, -1, 1).periodic(), Axis(50, 0, 10).reversed());
+  const std::vector<Point> points = {{-0.9999, 0.01}, {0.123456789, 3.3333}, {1, 9.99999999999}};
+  const Seeds seeds(test_device(), grid, points, Outside::count, Snap::none);
+  const std::vector<Point> at = all_of(seeds.read_pixels());
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    BOOST_TEST(std::floor(at[id].x) == grid.x().pixel(points[id].x));
+    BOOST_TEST(std::floor(at[id].y) == grid.y().pixel(points[id].y));
+    BOOST_TEST(at[id].x * parts == std::floor(at[id].x * parts));
+    const double period = 2, dx = std::remainder(grid.x().coordinate(at[id].x) - points[id].x, period);
+    BOOST_TEST(std::abs(dx) <= 2.0 / 100 / parts);
+    BOOST_TEST(std::abs(grid.y().coordinate(at[id].y) - points[id].y) <= 10.0 / 50 / parts);
+  }
+  BOOST_TEST((points_of(seeds)[1].x == points[1].x));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_too_far_is_refused_by_name) {
+  const Grid grid(30, 20);
+  const Seeds seeds(test_device(), grid, {{300000.0, 5.0}}, Outside::count, Snap::none);
+  Diagram diagram(test_device(), grid);
+  check_error([&] { exact_diagram(seeds, diagram); }, {"seed 0", "262144 pixels", "snap"});
+  // One that owns no pixel does not matter.
+  const Seeds both(test_device(), grid, {{300000.0, 5.0}, {3.0, 5.0}}, Outside::count, Snap::none);
+  exact_diagram(both, diagram);
+  const Labels labels = diagram.read();
+  BOOST_TEST(std::count(labels.begin(), labels.end(), 1u) == 600);
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_that_moves_and_floods_takes_pixels) {
+  const Grid grid(60, 40);
+  std::vector<Point> points = {{10.2, 10.9}, {10.8, 10.1}, {45.5, 30.25}};
+  Seeds seeds(test_device(), grid, points, Outside::count, Snap::none), snapped(test_device(), grid, points);
+  Diagram diagram(test_device(), grid), of_pixels(test_device(), grid);
+  for (int frame = 0; frame < 4; ++frame) {
+    for (Point& point : points) point = {point.x + 0.3, point.y + 0.2};
+    seeds.move_to(points);
+    exact_diagram(seeds, diagram);
+    BOOST_TEST(count_differences(diagram.read(), labels_by_definition(
+                                                     grid, positions_of(grid, {points.begin(), points.end()}),
+                                                     Metric::euclidean)) == 0u);
+    snapped.move_to(points);
+    jump_flooding(seeds, diagram);
+    jump_flooding(snapped, of_pixels);
+    BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);
+  }
+  random_step(seeds, 0, Border::reflect, 1, 1);
+  exact_diagram(seeds, diagram);
+  exact_diagram(snapped, of_pixels);
+  BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);
+}
