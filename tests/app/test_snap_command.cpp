@@ -14,6 +14,8 @@
 #include "trajectory_text.hpp"
 
 using namespace vorocl;
+using command::dump;
+using command::walled_box;
 using nlohmann::json;
 
 namespace {
