@@ -123,7 +123,8 @@ BOOST_AUTO_TEST_CASE(labels_of_points_are_those_of_one_device) {
       for (std::size_t i = 0; i < count; ++i) {
         // Half of them in one place of 20 x 20 pixels.
         const double side = i % 2 == 0 ? 20 : 300, other = i % 2 == 0 ? 20 : 210;
-        points.push_back({rng() * 0x1p-32 * side, rng() * 0x1p-32 * other});
+        points.push_back(
+            {static_cast<double>(rng()) * 0x1p-32 * side, static_cast<double>(rng()) * 0x1p-32 * other});
       }
       Diagram diagram(test_device(), grid);
       exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);

@@ -23,14 +23,14 @@ void write_label_file(const OutputFile& file, Measures& measures) {
 }
 
 /// In pixels, of what CellShape has.
-double distance_of(std::int64_t distance, Metric metric) {
+double distance_of(double distance, Metric metric) {
   switch (metric) {
     case Metric::euclidean:
-      return std::sqrt(static_cast<double>(distance));
+      return std::sqrt(distance);
     case Metric::manhattan:
       break;
   }
-  return static_cast<double>(distance);
+  return distance;
 }
 
 /// A cell as its row in a table: pixels of the picture in the view's units. A value may be unknown, of a cell
