@@ -40,8 +40,20 @@ struct Scale {
 };
 constexpr Scale scales[] = {{300, 270, 1000}, {2048, 2048, 70000}};
 
-/// All measures of a diagram, and of how it stands to another one.
-void measure(const Diagram& diagram, const Diagram& other) {
+/// Points in [0, width) x [0, height), spread by the golden ratio and the square root of two.
+std::vector<Point> spread_points(std::size_t count, double width, double height) {
+  std::vector<Point> points;
+  points.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto number = static_cast<double>(i);
+    points.push_back(
+        {std::fmod(number * 0.6180339887, 1) * width, std::fmod(number * 0.4142135624, 1) * height});
+  }
+  return points;
+}
+
+/// All measures of a diagram, and of how it stands to another one. Those of points have no whole distances.
+void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   CellSumsResult sums;
   CellShapesResult shapes;
   CellStatisticsResult statistics;
@@ -58,7 +70,7 @@ void measure(const Diagram& diagram, const Diagram& other) {
   cell_statistics(diagram, statistics);
   adjacency(diagram, pairs);
   vertices(diagram, vertices_found);
-  distance_field(diagram, squares);
+  if (snap == Snap::to_pixels) distance_field(diagram, squares);
   distance_field(diagram, distances);
   border_mask(diagram, borders);
   map_labels(diagram, std::vector<std::uint32_t>(shapes.size()), mapped);
@@ -76,12 +88,7 @@ void prepare_exact_cells(const Device& device) {
   if (!has_doubles(device)) return;
   std::vector<Point> star = {{0, 0}};
   for (int i = 0; i < 200; ++i) star.push_back({std::cos(i), std::sin(i)});
-  std::vector<Point> spread;
-  for (std::size_t i = 0; i < scales[1].seeds; ++i) {
-    const auto number = static_cast<double>(i);
-    spread.push_back({std::fmod(number * 0.6180339887, 1), std::fmod(number * 0.4142135624, 1)});
-  }
-  for (const std::vector<Point>& points : {star, spread}) {
+  for (const std::vector<Point>& points : {star, spread_points(scales[1].seeds, 1, 1)}) {
     ExactCellsResult cells;
     exact_cells(Seeds(device, Grid(Axis(1, -2, 2), Axis(1, -2, 2)), points), cells);
     cells.edges();
@@ -99,24 +106,24 @@ void prepare_at(const Scale& scale, const Device& device, const Specialisation& 
   const Method& exact = method("exact");
   relax(seeds, diagram, engine(exact, options), 1);
   exact.run(seeds, other, options);
-  measure(diagram, other);
+  measure(diagram, other, Snap::to_pixels);
+
+  const Seeds within(device, grid, spread_points(scale.seeds, scale.width, scale.height), Outside::count,
+                     Snap::none);
+  exact.run(within, diagram, options);
+  exact.run(within, other, options);
+  measure(diagram, other, Snap::none);
 }
 
 /// A window with seeds around it, and then far away.
 void prepare_windows(const Device& device, const Specialisation& what) {
   for (const int side : {4096, 100000}) {
     const Window window(Grid(side, side, what.periodic), 0, 0, 2048, 2048);
-    const double end = side;
-    std::vector<Point> points;
-    points.reserve(10000);
-    for (int i = 0; i < 10000; ++i) {  // spread by the golden ratio and the square root of two
-      points.push_back({std::fmod(i * 0.6180339887, 1) * end, std::fmod(i * 0.4142135624, 1) * end});
-    }
     Diagram diagram(device, window), other(device, window);
-    const Seeds seeds(device, window.grid(), points);
+    const Seeds seeds(device, window.grid(), spread_points(10000, side, side));
     method("exact").run(seeds, diagram, {what.metric});
     method("exact").run(seeds, other, {what.metric});
-    measure(diagram, other);
+    measure(diagram, other, Snap::to_pixels);
   }
 }
 

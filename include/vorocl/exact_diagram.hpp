@@ -24,6 +24,12 @@ struct ExactOptions {
 /// of device memory per pixel, the labels included, and 16 per seed besides its position. Throws Error if
 /// seeds and diagram do not fit together or the device has too little memory.
 ///
+/// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
+/// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel. Any shape of the tuning makes them by the
+/// same kernels. The host places the points whenever they have moved: 24 bytes of device memory per seed.
+/// Throws Error too if a seed that may own a pixel is more than 262,144 pixels from the window's first one.
+/// What follows about windows costs a place in the list for each seed and image that may own a pixel.
+///
 /// Any window of any grid: seeds outside it, and images across its periods, are taken into account, in 64-bit
 /// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
 /// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds

@@ -57,11 +57,12 @@ extern template class Field<std::uint32_t>;
 /// Each pixel's distance to the seed of its label, between pixel centres, in the diagram's metric: squared if
 /// Euclidean. Exact integers. Enqueues and returns; where a seed lies so far outside the window that a
 /// distance takes more than 31 bits, reading the field throws Error. Throws Error if the diagram knows no
-/// seeds (see Diagram::write()) or the device has too little memory.
+/// seeds (see Diagram::write()), its labels are of points within their pixels (Snap::none), or the device has
+/// too little memory.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<std::int32_t>& field);
 
-/// As above, in pixels: the root of the squared Euclidean distance, within 3 units in the last place. Of any
-/// length.
+/// As above, in pixels, of any labels: the root of the squared Euclidean distance, within 3 units in the last
+/// place. Of any length.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<float>& field);
 
 /// 1 for each pixel that shares an edge with a pixel of another label, else 0. Enqueues and returns.

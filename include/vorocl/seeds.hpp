@@ -115,8 +115,8 @@ class VOROCL_API Seeds {
   std::size_t outside() const;
 
   /// The greatest way of a seed that is in the last frame and in this one, along an axis, in pixels, the
-  /// shorter way round along a periodic axis: the paper's d_max. 0 in the first frame and after a move to
-  /// another grid. After random_step() its bound. May wait where points came in a buffer.
+  /// shorter way round along a periodic axis, from pixel to pixel: the paper's d_max. 0 in the first frame
+  /// and after a move to another grid. After random_step() its bound. May wait where points came in a buffer.
   double displacement() const;
 
   /// The points as they were given, or the centres of their pixels where they were made or moved on the

@@ -134,19 +134,21 @@ std::vector<PlanePosition> SeedsFrame::read_pixels() const {
 
 // --- placements ---
 
-class Placements {
+/// One kind of placements, by the window that they are seen from.
+template <typename T>
+class Remembered {
  public:
   template <typename Make>
-  std::shared_ptr<const Placement> get(const Window& window, const PixelGrid& shown, Make make) {
+  std::shared_ptr<const T> get(const Window& window, const PixelGrid& shown, Make make) {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto is_gone = [](const Known& known) { return known.placement.expired(); };
     known_.erase(std::remove_if(known_.begin(), known_.end(), is_gone), known_.end());
     for (const Known& known : known_) {
       if (known.window == window && known.shown == shown) {
-        if (std::shared_ptr<const Placement> placement = known.placement.lock()) return placement;
+        if (std::shared_ptr<const T> placement = known.placement.lock()) return placement;
       }
     }
-    std::shared_ptr<const Placement> placement = make();
+    std::shared_ptr<const T> placement = make();
     known_.push_back({window, shown, placement});
     return placement;
   }
@@ -155,23 +157,30 @@ class Placements {
   struct Known {
     Window window;
     PixelGrid shown;
-    std::weak_ptr<const Placement> placement;  // of diagrams and results: a frame may see many windows
+    std::weak_ptr<const T> placement;  // of diagrams and results: a frame may see many windows
   };
   std::mutex mutex_;
   std::vector<Known> known_;
+};
+
+class Placements {
+ public:
+  Remembered<Placement> of_pixels;
+  Remembered<PointPlacement> of_points;
 };
 
 std::shared_ptr<Placements> no_placements() { return std::make_shared<Placements>(); }
 
 std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, const PixelGrid& shown) const {
   if (whole && window.is_whole() && shown == whole->grid) return whole;
-  return placements->get(window, shown,
-                         [&] { return place_in_window(device, window, shown, read_pixels()); });
+  return placements->of_pixels.get(window, shown,
+                                   [&] { return place_in_window(device, window, shown, read_pixels()); });
 }
 
 std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& window,
                                                                   const PixelGrid& shown) const {
-  return place_points(device, window, shown, *pixels, *fractions);
+  return placements->of_points.get(window, shown,
+                                   [&] { return place_points(device, window, shown, *pixels, *fractions); });
 }
 
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {

@@ -86,7 +86,7 @@ struct SeedsFrame {
   /// The frame before (which does not remember its own), where the host does not know how far the seeds went.
   std::shared_ptr<const SeedsFrame> before = nullptr;
 
-  std::shared_ptr<Placements> placements = nullptr;  // of other windows
+  std::shared_ptr<Placements> placements = nullptr;  // of other windows, and of points
 
   /// Whether a seed may be absent, as far as the host knows.
   bool may_lack_some() const { return absent > 0 || counted_there; }
@@ -101,7 +101,7 @@ struct SeedsFrame {
   /// question; then the host waits if the device has placed the seeds.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
-  /// The same of points with fractions. Made at each question.
+  /// The same of points with fractions.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
 
   /// The greatest way of a seed along an axis to this frame from an earlier one. May wait.

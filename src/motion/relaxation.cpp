@@ -35,7 +35,7 @@ struct Move {
 /// The position nearest to a centroid, given by the pixels of a cell and the sum of their coordinates along
 /// an axis, in fractions of a pixel.
 std::int64_t position_of_centroid(std::uint32_t area, std::int64_t sum) {
-  const std::int64_t twice = 2 * area, parts = fractions_of_pixel;
+  const std::int64_t twice = std::int64_t{2} * area, parts = fractions_of_pixel;
   // The mean of the pixels' centres, which are half a pixel behind their starts; in two steps, as the product
   // may be long.
   const std::int64_t doubled = 2 * sum + area,

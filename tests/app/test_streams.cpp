@@ -97,3 +97,13 @@ BOOST_AUTO_TEST_CASE(escape_sequences_of_files_do_not_reach_the_terminal) {
   BOOST_TEST(command::printable("a\tb\n") == "a\tb\\x0a");
   BOOST_TEST(command::printable("\x7f\r\xff\xc3") == "\\x7f\\x0d\\xff\\xc3");
 }
+
+// With AVX2, PoCL has warnings about vectors of 512 bits.
+BOOST_AUTO_TEST_CASE(a_first_run_says_nothing_of_the_compiler) {
+  const TemporaryFolder folder;
+  const Result result =
+      run(folder, "simulate --random 9 --size 40x30 --frames 2 --step-length 1 --method djfa",
+          "XDG_CACHE_HOME='" + folder / "cache" + "' POCL_CACHE_DIR='" + folder / "pocl" + "'");
+  BOOST_TEST(result.exit_code == 0);
+  BOOST_TEST(result.error == "");
+}
