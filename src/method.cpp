@@ -120,12 +120,14 @@ Simulation::Engine engine(const Method& method, const MethodOptions& options) {
 }
 
 void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
-             const MethodOptions& options) {
+             const MethodOptions& options, Snap snap) {
   const Grid& grid = window.grid();
   const Grid pixels(fits_in_a_diagram(grid) ? grid
                                             : Grid(window.width(), window.height(), window.periodic()));
   Diagram diagram(device, fits_in_a_diagram(grid) ? window : Window(pixels));
-  method.run(Seeds::random(device, pixels, seeds, 1), diagram, options);
+  const Seeds random = Seeds::random(device, pixels, seeds, 1);
+  method.run(snap == Snap::none ? Seeds(device, pixels, random.read(), Outside::count, snap) : random.clone(),
+             diagram, options);
   if (method.continues) {
     // The second frame runs the longest plan and, because its seeds are others, the search for pixels without
     // a label; the third one starts from its labels: all need kernels that the first frame does not.

@@ -18,7 +18,7 @@ _vorocl() {
 
   local candidates=
   if [[ $word == -* ]]; then
-    candidates=$(grep -oE '^ +-[^ :=]+' <<<"$help" | tr ',' ' ')
+    candidates=$(grep -oE '^ +-[^ :={]+' <<<"$help" | tr ',' ' ')
   elif [ "$COMP_CWORD" -eq 1 ]; then
     candidates=$(sed -n '/^Subcommands:/,$ s/^  \([a-z]*\) .*/\1/p' <<<"$help")
   elif [[ $before == -* ]]; then

@@ -93,6 +93,10 @@ class VOROCL_API Axis {
   /// pixel's ends: the middle of the axis if its ends are equal. NaN or infinite if the coordinate is.
   double position(double coordinate) const;
 
+  /// As position(), rounded to 1/4096 of a pixel as exact diagrams take points (Snap::none), and never out of
+  /// the pixel of the coordinate.
+  double rounded_position(double coordinate) const;
+
   /// The coordinate of a position in pixels, of pixel(i) + 0.5 for the centre of pixel i.
   double coordinate(double position) const;
 

@@ -57,9 +57,9 @@ VOROCL_API Simulation::Engine engine(const Method& method, const MethodOptions& 
 
 /// Builds all kernels that the method needs for a number of seeds on the window's grid, so that the first
 /// diagram takes no longer than the next. Drivers finish a kernel when it is first launched: so this runs the
-/// method on random seeds and a diagram of its own, of this size, which it gives back. Waits. Throws as the
-/// method.
+/// method on random seeds and a diagram of its own, of this size, which it gives back. `snap` is that of the
+/// seeds. Waits. Throws as the method.
 VOROCL_API void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
-                        const MethodOptions& options = {});
+                        const MethodOptions& options = {}, Snap snap = Snap::to_pixels);
 
 }  // namespace vorocl

@@ -19,7 +19,7 @@ struct SharedSeedsState;
 /// The seeds of a plane, of which each process (rank) of a communicator holds as many: they are sorted along
 /// a Z-curve and cut into equal parts, however they are clustered. Of every 512 seeds all ranks know a box.
 /// A tile's seeds are found by the boxes, and those of other ranks are fetched from their memory, without
-/// their help (MPI_Get). Memory per rank: 12 bytes for each of its seeds, 24 while they are shared out; 0.1
+/// their help (MPI_Get). Memory per rank: 16 bytes for each of its seeds, 32 while they are shared out; 0.1
 /// bytes for each seed of the plane; 64 MiB for seeds that were fetched; and what PlaneSeeds need for those
 /// near a tile.
 ///
@@ -31,7 +31,7 @@ struct SharedSeedsState;
 class VOROCL_API SharedSeeds : public SeedSource {
  public:
   /// Collective. The communicator is copied.
-  SharedSeeds(MPI_Comm communicator, const Grid& grid);
+  SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap = Snap::to_pixels);
 
   /// Collective, for it frees what the ranks share.
   ~SharedSeeds() override;
@@ -51,6 +51,7 @@ class VOROCL_API SharedSeeds : public SeedSource {
 
   const Grid& grid() const override;
   std::uint64_t id_end() const override;
+  Snap snap() const override;
 
   /// The seeds of all ranks, and those that this one holds. After share().
   std::uint64_t size() const;

@@ -44,10 +44,11 @@ class VOROCL_API Tiling {
 /// of two.
 VOROCL_API int default_tile_side(const Device& device);
 
-/// A seed of a grid: its pixel, which may be outside the grid, and its id.
+/// A seed of a grid: its pixel, which may be outside the grid, its id, and where in the pixel it lies.
 struct PlaneSeed {
   std::int32_t x = 0, y = 0;
   std::uint32_t id = 0;
+  std::uint16_t part_x = 2048, part_y = 2048;  ///< in 1/4096 pixel; the centre, where seeds are snapped
 };
 
 /// Where tiles get the seeds of a grid from.
@@ -60,8 +61,11 @@ class VOROCL_API SeedSource {
   /// One more than the greatest id of a seed.
   virtual std::uint64_t id_end() const = 0;
 
+  /// Whether tiles take the centres of the seeds' pixels.
+  virtual Snap snap() const { return Snap::to_pixels; }
+
   /// Replaces what a list has by the seeds that own pixels of a window of the grid, and few others. Of seeds
-  /// that share a pixel only the one that owns it. The window has at most Window::max_side pixels along a
+  /// at one place only the one that owns pixels. The window has at most Window::max_side pixels along a
   /// side.
   virtual void find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const = 0;
 };
@@ -69,14 +73,16 @@ class VOROCL_API SeedSource {
 struct PlaneSeedsState;
 
 /// The seeds of a grid of any size, on the host: 13 bytes each, 24 while they are sorted, which happens at
-/// the first question. Ids are less than 2^32 - 1. Of seeds that share a pixel the lowest id owns the cell.
+/// the first question; 4 and 8 more if they are not snapped. Ids are less than 2^32 - 1. Of seeds at one
+/// place, or that are snapped and share a pixel, the lowest id owns the cell.
 ///
 /// Threads: one thread at a time until the first question, which sort() can be; any number from then on.
 class VOROCL_API PlaneSeeds : public SeedSource {
  public:
-  /// What becomes of points outside the grid is as for Seeds.
-  explicit PlaneSeeds(const Grid& grid, Outside outside = Outside::count);
-  PlaneSeeds(const Grid& grid, const Points& points, Outside outside = Outside::count);
+  /// What becomes of points outside the grid, and within their pixels, is as for Seeds.
+  explicit PlaneSeeds(const Grid& grid, Outside outside = Outside::count, Snap snap = Snap::to_pixels);
+  PlaneSeeds(const Grid& grid, const Points& points, Outside outside = Outside::count,
+             Snap snap = Snap::to_pixels);
   ~PlaneSeeds() override;
   PlaneSeeds(PlaneSeeds&& other) noexcept;
   PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;
@@ -91,11 +97,13 @@ class VOROCL_API PlaneSeeds : public SeedSource {
   void add(const Points& points);
 
   /// Adds seeds with ids of their own, in any order, each id once: a part of the seeds of a grid that
-  /// several machines share. Throws Error for a pixel that is too far away, as above, or outside the period.
+  /// several machines share. Where in their pixels they lie is not looked at if they are snapped. Throws
+  /// Error for a pixel that is too far away, as above, or outside the period.
   void add(const PlaneSeed* seeds, std::size_t count);
 
   const Grid& grid() const override;
   std::uint64_t id_end() const override;
+  Snap snap() const override;
 
   /// The seeds that were added and are there.
   std::size_t alive() const;

@@ -413,9 +413,9 @@ VOROCL_API vorocl_status vorocl_run(const char* method, const vorocl_seeds* seed
                                     const vorocl_method_options* options);
 
 /// Builds all kernels that the method needs for so many seeds and such a window, so that the first diagram
-/// takes no longer than the next: see vorocl::prepare(). Waits.
+/// takes no longer than the next: see vorocl::prepare(). `snap` is that of the seeds. Waits.
 VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device* device, vorocl_window window,
-                                        size_t seeds, const vorocl_method_options* options);
+                                        size_t seeds, vorocl_snap snap, const vorocl_method_options* options);
 
 /// As vorocl::Relaxation.
 typedef struct vorocl_relaxation {

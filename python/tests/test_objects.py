@@ -82,7 +82,8 @@ def test_frames_of_a_simulation_are_right():
             now[frame] = np.nan
         labels = exact.step(now).read()
         np.testing.assert_array_equal(labels, brute_force(now % 96, (96, 96), (True, True)))
-        assert vorocl.similarity(dynamic.step(now).read(), labels) > 97
+        snapped = brute_force(now % 96, (96, 96), (True, True), snap=True)
+        assert vorocl.similarity(dynamic.step(now).read(), snapped) > 97
         assert dynamic.report.waves > 0
         assert exact.diagram.cells()["area"].sum() == 96 * 96
 

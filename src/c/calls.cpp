@@ -80,6 +80,12 @@ Metric to_metric(vorocl_metric metric) {
   refuse("metric", metric);
 }
 
+Snap to_snap(vorocl_snap snap) {
+  if (snap == VOROCL_SNAP_TO_PIXELS) return Snap::to_pixels;
+  if (snap == VOROCL_SNAP_NONE) return Snap::none;
+  refuse("choice for points within a pixel", snap);
+}
+
 vorocl_point to_c(const Point& point) { return {point.x, point.y}; }
 
 }  // namespace vorocl

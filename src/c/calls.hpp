@@ -108,6 +108,7 @@ vorocl_grid to_c(const Grid& grid);
 vorocl_window to_c(const Window& window);
 
 Metric to_metric(vorocl_metric metric);
+Snap to_snap(vorocl_snap snap);
 MethodOptions to_options(const vorocl_method_options* options);
 vorocl_point to_c(const Point& point);
 

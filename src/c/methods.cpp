@@ -67,9 +67,10 @@ vorocl_status vorocl_run(const char* name, const vorocl_seeds* seeds, vorocl_dia
 }
 
 vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, vorocl_window window,
-                             size_t seeds, const vorocl_method_options* options) {
+                             size_t seeds, vorocl_snap snap, const vorocl_method_options* options) {
   return guarded([&] {
-    prepare(method(&given(name, "method")), of(device), to_window(window), seeds, to_options(options));
+    prepare(method(&given(name, "method")), of(device), to_window(window), seeds, to_options(options),
+            to_snap(snap));
   });
 }
 

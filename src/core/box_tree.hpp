@@ -149,11 +149,12 @@ class BoxTree {
       use(first_item(level, node), end_item(level, node));
       return;
     }
-    std::array<std::pair<std::int64_t, std::size_t>, fan> order;
+    using Length = decltype(distance(Box()));
+    std::array<std::pair<Length, std::size_t>, fan> order;
     std::size_t count = 0;
     for (std::size_t child = node * fan; child < end_child(level, node); ++child) {
       const Box& box = levels_[level - 1][child];
-      const std::int64_t away = distance(box);
+      const Length away = distance(box);
       if (!counts(box, away)) continue;
       std::size_t place = count++;
       for (; place > 0 && order[place - 1].first > away; --place) order[place] = order[place - 1];

@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/point_placement.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 
@@ -131,6 +132,13 @@ double Axis::position(double coordinate) const {
     along = (coordinate - from_) * count / (to_ - from_);
   }
   return reversed_ ? count - along : along;
+}
+
+double Axis::rounded_position(double coordinate) const {
+  constexpr double parts_of_pixel = fractions_of_pixel;
+  const double first = pixel(coordinate),
+               parts = std::nearbyint((position(coordinate) - first) * parts_of_pixel);
+  return first + std::clamp(parts, 0.0, parts_of_pixel - 1) / parts_of_pixel;
 }
 
 double Axis::coordinate(double position) const {

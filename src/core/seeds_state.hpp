@@ -67,8 +67,10 @@ struct SeedsState {
              std::shared_ptr<const std::vector<Point>> given,
              std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
 
-  /// An empty list of pixels, with the memory of one that no frame remembers any more.
+  /// Empty lists, with the memory of ones that no frame remembers any more.
   std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
+
+  std::shared_ptr<std::vector<Fraction>> list_of_fractions() { return fractions_.take(); }
 
   /// Makes the next frame, of so many seeds that a kernel places: all present.
   void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);

@@ -58,9 +58,8 @@ class Snapping {
 
  private:
   static std::uint16_t fraction_of(const Axis& axis, double coordinate, cl_int pixel) {
-    const double parts = (axis.position(coordinate) - static_cast<double>(pixel)) * fractions_of_pixel;
-    return static_cast<std::uint16_t>(
-        std::min(std::max(std::nearbyint(parts), 0.0), fractions_of_pixel - 1.0));
+    return static_cast<std::uint16_t>((axis.rounded_position(coordinate) - static_cast<double>(pixel)) *
+                                      fractions_of_pixel);
   }
 
   /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.
@@ -93,6 +92,23 @@ class Snapping {
   cl_uint width_, height_;
 };
 
+/// A seed where a diagram has it: in the middle of its pixel, or where it lies.
+inline PlaneSeed placed(PlaneSeed seed, Snap snap) {
+  if (snap == Snap::to_pixels) seed.part_x = seed.part_y = fractions_of_pixel / 2;
+  return seed;
+}
+
+/// The seed of a point that lies in this pixel.
+inline PlaneSeed seed_of_point(const Snapping& snapping, const Point& point, const PlanePosition& at,
+                               std::uint32_t id, Snap snap) {
+  PlaneSeed seed = {at.s[0], at.s[1], id};
+  if (snap == Snap::to_pixels) return seed;
+  const Fraction in = snapping.fraction(point, at);
+  seed.part_x = in.x;
+  seed.part_y = in.y;
+  return seed;
+}
+
 /// Throws Error unless a seed with an id of the caller's may have this pixel of a grid and this id.
 inline void check(const PlaneSeed& seed, const Grid& grid) {
   if (seed.id == no_label) throw Error("a seed has the id 2^32 - 1, which says that there is none");
@@ -103,6 +119,10 @@ inline void check(const PlaneSeed& seed, const Grid& grid) {
   if (!holds(grid.x(), seed.x) || !holds(grid.y(), seed.y)) {
     throw Error("seed " + std::to_string(seed.id) + " at pixel (" + std::to_string(seed.x) + ", " +
                 std::to_string(seed.y) + ") is too far away, or outside the grid's period");
+  }
+  if (seed.part_x >= fractions_of_pixel || seed.part_y >= fractions_of_pixel) {
+    throw Error("seed " + std::to_string(seed.id) + " lies " + std::to_string(seed.part_x) + " and " +
+                std::to_string(seed.part_y) + " parts within its pixel, which has 4096 along an axis");
   }
 }
 

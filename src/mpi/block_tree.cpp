@@ -58,9 +58,8 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
 
 SeedImage BlockTree::sample(std::size_t block, const PlanePoint& offset, const PlanePoint& from,
                             const PlaneDistance& distance) const {
-  const SeedBlock& of = blocks_[block];
-  const PlanePoint place = {of.x + offset.x, of.y + offset.y};
-  return {block, offset, distance(from, place), rank_of(of.x, of.y)};
+  const PlanePoint place = point_of(blocks_[block].sample);
+  return {block, offset, distance(from, place + offset), place};
 }
 
 /// The sample that wins at a point. Its block's box is at least as near, by which blocks are left out.
@@ -69,7 +68,7 @@ SeedImage BlockTree::nearest_sample(const PlanePoint& point, Metric metric) cons
   SeedImage best;
   each_image(grid_, [&](const PlanePoint& offset) {
     const auto to_box = [&](const Box& box) { return distance(point - offset, box); };
-    const auto counts = [&](const Box& box, std::int64_t away) {
+    const auto counts = [&](const Box& box, PlaneLength away) {
       return away != too_far && first_in(box, away).wins(best);
     };
     tree_.visit_nearest_first(to_box, counts, [&](std::size_t first, std::size_t end) {
@@ -88,16 +87,16 @@ bool BlockTree::find_between(const PlanePoint& a, const SeedImage& at_a, const P
                              const SeedImage& at_b, Metric metric, std::size_t most,
                              std::vector<std::size_t>& found) const {
   // An image may be farther away than half a period, though not far.
-  const PlaneDistance slack(grid_, metric, grid_.width() + grid_.height());
-  const std::int64_t of_b_at_a = sample(at_b.index, at_b.offset, a, slack).distance;
-  const std::int64_t of_a_at_b = sample(at_a.index, at_a.offset, b, slack).distance;
+  const PlaneDistance slack(grid_, metric, in_fractions(grid_.width() + grid_.height()));
+  const PlaneLength of_b_at_a = sample(at_b.index, at_b.offset, a, slack).distance;
+  const PlaneLength of_a_at_b = sample(at_a.index, at_a.offset, b, slack).distance;
   const PlaneDistance distance(grid_, metric, length_of(a, b));
   bool all = true;
   each_image(grid_, [&](const PlanePoint& offset) {
     const PlanePoint from_a = a - offset, from_b = b - offset;
     // Unless a sample is nearer than the whole box at both ends, and so between them.
     const auto may_win = [&](const Box& box) {
-      const std::int64_t to_a = distance(from_a, box), to_b = distance(from_b, box);
+      const PlaneLength to_a = distance(from_a, box), to_b = distance(from_b, box);
       return (to_a <= at_a.distance || to_b <= of_a_at_b) && (to_a <= of_b_at_a || to_b <= at_b.distance);
     };
     const auto judge = [&](const Box& box) {

@@ -12,8 +12,8 @@ namespace vorocl {
 /// Some seeds that follow each other on the Z-curve: the box around them, and one of them.
 struct SeedBlock {
   Box box;
-  std::int32_t x = 0, y = 0;  // of the one
-  std::uint32_t count = 0;    // of the seeds
+  PlaneSeed sample;         // the one
+  std::uint32_t count = 0;  // of the seeds
 };
 
 class BlockTree {

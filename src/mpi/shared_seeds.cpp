@@ -3,6 +3,7 @@
 #include <list>
 #include <numeric>
 #include <string>
+#include <tuple>
 #include <unordered_map>
 #include <utility>
 
@@ -62,10 +63,10 @@ struct Sample {
 
 std::uint64_t place_of(const PlaneSeed& seed) { return z_order(seed.x, seed.y); }
 
-/// Puts seeds in the order of the Z-curve, with one of each pixel, that of the lowest id. In place.
+/// Puts seeds in the order of the Z-curve, with one at each place, that of the lowest id. In place.
 void put_in_order(std::vector<PlaneSeed>& seeds) {
   // Halves of places stand where the coordinates did: comparing them is faster than making them.
-  static_assert(sizeof(PlaneSeed) == 12);
+  static_assert(sizeof(PlaneSeed) == 16);
   for (PlaneSeed& seed : seeds) {
     const std::uint64_t place = place_of(seed);
     seed.x = static_cast<std::int32_t>(place);
@@ -75,10 +76,12 @@ void put_in_order(std::vector<PlaneSeed>& seeds) {
     return std::uint64_t{static_cast<std::uint32_t>(seed.y)} << 32 | static_cast<std::uint32_t>(seed.x);
   };
   std::sort(seeds.begin(), seeds.end(), [&](const PlaneSeed& a, const PlaneSeed& b) {
-    return place(a) != place(b) ? place(a) < place(b) : a.id < b.id;
+    return std::tuple(place(a), a.part_y, a.part_x, a.id) < std::tuple(place(b), b.part_y, b.part_x, b.id);
   });
-  const auto same_pixel = [](const PlaneSeed& a, const PlaneSeed& b) { return a.x == b.x && a.y == b.y; };
-  seeds.erase(std::unique(seeds.begin(), seeds.end(), same_pixel), seeds.end());
+  const auto same_place = [](const PlaneSeed& a, const PlaneSeed& b) {
+    return a.x == b.x && a.y == b.y && a.part_x == b.part_x && a.part_y == b.part_y;
+  };
+  seeds.erase(std::unique(seeds.begin(), seeds.end(), same_place), seeds.end());
   for (PlaneSeed& seed : seeds) {
     const std::uint64_t order = place(seed);
     seed.x = x_of_z_order(order);
@@ -147,9 +150,7 @@ std::vector<SeedBlock> blocks_of(const std::vector<PlaneSeed>& seeds) {
     const std::size_t end = std::min(first + block_size, seeds.size());
     SeedBlock block;
     for (std::size_t i = first; i < end; ++i) block.box.add({seeds[i].x, seeds[i].y, seeds[i].x, seeds[i].y});
-    const PlaneSeed& sample = seeds[(first + end) / 2];
-    block.x = sample.x;
-    block.y = sample.y;
+    block.sample = seeds[(first + end) / 2];
     block.count = static_cast<std::uint32_t>(end - first);
     blocks.push_back(block);
   }
@@ -159,8 +160,8 @@ std::vector<SeedBlock> blocks_of(const std::vector<PlaneSeed>& seeds) {
 }  // namespace
 
 struct SharedSeedsState {
-  SharedSeedsState(MPI_Comm communicator_of_caller, const Grid& grid_of_seeds)
-      : communicator(copy_of(communicator_of_caller)), grid(grid_of_seeds), blocks(grid) {
+  SharedSeedsState(MPI_Comm communicator_of_caller, const Grid& grid_of_seeds, Snap snap_is)
+      : communicator(copy_of(communicator_of_caller)), grid(grid_of_seeds), snap(snap_is), blocks(grid) {
     check_versions(communicator);
   }
 
@@ -208,7 +209,7 @@ struct SharedSeedsState {
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::size_t block : near) request(block);
     MPI_Win_flush_all(window);
-    PlaneSeeds seeds(grid);
+    PlaneSeeds seeds(grid, Outside::count, snap);
     seeds.reserve(near.size() * block_size);
     for (const std::size_t block : near) {
       const std::size_t rank = owner_of(block);
@@ -222,6 +223,7 @@ struct SharedSeedsState {
 
   MPI_Comm communicator;
   Grid grid;
+  Snap snap;
   std::vector<PlaneSeed> added;  // until they are shared out
   bool shared = false;
   std::uint64_t size = 0, ids = 0;
@@ -276,28 +278,29 @@ struct SharedSeedsState {
   std::list<std::size_t> uses;  // of what was fetched, the oldest first
 };
 
-SharedSeeds::SharedSeeds(MPI_Comm communicator, const Grid& grid)
-    : state_(std::make_unique<SharedSeedsState>(communicator, grid)) {}
+SharedSeeds::SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap)
+    : state_(std::make_unique<SharedSeedsState>(communicator, grid, snap)) {}
 SharedSeeds::~SharedSeeds() = default;
 
 void SharedSeeds::add(const PlaneSeed* seeds, std::size_t count) {
   if (state_->shared) throw Error("these seeds were shared out already; add all of them before");
   for (std::size_t i = 0; i < count; ++i) check(seeds[i], state_->grid);
-  state_->added.insert(state_->added.end(), seeds, seeds + count);
+  for (std::size_t i = 0; i < count; ++i) state_->added.push_back(placed(seeds[i], state_->snap));
   for (std::size_t i = 0; i < count; ++i)
     state_->ids = std::max<std::uint64_t>(state_->ids, seeds[i].id + 1ull);
 }
 
 void SharedSeeds::add(const Points& points, std::uint64_t first) {
-  const Snapping snap(state_->grid, Outside::count);
+  const Snapping snapping(state_->grid, Outside::count);
   std::vector<PlaneSeed> seeds;
   seeds.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::uint64_t id = first + i;
     if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
     if (!points.is_present(i)) continue;
-    const PlanePosition at = snap(id, points[i]);
-    seeds.push_back({at.s[0], at.s[1], static_cast<std::uint32_t>(id)});
+    const Point point = points[i];
+    const PlanePosition at = snapping(id, point);
+    seeds.push_back(seed_of_point(snapping, point, at, static_cast<std::uint32_t>(id), state_->snap));
   }
   add(seeds.data(), seeds.size());
 }
@@ -307,6 +310,7 @@ void SharedSeeds::reserve(std::size_t count) { state_->added.reserve(count); }
 void SharedSeeds::share() { state_->share(); }
 const Grid& SharedSeeds::grid() const { return state_->grid; }
 std::uint64_t SharedSeeds::id_end() const { return state_->ids; }
+Snap SharedSeeds::snap() const { return state_->snap; }
 std::uint64_t SharedSeeds::size() const { return state_->size; }
 std::uint64_t SharedSeeds::held() const { return state_->held_count; }
 double SharedSeeds::expected(const Window& window) const {

@@ -37,12 +37,13 @@ inline const char* build_option(Metric metric) {
 
 /// Distances as kernels and engines compare them, of the offsets along both axes. They are squared if
 /// Euclidean.
-inline std::int64_t compared_distance(Metric metric, std::int64_t dx, std::int64_t dy) {
+template <typename Length>
+Length compared_distance(Metric metric, Length dx, Length dy) {
   switch (metric) {
     case Metric::euclidean:
       return dx * dx + dy * dy;
     case Metric::manhattan:
-      return std::abs(dx) + std::abs(dy);
+      return (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
   }
   return 0;
 }

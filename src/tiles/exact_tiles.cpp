@@ -114,7 +114,12 @@ class TileEngine {
     SeedsState& state = Internal::state(seeds);
     const auto pixels = state.list_of_pixels();
     for (const PlaneSeed& seed : near_) pixels->push_back({{seed.x, seed.y}});
-    state.place(seeds.grid(), pixels, nullptr);
+    std::shared_ptr<std::vector<Fraction>> fractions;
+    if (seeds_.snap() == Snap::none) {
+      fractions = state.list_of_fractions();
+      for (const PlaneSeed& seed : near_) fractions->push_back({seed.part_x, seed.part_y});
+    }
+    state.place(seeds.grid(), pixels, nullptr, fractions);
   }
 
   void upload_ids() {

@@ -13,16 +13,17 @@ namespace {
 
 /// An axis of a plane, along which pixels of a cell count the shorter way round from its seed.
 struct Unwrapping {
-  std::int64_t period;  // 0: none
-  std::int64_t seed;
+  std::int64_t period;  // in pixels; 0: none
+  std::int64_t seed;    // in fractions of a pixel
 
   /// What is added to a coordinate: a period, or nothing. Half a period away it lies behind the seed.
   /// A window that crosses the period's end shows pixels behind it.
   std::int64_t shift_at(std::int64_t at) const {
     if (period == 0) return 0;
-    const std::int64_t home = at < period ? 0 : -period, way = at + home - seed;
-    if (2 * way > period) return home - period;
-    return 2 * way <= -period ? home + period : home;
+    const std::int64_t home = at < period ? 0 : -period;
+    const std::int64_t way = in_fractions(at + home) + fractions_of_pixel / 2 - seed;
+    if (2 * way > in_fractions(period)) return home - period;
+    return 2 * way <= -in_fractions(period) ? home + period : home;
   }
 };
 
@@ -164,8 +165,9 @@ void PlaneCellsState::add_cell(const TileLabels& labels, const PlaneSeed& seed, 
   const std::int64_t tile_x = labels.tile.x(), tile_y = labels.tile.y();
   const Grid& grid = labels.tile.grid();
   const bool periodic_x = has_x(grid.periodic()), periodic_y = has_y(grid.periodic());
-  const Unwrapping x = {periodic_x ? grid.width() : 0, seed.x};
-  const Unwrapping y = {periodic_y ? grid.height() : 0, seed.y};
+  const PlanePoint place = point_of(seed);
+  const Unwrapping x = {periodic_x ? grid.width() : 0, place.x};
+  const Unwrapping y = {periodic_y ? grid.height() : 0, place.y};
   const std::int64_t left = tile_x + shape.left, right = tile_x + shape.right;
   const std::int64_t top = tile_y + shape.top, bottom = tile_y + shape.bottom;
   CellRecord record;

@@ -7,13 +7,12 @@
 #include <tuple>
 #include <vector>
 
+#include "tiles/plane_distance.hpp"
 #include "vorocl/adjacency.hpp"
 #include "vorocl/cells.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
-
-__extension__ using Int128 = __int128;
 
 /// Records that come in any order, several of one key, summed by their keys. Memory: twice the records.
 template <typename Record>

@@ -16,9 +16,10 @@ constexpr std::uint64_t most_ids = no_label;  // 0 to no_label - 1
 
 SeedSource::~SeedSource() = default;
 
-PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside)
-    : state_(std::make_unique<PlaneSeedsState>(grid, outside)) {}
-PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside) : PlaneSeeds(grid, outside) {
+PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside, Snap snap)
+    : state_(std::make_unique<PlaneSeedsState>(grid, outside, snap)) {}
+PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside, Snap snap)
+    : PlaneSeeds(grid, outside, snap) {
   reserve(points.size());
   add(points);
 }
@@ -42,8 +43,10 @@ void PlaneSeeds::add(const Points& points) {
     const std::uint64_t first = seeds.id_end;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!points.is_present(i)) continue;
-      const PlanePosition at = seeds.snap(first + i, points[i]);
-      if (!is_absent(at)) seeds.add({at.s[0], at.s[1], static_cast<std::uint32_t>(first + i)});
+      const Point point = points[i];
+      const PlanePosition at = seeds.snapping(first + i, point);
+      if (is_absent(at)) continue;
+      seeds.add(seed_of_point(seeds.snapping, point, at, static_cast<std::uint32_t>(first + i), seeds.snap));
     }
     seeds.id_end = first + points.size();
   });
@@ -63,6 +66,7 @@ const Grid& PlaneSeeds::grid() const { return state().grid; }
 std::size_t PlaneSeeds::alive() const { return state().alive; }
 std::size_t PlaneSeeds::outside() const { return state().outside; }
 std::uint64_t PlaneSeeds::id_end() const { return state().id_end; }
+Snap PlaneSeeds::snap() const { return state().snap; }
 void PlaneSeeds::sort() const { state().sort(); }
 
 void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,

@@ -13,8 +13,8 @@
 namespace vorocl {
 
 struct PlaneSeedsState {
-  PlaneSeedsState(const Grid& grid_of_seeds, Outside outside_is)
-      : grid(grid_of_seeds), snap(grid, outside_is) {}
+  PlaneSeedsState(const Grid& grid_of_seeds, Outside outside_is, Snap snap_is)
+      : grid(grid_of_seeds), snapping(grid, outside_is), snap(snap_is), tree(snap) {}
 
   /// Calls a function that adds seeds. If it throws, none is there.
   template <typename Add>
@@ -41,8 +41,8 @@ struct PlaneSeedsState {
 
   /// Adds a seed.
   void add(const PlaneSeed& seed) {
-    tree.add(seed.x, seed.y, seed.id);
-    outside += snap.is_inside({{seed.x, seed.y}}) ? 0 : 1;
+    tree.add(seed);
+    outside += snapping.is_inside({{seed.x, seed.y}}) ? 0 : 1;
     id_end = std::max<std::uint64_t>(id_end, seed.id + std::uint64_t{1});
   }
 
@@ -50,7 +50,8 @@ struct PlaneSeedsState {
   void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds);
 
   Grid grid;
-  Snapping snap;
+  Snapping snapping;
+  Snap snap;
   SeedTree tree;
   std::size_t alive = 0, outside = 0;
   std::uint64_t id_end = 0;

@@ -9,16 +9,19 @@ namespace vorocl {
 void SeedTree::reserve(std::size_t count) {
   places_.reserve(count);
   ids_.reserve(count);
+  if (has_parts_) parts_.reserve(count);
 }
 
-void SeedTree::add(std::int32_t x, std::int32_t y, std::uint32_t id) {
-  places_.push_back(z_order(x, y));
-  ids_.push_back(id);
+void SeedTree::add(const PlaneSeed& seed) {
+  places_.push_back(z_order(seed.x, seed.y));
+  ids_.push_back(seed.id);
+  if (has_parts_) parts_.push_back(std::uint32_t{seed.part_y} << 16 | seed.part_x);
 }
 
 void SeedTree::shorten(std::size_t count) {
   places_.resize(count);
   ids_.resize(count);
+  if (has_parts_) parts_.resize(count);
 }
 
 // By the digits of their places, the lowest first; those that all seeds share are left out.
@@ -28,7 +31,7 @@ void SeedTree::sort_places() {
   std::uint64_t varying = 0;
   for (const std::uint64_t place : places_) varying |= place ^ places_.front();
   std::vector<std::uint64_t> next_places(places_.size());
-  std::vector<std::uint32_t> next_ids(ids_.size());
+  std::vector<std::uint32_t> next_ids(ids_.size()), next_parts(parts_.size());
   for (int shift = 0; shift < 64; shift += digit_bits) {
     if ((varying >> shift & digit_mask) == 0) continue;
     std::array<std::size_t, digit_mask + 2> starts = {};
@@ -38,20 +41,42 @@ void SeedTree::sort_places() {
       const std::size_t to = starts[places_[i] >> shift & digit_mask]++;
       next_places[to] = places_[i];
       next_ids[to] = ids_[i];
+      if (has_parts_) next_parts[to] = parts_[i];
     }
     places_.swap(next_places);
     ids_.swap(next_ids);
+    parts_.swap(next_parts);
+  }
+}
+
+void SeedTree::sort_within_pixels() {
+  std::vector<std::uint64_t> seeds;  // of a pixel: the parts, and the id below them
+  for (std::size_t first = 0, end = 0; first < places_.size(); first = end) {
+    while (end < places_.size() && places_[end] == places_[first]) ++end;
+    if (end - first == 1) continue;
+    seeds.clear();
+    for (std::size_t i = first; i < end; ++i) seeds.push_back(std::uint64_t{parts_[i]} << 32 | ids_[i]);
+    std::sort(seeds.begin(), seeds.end());
+    for (std::size_t i = first; i < end; ++i) {
+      parts_[i] = static_cast<std::uint32_t>(seeds[i - first] >> 32);
+      ids_[i] = static_cast<std::uint32_t>(seeds[i - first]);
+    }
   }
 }
 
 void SeedTree::sort() {
   if (!std::is_sorted(places_.begin(), places_.end())) sort_places();
+  if (has_parts_) sort_within_pixels();
+  const auto is_at = [this](std::size_t a, std::size_t b) {
+    return places_[a] == places_[b] && (!has_parts_ || parts_[a] == parts_[b]);
+  };
   std::size_t kept = 0;
   for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (kept > 0 && places_[kept - 1] == places_[i]) {
+    if (kept > 0 && is_at(kept - 1, i)) {
       ids_[kept - 1] = std::min(ids_[kept - 1], ids_[i]);
     } else {
       places_[kept] = places_[i];
+      if (has_parts_) parts_[kept] = parts_[i];
       ids_[kept++] = ids_[i];
     }
   }
@@ -84,12 +109,13 @@ void SeedTree::find_nearest(const PlanePoint& point, const Grid& grid, Metric me
   each_image(grid, [&](const PlanePoint& offset) {
     const PlanePoint from = point - offset;
     const auto to_box = [&](const Box& box) { return distance(from, box); };
-    const auto counts = [&](const Box& box, std::int64_t away) {
+    const auto counts = [&](const Box& box, PlaneLength away) {
       return away != too_far && first_in(box, away).wins(best);
     };
     boxes_.visit_nearest_first(to_box, counts, [&](std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) {
-        const SeedImage image = {i, offset, distance(from, point_of(i)), rank_of(i)};
+        const PlanePoint place = place_of(i);
+        const SeedImage image = {i, offset, distance(from, place), place};
         if (image.distance != too_far && image.wins(best)) best = image;
       }
     });
@@ -99,8 +125,8 @@ void SeedTree::find_nearest(const PlanePoint& point, const Grid& grid, Metric me
 SeedImage SeedTree::seen_from(const PlanePoint& point, const Grid& grid, Metric metric,
                               SeedImage image) const {
   // It may be farther away than half a period, though not far.
-  const PlaneDistance distance(grid, metric, grid.width() + grid.height());
-  image.distance = distance(point, point_of(image.index) + image.offset);
+  const PlaneDistance distance(grid, metric, in_fractions(grid.width() + grid.height()));
+  image.distance = distance(point, image.seed + image.offset);
   return image;
 }
 
@@ -123,9 +149,10 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
     all = all && boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
       for (std::size_t i = first; i < end; ++i) {
         if (holds(rectangle, x_of(i), y_of(i))) continue;
-        SeedImage image = {i, offset, distance(from_a, point_of(i)), rank_of(i)};
+        const PlanePoint place = place_of(i);
+        SeedImage image = {i, offset, distance(from_a, place), place};
         if (of_b_at_a.wins(image)) continue;
-        image.distance = distance(from_b, point_of(i));
+        image.distance = distance(from_b, place);
         if (of_a_at_b.wins(image)) continue;
         if (found.size() == most) return false;
         found.push_back(i);

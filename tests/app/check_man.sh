@@ -9,7 +9,7 @@ options_in() { { grep -oE '(^|[^a-z-])--[a-z][a-z-]*' || true; } | grep -oE -- '
 # Nothing but what is a subcommand's or an option's own: descriptions mention others.
 subcommands=$("$command" --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]\+\) .*/\1/p')
 options=$(for subcommand in "" $subcommands; do
-  "$command" ${subcommand:+"$subcommand"} --help | grep -oE '^ +(-[a-z],)?--[a-z][a-z-]*'
+  "$command" ${subcommand:+"$subcommand"} --help | grep -oE '^ +(-[a-z],)?--[a-z][a-z-]*(,--[a-z][a-z-]*)?'
 done | options_in)
 text=$(sed 's/\\-/-/g' "$page")
 

@@ -332,16 +332,15 @@ BOOST_AUTO_TEST_CASE(what_is_left_out_of_the_file_is_said) {
 BOOST_AUTO_TEST_CASE(seeds_that_share_a_pixel_are_counted) {
   const TemporaryFolder folder;
   folder.file("t.lammpstrj", dump(periodic_box, "x y", {"1 1", "1.01 1", "1.02 1", "5 5"}));
-  const std::string said = "2 of 4 seeds share their pixel with another and have no cell";
+  const std::string said = "2 of 4 seeds own no pixel\n";
   for (const char* command : {"render --labels l.npy", "cells --cells c.csv", "simulate --labels l%d.npy"}) {
-    const std::string line = std::string(command) + " --size 20x20 --trajectory t.lammpstrj";
+    const std::string line = std::string(command) + " --snap --size 20x20 --trajectory t.lammpstrj";
     BOOST_TEST(succeeds(folder, line).find(said) != std::string::npos, command);
     BOOST_TEST(json::parse(succeeds(folder, line + " --json")).at("empty_cells") == 2, command);
     // In a window the last one is too far away for a cell.
     const std::string in_window = run(folder, line + " --bounds 0,0,2,2").out;
     BOOST_TEST(
-        in_window.find("1 with a cell, 2 that share their pixel with another and have none, 1 outside") !=
-            std::string::npos,
+        in_window.find("1 with a cell, 2 inside and 1 outside that own no pixel\n") != std::string::npos,
         in_window);
   }
 }

@@ -33,6 +33,8 @@ expect "--method --metric" render --me
 expect "--labels" cells --lab
 expect "exact" cells --method e
 expect "--relaxed-points" relax --rel
+expect "--no-snap" cells --no
+expect "snapped true" compare --truth ""
 expect "" render --points cities
 
 command=$study

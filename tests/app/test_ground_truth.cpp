@@ -1,6 +1,7 @@
 // The ground truth of bench against brute force, and OpenCV's labels as it judges them.
 #define BOOST_TEST_MODULE ground_truth
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "brute_force.hpp"
@@ -32,6 +33,45 @@ BOOST_AUTO_TEST_CASE(exact_labels_are_right_and_others_are_counted) {
           truth.wrong_pixels(constant) == judge(example.grid, example.seeds, metric, constant, exact).wrong,
           example.name << ", " << name_of(metric));
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(seeds_within_their_pixels_are_judged_where_they_are) {
+  const std::vector<std::optional<Point>> seeds = {Point{3.25, 3.5}, Point{3.75, 3.5}, Point{9.5, 0.5}};
+  for (const Metric metric : both_metrics) {
+    const GroundTruth truth(Grid(12, 7), seeds, metric);
+    const GroundTruth round(Grid(12, 7, Periodic::xy), seeds, metric);
+    const auto labels = [&](bool periodic) {
+      const auto way = [periodic](double from, double to, double period) {
+        const double straight = std::abs(from - to);
+        return periodic ? std::min(straight, period - straight) : straight;
+      };
+      std::vector<std::uint32_t> nearest;
+      for (int i = 0; i < 12 * 7; ++i) {
+        double least = 1e9;
+        nearest.push_back(0);
+        for (std::uint32_t id = 0; id < seeds.size(); ++id) {  // in 1/4 pixel: without rounding
+          const double dx = way(seeds[id]->x, i % 12 + 0.5, 12), dy = way(seeds[id]->y, i / 12 + 0.5, 7);
+          const double distance = metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
+          if (distance < least) least = distance, nearest.back() = id;
+        }
+      }
+      return nearest;
+    };
+    BOOST_TEST(truth.wrong_pixels(labels(false)) == 0u);
+    BOOST_TEST(round.wrong_pixels(labels(true)) == 0u);
+    BOOST_TEST(truth.wrong_pixels(labels(true)) > 0u);
+    std::vector<std::uint32_t> swapped = labels(false);
+    for (std::uint32_t& label : swapped) label = label == 0 ? 1 : label == 1 ? 0 : label;
+    // Those of column 3 are as far from both.
+    const auto ties = [&] {
+      std::size_t count = 0;
+      for (std::size_t i = 3; i < swapped.size(); i += 12) count += swapped[i] != 2 ? 1 : 0;
+      return count;
+    };
+    const auto others = static_cast<std::size_t>(
+        std::count_if(swapped.begin(), swapped.end(), [](auto l) { return l != 2; }));
+    BOOST_TEST(truth.wrong_pixels(swapped) == others - ties());
   }
 }
 

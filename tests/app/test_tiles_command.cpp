@@ -24,6 +24,9 @@ const std::string planes[] = {
     "--random 40 --size 130x70 --periodic x",
     "--random 40 --size 130x70 --periodic xy --metric manhattan",
     "--points p.csv --size 80x60",
+    "--points p.csv --size 80x60 --no-snap",
+    "--points p.csv --size 90x60 --bounds 3,-7.5,40.7,61 --y-up --no-snap",
+    "--points p.csv --size 90x60 --bounds -20,0,60,40 --periodic y --no-snap",
     "--points p.csv --size 90x60 --bounds 0,0,60,40 --y-up",
     "--points p.csv --size 90x60 --bounds -20,0,60,40 --periodic y",
     "--points p.csv --size 90x60 --bounds -10,0,40,40 --periodic y",  // and points outside along x

@@ -108,7 +108,7 @@ static void test_methods(const vorocl_device* device) {
     CHECK(strcmp(method.name, some_methods[i].name) == 0);
     CHECK(method.exact == some_methods[i].exact && method.continues == some_methods[i].continues);
     CHECK(method.windows == some_methods[i].windows);
-    OK(vorocl_prepare(method.name, device, window, seed_count, NULL));
+    OK(vorocl_prepare(method.name, device, window, seed_count, VOROCL_SNAP_NONE, NULL));
     OK(vorocl_run(method.name, seeds, diagram, &options));
     OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
     CHECK(some_methods[i].waves < 0 || waves == some_methods[i].waves);

@@ -374,13 +374,19 @@ static void test_bad_methods(const vorocl_device* device) {
   FAILS(vorocl_method_get(1000, &method), VOROCL_BAD_ARGUMENT, "no index 1000");
   FAILS(vorocl_run("fast", seeds, diagram, NULL), VOROCL_BAD_ARGUMENT, "there is no method \"fast\"");
   FAILS(vorocl_run(NULL, seeds, diagram, NULL), VOROCL_NULL_ARGUMENT, "method is NULL");
-  FAILS(vorocl_prepare("fast", device, window, 9, NULL), VOROCL_BAD_ARGUMENT, "no method");
-  FAILS(vorocl_prepare(NULL, device, window, 9, NULL), VOROCL_NULL_ARGUMENT, "method is NULL");
-  FAILS(vorocl_prepare("jfa", NULL, window, 9, NULL), VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_prepare("jfa", device, window_of(0, height), 9, NULL), VOROCL_BAD_ARGUMENT, "0 pixels");
+  FAILS(vorocl_prepare("fast", device, window, 9, VOROCL_SNAP_TO_PIXELS, NULL), VOROCL_BAD_ARGUMENT,
+        "no method");
+  FAILS(vorocl_prepare(NULL, device, window, 9, VOROCL_SNAP_TO_PIXELS, NULL), VOROCL_NULL_ARGUMENT,
+        "method is NULL");
+  FAILS(vorocl_prepare("jfa", NULL, window, 9, VOROCL_SNAP_TO_PIXELS, NULL), VOROCL_NULL_ARGUMENT,
+        "device is NULL");
+  FAILS(vorocl_prepare("jfa", device, window_of(0, height), 9, VOROCL_SNAP_TO_PIXELS, NULL),
+        VOROCL_BAD_ARGUMENT, "0 pixels");
+  FAILS(vorocl_prepare("exact", device, window, 9, 2, NULL), VOROCL_BAD_ARGUMENT, "points within a pixel 2");
   options.metric = 9;
   FAILS(vorocl_run("jfa", seeds, diagram, &options), VOROCL_BAD_ARGUMENT, "metric 9");
-  FAILS(vorocl_prepare("jfa", device, window, 9, &options), VOROCL_BAD_ARGUMENT, "metric 9");
+  FAILS(vorocl_prepare("jfa", device, window, 9, VOROCL_SNAP_TO_PIXELS, &options), VOROCL_BAD_ARGUMENT,
+        "metric 9");
   options.metric = VOROCL_EUCLIDEAN;
   options.reach = 9;
   FAILS(vorocl_run("djfa", seeds, diagram, &options), VOROCL_BAD_ARGUMENT, "reach 9");

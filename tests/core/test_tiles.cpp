@@ -171,6 +171,77 @@ BOOST_AUTO_TEST_CASE(tiles_of_windows) {
   }
 }
 
+// Points within their pixels, several in most of them: tiles are windows of one diagram, bit for bit.
+BOOST_AUTO_TEST_CASE(tiles_of_points_are_one_grid) {
+  std::mt19937 rng(12);
+  const auto within = [&](std::int64_t low, std::int64_t high, bool coarse) {
+    const double at =
+        static_cast<double>(low) + static_cast<double>(rng()) * 0x1p-32 * static_cast<double>(high - low);
+    return coarse ? std::floor(at * 2) / 2 : at;  // many are as far from a pixel
+  };
+  for (const std::size_t count : {1u, 7u, 300u, 9000u}) {
+    for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
+      const Grid grid(120, 90, axes);
+      std::vector<Point> points;
+      for (std::size_t i = 0; i < count; ++i) {
+        points.push_back({within(-30, 150, i % 2 == 0), within(-30, 120, i % 2 == 0)});
+        if (i % 5 == 0) points.push_back(points[i / 2]);  // at one place
+      }
+      const PlaneSeeds seeds(grid, points, Outside::count, Snap::none);
+      const Seeds whole(test_device(), grid, points, Outside::count, Snap::none);
+      Diagram diagram(test_device(), grid), snapped(test_device(), grid);
+      for (const Metric metric : both_metrics) {
+        exact_diagram(whole, diagram, {metric});
+        const Labels expected = diagram.read();
+        for (const int side : {17, 50, 128}) {
+          BOOST_TEST(count_differences(labels_of(seeds, Tiling(grid, side), {metric}), expected) == 0u,
+                     count << " points, tiles of " << side << ", " << name_of(metric));
+        }
+        exact_diagram(Seeds(test_device(), grid, points), snapped, {metric});
+        if (count > 7) BOOST_TEST(count_differences(snapped.read(), expected) > 100u);
+        BOOST_TEST(count_differences(labels_of(PlaneSeeds(grid, points), Tiling(grid, 50), {metric}),
+                                     snapped.read()) == 0u);
+      }
+    }
+  }
+}
+
+// The cells of tiles are those of one diagram.
+BOOST_AUTO_TEST_CASE(cells_of_tiles_of_points_are_those_of_one_grid) {
+  std::mt19937 rng(13);
+  const Grid grid(100, 80, Periodic::xy);
+  std::vector<Point> points;
+  for (int i = 0; i < 40; ++i)
+    points.push_back({static_cast<double>(rng()) * 0x1p-32 * 100, static_cast<double>(rng()) * 0x1p-32 * 80});
+  // One owns more than half a period, along which pixels lie the shorter way round from it.
+  for (const std::size_t count : {points.size(), std::size_t{2}, std::size_t{1}}) {
+    points.resize(count);
+    const PlaneSeeds seeds(grid, points, Outside::count, Snap::none);
+    PlaneCells cells;
+    TileOptions options;
+    options.cells = &cells;
+    exact_tiles(
+        test_device(), seeds, Tiling(grid, 33), [](const TileLabels&) {}, options);
+    Diagram diagram(test_device(), grid);
+    exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+    CellSumsResult sums;
+    CellShapesResult shapes;
+    cell_sums(diagram, sums);
+    cell_shapes(diagram, shapes);
+    const std::vector<CellSums> expected = sums.read();
+    const std::vector<CellShape> boxes = shapes.read();
+    for (std::size_t id = 0; id < count; ++id) {
+      const PlaneCell cell = cells.cell(id);
+      BOOST_TEST(cell.area == expected[id].area);
+      if (cell.area == 0) continue;
+      BOOST_TEST(cell.centroid.x == expected[id].centroid().x, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(cell.centroid.y == expected[id].centroid().y, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST((cell.left == boxes[id].left && cell.right == boxes[id].right && cell.top == boxes[id].top &&
+                  cell.bottom == boxes[id].bottom));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(seeds_may_come_with_ids_of_their_own) {
   const Grid grid(300, 200);
   const std::vector<Point> points = {{10, 10}, {200, 100}, {10.5, 10.5}, {250, 150}};
@@ -223,6 +294,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
   check_error([&] { seeds.add(&beyond, 1); }, {"seed 7", "too far away"});
   check_error([&] { seeds.add(&none, 1); }, {"2^32 - 1"});
   check_error([&] { periodic.add(&wrapped, 1); }, {"seed 7", "outside the grid's period"});
+  const PlaneSeed apart = {5, 5, 7, 4096, 0};
+  check_error([&] { seeds.add(&apart, 1); }, {"seed 7", "4096 and 0 parts"});
   BOOST_TEST(seeds.id_end() == 2u);
   std::vector<PlaneSeed> near;
   seeds.find_near(grid, Metric::euclidean, near);

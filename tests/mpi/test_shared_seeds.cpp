@@ -114,6 +114,32 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(labels_of_points_are_those_of_one_device) {
+  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+    const Grid grid(300, 210, axes);
+    for (const std::size_t count : {3u, 400u, 30000u}) {
+      std::mt19937 rng(9);
+      std::vector<Point> points;
+      for (std::size_t i = 0; i < count; ++i) {
+        // Half of them in one place of 20 x 20 pixels.
+        const double side = i % 2 == 0 ? 20 : 300, other = i % 2 == 0 ? 20 : 210;
+        points.push_back(
+            {static_cast<double>(rng()) * 0x1p-32 * side, static_cast<double>(rng()) * 0x1p-32 * other});
+      }
+      Diagram diagram(test_device(), grid);
+      exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+      SharedSeeds seeds(MPI_COMM_WORLD, grid, Snap::none);
+      for (std::size_t i = static_cast<std::size_t>(rank()); i < count;
+           i += static_cast<std::size_t>(ranks()))
+        seeds.add(std::vector<Point>{points[i]}, i);
+      seeds.share();
+      BOOST_TEST((seeds.snap() == Snap::none));
+      const std::vector<std::uint32_t> labels = labels_of(seeds, grid, 64, Metric::euclidean);
+      BOOST_TEST((labels == diagram.read()), count << " points");
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(each_rank_holds_as_many) {
   const Grid grid(4000, 4000);
   for (const bool clustered : {false, true}) {

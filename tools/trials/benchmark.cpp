@@ -71,10 +71,10 @@ Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
 }
 
 /// From seeds on the host to labels on the host.
-Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric) {
+Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric, Snap snap) {
   const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.window().pixels());
-  const auto run = [&seeds, points = seeds.read(), &diagram, metric, labels] {
-    const Seeds placed(seeds.device(), seeds.grid(), points);
+  const auto run = [&seeds, points = seeds.read(), &diagram, metric, snap, labels] {
+    const Seeds placed(seeds.device(), seeds.grid(), points, Outside::count, snap);
     exact_diagram(placed, diagram, {metric});
     diagram.read(labels->data());
   };
@@ -82,8 +82,8 @@ Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric) {
 }
 
 /// From seeds on the host, which are sorted, to labels on the host, which are there for each tile in turn.
-Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric) {
-  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read());
+Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric, Snap snap) {
+  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read(), Outside::count, snap);
   sorted->sort();
   const auto each_tile = [device = seeds.device(), tiling = Tiling(seeds.grid(), side), metric,
                           sorted](const std::function<void(const TileLabels&)>& use) {
@@ -127,8 +127,8 @@ std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const
     contenders.push_back(contender(method, seeds, diagram, options.method));
   const Metric metric = options.method.metric;
   if (options.tile > 0) {
-    contenders.push_back(exact_on_host(seeds, diagram, metric));
-    contenders.push_back(exact_in_tiles(seeds, options.tile, metric));
+    contenders.push_back(exact_on_host(seeds, diagram, metric, options.truth));
+    contenders.push_back(exact_in_tiles(seeds, options.tile, metric, options.truth));
   }
   const GroundTruth truth(seeds.grid(), seeds.read_pixels(), metric);
   std::vector<BenchmarkResult> results;

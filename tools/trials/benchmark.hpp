@@ -17,11 +17,12 @@
 
 namespace vorocl::command {
 
-/// The least distances, by an exact method that shares nothing with the engines (a k-d tree).
+/// The least distances, by an exact method that shares nothing with the engines (a k-d tree). Seeds may lie
+/// anywhere within their pixels.
 class GroundTruth {
  public:
   /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them. Finds the least distance of every
-  /// pixel: about a microsecond per pixel and core, and 4 bytes per pixel.
+  /// pixel: about a microsecond per pixel and core, and 8 bytes per pixel.
   GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.
@@ -29,16 +30,15 @@ class GroundTruth {
 
  private:
   struct Position {
-    int x;
-    int y;
+    std::int64_t x, y;  // in parts of a pixel
   };
-  std::uint32_t distance(const Position& seed, int x, int y) const;
+  std::uint64_t distance(const Position& seed, int x, int y) const;
 
   Size size_;
   Periodic periodic_;
   Metric metric_;
   std::vector<std::optional<Position>> seeds_;  // by id
-  std::vector<std::uint32_t> least_;            // row-major; squared if euclidean
+  std::vector<std::uint64_t> least_;            // row-major; squared if euclidean
 };
 
 /// OpenCV's labelled distance transform, as a baseline for the methods.
@@ -74,7 +74,8 @@ struct BenchmarkResult {
 struct BenchmarkOptions {
   MethodOptions method;
   int rounds = 1;
-  int tile = 0;  ///< side of tiles in pixels, 0 for none
+  int tile = 0;                  ///< side of tiles in pixels, 0 for none
+  Snap truth = Snap::to_pixels;  ///< what the seeds were placed with, which all are judged by
 };
 
 /// Times methods from seeds on the device to labels on the device, and with tiles the exact engine from seeds

@@ -20,7 +20,7 @@ namespace {
 struct BenchOptions {
   SeedOptions seeds;
   std::vector<Method> methods;
-  BenchmarkOptions benchmark = {{}, 9, 0};
+  BenchmarkOptions benchmark = {{}, 9, 0, Snap::to_pixels};
   std::string device;
   bool json = false;
 };
@@ -83,6 +83,8 @@ void add_bench(CommandLine& line) {
   Command command = line.add("bench", "Time methods side by side and count their wrong pixels");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_truth_option(command, options->benchmark.truth,
+                   "What exact makes diagrams of, and all labels are judged by:");
   add_methods_option(command, options->methods);
   add_method_options(command, options->benchmark.method);
   command
@@ -101,6 +103,7 @@ void add_bench(CommandLine& line) {
   command.set_work([command, options] {
     check_method_options(command, options->methods, options->benchmark.method);
     options->seeds.keeps_inside = "bench cannot take";
+    options->seeds.usual_snap = options->benchmark.truth;
     run(*options);
   });
 }

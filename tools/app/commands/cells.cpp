@@ -118,6 +118,7 @@ void add_cells(CommandLine& line) {
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
@@ -137,6 +138,7 @@ void add_cells(CommandLine& line) {
   command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);
     check_method_options(command, {options->method}, options->method_options);
+    snap_for(options->method, options->seeds);
     if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);
   });

@@ -24,7 +24,10 @@ namespace vorocl::command {
 
 namespace {
 
+/// Judged by snapped points, as the paper has it, unless --truth says otherwise.
 struct CompareOptions {
+  CompareOptions() { seeds.usual_snap = Snap::to_pixels; }
+
   std::string a;
   std::string b;
   SeedOptions seeds;  // instead of b: what a is the diagram of
@@ -163,6 +166,7 @@ void add_compare(CommandLine& line) {
   command.add("b", options->b, "Labels of the same size");
   add_seed_options(command, options->seeds, 0);
   add_frame_option(command, options->seeds);
+  add_truth_option(command, options->seeds.usual_snap, "What the exact diagram is of:");
   add_metric_option(command, options->metric);
   add_device_option(command, options->device);
   add_json_option(command, options->json);

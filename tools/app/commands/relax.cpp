@@ -174,6 +174,7 @@ void add_relax(CommandLine& line) {
   Command command = line.add("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   command
       .add("--rounds", options->rounds,

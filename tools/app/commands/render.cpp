@@ -133,6 +133,7 @@ void add_render(CommandLine& line) {
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
+  add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
@@ -150,6 +151,7 @@ void add_render(CommandLine& line) {
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
+    snap_for(options->method, options->seeds);
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }

@@ -109,7 +109,7 @@ class Run {
   /// Its kernels are built before: this must not count as time of the first frames.
   void add_engine(const Method& method, const MethodOptions& options) {
     const Seeds& seeds = simulation_.seeds();
-    prepare(method, seeds.device(), source_.view().window, seeds.size(), options);
+    prepare(method, seeds.device(), source_.view().window, seeds.size(), options, options_.seeds.snapping());
     simulation_.add_engine([this, run = method.run, options](const Seeds& of, Diagram& diagram) {
       MethodOptions known = options;
       known.max_displacement = displacement_;  // which a box may make less than the seeds know
@@ -259,6 +259,7 @@ void add_simulate(CommandLine& line) {
   add_seed_options(command, options->seeds, 1, true);
   add_motion_options(command, options->motion);
   add_units_option(command, options->seeds);
+  add_snap_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagrams");
   add_method_options(command, options->method_options);
   const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };
@@ -272,6 +273,9 @@ void add_simulate(CommandLine& line) {
   command.add_choice("--compare-metric", options->compare_metric, metrics, "The other method's distance")
       .default_text("that of --metric")
       .needs(compare_with);
+  add_truth_option(command, options->truth,
+                   "With --compare-with exact, what a method that floods is judged by:")
+      .needs(compare_with);
   command
       .add_parsed("--tolerance", options->tolerance, parse_tolerance,
                   "Compare distances instead of labels: pixels are equal if their two seeds are equally far, "
@@ -284,6 +288,12 @@ void add_simulate(CommandLine& line) {
   command.set_work([command, options] {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
+    snap_for(options->method, options->seeds);
+    const bool judges = !options->method.exact && options->compare_with && options->compare_with->exact;
+    if (judges) options->seeds.usual_snap = options->truth;
+    if (!judges && command.has("--truth")) {
+      throw UsageError("--truth is for a method that floods, with --compare-with exact");
+    }
     options->seeds.value_column = options->output.picture.color.column;
     const bool floods =
         !options->method.windows || (options->compare_with && !options->compare_with->windows);

@@ -46,9 +46,9 @@ void run(const TilesOptions& options) {
   const FinishAtEnd finish(device);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
-  PlaneSeeds seeds(tiling.window().grid());
+  PlaneSeeds seeds(tiling.window().grid(), Outside::count, options.input.seeds.snapping());
   PlaneReading reading;
-  reading.add = [&](std::uint64_t, const std::vector<Point>& pixels) { seeds.add(pixels); };
+  reading.add = [&](std::uint64_t, const std::vector<Point>& places) { seeds.add(places); };
   reading.reserve = [&](std::uint64_t count) { seeds.reserve(static_cast<std::size_t>(count)); };
   reading.stops = [&] { return interruption.came(); };
   const PlaneFacts facts = read_plane_seeds(options.input, reading);

@@ -53,7 +53,7 @@ void check_files(const TilesOptions& options, const Ranks& ranks) {
 PlaneFacts read_slice(const TilesOptions& options, const Ranks& ranks, const Interruption& interruption,
                       SharedSeeds& seeds) {
   PlaneReading reading;
-  reading.add = [&](std::uint64_t first, const std::vector<Point>& pixels) { seeds.add(pixels, first); };
+  reading.add = [&](std::uint64_t first, const std::vector<Point>& places) { seeds.add(places, first); };
   reading.reserve = [&](std::uint64_t count) {
     const auto blocks = (count / block_points + 1) / static_cast<std::uint64_t>(ranks.count) + 1;
     seeds.reserve(static_cast<std::size_t>(std::min(blocks * block_points, count)));
@@ -149,7 +149,7 @@ void run(const TilesOptions& given) {
   const Tiling tiling = tiling_of(options, device);
   SharedPlaneWriter writer(ranks, options.output, tiling, georeference(options, tiling),
                            run_of(options, tiling));
-  SharedSeeds seeds(ranks.communicator, tiling.window().grid());
+  SharedSeeds seeds(ranks.communicator, tiling.window().grid(), options.input.seeds.snapping());
   const PlaneFacts facts = read_slice(options, ranks, interruption, seeds);
   seeds.share();
   writer.begin(facts.name);

@@ -77,6 +77,12 @@ Option Command::add(const std::string& name, std::string& value, const std::stri
   return Option(*app_->add_option(name, value, about));
 }
 
+Option Command::add_pair(const std::string& names, const std::function<void(bool is_on)>& set,
+                         const std::string& about) {
+  return Option(*app_->add_flag_function(
+      names, [set](std::int64_t count) { set(count > 0); }, about));
+}
+
 Option Command::add(const std::string& name, int& value, const std::string& about) {
   return Option(*app_->add_option(name, value, about));
 }

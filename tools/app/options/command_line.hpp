@@ -74,6 +74,11 @@ class Command {
 
   Option add(const std::string& name, bool& flag, const std::string& about);
   Option add(const std::string& name, std::string& value, const std::string& about);
+
+  /// A flag and its opposite: "--name,!--no-name".
+  Option add_pair(const std::string& names, const std::function<void(bool is_on)>& set,
+                  const std::string& about);
+
   Option add(const std::string& name, int& value, const std::string& about);
   Option add(const std::string& name, std::optional<int>& value, const std::string& about);
   Option add(const std::string& name, std::uint64_t& value, const std::string& about);

@@ -27,6 +27,12 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least 
 /// Adds --random and --points, of which one must be given, and what goes with them, for planes.
 void add_plane_options(Command& command, PlaneInputOptions& options);
 
+/// Adds --snap and --no-snap, for the subcommands that make exact diagrams of points.
+void add_snap_option(Command& command, SeedOptions& options);
+
+/// Adds --truth: what diagrams are judged by. The help says of what.
+Option add_truth_option(Command& command, Snap& truth, const std::string& about);
+
 /// Adds --frame, for the subcommands that show one frame.
 void add_frame_option(Command& command, SeedOptions& options);
 

@@ -188,6 +188,26 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
                       "across the border, and points outside the bounds wrap")
       .default_text("none");
   add_y_options(command, seeds, "The data's y axis points up");
+  add_snap_option(command, seeds);
+}
+
+void add_snap_option(Command& command, SeedOptions& options) {
+  const auto set = [&options](bool is_on) { options.snap = is_on ? Snap::to_pixels : Snap::none; };
+  command.add_pair(
+      "--snap,!--no-snap", set,
+      "Move points to the centres of their pixels, as methods that flood always do; with --no-snap " +
+          std::string(usual_snap == Snap::none ? "(the default) " : "") +
+          "exact diagrams take the points themselves, rounded to 1/4096 of a pixel");
+}
+
+Option add_truth_option(Command& command, Snap& truth, const std::string& about) {
+  const Choices<Snap> truths = {{"snapped", Snap::to_pixels}, {"true", Snap::none}};
+  return command
+      .add_choice(
+          "--truth", truth, truths,
+          about +
+              " the centres of the points' pixels, or the points themselves, rounded to 1/4096 of a pixel")
+      .default_text("snapped");
 }
 
 void add_frame_option(Command& command, SeedOptions& options) {

@@ -41,12 +41,10 @@ std::optional<OutputFile> open_output(const std::string& path) {
 
 void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds) {
   if (cells < seeds) {
-    print(
-        "of these seeds: {} with a cell, {} that share their pixel with another and have none, {} outside "
-        "that own no pixel\n",
-        cells - empty, empty, seeds - cells);
+    print("of these seeds: {} with a cell, {} inside and {} outside that own no pixel\n", cells - empty,
+          empty, seeds - cells);
   } else if (empty > 0) {
-    print("{} of {} seeds share their pixel with another and have no cell\n", empty, seeds);
+    print("{} of {} seeds own no pixel\n", empty, seeds);
   }
 }
 

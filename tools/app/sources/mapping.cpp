@@ -86,35 +86,35 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
                         const std::vector<std::uint32_t>& ids) {
   const Bounds& bounds = mapping.bounds;
   const PlacedAxes axes = place_axes(mapping, picture);
-  std::vector<Point> pixels;
-  pixels.reserve(points.size());
+  std::vector<Point> places;
+  places.reserve(points.size());
   std::size_t outside = 0;
   for (const Point& point : points) {
     const auto refuse = [&](const std::string& why) {
-      const std::string name = ids.empty() ? fmt::format("point {}", pixels.size())
-                                           : fmt::format("particle {}", ids.at(pixels.size()));
+      const std::string name = ids.empty() ? fmt::format("point {}", places.size())
+                                           : fmt::format("particle {}", ids.at(places.size()));
       throw Error(fmt::format("{} at ({}, {}) is {}", name, point.x, point.y, why));
     };
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    Point pixel = {axes.x.pixel(point.x), axes.y.pixel(point.y)};
-    if (std::max(std::abs(pixel.x), std::abs(pixel.y)) >= plane_side - Size::max_side) {
+    Point place = {axes.x.place(point.x, mapping.snap), axes.y.place(point.y, mapping.snap)};
+    if (std::max(std::abs(place.x), std::abs(place.y)) >= plane_side - Size::max_side) {
       refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
     }
-    pixel = {axes.x.held(pixel.x), axes.y.held(pixel.y)};
-    const bool inside = picture.holds(pixel);
+    place = {axes.x.held(place.x, mapping.snap), axes.y.held(place.y, mapping.snap)};
+    const bool inside = picture.holds(place);
     if (mapping.outside == Outside::refuse &&
         (!inside || axes.x.is_outside(point.x) || axes.y.is_outside(point.y))) {
       refuse("outside the bounds " + to_string(bounds) + "; give --bounds that hold it");
     }
     outside += inside ? 0 : 1;
-    pixels.push_back(pixel);
+    places.push_back(place);
   }
   const Stretch x = axes.x.grid(), y = axes.y.grid();
-  for (Point& pixel : pixels) {
-    pixel.x -= static_cast<double>(x.begin);
-    pixel.y -= static_cast<double>(y.begin);
+  for (Point& place : places) {
+    place.x -= static_cast<double>(x.begin);
+    place.y -= static_cast<double>(y.begin);
   }
-  return {view_of(mapping, axes, picture, outside == 0), std::move(pixels), outside};
+  return {view_of(mapping, axes, picture, outside == 0), std::move(places), outside};
 }
 
 }  // namespace vorocl::command

@@ -24,6 +24,7 @@ struct Mapping {
   Periodic periodic = Periodic::none;
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds
   Ends ends;                     ///< of the domain, along the other axes
+  Snap snap = Snap::to_pixels;   ///< whether points become the centres of their pixels
   bool in_pixels = false;        ///< what is measured stays in pixels
   bool has_one_scale = true;     ///< of both axes in all frames; without it, lengths stay in pixels
 };
@@ -32,19 +33,20 @@ struct Mapping {
 /// all points.
 struct MappedPoints {
   View view;
-  std::vector<Point> pixels;
+  std::vector<Point> places;
   std::size_t outside = 0;  ///< points in no pixel of the picture
 
   /// Whether seeds lie outside the picture, or what it shows is not all of the grid.
   bool is_window() const { return outside > 0 || !view.window.is_whole(); }
 };
 
-/// Maps points to pixels of a picture: column floor((x - x0) * W / (x1 - x0)); rows likewise, or counted from
-/// the bottom if `y_up`. Along a periodic axis points wrap; a period is a whole number of pixels, to which
-/// positions are scaled. Beyond the domain's ends the diagram has no pixels. `ids` are the names of particles
-/// in errors; without them points are counted from 0. Throws Error that names the first point that is not
-/// finite, is 2^31 pixels away or is outside where that is refused; for a period of less than a pixel or more
-/// than Axis::max_pixels, a domain outside the bounds, and bounds that check_bounds() refuses.
+/// Maps points to places in a picture, in pixels: x is (x - x0) * W / (x1 - x0), rounded to 1/4096 or to the
+/// centre of its pixel; y likewise, or counted from the bottom if `y_up`. Along a periodic axis points wrap;
+/// a period is a whole number of pixels, to which positions are scaled. Beyond the domain's ends the diagram
+/// has no pixels. `ids` are the names of particles in errors; without them points are counted from 0. Throws
+/// Error that names the first point that is not finite, is 2^31 pixels away or is outside where that is
+/// refused; for a period of less than a pixel or more than Axis::max_pixels, a domain outside the bounds, and
+/// bounds that check_bounds() refuses.
 MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping, const Size& picture,
                         const std::vector<std::uint32_t>& ids = {});
 

@@ -45,11 +45,14 @@ class RandomWalk : public MovingSeeds {
 class Trajectory : public MovingSeeds {
  public:
   Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const std::optional<Bounds>& bounds)
-      : particles_(seeds, 0, motion.fit, bounds), frames_(motion.frames), bytes_(particles_.bytes_left()) {}
+      : particles_(seeds, 0, motion.fit, bounds),
+        snap_(seeds.snapping()),
+        frames_(motion.frames),
+        bytes_(particles_.bytes_left()) {}
 
   const View& view() const override { return particles_.view(); }
   Seeds place(const Device& device) const override {
-    return {device, view().window.grid(), particles_.points()};
+    return {device, view().window.grid(), particles_.points(), Outside::count, snap_};
   }
   bool next() override {
     if (frame_ == frames_ || !particles_.next()) return false;
@@ -74,6 +77,7 @@ class Trajectory : public MovingSeeds {
 
  private:
   TrajectorySeeds particles_;
+  Snap snap_;
   std::optional<int> frames_;
   std::optional<std::uintmax_t> bytes_;  // after frame 0
   int frame_ = 0;
@@ -92,7 +96,9 @@ std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const M
   }
   if (!motion.frames) throw UsageError("--frames A is required, except with --trajectory");
   if (!motion.step_length) throw UsageError("--step-length D is required, except with --trajectory");
-  return std::make_unique<RandomWalk>(seeds, motion);
+  SeedOptions of_pixels = seeds;
+  snap_for("random motion", of_pixels);
+  return std::make_unique<RandomWalk>(of_pixels, motion);
 }
 
 }  // namespace vorocl::command

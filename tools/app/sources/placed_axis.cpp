@@ -57,8 +57,9 @@ void PlacedAxis::end_at(const std::optional<double>& low, const std::optional<do
   last_end_ = static_cast<double>(pixels_) - first;
 }
 
-double PlacedAxis::held(double pixel) const {
-  return std::clamp(pixel, first_end_ + 0.5, last_end_ - 0.5);  // rounding must not move it beyond
+double PlacedAxis::held(double place, Snap snap) const {
+  const double first = snap == Snap::to_pixels ? 0.5 : 0, last = snap == Snap::to_pixels ? 0.5 : 0x1p-12;
+  return std::clamp(place, first_end_ + first, last_end_ - last);  // rounding must not move it beyond
 }
 
 Stretch PlacedAxis::shown() const {

@@ -7,6 +7,7 @@
 
 #include "app/sources/view.hpp"
 #include "vorocl/grid.hpp"
+#include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
 
@@ -38,11 +39,15 @@ class PlacedAxis {
   /// Whether a point is outside [low, high]; none is along a periodic axis.
   bool is_outside(double at) const { return !axis_.covers(at); }
 
-  /// The centre of a point's pixel, from the picture's first one.
-  double pixel(double at) const { return static_cast<double>(begin_) + axis_.pixel(at) + 0.5; }
+  /// Where a point lies, from the picture's first pixel on, as exact diagrams take it: at the centre of its
+  /// pixel, or at a whole number of 1/4096 pixel.
+  double place(double at, Snap snap) const {
+    return static_cast<double>(begin_) +
+           (snap == Snap::to_pixels ? axis_.pixel(at) + 0.5 : axis_.rounded_position(at));
+  }
 
   /// That of a point which must not be beyond an end.
-  double held(double pixel) const;
+  double held(double place, Snap snap) const;
 
   /// The picture's pixels that there are; none if the ends lie outside.
   Stretch shown() const;

@@ -47,11 +47,11 @@ Survey survey(const SeedOptions& options, const PlaneReading& reading) {
 /// A hash of the seeds that does not depend on their order, or on which process has them.
 class SeedsHash {
  public:
-  void add(std::uint64_t first, const std::vector<Point>& pixels) {
-    for (const Point& pixel : pixels) {
+  void add(std::uint64_t first, const std::vector<Point>& places) {
+    for (const Point& place : places) {
       Hash hash;
       hash.add(first++);
-      for (const double at : {pixel.x, pixel.y}) {
+      for (const double at : {place.x, place.y}) {
         std::uint64_t bits = 0;
         std::memcpy(&bits, &at, sizeof bits);
         hash.add(bits);
@@ -88,27 +88,30 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   reading.reserve(survey.points);
   SeedsHash hash;
   std::uint64_t points_outside = 0;
-  std::vector<Point> pixels;
+  const auto place_of = [snap = options.snapping()](const Axis& axis, double at) {
+    return snap == Snap::none ? axis.rounded_position(at) : axis.pixel(at) + 0.5;
+  };
+  std::vector<Point> places;
   const auto add = [&](std::uint64_t first, const std::vector<Point>& block) {
     check_stop(reading.stops);
-    pixels.clear();
+    places.clear();
     for (const Point& point : block) {
-      const Point pixel = {data.x().pixel(point.x) + 0.5, data.y().pixel(point.y) + 0.5};
-      const bool inside = pixel.x >= 0 && pixel.x < static_cast<double>(plane.width()) && pixel.y >= 0 &&
-                          pixel.y < static_cast<double>(plane.height());
+      const Point place = {place_of(data.x(), point.x), place_of(data.y(), point.y)};
+      const bool inside = place.x >= 0 && place.x < static_cast<double>(plane.width()) && place.y >= 0 &&
+                          place.y < static_cast<double>(plane.height());
       require(outside == Outside::count || (inside && data.x().covers(point.x) && data.y().covers(point.y)),
-              options, first + pixels.size(), point,
+              options, first + places.size(), point,
               "outside the bounds " + to_string(bounds) + "; give --bounds that hold it");
       points_outside += inside ? 0 : 1;
-      pixels.push_back(pixel);
+      places.push_back(place);
     }
     try {
-      reading.add(first, pixels);
+      reading.add(first, places);
     } catch (const BadPoint& bad) {
       require(false, options, bad.index(), block[bad.index() - first],
               "2^31 pixels or more away from a pixel of the bounds " + to_string(bounds));
     }
-    hash.add(first, pixels);
+    hash.add(first, places);
   };
   read_in_blocks(options.points, options.columns, reading.slice, add);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
@@ -165,6 +168,8 @@ void check_plane_options(const PlaneInputOptions& options) {
   }
   const char* const given = seeds.bounds                        ? "--bounds"
                             : seeds.outside                     ? "--outside"
+                            : seeds.snap == Snap::to_pixels     ? "--snap"
+                            : seeds.snap == Snap::none          ? "--no-snap"
                             : seeds.y_up                        ? "--y-up"
                             : seeds.y_down                      ? "--y-down"
                             : seeds.units == MeasureUnits::data ? "--units data"

@@ -33,8 +33,8 @@ struct Survey {
 
 /// How seeds are read: by a process alone, or by several that read a slice each, all at once.
 struct PlaneReading {
-  /// Takes the pixels of seeds with the ids first, first + 1, ...
-  std::function<void(std::uint64_t first, const std::vector<Point>& pixels)> add;
+  /// Takes the places, in pixels, of seeds with the ids first, first + 1, ...
+  std::function<void(std::uint64_t first, const std::vector<Point>& places)> add;
   std::function<void(std::uint64_t seeds)> reserve;  ///< says before how many seeds all have
   std::function<bool()> stops;                       ///< asked between two blocks
   Slice slice = {};
@@ -48,7 +48,7 @@ struct PlaneReading {
 struct PlaneFacts {
   std::uint64_t seeds = 0;
   Units units;
-  std::string name;  ///< which tells them from others: how many they are, and a hash of their pixels
+  std::string name;  ///< which tells them from others: how many they are, and a hash of their places
 };
 
 /// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or

@@ -33,6 +33,7 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   mapping.periodic = axes_of(options);
   mapping.domain = options.domain;
   mapping.in_pixels = in_pixels(options);
+  mapping.snap = options.snapping();
   return mapping;
 }
 
@@ -48,12 +49,13 @@ Input input_from_points(const SeedOptions& options) {
                              to_string(mapping.bounds)));
     }
     note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
-    return {
-        mapped.view,
-        [mapped](const Device& device) { return Seeds(device, mapped.view.window.grid(), mapped.pixels); },
-        {},
-        values,
-        mapped.is_window()};
+    return {mapped.view,
+            [mapped, snap = mapping.snap](const Device& device) {
+              return Seeds(device, mapped.view.window.grid(), mapped.places, Outside::count, snap);
+            },
+            {},
+            values,
+            mapped.is_window()};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -90,7 +92,7 @@ Input input_at_random(const SeedOptions& options) {
             for (std::size_t id = 0; id < options.random; ++id) {
               pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
             }
-            return Seeds(device, grid, pixels);
+            return Seeds(device, grid, pixels, Outside::count, Snap::to_pixels);
           },
           {},
           {}};
@@ -100,9 +102,8 @@ Input input_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const View& view = particles.view();
   return {view,
-          [grid = view.window.grid(), points = particles.points()](const Device& device) {
-            return Seeds(device, grid, points);
-          },
+          [grid = view.window.grid(), points = particles.points(), snap = options.snapping()](
+              const Device& device) { return Seeds(device, grid, points, Outside::count, snap); },
           particles.ids(),
           particles.values(),
           particles.is_window(),
@@ -137,12 +138,25 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
   const char* const given = options.bounds                        ? "--bounds"
                             : options.outside                     ? "--outside"
                             : options.width != 0                  ? "--width"
+                            : options.snap == Snap::to_pixels     ? "--snap"
+                            : options.snap == Snap::none          ? "--no-snap"
                             : options.y_up                        ? "--y-up"
                             : options.y_down                      ? "--y-down"
                             : !options.value_column.empty()       ? "--color column:NAME"
                             : options.units == MeasureUnits::data ? "--units data"
                                                                   : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points or --trajectory");
+}
+
+void snap_for(const std::string& what, SeedOptions& options) {
+  if (options.snap == Snap::none) {
+    throw UsageError("--no-snap is for exact diagrams; " + what + " takes the centres of the points' pixels");
+  }
+  options.usual_snap = Snap::to_pixels;
+}
+
+void snap_for(const Method& method, SeedOptions& options) {
+  if (!method.exact) snap_for("the method " + method.name, options);
 }
 
 void refuse_window(const Input& input, const std::string& what) {

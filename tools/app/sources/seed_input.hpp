@@ -10,12 +10,16 @@
 #include "app/sources/bounds.hpp"
 #include "app/sources/mapping.hpp"
 #include "formats/csv.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
 
 /// The units of what is measured.
 enum class MeasureUnits { data, pixels };
+
+/// What exact diagrams make of points where --snap and --no-snap do not say.
+constexpr Snap usual_snap = Snap::to_pixels;
 
 struct SeedOptions {
   std::size_t random = 0;  // 0: not given, as are empty names
@@ -27,15 +31,29 @@ struct SeedOptions {
   std::optional<Size> size;
   int width = 0;
   std::optional<Bounds> bounds;
-  std::optional<Bounds> domain;       // of points: what repeats along the periodic axes; else the bounds
-  std::optional<Outside> outside;     // the bounds; else they count
-  std::optional<Periodic> periodic;   // else none, or what the trajectory says
+  std::optional<Bounds> domain;      // of points: what repeats along the periodic axes; else the bounds
+  std::optional<Outside> outside;    // the bounds; else they count
+  std::optional<Periodic> periodic;  // else none, or what the trajectory says
+  std::optional<Snap> snap;          // of points and particles, as given; else ...
+  Snap usual_snap = command::usual_snap;
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
   std::string value_column;           // whose values are read with the points
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
+
+  /// What becomes of points and particles; masks and random seeds are whole pixels.
+  Snap snapping() const {
+    return points.empty() && trajectory.empty() ? Snap::to_pixels : snap.value_or(usual_snap);
+  }
 };
+
+/// Has the points snapped for something ("the method jfa") that knows whole pixels alone. Throws UsageError
+/// if they must not be.
+void snap_for(const std::string& what, SeedOptions& options);
+
+/// As above, if it is a method that floods.
+void snap_for(const Method& method, SeedOptions& options);
 
 constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact diagrams can";
 

@@ -25,49 +25,51 @@ Periodic periodic_axes(const Box& box) {
   return y ? Periodic::y : Periodic::none;
 }
 
-/// The first particle on each pixel, in a table of twice as many places or more.
-class FirstOnPixels {
+/// The first particle at each place, in a table with room for twice as many or more.
+class FirstAtPlaces {
  public:
-  explicit FirstOnPixels(const std::vector<Point>& pixels) : pixels_(pixels) {
-    while (std::size_t{1} << bits_ < 2 * pixels.size()) ++bits_;
-    places_.assign(std::size_t{1} << bits_, none);
+  explicit FirstAtPlaces(const std::vector<Point>& places) : places_(places) {
+    while (std::size_t{1} << bits_ < 2 * places.size()) ++bits_;
+    entries_.assign(std::size_t{1} << bits_, none);
   }
 
-  /// The first of the particles asked for so far that is on the pixel of this one.
+  /// The first of the particles asked for so far that is at the place of this one.
   std::size_t of(std::size_t particle) {
-    const Point& pixel = pixels_[particle];
-    std::size_t at = hash(pixel);
-    while (places_[at] != none && !is_on(pixel, places_[at])) at = (at + 1) % places_.size();
-    if (places_[at] == none) places_[at] = static_cast<std::uint32_t>(particle);
-    return places_[at];
+    const Point& place = places_[particle];
+    std::size_t at = hash(place);
+    while (entries_[at] != none && !is_at(place, entries_[at])) at = (at + 1) % entries_.size();
+    if (entries_[at] == none) entries_[at] = static_cast<std::uint32_t>(particle);
+    return entries_[at];
   }
 
  private:
   static constexpr std::uint32_t none = 0xffffffff;
 
-  bool is_on(const Point& pixel, std::size_t particle) const {
-    return pixels_[particle].x == pixel.x && pixels_[particle].y == pixel.y;  // both at its centre
+  bool is_at(const Point& place, std::size_t particle) const {
+    return places_[particle].x == place.x && places_[particle].y == place.y;  // both are rounded
   }
 
-  std::size_t hash(const Point& pixel) const {
-    const auto bits = [](double of) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(of)); };
-    std::uint64_t mixed = (bits(pixel.y) << 32 ^ bits(pixel.x)) * 0x9e3779b97f4a7c15u;
+  std::size_t hash(const Point& place) const {
+    const auto bits = [](double of) {
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(of * 4096));
+    };
+    std::uint64_t mixed = (bits(place.y) << 32 ^ bits(place.x)) * 0x9e3779b97f4a7c15u;
     mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
     return static_cast<std::size_t>(mixed >> (64 - bits_));
   }
 
-  const std::vector<Point>& pixels_;
+  const std::vector<Point>& places_;
   int bits_ = 1;
-  std::vector<std::uint32_t> places_;
+  std::vector<std::uint32_t> entries_;
 };
 
-/// By particle, the slot that has what files and pictures say of it: its own, but that of particles on one
-/// pixel the first, which has the lowest id, exchanges with the one in the lowest slot, whose label the pixel
-/// carries.
-std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& pixels, const ParticleSlots& slots) {
+/// By particle, the slot that has what files and pictures say of it: its own, but of particles at one
+/// place the first, which has the lowest id, exchanges with the one in the lowest slot, whose label the
+/// pixels carry.
+std::vector<std::uint32_t> slots_by_cell(const std::vector<Point>& places, const ParticleSlots& slots) {
   std::vector<std::uint32_t> by_cell = slots.of_ids();
-  FirstOnPixels first(pixels);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
+  FirstAtPlaces first(places);
+  for (std::size_t i = 0; i < places.size(); ++i) {
     std::uint32_t& lowest = by_cell[first.of(i)];
     if (by_cell[i] < lowest) std::swap(by_cell[i], lowest);
   }
@@ -95,6 +97,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
       told_axes_(options.periodic),
       outside_is_(options.outside.value_or(Outside::count)),
       y_up_(points_up(options)),
+      snap_(options.snapping()),
       in_pixels_(in_pixels(options)) {
   reader_ = open_trajectory(path_, options.value_column);
   while (number_ < start) {
@@ -202,6 +205,7 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   mapping.y_up = y_up_;
   mapping.outside = outside_is_;
   mapping.periodic = axes_of_frame();
+  mapping.snap = snap_;
   mapping.in_pixels = in_pixels_;
   mapping.has_one_scale = fit_ == Fit::all || given_bounds_;
   if (const std::optional<Box>& box = frame_.box) {
@@ -252,21 +256,21 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size
   const bool has_other_window = view_ && view_->window != mapped.view.window;
   view_ = mapped.view;
   if (bounds) note_of_scales(*bounds, mapped.outside);
-  const std::vector<Point>& pixels = mapped.pixels;
+  const std::vector<Point>& places = mapped.places;
   slots_.update(frame_.ids);
   std::vector<std::optional<Point>> points(slots_.size());
   max_displacement_ = has_other_window ? std::nullopt : std::optional<double>(0);
-  for (std::size_t i = 0; i < pixels.size(); ++i) {
+  for (std::size_t i = 0; i < places.size(); ++i) {
     const std::uint32_t slot = slots_.of_ids()[i];
-    points[slot] = pixels[i];
+    points[slot] = places[i];
     // A slot that was taken holds the same particle still.
     if (max_displacement_ && slot < points_.size() && points_[slot]) {
-      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], pixels[i], periods));
+      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], places[i], periods));
     }
   }
   points_ = std::move(points);
   is_window_ = mapped.is_window();
-  const std::vector<std::uint32_t> by_cell = slots_by_cell(pixels, slots_);
+  const std::vector<std::uint32_t> by_cell = slots_by_cell(places, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
   values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());
 }

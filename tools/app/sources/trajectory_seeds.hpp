@@ -49,7 +49,7 @@ class TrajectorySeeds {
   /// The frame's box; none in an XYZ without a lattice.
   const std::optional<Box>& box() const { return frame_.box; }
 
-  /// The particles' ids, by slot; no_label for an empty slot. Of particles on one pixel the lowest slot,
+  /// The particles' ids, by slot; no_label for an empty slot. Of particles at one place the lowest slot,
   /// whose label the pixels carry, has the lowest id.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
 
@@ -97,6 +97,7 @@ class TrajectorySeeds {
   std::optional<Periodic> told_axes_;  // by the caller, not by the file
   Outside outside_is_;
   bool y_up_;
+  Snap snap_;
   bool in_pixels_;
   bool has_boxes_ = false;  // the first frame has one
   bool tilt_noted_ = false;
