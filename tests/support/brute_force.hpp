@@ -60,9 +60,30 @@ inline Pixel nearest_image(const Grid& grid, const Pixel& pixel, const Pixel& to
   return {nearest_image(pixel.x, to.x, grid.x()), nearest_image(pixel.y, to.y, grid.y())};
 }
 
-/// The distance in a grid, which may be periodic: along such an axis both lie in the period.
+/// Distances in a grid, which may be periodic: along such an axis both pixels lie in the period.
+class DistanceIn {
+ public:
+  DistanceIn(const Grid& grid, Metric metric)
+      : period_x_(period_of(grid.x())), period_y_(period_of(grid.y())), metric_(metric) {}
+
+  std::int64_t operator()(const Pixel& a, const Pixel& b) const {
+    return distance({0, 0}, {along(a.x, b.x, period_x_), along(a.y, b.y, period_y_)}, metric_);
+  }
+
+ private:
+  static std::int64_t period_of(const Axis& axis) { return axis.is_periodic() ? axis.pixels() : 0; }
+
+  static std::int64_t along(std::int64_t a, std::int64_t b, std::int64_t period) {
+    const std::int64_t direct = std::abs(a - b);
+    return period > 0 ? std::min(direct, period - direct) : direct;
+  }
+
+  std::int64_t period_x_, period_y_;
+  Metric metric_;
+};
+
 inline std::int64_t distance(const Grid& grid, const Pixel& a, const Pixel& b, Metric metric) {
-  return distance(nearest_image(grid, a, b), b, metric);
+  return DistanceIn(grid, metric)(a, b);
 }
 
 /// The pixel that one is an image of along the periodic axes.
@@ -97,6 +118,7 @@ inline std::optional<Pixel> shown_pixel(const Window& window, std::int64_t colum
 /// period.
 inline Labels brute_force(const Window& window, std::vector<Pixel> seeds, Metric metric) {
   const Grid& grid = window.grid();
+  const DistanceIn distance(grid, metric);
   for (Pixel& seed : seeds) seed = in_period(grid, seed);
   Labels labels;
   labels.reserve(window.pixels());
@@ -106,7 +128,7 @@ inline Labels brute_force(const Window& window, std::vector<Pixel> seeds, Metric
       std::int64_t least = 0;
       const std::optional<Pixel> pixel = shown_pixel(window, x, y);
       for (std::uint32_t id = 0; pixel && id < seeds.size(); ++id) {
-        const std::int64_t d = distance(grid, *pixel, seeds[id], metric);
+        const std::int64_t d = distance(*pixel, seeds[id]);
         if (best == no_label || d < least || (d == least && seeds[id] < seeds[best])) {
           best = id;
           least = d;
