@@ -30,12 +30,6 @@ Outside to_outside(vorocl_outside outside) {
   refuse("choice for points outside", outside);
 }
 
-Snap to_snap(vorocl_snap snap) {
-  if (snap == VOROCL_SNAP_TO_PIXELS) return Snap::to_pixels;
-  if (snap == VOROCL_SNAP_NONE) return Snap::none;
-  refuse("choice for points within a pixel", snap);
-}
-
 Border to_border(vorocl_border border) {
   if (border == VOROCL_REFLECT) return Border::reflect;
   if (border == VOROCL_PERIODIC) return Border::periodic;
