@@ -16,11 +16,12 @@ command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit
 [ -e "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
 command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
 
-# A GPU gets all programs but those of the exact engine's vector shape.
+# A GPU gets all programs but those of the vector shape of exact diagrams.
 kernel_files() {
   grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
+  echo kernels/exact/points/pixels.cl
 }
 
 work=$(mktemp -d)
@@ -38,7 +39,7 @@ compile() { # FILE METRIC NEIGHBOURS OPTION...
 # What programs are built for besides a plain grid: seeds outside it, and periodic axes.
 more_options() { # FILE
   if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
-  if [ "$1" = kernels/exact/group/diagram.cl ]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/exact/group/diagram.cl || $1 == kernels/exact/points/pixels.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
 }
 
 # ptxas's report as lines of: file, kernel, options, architecture, registers, stack, spilled bytes, local memory.

@@ -25,8 +25,8 @@ struct ExactOptions {
 /// seeds and diagram do not fit together or the device has too little memory.
 ///
 /// Of seeds with Snap::none the points themselves are taken: the nearest is that of the least (distance from
-/// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel. Any shape of the tuning makes them by the
-/// same kernels. The host places the points whenever they have moved: 24 bytes of device memory per seed.
+/// the pixel's centre, y, x, id), in whole numbers of 1/4096 pixel. The host places the points whenever they
+/// have moved: 24 bytes of device memory per seed.
 /// Throws Error too if a seed that may own a pixel is more than 262,144 pixels from the window's first one.
 /// What follows about windows costs a place in the list for each seed and image that may own a pixel.
 ///

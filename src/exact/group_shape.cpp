@@ -23,13 +23,6 @@ struct GroupWorkspace {
   cl::Buffer queue;    // of patches for the search: how many, and of each the number and a seed near it
 };
 
-/// The kernels have no vectors, so that one program serves every width.
-Device without_vectors(const Device& device) {
-  Tuning tuning = device.tuning();
-  tuning.vector_width = 1;
-  return device.with_tuning(tuning);
-}
-
 /// A work-group of the search has more items than others: it may have all seeds as candidates of one patch
 /// while most of the device has nothing to do.
 std::size_t items_of_search(const Device& device) {

@@ -20,13 +20,6 @@ struct PointsWorkspace {
 
 std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
 
-/// The kernels have vectors of their own, so that one program serves every width.
-Device without_vectors(const Device& device) {
-  Tuning tuning = device.tuning();
-  tuning.vector_width = 1;
-  return device.with_tuning(tuning);
-}
-
 /// Bins with some three places each, so that neither bins nor places that are too far are what a walk meets
 /// most.
 int bits_of_bins(const PixelGrid& grid, std::size_t places) {
@@ -54,8 +47,10 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
 
   const Device device = without_vectors(state.device);
   const std::size_t group = device.tuning().group_width * device.tuning().group_height;
+  const bool in_tiles = device.tuning().shape == Shape::vector;
+  const char* const file = in_tiles ? "exact/points/diagram.cl" : "exact/points/pixels.cl";
   const auto kernel = [&](const char* name, std::size_t most) -> Kernel& {
-    return state.kernels.get(device, "exact/points/diagram.cl", name, grid, {filling.metric()})
+    return state.kernels.get(device, file, name, grid, {filling.metric()})
         .in_groups_of(std::min(group, most));
   };
   const bool has_ids = points.ids() != nullptr;
@@ -68,11 +63,12 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
       .over_items(points.count, points.places, has_ids ? points.ids : points.places, cl_int{has_ids},
                   points.count, bits, width, height, memory.starts, memory.numbers, memory.list, memory.ids);
   kernel("drop_repeats", 8).over_items(rows, memory.starts, bits, width, height, memory.list, memory.ids);
-  // Work-items that do much each: small groups spread them over the compute units.
-  const cl::Event last = kernel("label_tiles", 8)
-                             .over_items(along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS),
-                                         memory.starts, memory.list, memory.ids, points.seeds,
-                                         cl_int{has_ids}, bits, width, height, points.region, state.labels);
+  // Work-items that label a tile do much each: small groups spread them over the compute units.
+  const std::size_t tiles = along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS);
+  const cl::Event last =
+      (in_tiles ? kernel("label_tiles", 8) : kernel("label_pixels", group))
+          .over_items(in_tiles ? tiles : grid.pixels(), memory.starts, memory.list, memory.ids, points.seeds,
+                      cl_int{has_ids}, bits, width, height, points.region, state.labels);
   return filling.commit(0, first, last);
 }
 

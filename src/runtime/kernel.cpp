@@ -42,6 +42,12 @@ std::size_t round_up(std::size_t count, std::size_t multiple) {
 
 }  // namespace
 
+Device without_vectors(const Device& device) {
+  Tuning tuning = device.tuning();
+  tuning.vector_width = 1;
+  return device.with_tuning(tuning);
+}
+
 Kernel::Kernel(const Device& device, const char* file, const char* name, const PixelGrid& grid,
                const KernelOptions& options)
     : device_(device),

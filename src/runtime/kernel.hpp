@@ -36,6 +36,10 @@ struct KernelOptions {
   }
 };
 
+/// The same device for kernels that have no vectors of pixels, or vectors of their own: one program of them
+/// serves every width.
+Device without_vectors(const Device& device);
+
 /// One kernel with its arguments. A launch sets the buffers, and those numbers that have changed since the
 /// last one. Never shared between threads: an OpenCL kernel object holds its arguments.
 class Kernel {

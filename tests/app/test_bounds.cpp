@@ -32,7 +32,7 @@ Mapping refusing(const Bounds& bounds, bool y_up = false) {
 Pairs pixel(const Point& point, const Bounds& bounds, const Grid& grid, bool y_up = false) {
   Mapping mapping = refusing(bounds, y_up);
   mapping.periodic = grid.periodic();
-  return pairs_of(map_points({point}, mapping, Size(grid)).pixels);
+  return pairs_of(map_points({point}, mapping, Size(grid)).places);
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
     const double scaled = 7 + (x - 7) * 7 / 7.4;
     const double column = std::floor(scaled) < 3 ? 9 : std::floor(scaled) > 9 ? 3 : std::floor(scaled);
     if (std::abs(scaled - std::round(scaled)) < 1e-6) continue;  // on the border of a pixel
-    for (const Point& pixel : mapped.pixels) BOOST_TEST(pixel.x + 3 == column + 0.5, x);
+    for (const Point& place : mapped.places) BOOST_TEST(place.x + 3 == column + 0.5, x);
   }
   BOOST_TEST(map_points({{5, 0.5}}, mapping, Size(20, 1)).view.units.of_length() == std::string("data"));
 }

@@ -1,3 +1,3 @@
-// The program of exact diagrams of points.
+// The program of exact diagrams of points in the vector shape.
 
 #include "exact/points/tiles.cl"

@@ -5,7 +5,7 @@
 
 #include "exact/points/candidates.cl"
 
-// What a work-item reads, and the labels of the tile that it makes.
+// What a work-item reads.
 typedef struct {
   bins_t bins;
   int width, height;  // of the grid, which is its period along periodic axes
@@ -13,8 +13,28 @@ typedef struct {
   global const int2* list;
   global const uint* ids;
   global const int2* seeds;  // by id, if places may be images of them; else null
-  uint* labels;              // of the tile, row by row
 } scene_t;
+
+// The position of a place's seed in the grid.
+static inline int2 own_position(const scene_t* scene, uint at) {
+  return scene->seeds ? scene->seeds[scene->ids[at]] : scene->list[at];
+}
+
+static inline bool comes_first(const scene_t* scene, uint at, uint other) {
+  const int2 a = own_position(scene, at), b = own_position(scene, other);
+  if (a.y != b.y) return a.y < b.y;
+  if (a.x != b.x) return a.x < b.x;
+  return scene->ids[at] < scene->ids[other];
+}
+
+// What orders places by their ways from a pixel, in units.
+static inline ulong distance_in_units(long x, long y) {
+#ifdef VOROCL_EUCLIDEAN
+  return (ulong)(x * x) + (ulong)(y * y);
+#else
+  return (ulong)(abs(x) + abs(y));
+#endif
+}
 
 // Pixels of an axis, both ends included.
 typedef struct {

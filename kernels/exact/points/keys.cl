@@ -33,18 +33,6 @@ typedef struct {
   uint values[RANK_ROOM];  // by rank: what is written for a place
 } places_t;
 
-// The position of a place's seed in the grid.
-static inline int2 own_position(const scene_t* scene, uint at) {
-  return scene->seeds ? scene->seeds[scene->ids[at]] : scene->list[at];
-}
-
-static inline bool comes_first(const scene_t* scene, uint at, uint other) {
-  const int2 a = own_position(scene, at), b = own_position(scene, other);
-  if (a.y != b.y) return a.y < b.y;
-  if (a.x != b.x) return a.x < b.x;
-  return scene->ids[at] < scene->ids[other];
-}
-
 // A place of the list from the centre that the list is relative to, in units: its floats say which image of it.
 static inline int unwrapped(int way, float pixels, int size, int periodic) {
   if (!periodic) return way;

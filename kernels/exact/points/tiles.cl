@@ -1,4 +1,4 @@
-// Exact diagrams of points: a work-item labels a tile, by one list if few places are there, else box by box, each by
+// Exact diagrams of points in the vector shape: a work-item labels a tile, by one list if few places are there, else box by box, each by
 // the places around it.
 
 #ifndef VOROCL_POINTS_TILES
@@ -10,14 +10,6 @@
 #define MOST_OF_BOX 48    // a box of 16 pixels with more is labelled in quarters
 #define MOST_OF_PARTS 32  // likewise, where keys do not hold the distances
 #define FEW_OF_TILE 24    // a tile of fewer is labelled from one list
-
-static inline ulong distance_in_units(long x, long y) {
-#ifdef VOROCL_EUCLIDEAN
-  return (ulong)(x * x) + (ulong)(y * y);
-#else
-  return (ulong)(abs(x) + abs(y));
-#endif
-}
 
 // The nearest so far of a box's pixels.
 typedef struct {
@@ -265,8 +257,7 @@ kernel void label_tiles(global const uint* restrict starts, global const int2* r
   const int left = item % across * POINTS_TILE, top = item / across * POINTS_TILE;
   if (top >= height) return;
   uint labels[POINTS_TILE * POINTS_TILE];
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids,
-                         has_images ? seeds : 0,       labels};
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0};
   label_tile(&scene, left, top, labels);
   const int end = min(POINTS_TILE, width - left), bottom = min(POINTS_TILE, height - top);
   const bool is_inside = left >= region.s0 && top >= region.s1 && left + end - 1 <= region.s2 &&
