@@ -3,12 +3,11 @@
 import numpy as np
 from scipy.spatial import cKDTree
 
-from vorocl._arguments import USUAL_SNAP
 
 PARTS = 4096  # of a pixel, to which positions are rounded
 
 
-def rounded(points, snap=USUAL_SNAP):
+def rounded(points, snap=False):
     """Where exact diagrams have points: at the centres of their pixels, or at 1/4096 of a pixel and never out of it."""
     points = np.asarray(points, float)
     pixels = np.floor(points)
@@ -36,7 +35,7 @@ def offsets(a, b, shape, periodic):
     return apart
 
 
-def brute_force(points, shape, periodic=(False, False), metric="euclidean", snap=USUAL_SNAP):
+def brute_force(points, shape, periodic=(False, False), metric="euclidean", snap=False):
     """Labels by the definition: the nearest position of a point, the first of them row by row, the lowest row of it."""
     points = rounded(points, snap)
     there = np.flatnonzero(~np.isnan(points).any(axis=1))
@@ -46,7 +45,7 @@ def brute_force(points, shape, periodic=(False, False), metric="euclidean", snap
     return order[distances.argmin(axis=1)].astype(np.uint32).reshape(shape)
 
 
-def assert_nearest(labels, points, periodic=(False, False), metric="euclidean", snap=USUAL_SNAP):
+def assert_nearest(labels, points, periodic=(False, False), metric="euclidean", snap=False):
     """Every pixel's label is a point at the least distance that SciPy's k-d tree finds, but for what rounding does."""
     points = np.floor(points) + 0.5 if snap else points
     centres = pixel_centres(labels.shape)

@@ -22,9 +22,6 @@ Units = Literal["data", "pixels"]
 
 Truth = Literal["snapped", "true"]
 
-USUAL_SNAP = True
-"""Whether exact diagrams move points to the centres of their pixels where no `snap` is given."""
-
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
 
@@ -126,7 +123,7 @@ def to_snap(snap: Optional[bool], method: str = "exact") -> bool:
     """Whether points are moved to the centres of their pixels, which methods that flood always do."""
     floods = to_text(method, "method") in _FLOODING
     if snap is None:
-        return floods or USUAL_SNAP
+        return floods
     if not to_flag(snap, "snap") and floods:
         raise BadArgument(f'the method "{method}" moves points to the centres of their pixels: snap=False is for "exact"')
     return snap

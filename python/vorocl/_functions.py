@@ -119,11 +119,10 @@ def diagram(
 ) -> NDArray[np.uint32]:
     """Give every pixel the row of its nearest point.
 
-    Points are moved to the centres of their pixels first, which limits their accuracy to half a pixel; with
-    ``snap=False`` "exact" takes the points themselves, rounded to 1/4096 of a pixel of the grid. It computes in
-    integers: its labels are those of the point nearest to the pixel's centre, the same on every device. Of several
-    points at the least distance the one with the least y wins, counted down the grid, then the one with the least x,
-    then the one with the lowest row of `points`.
+    "exact" takes the points themselves, rounded to 1/4096 of a pixel of the grid, and computes in integers: its labels
+    are those of the point nearest to the pixel's centre, the same on every device. Of several points at the least
+    distance the one with the least y wins, counted down the grid, then the one with the least x, then the one with the
+    lowest row of `points`. A method that floods, and ``snap=True``, move points to the centres of their pixels first.
 
     Parameters
     ----------
@@ -552,8 +551,8 @@ def relax(
 ) -> Relaxation:
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
 
-    A round moves every point to the pixel that is nearest to its cell's centroid, in Euclidean diagrams; with
-    ``snap=False`` to the centroid itself, rounded to 1/4096 of a pixel. Ctrl-C ends it after a round.
+    A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
+    that is nearest to it where points are snapped. Ctrl-C ends it after a round.
 
     Parameters
     ----------
@@ -575,7 +574,7 @@ def relax(
     Examples
     --------
     >>> import vorocl
-    >>> relaxed = vorocl.relax([(0.5, 0.5), (1.5, 0.5)], (4, 8), snap=False)
+    >>> relaxed = vorocl.relax([(0.5, 0.5), (1.5, 0.5)], (4, 8))
     >>> relaxed.points.tolist(), relaxed.converged
     ([[2.0, 2.0], [6.0, 2.0]], True)
     """

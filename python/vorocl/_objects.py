@@ -65,9 +65,9 @@ def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
 class Seeds(OnDevice):
     """Points as seeds of a diagram, on the device.
 
-    A seed's id is its row. A seed may be absent: it has an id and no cell. Diagrams take the pixels that hold the
-    points, and of seeds that share a pixel the lowest id owns the cell. With ``snap=False`` exact ones take the points
-    themselves.
+    A seed's id is its row. A seed may be absent: it has an id and no cell. Exact diagrams take the points themselves
+    unless they are snapped; a method that floods takes the pixels that hold them, and of seeds that share a pixel the
+    lowest id owns the cell then.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Seeds(OnDevice):
     Examples
     --------
     >>> import numpy as np, vorocl
-    >>> seeds = vorocl.Seeds([(0.25, 0.75), (np.nan, 1), (7, 3)], (4, 8), snap=False)
+    >>> seeds = vorocl.Seeds([(0.25, 0.75), (np.nan, 1), (7, 3)], (4, 8))
     >>> len(seeds), seeds.alive
     (3, 2)
     >>> seeds.read()
@@ -166,7 +166,7 @@ class Seeds(OnDevice):
 
     @with_parameters
     def read(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
-        """Return where exact diagrams have the seeds: the centres of their pixels, or the points to 1/4096 of a pixel.
+        """Return where exact diagrams have the seeds: the points, rounded to 1/4096 of a pixel, or snapped.
 
         Parameters
         ----------

@@ -12,9 +12,9 @@ points : array_like
     [i, i + 1). A row with a NaN is absent, and so is a row that is masked.""",
     "snap": """\
 snap : bool, optional
-    Whether points are moved to the centres of their pixels: they are by default, and always by methods that flood. With
-    False "exact" takes the points themselves, rounded to 1/4096 of a pixel: several points of one pixel may own pixels
-    then.""",
+    Whether points are moved to the centres of their pixels, as methods that flood always do. Without it, "exact" takes
+    the points themselves, rounded to 1/4096 of a pixel, and "exact" alone can: several points of one pixel may own
+    pixels then.""",
     "truth": """\
 truth : {"snapped", "true"}, optional
     Whether points at the centres of their pixels are the truth, as for methods that flood, or the points themselves,

@@ -193,11 +193,9 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
 
 void add_snap_option(Command& command, SeedOptions& options) {
   const auto set = [&options](bool is_on) { options.snap = is_on ? Snap::to_pixels : Snap::none; };
-  command.add_pair(
-      "--snap,!--no-snap", set,
-      "Move points to the centres of their pixels, as methods that flood always do; with --no-snap " +
-          std::string(usual_snap == Snap::none ? "(the default) " : "") +
-          "exact diagrams take the points themselves, rounded to 1/4096 of a pixel");
+  command.add_pair("--snap,!--no-snap", set,
+                   "Move points to the centres of their pixels, as methods that flood always do; without it "
+                   "exact diagrams take the points themselves, rounded to 1/4096 of a pixel");
 }
 
 Option add_truth_option(Command& command, Snap& truth, const std::string& about) {

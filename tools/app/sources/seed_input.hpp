@@ -18,9 +18,6 @@ namespace vorocl::command {
 /// The units of what is measured.
 enum class MeasureUnits { data, pixels };
 
-/// What exact diagrams make of points where --snap and --no-snap do not say.
-constexpr Snap usual_snap = Snap::to_pixels;
-
 struct SeedOptions {
   std::size_t random = 0;  // 0: not given, as are empty names
   std::uint64_t rng_seed = 1;
@@ -35,7 +32,7 @@ struct SeedOptions {
   std::optional<Outside> outside;    // the bounds; else they count
   std::optional<Periodic> periodic;  // else none, or what the trajectory says
   std::optional<Snap> snap;          // of points and particles, as given; else ...
-  Snap usual_snap = command::usual_snap;
+  Snap usual_snap = Snap::none;
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
   std::string value_column;           // whose values are read with the points
