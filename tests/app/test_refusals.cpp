@@ -278,6 +278,16 @@ BOOST_AUTO_TEST_CASE(links_to_standard_output_are_written_into) {
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.error == "");
   BOOST_TEST(std::filesystem::is_symlink(folder / "out.csv"));
+  // A file that it is appended to would be replaced, and lose what it has.
+  for (const char* const output : {"out.csv", "log.csv"}) {
+    folder.file("log.csv", "before\n");
+    const Result into_file =
+        run(folder, std::string("cells --random 2 --size 9x9 --cells ") + output, "", ">> log.csv");
+    BOOST_TEST(into_file.exit_code == failure);
+    BOOST_TEST(into_file.error == "vorocl: error: cannot write " + std::string(output) +
+                                      ": standard output goes to this file\n");
+    BOOST_TEST(content_of(folder / "log.csv") == "before\n");
+  }
 }
 
 // 3 points: one has a cell, one shares its pixel, one lies outside and owns nothing.
