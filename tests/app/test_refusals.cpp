@@ -311,6 +311,10 @@ BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
   folder.file("file", "");
   refuses(folder, line, failure, {"no OpenCL driver could start", "cache file/cache (", "POCL_CACHE_DIR"},
           "POCL_CACHE_DIR=file/cache");
+  // A file where the folder should be does not keep the driver from starting.
+  refuses(folder, line, failure,
+          {"building ", " failed; PoCL cannot write its cache file (", "POCL_CACHE_DIR"},
+          "POCL_CACHE_DIR=file");
   refuses(folder, line, failure, {"no OpenCL driver could start", "limited to 195 MiB", "ulimit -v"},
           "ulimit -v 200000;");
   folder.file("vendors/none", "");
