@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
        {"render", "simulate", "cells", "relax", "bench", "compare", "devices"}) {
     refuses(folder, subcommand + " --sise 3", usage, {"--sise"});
   }
-  refuses(folder, render + "--sise p.csv --size 10x10", usage, {"not expected: --sise"});
+  refuses(folder, render + "--sise p.csv --size 10x10", usage, {"--sise is unknown"});
   refuses(folder, "render --random 0" + square, usage, {"--random", "0"});
   refuses(folder, "render --random -3" + square, usage, {"--random", "-3"});
   refuses(folder, "render --random few" + square, usage, {"--random", "few"});
@@ -218,14 +218,20 @@ BOOST_AUTO_TEST_CASE(compare_refuses_what_it_cannot_use) {
 
 BOOST_AUTO_TEST_CASE(what_is_unknown_is_told_where_the_help_is) {
   const TemporaryFolder folder;
-  refuses(folder, "rendr", usage, {"rendr; did you mean render? see vorocl --help\n"});
+  for (const char* const rest : {"", " --random 3 --size 9x9", " a b"}) {
+    refuses(folder, std::string("rendr") + rest, usage,
+            {"rendr is unknown; did you mean render? see vorocl --help\n"});
+  }
   const std::string render = "render --random 5 --size 9x9 ";
   for (const std::string colour : {"--colour", "--colour area"}) {
-    refuses(folder, render + colour, usage, {"--colour; did you mean --color? see vorocl render --help\n"});
+    refuses(folder, render + colour, usage,
+            {"--colour is unknown; did you mean --color? see vorocl render --help\n"});
   }
-  refuses(folder, render + "--xyzzy", usage, {"--xyzzy; see vorocl render --help\n"});
+  refuses(folder, "render --size 9x9 --pints p.csv", usage,
+          {"--pints is unknown; did you mean --points? see"});
+  refuses(folder, render + "--xyzzy", usage, {"--xyzzy is unknown; see vorocl render --help\n"});
   refuses(folder, "vorocl-study evaluat", usage,
-          {"evaluat; did you mean evaluate? see vorocl-study --help\n"});
+          {"evaluat is unknown; did you mean evaluate? see vorocl-study --help\n"});
   refuses(folder, render + "-o a.png --color neighbors", usage,
           {"\"neighbors\" is unknown; did you mean neighbours? there are id, distance"});
   refuses(folder, render + "-o a.png --palette virdis", usage, {"did you mean viridis? "});
