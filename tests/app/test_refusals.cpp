@@ -329,7 +329,7 @@ BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
 }
 
 BOOST_AUTO_TEST_CASE(small_stacks_suffice) {
-  for (const char* const stack : {"500", "1000"}) {
+  for (const char* const stack : {"200", "1000"}) {
     const TemporaryFolder folder;
     const Result result = run(folder, "render --random 5 --size 50x50 --labels a.npy",
                               std::string("ulimit -s ") + stack + "; POCL_CACHE_DIR=cache");
