@@ -166,15 +166,6 @@ std::string installed_drivers() {
   return names;
 }
 
-/// The folder where PoCL keeps what it has built, as far as the environment says it; empty: it does not.
-std::filesystem::path cache_of_pocl() {
-  const auto variable = [](const char* name) { return std::filesystem::path(environment(name)); };
-  if (auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
-  if (auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
-  const auto home = variable("HOME");
-  return home.empty() ? home : home / ".cache" / "pocl";
-}
-
 /// Where there is no platform: none of the drivers is installed, or none could start. The loader does not say
 /// why; what is known to stop them is looked at.
 Error no_platform() {
@@ -190,12 +181,7 @@ Error no_platform() {
     text +=
         "; the address space is limited to " + std::to_string(*limit >> 20) + " MiB: raise it (ulimit -v)";
   }
-  const std::string cache = cache_of_pocl().string();
-  const std::string why = cache.empty() ? "" : why_not_writable(cache);
-  if (!why.empty()) {
-    text += "; PoCL cannot write its cache " + cache + " (" + why +
-            "): let POCL_CACHE_DIR name a folder that it can write";
-  }
+  if (const std::string cache = trouble_with_cache_of_pocl(); !cache.empty()) text += "; " + cache;
   return Error(text, ErrorKind::device);
 }
 

@@ -30,6 +30,19 @@ std::string processor_features() {
 
 #if VOROCL_IS_UNIX
 
+namespace {
+
+/// As far as the environment says it; empty: it does not.
+std::filesystem::path cache_of_pocl() {
+  const auto variable = [](const char* name) { return std::filesystem::path(environment(name)); };
+  if (auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
+  if (auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
+  const auto home = variable("HOME");
+  return home.empty() ? home : home / ".cache" / "pocl";
+}
+
+}  // namespace
+
 std::int64_t process_number() { return getpid(); }
 
 std::optional<std::uint64_t> address_space_limit() {
@@ -38,18 +51,22 @@ std::optional<std::uint64_t> address_space_limit() {
   return limit.rlim_cur;
 }
 
-std::string why_not_writable(const std::string& folder) {
+std::string trouble_with_cache_of_pocl() {
+  const std::filesystem::path folder = cache_of_pocl();
+  if (folder.empty()) return "";
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (!code && access(folder.c_str(), W_OK | X_OK) != 0) code.assign(errno, std::generic_category());
-  return code ? code.message() : "";
+  if (!code) return "";
+  return "PoCL cannot write its cache " + folder.string() + " (" + code.message() +
+         "): let POCL_CACHE_DIR name a folder that it can write";
 }
 
 #else
 
 std::int64_t process_number() { return 0; }
 std::optional<std::uint64_t> address_space_limit() { return std::nullopt; }
-std::string why_not_writable(const std::string&) { return ""; }
+std::string trouble_with_cache_of_pocl() { return ""; }
 
 #endif
 

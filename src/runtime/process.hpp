@@ -30,7 +30,8 @@ std::optional<std::uint64_t> address_space_limit();
 /// them.
 std::string processor_features();
 
-/// Makes the folder if it is not there. Why files cannot be written there; empty if they can.
-std::string why_not_writable(const std::string& folder);
+/// Makes the folder where PoCL keeps what it builds if it is not there. Why PoCL cannot write there, and what
+/// to do; empty if it can, or if nothing says where the folder is.
+std::string trouble_with_cache_of_pocl();
 
 }  // namespace vorocl

@@ -107,6 +107,9 @@ cl::Program from_source(const Device& device, const std::string& file, const std
   const std::string what = "building " + file + " for " + device.name() + " with \"" + options + '"';
   code = clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr);
   if (code == CL_BUILD_PROGRAM_FAILURE) {
+    const bool is_pocl = device.platform_name() == "Portable Computing Language";
+    const std::string cache = is_pocl ? trouble_with_cache_of_pocl() : "";
+    if (!cache.empty()) throw Error(what + " failed; " + cache, ErrorKind::kernel_build);
     const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
                           std::size_t* used) {
       return clGetProgramBuildInfo(of(), id, wanted, size, value, used);

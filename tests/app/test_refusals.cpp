@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
        {"render", "simulate", "cells", "relax", "bench", "compare", "devices"}) {
     refuses(folder, subcommand + " --sise 3", usage, {"--sise"});
   }
-  refuses(folder, render + "--sise p.csv --size 10x10", usage, {"not expected: --sise"});
+  refuses(folder, render + "--sise p.csv --size 10x10", usage, {"--sise is unknown"});
   refuses(folder, "render --random 0" + square, usage, {"--random", "0"});
   refuses(folder, "render --random -3" + square, usage, {"--random", "-3"});
   refuses(folder, "render --random few" + square, usage, {"--random", "few"});
@@ -218,14 +218,20 @@ BOOST_AUTO_TEST_CASE(compare_refuses_what_it_cannot_use) {
 
 BOOST_AUTO_TEST_CASE(what_is_unknown_is_told_where_the_help_is) {
   const TemporaryFolder folder;
-  refuses(folder, "rendr", usage, {"rendr; did you mean render? see vorocl --help\n"});
+  for (const char* const rest : {"", " --random 3 --size 9x9", " a b"}) {
+    refuses(folder, std::string("rendr") + rest, usage,
+            {"rendr is unknown; did you mean render? see vorocl --help\n"});
+  }
   const std::string render = "render --random 5 --size 9x9 ";
   for (const std::string colour : {"--colour", "--colour area"}) {
-    refuses(folder, render + colour, usage, {"--colour; did you mean --color? see vorocl render --help\n"});
+    refuses(folder, render + colour, usage,
+            {"--colour is unknown; did you mean --color? see vorocl render --help\n"});
   }
-  refuses(folder, render + "--xyzzy", usage, {"--xyzzy; see vorocl render --help\n"});
+  refuses(folder, "render --size 9x9 --pints p.csv", usage,
+          {"--pints is unknown; did you mean --points? see"});
+  refuses(folder, render + "--xyzzy", usage, {"--xyzzy is unknown; see vorocl render --help\n"});
   refuses(folder, "vorocl-study evaluat", usage,
-          {"evaluat; did you mean evaluate? see vorocl-study --help\n"});
+          {"evaluat is unknown; did you mean evaluate? see vorocl-study --help\n"});
   refuses(folder, render + "-o a.png --color neighbors", usage,
           {"\"neighbors\" is unknown; did you mean neighbours? there are id, distance"});
   refuses(folder, render + "-o a.png --palette virdis", usage, {"did you mean viridis? "});
@@ -278,6 +284,16 @@ BOOST_AUTO_TEST_CASE(links_to_standard_output_are_written_into) {
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.error == "");
   BOOST_TEST(std::filesystem::is_symlink(folder / "out.csv"));
+  // A file that it is appended to would be replaced, and lose what it has.
+  for (const char* const output : {"out.csv", "log.csv"}) {
+    folder.file("log.csv", "before\n");
+    const Result into_file =
+        run(folder, std::string("cells --random 2 --size 9x9 --cells ") + output, "", ">> log.csv");
+    BOOST_TEST(into_file.exit_code == failure);
+    BOOST_TEST(into_file.error == "vorocl: error: cannot write " + std::string(output) +
+                                      ": standard output goes to this file\n");
+    BOOST_TEST(content_of(folder / "log.csv") == "before\n");
+  }
 }
 
 // 3 points: one has a cell, one shares its pixel, one lies outside and owns nothing.
@@ -300,6 +316,10 @@ BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
   folder.file("file", "");
   refuses(folder, line, failure, {"no OpenCL driver could start", "cache file/cache (", "POCL_CACHE_DIR"},
           "POCL_CACHE_DIR=file/cache");
+  // A file where the folder should be does not keep the driver from starting.
+  refuses(folder, line, failure,
+          {"building ", " failed; PoCL cannot write its cache file (", "POCL_CACHE_DIR"},
+          "POCL_CACHE_DIR=file");
   refuses(folder, line, failure, {"no OpenCL driver could start", "limited to 195 MiB", "ulimit -v"},
           "ulimit -v 200000;");
   folder.file("vendors/none", "");
@@ -308,7 +328,7 @@ BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
 }
 
 BOOST_AUTO_TEST_CASE(small_stacks_suffice) {
-  for (const char* const stack : {"500", "1000"}) {
+  for (const char* const stack : {"200", "1000"}) {
     const TemporaryFolder folder;
     const Result result = run(folder, "render --random 5 --size 50x50 --labels a.npy",
                               std::string("ulimit -s ") + stack + "; POCL_CACHE_DIR=cache");

@@ -81,6 +81,9 @@ BOOST_AUTO_TEST_CASE(bad_csv_lines_are_named) {
   const std::string decimals = "decimals have a point, not a comma";
   refuses_csv("x,y\n1,5,2,5\n", {"p.csv:2", "4 fields where the first line has 2", decimals, ": 1,5,2,5"});
   refuses_csv("1,2\n1,5,2\n", {"p.csv:2", "3 fields where the first line has 2", decimals});
+  refuses_csv("1,5,2,5\n3,1,4,2\n",
+              {"p.csv:1", "4 columns without names", "--columns", decimals, ": 1,5,2,5"});
+  BOOST_TEST((csv("1,2,\n3,4,\n") == Pairs{{1, 2}, {3, 4}}));
   refuses_csv("x,y\n\"1,5\",\"2,5\"\n", {"p.csv:2", "\"1,5\" is not a number", decimals});
   refuses_csv("x;y\n1,5;2,5\n", {"p.csv:1", "no column x; there are x;y", "separated by commas"});
   refuses_csv("1,2\n3,\n", {"p.csv:2", "\"\" is not a number"});
@@ -109,6 +112,7 @@ BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
     BOOST_TEST((found[0] == -1.5 && std::isnan(found[1]) && std::isnan(found[2]) && found[3] == 2000));
   }
   BOOST_TEST((values("1,2,3\n4,5,6\n", "2") == std::vector<double>{3, 6}));
+  check_error([&] { values("1,5,2,5\n", "3"); }, {"p.csv:1", "4 columns without names"});
   BOOST_TEST((values("x,y\n4,5\n", "y") == std::vector<double>{5}));
   BOOST_TEST(values(table, "").empty());
   check_error([&] { values(table, "depth"); }, {"p.csv:1", "no column depth", "x, name, y, Height"});

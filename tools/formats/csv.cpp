@@ -85,6 +85,16 @@ const std::string& field(const Line& line, std::size_t index) {
 
 constexpr const char* of_decimal_commas = "; decimals have a point, not a comma";
 
+/// Of more columns without names than are needed the first two may be half of two decimal commas.
+void refuse_columns_to_choose_from(const Line& first, std::size_t needed) {
+  const auto past_empty_ends = std::find_if(first.fields.rbegin(), first.fields.rend(),
+                                            [](const std::string& field) { return !field.empty(); });
+  const auto columns = static_cast<std::size_t>(first.fields.rend() - past_empty_ends);
+  if (columns <= needed) return;
+  throw first.error("there are " + std::to_string(columns) +
+                    " columns without names: choose two with --columns, such as 0,1" + of_decimal_commas);
+}
+
 double number(const Line& line, std::size_t index) {
   const auto parsed = parse_number<double>(field(line, index));
   if (parsed) return *parsed;
@@ -168,6 +178,8 @@ bool CsvReader::next() {
       indices_.emplace();
       if (columns_ || has_header) {
         std::tie(indices_->x, indices_->y) = locate(columns_.value_or(Columns{"x", "y"}), line, has_header);
+      } else {
+        refuse_columns_to_choose_from(line, value_column_.empty() ? 2 : 3);
       }
       if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
       columns_there_ = line.fields.size();

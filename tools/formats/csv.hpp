@@ -36,9 +36,9 @@ struct CsvIndices {
 };
 
 /// The points of a CSV file with commas, one after the other. A first line without any number is a header.
-/// Without `columns` the header must name an x and a y (in any case); where there is no header the first two
-/// columns count. Blank lines are skipped; fields may be quoted ("a ""b"", c"). The value column is a name or
-/// an index too; there an empty field is an absent value (NaN).
+/// Without `columns` the header must name an x and a y (in any case); where there is no header there must be
+/// two columns, or three with a value column. Blank lines are skipped; fields may be quoted ("a ""b"", c").
+/// The value column is a name or an index too; there an empty field is an absent value (NaN).
 class CsvReader {
  public:
   /// Throws Error if the file cannot be read.

@@ -62,6 +62,12 @@ std::string target_of_link(const std::string& path) {
   return resolved.get();
 }
 
+/// Such a file cannot be replaced: it would lose what standard output has and gets.
+bool is_standard_output(const struct stat& file) {
+  struct stat output = {};
+  return fstat(STDOUT_FILENO, &output) == 0 && output.st_dev == file.st_dev && output.st_ino == file.st_ino;
+}
+
 /// Opens a file that will replace another one, with that one's access rights. Negative, with errno, if that
 /// fails.
 int open_to_replace(const std::string& target, const std::string& path, int flags) {
@@ -109,6 +115,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
     if (!is_file_ && !S_ISFIFO(there.st_mode) && !S_ISCHR(there.st_mode)) {
       throw cannot_write(path, "it is neither a file nor a pipe");
     }
+    if (is_file_ && is_standard_output(there)) throw cannot_write(path, "standard output goes to this file");
     // A link to standard output that is a pipe or a terminal leads to no name, and is written into as it is.
     if (is_link && is_file_) target_ = target_of_link(path);
   } else {

@@ -185,9 +185,10 @@ void CommandLine::run(int argc, char** argv) {
   } catch (const CLI::Success& help_or_version) {
     app_->exit(help_or_version);
     return;
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(about_unknown());
   } catch (const CLI::ParseError& error) {
-    const bool is_unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
-    throw UsageError(error.what() + (is_unknown ? "; " + suggestion() + see_help() : ""));
+    throw UsageError(error.what());
   }
   if (app_->get_subcommands().empty()) {
     throw UsageError("no subcommand was given; " + see_help());
@@ -200,17 +201,20 @@ std::string CommandLine::see_help() const {
   return "see " + command + " --help";
 }
 
-std::string CommandLine::suggestion() const {
+std::string CommandLine::about_unknown() const {
   const auto chosen = app_->get_subcommands();
   const CLI::App& last = chosen.empty() ? *app_ : *chosen.back();
   std::vector<std::string> names;
+  const auto add_options_of = [&names](const CLI::App& app) {
+    for (const CLI::Option* const option : app.get_options()) names.push_back(option->get_name());
+  };
   for (const CLI::App* const subcommand : app_->get_subcommands({})) names.push_back(subcommand->get_name());
-  for (const CLI::Option* const option : last.get_options()) names.push_back(option->get_name());
-  const std::vector<std::string> unknown = app_->remaining(true);
-  const auto option = std::find_if(unknown.begin(), unknown.end(),
-                                   [](const std::string& word) { return word.front() == '-'; });
-  if (unknown.empty()) return {};
-  return did_you_mean(option == unknown.end() ? unknown.front() : *option, names);
+  add_options_of(last);
+  for (const CLI::App* const group : last.get_subcommands({})) add_options_of(*group);
+  // The first word is to blame: what follows an unknown subcommand is unknown, too, and so is an option's
+  // value.
+  const std::string word = app_->remaining(true).front();
+  return word + " is unknown; " + did_you_mean(word, names) + see_help();
 }
 
 namespace {

@@ -153,8 +153,8 @@ class CommandLine {
   /// Where the help of the subcommand is that was given: "see vorocl render --help".
   std::string see_help() const;
 
-  /// What an option or a subcommand that is unknown may have meant.
-  std::string suggestion() const;
+  /// Of what was given, the option or the subcommand that is unknown, and what it may have meant.
+  std::string about_unknown() const;
 
   std::unique_ptr<CLI::App> app_;
 };

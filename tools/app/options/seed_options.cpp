@@ -55,7 +55,7 @@ Option add_columns_option(Command& command, SeedOptions& options) {
       .add_parsed(
           "--columns", options.columns, parse_columns,
           "Columns of the CSV file, by name or by index from 0; else those that the header names x and y, or "
-          "the first two where there is no header")
+          "the only two where there is no header")
       .value_name("X,Y");
 }
 
