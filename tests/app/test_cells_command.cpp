@@ -131,9 +131,9 @@ BOOST_AUTO_TEST_CASE(columns_can_be_chosen) {
 
 BOOST_AUTO_TEST_CASE(cities_some_of_which_share_a_pixel) {
   const TemporaryFolder folder;
-  const json result =
-      checked(folder, "cells --points '" VOROCL_SAMPLES "/cities-5000.csv' --bounds 0,0,360,180 --width 720",
-              numbered(cities(Grid(720, 360))));
+  const json result = checked(
+      folder, "cells --snap --points '" VOROCL_SAMPLES "/cities-5000.csv' --bounds 0,0,360,180 --width 720",
+      numbered(cities(Grid(720, 360))));
   BOOST_TEST(result.at("empty_cells").get<int>() > 1000);
 }
 
@@ -154,9 +154,9 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
           static_cast<int>(std::floor((at.y - box.y0) * size.height() / (box.y1 - box.y0)))};
     }
     BOOST_TEST(seeds.begin()->first == 1u);  // not an index
-    const json result =
-        checked(folder, fmt::format("cells --trajectory '{}' --y-down --width 170 --frame {}", path, number),
-                seeds, Metric::euclidean, Periodic::xy);
+    const json result = checked(
+        folder, fmt::format("cells --snap --trajectory '{}' --y-down --width 170 --frame {}", path, number),
+        seeds, Metric::euclidean, Periodic::xy);
     BOOST_TEST(result.at("empty_cells").get<int>() > 0);  // particles that share a pixel
   }
 }

@@ -107,8 +107,8 @@ BOOST_AUTO_TEST_CASE(bounds_are_a_window_of_the_plane_or_of_a_period) {
       return Pixel{std::llround(4 * (point.x - x0)) - begin.value_or(0), std::llround(4 * (point.y - y0))};
     });
     const std::string line =
-        fmt::format("render --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}", size.width(),
-                    size.height(), x0, y0, x1, y1, options);
+        fmt::format("render --snap --points p.csv --labels l.npy --size {}x{} --bounds {},{},{},{}{}",
+                    size.width(), size.height(), x0, y0, x1, y1, options);
     const Result result = run(folder, line);
     BOOST_TEST(result.exit_code == 0, result.error);
     BOOST_TEST(result.error.find("of 60 points lie outside the bounds") != std::string::npos, result.error);
@@ -238,9 +238,14 @@ BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {
   // Labels of a trajectory carry the particles' ids.
   const std::string trajectory = "--trajectory '" VOROCL_SAMPLES "/lj-clusters.lammpstrj' --frame 3 ";
   succeeds(folder, "render --width 160 --method exact --labels t.npy " + trajectory);
-  const json result = json::parse(succeeds(folder, "compare t.npy --width 160 --json " + trajectory));
+  const std::string line = "compare t.npy --width 160 --json " + trajectory;
+  const json result = json::parse(succeeds(folder, line + " --truth true"));
   BOOST_TEST(result.at("similarity") == 100);
   BOOST_TEST(result.at("errors").at("wrong_pixels") == 0);
+  // By snapped points, some are wrong, and a note says what else there is.
+  const Result snapped = run(folder, line);
+  BOOST_TEST(json::parse(snapped.out).at("errors").at("wrong_pixels") > 0);
+  BOOST_TEST(snapped.error.find("--truth true") != std::string::npos, snapped.error);
 }
 
 BOOST_AUTO_TEST_CASE(bench_judges_every_method) {

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(a_logarithmic_scale_leaves_out_what_has_no_logarithm) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,y,v\n5,5,1\n15,5,10\n25,5,100\n35,5,0\n45,5,-7\n");
   const std::string points =
-      "render --points p.csv --size 50x10 --bounds 0,0,50,10 --color column:v --log -o a.png ";
+      "render --snap --points p.csv --size 50x10 --bounds 0,0,50,10 --color column:v --log -o a.png ";
   const Result result = run(folder, points);
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.error.find("2 of 5 values are 0 or less") != std::string::npos, result.error);
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(cells_are_coloured_by_a_column_of_the_csv_file) {
   const std::vector<Pixel> pixels = {{5, 5}, {25, 5}, {5, 25}, {25, 25}};
   const auto labels = brute_force(grid, pixels, Metric::euclidean);
   const std::vector<double> values = {10, std::numeric_limits<double>::quiet_NaN(), 30, 20};
-  const std::string points = "--points p.csv --size 40x30 --bounds 0,0,40,30 --color column:height ";
+  const std::string points = "--snap --points p.csv --size 40x30 --bounds 0,0,40,30 --color column:height ";
   BOOST_TEST(same(render(folder, points), color_by_value(labels, grid, values, {10, 30}, Palette::viridis)));
   BOOST_TEST(same(render(folder, points + "--scale 0,20 --palette greys"),
                   color_by_value(labels, grid, values, {0, 20}, Palette::greys)));
@@ -121,8 +121,9 @@ BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
   folder.file("t.xyz",
               "2\nLattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:3:q:R:2\n"
               "2.5 5 0 7 1\n7.5 5 0 7 3\n");
-  succeeds(folder,
-           "simulate --trajectory t.lammpstrj --size 20x20 --method exact -o %d.png --color column:c_pe");
+  succeeds(
+      folder,
+      "simulate --snap --trajectory t.lammpstrj --size 20x20 --method exact -o %d.png --color column:c_pe");
   const Grid grid(20, 20);
   const auto labels = brute_force(grid, {{5, 10}, {15, 10}}, Metric::euclidean);
   const auto expected = [&](double left, double right) {
@@ -130,7 +131,8 @@ BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
   };
   BOOST_TEST(same(cv::imread(folder / "0.png"), expected(1, 3)));
   BOOST_TEST(same(cv::imread(folder / "1.png"), expected(3, 2)));  // 9 is drawn as 3
-  BOOST_TEST(same(render(folder, "--trajectory t.xyz --size 20x20 --color column:q[2]"), expected(1, 3)));
+  BOOST_TEST(
+      same(render(folder, "--snap --trajectory t.xyz --size 20x20 --color column:q[2]"), expected(1, 3)));
 
   // Particle 3 is new in the second frame, so that the pixel carries the label of 5, which it hides.
   folder.file("new.lammpstrj",

@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(seeds_settle_and_their_points_give_the_same_diagram) {
     energy += static_cast<double>(distance({x, y}, seeds.at(label), Metric::euclidean));
   });
   BOOST_TEST(result.at("energy_at_end").get<double>() == energy);
-  const json nothing_left =
-      json::parse(succeeds(folder, "relax --points p.csv --rounds 5 --relaxed-points q.npy --json" + again));
+  const json nothing_left = json::parse(
+      succeeds(folder, "relax --snap --points p.csv --rounds 5 --relaxed-points q.npy --json" + again));
   BOOST_TEST(nothing_left.at("rounds") == 0);
   BOOST_TEST(nothing_left.at("settled") == true);
   succeeds(folder, "cells --points q.npy --labels q_back.npy" + again);

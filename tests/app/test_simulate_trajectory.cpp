@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(of_a_crowd_the_lowest_ids_have_the_cells) {
     text += frame_text(particles);
   }
   folder.file("t.lammpstrj", text);
-  succeeds(folder, "simulate --trajectory t.lammpstrj --size 30x30 --labels l%d.npy");
+  succeeds(folder, "simulate --snap --trajectory t.lammpstrj --size 30x30 --labels l%d.npy");
   for (std::size_t i = 0; i < frames.size(); ++i) {
     BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) ==
                exact_labels(frames[i], Grid(30, 30, Periodic::xy)));
@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
   folder.file("none.lammpstrj", frame_text(particles, walled_box));
   const auto labels = [&](const std::string& file, const std::string& more, const std::string& note = "") {
     const Result result = run(folder, "render --trajectory " + file +
-                                          ".lammpstrj --size 40x40 --method exact "
+                                          ".lammpstrj --size 40x40 --method exact --snap "
                                           "--labels l.npy " +
                                           more);
     BOOST_TEST(result.exit_code == 0, result.error);
@@ -189,8 +189,9 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
   BOOST_TEST(run(folder, zoom).out.find("\"periodic\":\"x\"") != std::string::npos);
   folder.file("both.lammpstrj", frame_text(particles) + frame_text(particles, x_alone));
   for (const std::string method : {"exact", "djfa"}) {
-    succeeds(folder,
-             "simulate --trajectory both.lammpstrj --size 40x40 --labels both%d.npy --method " + method);
+    succeeds(
+        folder,
+        "simulate --snap --trajectory both.lammpstrj --size 40x40 --labels both%d.npy --method " + method);
     BOOST_TEST(labels_of(folder, "both0.npy") == expected(Periodic::xy));
     BOOST_TEST(labels_of(folder, "both1.npy") == expected(Periodic::x));
   }
@@ -218,7 +219,7 @@ BOOST_AUTO_TEST_CASE(without_a_box_all_frames_give_the_bounds) {
   succeeds(folder, "simulate --trajectory far.xyz --width 10 --method jfa --labels all%d.npy");  // 5 x 2
   BOOST_TEST(read_labels(folder / "all0.npy").size.height() == 4);
   // A pipe cannot be read twice: the first frame's.
-  const std::string pipe = "simulate --trajectory /dev/stdin --width 8 --labels far%d.npy ";
+  const std::string pipe = "simulate --snap --trajectory /dev/stdin --width 8 --labels far%d.npy ";
   const auto fails = [&](const std::string& options, std::initializer_list<const char*> parts) {
     const TemporaryFolder files;
     files.file("far.xyz", content_of(folder / "far.xyz"));
