@@ -124,10 +124,9 @@ std::size_t differences(const std::vector<std::uint32_t>& a, const std::vector<s
 }
 
 std::size_t wrong_pixels(const TemporaryFolder& folder, const std::string& arguments) {
-  return json::parse(succeeds(folder, arguments + " --json"))
-      .at("errors")
-      .at("wrong_pixels")
-      .get<std::size_t>();
+  const Result result = run(folder, arguments + " --json");
+  BOOST_TEST(result.exit_code == 0, result.error);
+  return json::parse(result.out).at("errors").at("wrong_pixels").get<std::size_t>();
 }
 
 }  // namespace
