@@ -1,5 +1,5 @@
-// Exact diagrams of points in the vector shape: a work-item labels a tile, by one list if few places are there, else box by box, each by
-// the places around it.
+// Exact diagrams of points in the vector shape: a work-item labels a tile, by one list if few places are there, else
+// box by box, each by the places around it.
 
 #ifndef VOROCL_POINTS_TILES
 #define VOROCL_POINTS_TILES
