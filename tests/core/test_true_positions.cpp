@@ -205,6 +205,25 @@ BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
+  // Far from a line of points all of those beside a tile may win in it. A row's pixels have one label: that
+  // of the first.
+  const Grid grid(700, 200);
+  std::mt19937_64 rng(4);
+  std::vector<std::optional<Point>> points;
+  for (int i = 0; i < 20000; ++i)
+    points.emplace_back(Point{20.5, 200 * static_cast<double>(rng() >> 11) * 0x1p-53});
+  for (const Metric metric : both_metrics) {
+    const Labels first = labels_by_definition(Window(grid, 0, 0, 1, 200), positions_of(grid, points), metric);
+    Labels expected;
+    for (const std::uint32_t label : first) expected.insert(expected.end(), 700, label);
+    for (const Engine& engine : engines()) {
+      BOOST_TEST(count_differences(labels_of(engine, grid, points, metric), expected) == 0u,
+                 engine.name << ", " << name_of(metric));
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(points_on_pixel_centres_give_the_labels_of_snapped_seeds) {
   for (unsigned kind = 0; kind < kinds_of_planes; ++kind) {
     const Grid grid(150, 110, static_cast<Periodic>(kind % 4));

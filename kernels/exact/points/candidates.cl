@@ -1,9 +1,9 @@
 // Lists of the places that may be nearest to a pixel of a box, and dropping those that another one dominates.
 //
-// DOMINANCE. What is nearer than a place at every pixel of a box drops it. A box is a rectangle of pixel centres, and
-// for both metrics the least of "how much farther is c than d" over it is at one of its corners (docs/exact.md): with
-// the origin at the box's centre and w, h from its first pixel centre to its last, for the Euclidean metric
-//   |c|^2 - |d|^2 - w |cx - dx| - h |cy - dy|.
+// DOMINANCE. What is nearer than a place at every pixel of a box drops it. A box is a square of pixel centres, and for
+// both metrics the least of "how much farther is c than d" over it is at one of its corners (docs/exact.md): with the
+// origin at the box's centre and w from its first pixel centre to its last, for the Euclidean metric
+//   (cx - dx) (cx + dx) - w |cx - dx| + (cy - dy) (cy + dy) - w |cy - dy|.
 // It is computed in float. A place stays unless that is above a margin which is greater than every error, so that
 // floats drop places and decide nothing.
 
@@ -16,23 +16,23 @@
 #ifndef MOST_IN_LIST
 #define MOST_IN_LIST 1000  // places of a list
 #endif
-#define PLACE_MASK 1023  // their numbers
 #define LIST_ROOM (MOST_IN_LIST + 3 * LANES_OF_POINTS)
 #define NOINLINE __attribute__((noinline))
 
-#if MOST_IN_LIST + 7 > PLACE_MASK
-#error "The number of a place of a list must fit in its bits"
+#if MOST_IN_LIST < 2 * 8
+#error "A list must hold eight places besides those that it is gathered by"
 #endif
 
-// In pixels from the box's centre; and where the place stands in the index.
+// In units from the centre of a box; and where the place stands in the index.
 typedef struct {
-  float x[LIST_ROOM], y[LIST_ROOM];
+  int x[LIST_ROOM], y[LIST_ROOM];
   uint at[LIST_ROOM];
 } list_t;
 
+// A place that drops others of a box.
 typedef struct {
   float x, y;
-  float along;  // Euclidean: x^2 + y^2
+  float w, margin;  // see the margins in docs/exact.md
 } rival_t;
 
 // The lanes of a mask, packed to the front: 4 bits each.
@@ -81,12 +81,20 @@ static inline uint mask_of(int8 condition) {
   return (uint)((bits * 0x0101010101010101ul) >> 56);
 }
 
+static inline int lowest_bit(uint bits) { return 31 - (int)clz(bits & -bits); }
+
+static inline int least_of(int8 values) {
+  const int4 a = min(values.lo, values.hi);
+  const int2 b = min(a.lo, a.hi);
+  return min(b.x, b.y);
+}
+
 // Writes the lanes that stay behind the list's first `kept` places; the others' lanes are overwritten later.
-static inline int keep(list_t* list, int kept, int8 stays, float8 x, float8 y, uint8 at) {
+static inline int keep(list_t* list, int kept, int8 stays, int8 x, int8 y, uint8 at) {
   const uint mask = mask_of(stays);
   const uint8 lanes = ((uint8)packed_lanes[mask] >> (uint8)(0, 4, 8, 12, 16, 20, 24, 28)) & 7u;
-  vstore8(as_float8(permuted(as_uint8(x), lanes)), 0, list->x + kept);
-  vstore8(as_float8(permuted(as_uint8(y), lanes)), 0, list->y + kept);
+  vstore8(as_int8(permuted(as_uint8(x), lanes)), 0, list->x + kept);
+  vstore8(as_int8(permuted(as_uint8(y), lanes)), 0, list->y + kept);
   vstore8(permuted(at, lanes), 0, list->at + kept);
   return kept + (int)popcount(mask);
 }
@@ -100,84 +108,114 @@ static inline float8 away_from(float8 x, float8 y) {
 #endif
 }
 
-static inline rival_t rival_at(float x, float y) {
-  const rival_t rival = {x, y, x * x + y * y};
+// In units from the centre of a box of `side` pixels.
+static inline rival_t rival_at(int2 place, int side) {
+  const float x = (float)place.x, y = (float)place.y, w = (float)((side - 1) * ONE_PIXEL);
+#ifdef VOROCL_EUCLIDEAN
+  const float most = 3 * (fabs(x) + fabs(y)) + 4 * w;
+  const rival_t rival = {x, y, w + most * 0x1p-21f, most > 0x1p24f ? most * most * 0x1p-21f : 0};
+#else
+  const rival_t rival = {x, y, w / 2, (fabs(x) + fabs(y)) * 0x1p-19f + 8};
+#endif
   return rival;
 }
-static inline rival_t rival_of(const list_t* list, int i) { return rival_at(list->x[i], list->y[i]); }
 
-// Whether a rival may not drop places: see the margins in docs/exact.md.
-static inline int8 may_win(float8 x, float8 y, rival_t rival, float w, float h) {
+// Whether a rival may not drop places.
+static inline int8 may_win(float8 x, float8 y, rival_t rival) {
 #ifdef VOROCL_EUCLIDEAN
-  const float margin = rival.along * 0x1p-19f + 0x1p-9f;
-  const float8 longer = fma(fma(x, x, y * y), (float8)(1 - 0x1p-19f), (float8)-rival.along);
-  return fma((float8)-h, fabs(y - rival.y), fma((float8)-w, fabs(x - rival.x), longer)) <= margin;
+  const float8 way_x = x - rival.x, way_y = y - rival.y;
+  const float8 farther = fma(way_x, x + rival.x, way_y * (y + rival.y));
+  return farther <= fma(fabs(way_x) + fabs(way_y), (float8)rival.w, (float8)rival.margin);
 #else
-  const float8 west = fabs(x + w / 2) - fabs(rival.x + w / 2), east = fabs(x - w / 2) - fabs(rival.x - w / 2);
-  const float8 north = fabs(y + h / 2) - fabs(rival.y + h / 2), south = fabs(y - h / 2) - fabs(rival.y - h / 2);
-  const float8 margin = (fabs(x) + fabs(y) + fabs(rival.x) + fabs(rival.y)) * 0x1p-19f + 0x1p-9f;
-  return fmin(west, east) + fmin(north, south) <= margin;
+  const float w = rival.w;
+  const float8 west = fabs(x + w) - fabs(rival.x + w), east = fabs(x - w) - fabs(rival.x - w);
+  const float8 north = fabs(y + w) - fabs(rival.y + w), south = fabs(y - w) - fabs(rival.y - w);
+  return fmin(west, east) + fmin(north, south) <= fma(fabs(x) + fabs(y), (float8)0x1p-19f, (float8)rival.margin);
 #endif
 }
 
-// An order by distance, not below 0, that ends with the place's number.
-static inline int8 nearest_key(float8 away, int first) { return (as_int8(away) & ~PLACE_MASK) | (EIGHT + first); }
-static inline int8 beyond_end(int first, int count) {
-  return select((int8)0, (int8)INT_MAX, EIGHT + first >= count);
+// The nearest so far of each lane, and its number.
+typedef struct {
+  float8 away;
+  int8 number;
+} nearest_t;
+
+static inline nearest_t nearest_none(void) {
+  const nearest_t none = {(float8)INFINITY, (int8)0};
+  return none;
 }
 
-static inline int least_of(int8 values) {
-  const int4 a = min(values.lo, values.hi);
-  const int2 b = min(a.lo, a.hi);
-  return min(b.x, b.y);
+// Looks at eight places, of which those behind `count` are none.
+static inline void look_for_nearest(nearest_t* nearest, float8 x, float8 y, int first, int count) {
+  const float8 away = away_from(x, y);
+  const int8 number = EIGHT + first, is_nearer = (away < nearest->away) & (number < count);
+  nearest->away = select(nearest->away, away, is_nearer);
+  nearest->number = select(nearest->number, number, is_nearer);
 }
 
-// The number of a place that is nearest to (x, y), or nearly so.
-static inline int nearest_to(const float* places_x, const float* places_y, int count, float x, float y) {
-  int8 best = INT_MAX;
+// The number of the nearest, or of one that is farther by a float's error.
+static inline int number_of(const nearest_t* nearest) {
+  const int8 order = as_int8(nearest->away);  // not below 0: floats and their bits are in one order
+  int numbers[8];
+  vstore8(nearest->number, 0, numbers);
+  return numbers[lowest_bit(mask_of(order == least_of(order)))];
+}
+
+static inline void load_floats(const list_t* list, int k, float8* x, float8* y) {
+  *x = convert_float8(vload8(0, list->x + k));
+  *y = convert_float8(vload8(0, list->y + k));
+}
+
+// The number of a place that is nearest to a point, or nearly so.
+static inline int nearest_of(const list_t* list, int count, int2 point) {
+  nearest_t nearest = nearest_none();
   for (int k = 0; k < count; k += 8) {
-    best = min(best, nearest_key(away_from(vload8(0, places_x + k) - x, vload8(0, places_y + k) - y), k) |
-                         beyond_end(k, count));
+    float8 x, y;
+    load_floats(list, k, &x, &y);
+    look_for_nearest(&nearest, x - (float)point.x, y - (float)point.y, k, count);
   }
-  return least_of(best) & PLACE_MASK;
-}
-static inline int nearest_of(const list_t* list, int count, float x, float y) {
-  return nearest_to(list->x, list->y, count, x, y);
+  return number_of(&nearest);
 }
 
-// Copies the places that stay, relative to (x, y), the centre of a box; `rival` is relative to it too. To another list,
-// or to the same one.
-static inline int drop_by(const list_t* from, int count, list_t* to, float x, float y, rival_t rival, float w,
-                          float h) {
+// Copies the places that stay, relative to the centre of a box; so is the rival.
+static inline int drop_by(const list_t* from, int count, list_t* to, int2 centre, rival_t rival) {
   int kept = 0;
   for (int k = 0; k < count; k += 8) {
-    const float8 px = vload8(0, from->x + k) - x, py = vload8(0, from->y + k) - y;
-    kept = keep(to, kept, may_win(px, py, rival, w, h) & (EIGHT + k < count), px, py, vload8(0, from->at + k));
+    const int8 x = vload8(0, from->x + k) - centre.x, y = vload8(0, from->y + k) - centre.y;
+    const int8 stays = may_win(convert_float8(x), convert_float8(y), rival) & (EIGHT + k < count);
+    kept = keep(to, kept, stays, x, y, vload8(0, from->at + k));
   }
   return kept;
 }
 
 // The same in place, by the places that are nearest to the four corners.
-static inline int drop_by_corners(list_t* list, int count, float w, float h) {
-  int8 best[4] = {(int8)INT_MAX, (int8)INT_MAX, (int8)INT_MAX, (int8)INT_MAX};
+static inline int drop_by_corners(list_t* list, int count, int side) {
+  const float corner = (float)((side - 1) * HALF_PIXEL);
+  nearest_t nearest[4];
+#pragma unroll
+  for (int i = 0; i < 4; ++i) nearest[i] = nearest_none();
   for (int k = 0; k < count; k += 8) {
-    const float8 x = vload8(0, list->x + k), y = vload8(0, list->y + k);
-    const int8 beyond = beyond_end(k, count);
-    best[0] = min(best[0], nearest_key(away_from(x + w / 2, y + h / 2), k) | beyond);
-    best[1] = min(best[1], nearest_key(away_from(x - w / 2, y + h / 2), k) | beyond);
-    best[2] = min(best[2], nearest_key(away_from(x + w / 2, y - h / 2), k) | beyond);
-    best[3] = min(best[3], nearest_key(away_from(x - w / 2, y - h / 2), k) | beyond);
+    float8 x, y;
+    load_floats(list, k, &x, &y);
+    look_for_nearest(&nearest[0], x + corner, y + corner, k, count);
+    look_for_nearest(&nearest[1], x - corner, y + corner, k, count);
+    look_for_nearest(&nearest[2], x + corner, y - corner, k, count);
+    look_for_nearest(&nearest[3], x - corner, y - corner, k, count);
   }
   rival_t rivals[4];
 #pragma unroll
-  for (int i = 0; i < 4; ++i) rivals[i] = rival_of(list, least_of(best[i]) & PLACE_MASK);
+  for (int i = 0; i < 4; ++i) {
+    const int number = number_of(&nearest[i]);
+    rivals[i] = rival_at((int2)(list->x[number], list->y[number]), side);
+  }
   int kept = 0;
   for (int k = 0; k < count; k += 8) {
-    const float8 x = vload8(0, list->x + k), y = vload8(0, list->y + k);
+    float8 x, y;
+    load_floats(list, k, &x, &y);
     int8 stays = EIGHT + k < count;
 #pragma unroll
-    for (int i = 0; i < 4; ++i) stays &= may_win(x, y, rivals[i], w, h);
-    kept = keep(list, kept, stays, x, y, vload8(0, list->at + k));
+    for (int i = 0; i < 4; ++i) stays &= may_win(x, y, rivals[i]);
+    kept = keep(list, kept, stays, vload8(0, list->x + k), vload8(0, list->y + k), vload8(0, list->at + k));
   }
   return kept;
 }

@@ -28,11 +28,11 @@ static inline bool comes_first(const scene_t* scene, uint at, uint other) {
 }
 
 // What orders places by their ways from a pixel, in units.
-static inline ulong distance_in_units(long x, long y) {
+static inline ulong length_of(int2 way) {
 #ifdef VOROCL_EUCLIDEAN
-  return (ulong)(x * x) + (ulong)(y * y);
+  return (ulong)((long)way.x * way.x) + (ulong)((long)way.y * way.y);
 #else
-  return (ulong)(abs(x) + abs(y));
+  return (ulong)abs(way.x) + (ulong)abs(way.y);
 #endif
 }
 
@@ -122,56 +122,68 @@ static inline int2 origin_of(const scene_t* scene, const walk_t* walk, int2 cent
   return centre - (int2)(walk->image_x * scene->width, walk->image_y * scene->height) * ONE_PIXEL;
 }
 
-// Eight places of the list, in pixels from an origin.
-static inline void load_places(const scene_t* scene, uint from, int2 origin, float8* x, float8* y) {
+// Eight places of the list, in units from an origin.
+static inline void load_places(const scene_t* scene, uint from, int2 origin, int8* x, int8* y) {
   // Not one vector of 16, in which processors of 256-bit vectors return nothing.
   const int8 first = vload8(0, (global const int*)(scene->list + from));
   const int8 second = vload8(1, (global const int*)(scene->list + from));
-  *x = convert_float8((int8)(first.even, second.even) - origin.x) * (1.f / ONE_PIXEL);
-  *y = convert_float8((int8)(first.odd, second.odd) - origin.y) * (1.f / ONE_PIXEL);
+  *x = (int8)(first.even, second.even) - origin.x;
+  *y = (int8)(first.odd, second.odd) - origin.y;
 }
 
 // Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
-// MOST_IN_LIST if so many may win. `nearest` is one near the centre. Once the list was full, places that it can drop do
-// not come in.
-NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, float w, int* nearest) {
-  int8 best = INT_MAX;
+// MOST_IN_LIST if so many are there that the list does not hold them. `nearest` is one near the centre.
+NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, int2* nearest) {
+  nearest_t found = nearest_none();
   int count = 0;
-  bool was_full = false;
-  rival_t rival = {0, 0, 0};
+  bool is_held = true;
   walk_t walk = walk_over(scene, x, y);
   uint2 range;
   while (next_range(scene, &walk, &range)) {
     const int2 origin = origin_of(scene, &walk, centre);
     for (uint at = range.s0; at < range.s1; at += 8) {
-      if (count > MOST_IN_LIST - 8) {
-        was_full = true;
-        rival = rival_of(list, nearest_of(list, count, 0, 0));
-        count = drop_by(list, count, list, 0, 0, rival, w, w);
-        if (count > MOST_IN_LIST / 2) count = drop_by_corners(list, count, w, w);
-        *nearest = nearest_of(list, count, 0, 0);
-        if (count > MOST_IN_LIST / 2) return MOST_IN_LIST + 1;
+      if (count > MOST_IN_LIST - 8) {  // goes on with the nearest so far
+        is_held = false;
+        const int first = number_of(&found);
+        list->x[0] = list->x[first];
+        list->y[0] = list->y[first];
+        count = 1;
+        found = nearest_none();
+        look_for_nearest(&found, convert_float8((int8)list->x[0]), convert_float8((int8)list->y[0]), 0, count);
       }
-      float8 px, py;
+      int8 px, py;
       load_places(scene, at, origin, &px, &py);
-      const int some = (int)min(range.s1 - at, 8u);
-      if (was_full) {
-        const int8 stays = may_win(px, py, rival, w, w) & (EIGHT < some);
-        if (any(stays)) count = keep(list, count, stays, px, py, at + as_uint8(EIGHT));
-        continue;
-      }
-      best = min(best, select(nearest_key(away_from(px, py), count), (int8)INT_MAX, EIGHT >= some));
       vstore8(px, 0, list->x + count);
       vstore8(py, 0, list->y + count);
       vstore8(at + as_uint8(EIGHT), 0, list->at + count);
-      count += some;
+      const int end = count + (int)min(range.s1 - at, 8u);
+      look_for_nearest(&found, convert_float8(px), convert_float8(py), count, end);
+      count = end;
     }
   }
-  *nearest = was_full ? nearest_of(list, count, 0, 0) : least_of(best) & PLACE_MASK;
-  return count;
+  if (count == 0) return 0;
+  const int first = number_of(&found);
+  *nearest = (int2)(list->x[first], list->y[first]);
+  return is_held ? count : MOST_IN_LIST + 1;
 }
 
-// How far the discs reach, in pixels beyond a box, that go through a rival and have their centres at the box's pixels:
+// Gathers what a rival does not drop until the list is full, and returns how many; the walk goes on from there.
+NOINLINE static int gather_part(const scene_t* scene, walk_t* walk, uint2* range, list_t* list, int2 centre,
+                                rival_t rival) {
+  for (int count = 0;; range->s0 += 8) {
+    while (range->s0 >= range->s1) {
+      if (!next_range(scene, walk, range)) return count;
+    }
+    if (count > MOST_IN_LIST - 8) return count;
+    int8 x, y;
+    load_places(scene, range->s0, origin_of(scene, walk, centre), &x, &y);
+    const int8 stays = may_win(convert_float8(x), convert_float8(y), rival) &
+                       (EIGHT < (int)min(range->s1 - range->s0, 8u));
+    if (any(stays)) count = keep(list, count, stays, x, y, range->s0 + as_uint8(EIGHT));
+  }
+}
+
+// How far the discs reach, in pixels beyond a box, that go through a place and have their centres at the box's pixels:
 // what may win is in them. (In the Manhattan metric they are diamonds.)
 typedef struct {
   float west, east, north, south;
@@ -185,13 +197,12 @@ static inline float radius_of(float x, float y) {
 #endif
 }
 
-static inline reach_t reach_of(rival_t rival, float w) {
-  const float far_x = w / 2 + fabs(rival.x), near_x = fabs(w / 2 - fabs(rival.x));
-  const float far_y = w / 2 + fabs(rival.y), near_y = fabs(w / 2 - fabs(rival.y));
-  const float farthest = radius_of(far_x, far_y);
-  const float beside_x = radius_of(near_x, far_y), beside_y = radius_of(far_x, near_y);
-  const reach_t reach = {rival.x > 0 ? farthest : beside_x, rival.x > 0 ? beside_x : farthest,
-                         rival.y > 0 ? farthest : beside_y, rival.y > 0 ? beside_y : farthest};
+static inline reach_t reach_of(int2 place, int side) {
+  const float x = fabs((float)place.x) / ONE_PIXEL, y = fabs((float)place.y) / ONE_PIXEL;
+  const float corner = (float)(side - 1) / 2, farthest = radius_of(corner + x, corner + y);
+  const float beside_x = radius_of(fabs(corner - x), corner + y), beside_y = radius_of(corner + x, fabs(corner - y));
+  const reach_t reach = {place.x > 0 ? farthest : beside_x, place.x > 0 ? beside_x : farthest,
+                         place.y > 0 ? farthest : beside_y, place.y > 0 ? beside_y : farthest};
   return reach;
 }
 

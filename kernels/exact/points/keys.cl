@@ -33,34 +33,33 @@ typedef struct {
   uint values[RANK_ROOM];  // by rank: what is written for a place
 } places_t;
 
-// A place of the list from the centre that the list is relative to, in units: its floats say which image of it.
-static inline int unwrapped(int way, float pixels, int size, int periodic) {
-  if (!periodic) return way;
-  const float periods = (pixels * ONE_PIXEL - (float)way) / ((float)size * ONE_PIXEL);
-  return way + convert_int_rte(periods) * size * ONE_PIXEL;
-}
-static inline int2 way_to(const scene_t* scene, const list_t* list, int i, int2 centre) {
-  const int2 way = scene->list[list->at[i]] - centre;
-  return (int2)(unwrapped(way.x, list->x[i], scene->width, PERIODIC_X),
-                unwrapped(way.y, list->y[i], scene->height, PERIODIC_Y));
-}
-
 // Ranks where the order by low bits and near rows leaves ties. Images of one seed stand in the order of the list.
 NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
+  int x[RANK_ROOM], y[RANK_ROOM];
+  uint id[RANK_ROOM];
   for (int i = 0; i < count; ++i) {
-    uint rank = 0;
-    for (int j = 0; j < count; ++j) {
-      const int way = places->low[j] - places->low[i];
-      rank += way < 0 || (way == 0 && (j < i ? !comes_first(scene, at[i], at[j]) : comes_first(scene, at[j], at[i])));
+    const int2 own = own_position(scene, at[i]);
+    x[i] = own.x;
+    y[i] = own.y;
+    id[i] = scene->ids[at[i]];
+  }
+  for (int k = 0; k < count; k += 8) {
+    const int8 own_low = vload8(0, places->low + k), own_y = vload8(0, y + k), own_x = vload8(0, x + k);
+    const uint8 own_id = vload8(0, id + k);
+    int8 rank = 0;
+    for (int i = 0; i < count; ++i) {
+      const int8 by_id = (id[i] < own_id) | ((id[i] == own_id) & (i < EIGHT + k));
+      const int8 by_x = (x[i] < own_x) | ((x[i] == own_x) & by_id);
+      const int8 by_y = (y[i] < own_y) | ((y[i] == own_y) & by_x);
+      rank -= (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
     }
-    places->rank[i] = rank;
+    vstore8(as_uint8(rank), 0, places->rank + k);
   }
 }
 
 // Ranks the places, and says which labels the ranks have. Two places of one seed, which are images, have two ranks.
-static inline void rank_places(const scene_t* scene, const list_t* list, int from, places_t* places, int count) {
+static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {
   int order[RANK_ROOM];
-  const uint* const at = list->at + from;
   const int first_y = own_position(scene, at[0]).y;
   const int most = 1 << (Y_BITS - 1);
   for (int i = 0; i < count; ++i) {
@@ -172,44 +171,47 @@ DEFINE_FIND_BY_KEYS(find_8_by_keys, 8)
 DEFINE_FIND_BY_KEYS(find_16_by_keys, 16)
 
 // Whether keys of so many rank bits hold what can be found in a list: differences of distances from all pixels of the
-// box. `reach`: no place is farther along an axis from a pixel. `base` is the place that is subtracted, of this part of
-// the list; -1: none.
-static inline bool keys_hold(const list_t* list, int from, int count, float w, float reach, int bits, int* base) {
-  const float ranks = (float)(1 << bits);
+// box. `reach`: no place is farther along an axis from a pixel. `is_relative`: less those of the list's first place.
+static inline bool keys_hold(const list_t* list, int from, int count, int side, float reach, int bits,
+                             bool* is_relative) {
+  const float most = 0x1.fp30f / (float)(1 << bits);
 #ifdef VOROCL_EUCLIDEAN
-  const float of_unit = (float)(1 << (2 * FRACTION_BITS - LOW_BITS));
-  *base = -1;
-  if ((2 * reach * reach * of_unit + 2) * ranks < 0x1.fp30f) return true;
-  *base = nearest_to(list->x + from, list->y + from, count, 0, 0);
-  const rival_t rival = rival_of(list, from + *base);
-  float8 most = 0;
+  const float of_square = (float)(1 << (2 * FRACTION_BITS - LOW_BITS));
+  *is_relative = 2 * reach * reach * of_square + 2 >= most;
+  if (!*is_relative) return true;
+  const float first_x = (float)list->x[from], first_y = (float)list->y[from];
+  float8 greatest = 0;
   for (int k = 0; k < count; k += 8) {
-    const float8 x = vload8(0, list->x + from + k), y = vload8(0, list->y + from + k), along = fma(x, x, y * y);
-    const float8 lag = fabs(along - rival.along) + (along + rival.along) * 0x1p-19f +
-                       (fabs(x - rival.x) + fabs(y - rival.y)) * (w + 2);
-    most = max(most, select(lag, (float8)0, EIGHT + k >= count));
+    float8 x, y;
+    load_floats(list, from + k, &x, &y);
+    const float8 way_x = fabs(x - first_x), way_y = fabs(y - first_y);
+    const float8 lag = fma(way_x, fabs(x + first_x), way_y * fabs(y + first_y)) * (1.f / (1 << LOW_BITS)) +
+                       (way_x + way_y) * (float)(side / 2 + 1);
+    greatest = max(greatest, select(lag, (float8)0, EIGHT + k >= count));
   }
-  const float4 halves = max(most.lo, most.hi);
-  const float greatest = fmax(fmax(halves.x, halves.y), fmax(halves.z, halves.w));
-  return (greatest + 8) * of_unit * ranks < 0x1.fp30f;
+  const float4 halves = max(greatest.lo, greatest.hi);
+  return fmax(fmax(halves.x, halves.y), fmax(halves.z, halves.w)) < most;
 #else
-  (void)w;
+  (void)list;
+  (void)from;
+  (void)count;
+  (void)side;
   (void)reach;
-  // What may win is at most twice the box's ways farther than the place nearest to the centre.
-  *base = nearest_to(list->x + from, list->y + from, count, 0, 0);
-  return 256.f * ONE_PIXEL * ranks < 0x1.fp30f;
+  *is_relative = true;
+  return 256.f * ONE_PIXEL < most;
 #endif
 }
 
-// What is written for a place: the id of its seed, or its number in the list.
-typedef enum { IDS, NUMBERS } values_t;
+// What is written for a place: the id of its seed, or where it stands in the index.
+typedef enum { IDS, PLACES } values_t;
 
 // Finds the nearest at each pixel of a box of 8 or 16 pixels a side, of `count` places of a list relative to its
 // centre, from the number `from` on; false if keys do not hold them.
-NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int from, int count, int2 centre, int side,
-                                  float reach, values_t values, uint* out, int stride) {
+NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int from, int count, int side, float reach,
+                                  values_t values, uint* out, int stride) {
+  const uint* const at = list->at + from;
   if (count == 1) {
-    const uint8 value = values == IDS ? scene->ids[list->at[from]] : (uint)from;
+    const uint8 value = values == IDS ? scene->ids[at[0]] : at[0];
     for (int y = 0; y < side; ++y) {
       for (int x = 0; x < side; x += 8) vstore8(value, 0, out + y * stride + x);
     }
@@ -217,19 +219,16 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
   }
   if (count > MOST_OF_KEYS) return false;
   const int bits = 32 - (int)clz((uint)count - 1);
-  int base;
-  if (!keys_hold(list, from, count, (float)(side - 1), reach, bits, &base)) return false;
+  bool is_relative;
+  if (!keys_hold(list, from, count, side, reach, bits, &is_relative)) return false;
 
   places_t places;
-  for (int i = 0; i < count; ++i) {
-    const int2 way = way_to(scene, list, from + i, centre) - HALF_PIXEL;
-    places.x[i] = way.x;
-    places.y[i] = way.y;
-  }
   for (int k = 0; k < count; k += 8) {
+    const int8 x = vload8(0, list->x + from + k) - HALF_PIXEL, y = vload8(0, list->y + from + k) - HALF_PIXEL;
+    vstore8(x, 0, places.x + k);
+    vstore8(y, 0, places.y + k);
 #ifdef VOROCL_EUCLIDEAN
     // |c|^2 without 64 bits: c is whole * 2^F + rest along each axis.
-    const int8 x = vload8(0, places.x + k), y = vload8(0, places.y + k);
     const uint8 whole_x = as_uint8(x >> FRACTION_BITS), whole_y = as_uint8(y >> FRACTION_BITS);
     const uint8 rest_x = as_uint8(x) & (ONE_PIXEL - 1u), rest_y = as_uint8(y) & (ONE_PIXEL - 1u);
     const uint8 rests = rest_x * rest_x + rest_y * rest_y;
@@ -241,22 +240,20 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
     vstore8((int8)0, 0, places.low + k);
 #endif
   }
-  rank_places(scene, list, from, &places, count);
-  for (int i = 0; i < count; ++i) {
-    places.values[places.rank[i]] = values == IDS ? scene->ids[list->at[from + i]] : (uint)(from + i);
-  }
+  rank_places(scene, at, &places, count);
+  for (int i = 0; i < count; ++i) places.values[places.rank[i]] = values == IDS ? scene->ids[at[i]] : at[i];
   uint subtracted = 0;
 #ifdef VOROCL_EUCLIDEAN
-  if (base >= 0) {
-    const int base_x = places.x[base], base_y = places.y[base];
-    subtracted = places.high[base];
-    for (int i = 0; i < count; ++i) {
-      places.x[i] -= base_x;
-      places.y[i] -= base_y;
+  if (is_relative) {
+    const int first_x = places.x[0], first_y = places.y[0];
+    subtracted = places.high[0];
+    for (int k = 0; k < count; k += 8) {
+      vstore8(vload8(0, places.x + k) - first_x, 0, places.x + k);
+      vstore8(vload8(0, places.y + k) - first_y, 0, places.y + k);
     }
   }
 #else
-  subtracted = abs(places.x[base]) + abs(places.y[base]);
+  subtracted = abs(places.x[0]) + abs(places.y[0]);
 #endif
   if (side == 8) {
     find_8_by_keys(&places, count, bits, subtracted, out, stride);

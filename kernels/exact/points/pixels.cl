@@ -6,17 +6,16 @@
 typedef struct {
   ulong distance;
   uint place;
-} nearest_t;
+} winner_t;
 
-static inline nearest_t nearest_in(const scene_t* scene, span_t x, span_t y, int2 centre) {
-  nearest_t best = {ULONG_MAX, 0};
+static inline winner_t nearest_in(const scene_t* scene, span_t x, span_t y, int2 centre) {
+  winner_t best = {ULONG_MAX, 0};
   walk_t walk = walk_over(scene, x, y);
   uint2 range;
   while (next_range(scene, &walk, &range)) {
     const int2 origin = origin_of(scene, &walk, centre);
     for (uint at = range.s0; at < range.s1; ++at) {
-      const int2 place = scene->list[at];
-      const ulong distance = distance_in_units((long)place.x - origin.x, (long)place.y - origin.y);
+      const ulong distance = length_of(scene->list[at] - origin);
       if (distance > best.distance) continue;
       if (distance == best.distance && !comes_first(scene, at, best.place)) continue;
       best.distance = distance;
@@ -48,7 +47,7 @@ static inline uint label_of(const scene_t* scene, int column, int row) {
   span_t x = clamped(with_bins_around(own_x, 1, scene->bins.bits), limits_x);
   span_t y = clamped(with_bins_around(own_y, 1, scene->bins.bits), limits_y);
   while (true) {
-    const nearest_t best = nearest_in(scene, x, y, centre);
+    const winner_t best = nearest_in(scene, x, y, centre);
     const bool has_none = best.distance == ULONG_MAX;
     const float reach = pixels_of(best.distance);
     const span_t needed_x = has_none ? widened(x, limits_x) : clamped(span_of_reach(own_x, reach, reach), limits_x);
