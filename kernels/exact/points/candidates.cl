@@ -81,8 +81,6 @@ static inline uint mask_of(int8 condition) {
   return (uint)((bits * 0x0101010101010101ul) >> 56);
 }
 
-static inline int lowest_bit(uint bits) { return 31 - (int)clz(bits & -bits); }
-
 static inline int least_of(int8 values) {
   const int4 a = min(values.lo, values.hi);
   const int2 b = min(a.lo, a.hi);
@@ -156,9 +154,7 @@ static inline void look_for_nearest(nearest_t* nearest, float8 x, float8 y, int 
 // The number of the nearest, or of one that is farther by a float's error.
 static inline int number_of(const nearest_t* nearest) {
   const int8 order = as_int8(nearest->away);  // not below 0: floats and their bits are in one order
-  int numbers[8];
-  vstore8(nearest->number, 0, numbers);
-  return numbers[lowest_bit(mask_of(order == least_of(order)))];
+  return least_of(select((int8)INT_MAX, nearest->number, order == least_of(order)));
 }
 
 static inline void load_floats(const list_t* list, int k, float8* x, float8* y) {

@@ -51,7 +51,8 @@ NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, place
       const int8 by_id = (id[i] < own_id) | ((id[i] == own_id) & (i < EIGHT + k));
       const int8 by_x = (x[i] < own_x) | ((x[i] == own_x) & by_id);
       const int8 by_y = (y[i] < own_y) | ((y[i] == own_y) & by_x);
-      rank -= (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
+      const int8 comes_before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
+      rank = select(rank, rank + 1, comes_before);  // not less a comparison, of whose bits Oclgrind makes other numbers
     }
     vstore8(as_uint8(rank), 0, places->rank + k);
   }
@@ -70,7 +71,7 @@ static inline void rank_places(const scene_t* scene, const uint* at, places_t* p
   for (int k = 0; k < count; k += 8) {
     const int8 own = vload8(0, order + k);
     int8 rank = 0;
-    for (int i = 0; i < count; ++i) rank -= (int8)order[i] < own;
+    for (int i = 0; i < count; ++i) rank = select(rank, rank + 1, order[i] < own);
     vstore8(as_uint8(rank), 0, places->rank + k);
     sum += select((int8)0, rank, EIGHT + k < count);
   }
