@@ -3,6 +3,7 @@
 
 docs/performance.md measures them with `vorocl bench --points SET.npy --size 2048x2048 --bounds 0,0,2048,2048`.
 """
+import os
 import sys
 
 import numpy
@@ -35,5 +36,6 @@ def sets(side):
 if __name__ == "__main__":
     if len(sys.argv) not in (2, 3):
         sys.exit("usage: hurtful_sets.py FOLDER [N]")
+    os.makedirs(sys.argv[1], exist_ok=True)
     for name, points in sets(int((sys.argv + ["2048"])[2])):
         numpy.save(f"{sys.argv[1]}/{name}.npy", numpy.floor(points.astype(float)) + 0.5)
