@@ -69,6 +69,34 @@ BOOST_AUTO_TEST_CASE(pixels_are_those_of_integers) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(positions_are_rounded_once_and_stay_in_their_pixels) {
+  std::mt19937 rng(5);
+  for (int number = 0; number < 2000; ++number) {
+    const WholeAxis whole = random_axis(rng);
+    const Axis axis = whole.axis();
+    const std::int64_t length = whole.to - whole.from;
+    BOOST_TEST_CONTEXT(whole.pixels << " pixels from " << whole.from << " to " << whole.to << ", "
+                                    << whole.periodic << whole.reversed << whole.closed) {
+      for (int i = 0; i < 20; ++i) {
+        const std::int64_t at = whole.from - 200 + static_cast<std::int64_t>(rng() % 400);
+        const auto coordinate = static_cast<double>(at);
+        // In units of 1 / length of a pixel.
+        const std::int64_t along = (whole.brought_in(at) - whole.from) * whole.pixels;
+        const std::int64_t position = whole.reversed ? whole.pixels * length - along : along;
+        BOOST_TEST(std::abs(axis.position(coordinate) -
+                            static_cast<double>(position) / static_cast<double>(length)) < 1e-9);
+        const double parts = 4096 * axis.rounded_position(coordinate);
+        BOOST_TEST(parts == std::floor(parts));
+        BOOST_TEST(std::floor(parts / 4096) == axis.pixel(coordinate));
+        // By half a part, or a whole one at a pixel's end, which is the next pixel's.
+        const std::int64_t excess = std::abs(static_cast<std::int64_t>(parts) * length - 4096 * position);
+        const bool is_last = static_cast<std::int64_t>(parts) - 4096 * whole.pixel(at) == 4095;
+        BOOST_TEST((is_last ? excess : 2 * excess) <= length);
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(pixels_are_units_unless_it_is_said_otherwise) {
   const Axis plain(10), periodic = Axis(10).periodic();
   BOOST_TEST(plain.from() == 0);

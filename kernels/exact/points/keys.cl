@@ -198,6 +198,7 @@ static inline bool keys_hold(const list_t* list, int from, int count, int side, 
   (void)count;
   (void)side;
   (void)reach;
+  // What may win in a box is at most twice the box's ways nearer or farther than another place that may.
   *is_relative = true;
   return 256.f * ONE_PIXEL < most;
 #endif
