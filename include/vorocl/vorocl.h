@@ -590,9 +590,11 @@ typedef struct vorocl_exact_cells vorocl_exact_cells;
 VOROCL_API vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells);
 VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
 
-/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. Enqueues and returns.
-/// VOROCL_DEVICE_ERROR if the device has no doubles.
-VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
+/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. `tilt`, 0 without, is how far
+/// the copy of the rectangle at greater y is shifted along x. Enqueues and returns. VOROCL_DEVICE_ERROR if
+/// the device has no doubles.
+VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds,
+                                                double tilt);
 
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);

@@ -9,12 +9,12 @@
 #define CERTIFIED 2u
 
 // Which sites there are, what they are called in the caller's list, and the rectangle: left, lower, right and upper
-// sides, in steps; the periods, 0 along an axis without; and where step 0 is, and how long one, in the units of the
-// data.
+// sides, in steps; the periods along x and y, 0 along an axis without, and how far the images above are shifted in x;
+// two short vectors of that lattice, or zeros; and where step 0 is, and how long one, in the units of the data.
 #define SITE_PARAMETERS \
   uint count, global const int *sites, global const int *boxes, \
-      global const uint *levels, int top, global const uint *ids, int4 rectangle, int2 periods, \
-      double2 origin, double step
+      global const uint *levels, int top, global const uint *ids, int4 rectangle, int4 periods, \
+      int4 lattice, double2 origin, double step
 
 // By the caller's ids. `begins` is by site: where its edges lie among the found ones, which come in the order in which
 // cells are done. `counters`: the edges found; the cells in the queue of those with more edges than there is room for.
@@ -24,7 +24,7 @@
       global uint *begins, global uint *found_cells, global double2 *found_vertices, \
       uint room_for_edges, global uint *counters, global uint *queue
 
-#define SITE_ARGUMENTS count, sites, boxes, levels, top, ids, rectangle, periods, origin, step
+#define SITE_ARGUMENTS count, sites, boxes, levels, top, ids, rectangle, periods, lattice, origin, step
 #define MEASURE_ARGUMENTS \
   areas, centroids, perimeters, edge_counts, neighbours, flags, begins, found_cells, found_vertices, room_for_edges, \
       counters, queue
@@ -41,8 +41,8 @@ static inline void measure_cell(SITE_PARAMETERS, MEASURE_PARAMETERS, uint site, 
   polygon_t polygon;
   polygon.edges = edges;
   polygon.room = room;
-  begin_polygon(&polygon, (int4)(at - rectangle.s01, rectangle.s23 - at), periods, site);
-  cut_by_all(&polygon, &tree, site, at, periods);
+  begin_polygon(&polygon, (int4)(at - rectangle.s01, rectangle.s23 - at), lattice, site);
+  cut_by_all(&polygon, &tree, site, at, rectangle, periods);
   if (polygon.is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;

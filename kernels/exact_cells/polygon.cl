@@ -1,5 +1,5 @@
 // A cell as a convex polygon, cut by one line after another. All is whole numbers: positions are in steps of the grid
-// that the host rounds points to, at most 2^30 along a side. Seen from the site, in half steps, the bisector of a site
+// that the host rounds points to, at most 2^30 along a side, or 2^29 if the box is tilted. Seen from the site, in half steps, the bisector of a site
 // that is (a, b) steps away is the line a x + b y = c with c = a^2 + b^2. So are the sides of the box. A cell is where
 // a x + b y <= c for all its lines.
 //
@@ -10,6 +10,10 @@
 // half a period each way. |a|, |b| and the c of a side of the box are less than 2^31.5, c = a^2 + b^2 is at most 2^61,
 // and of two lines a b' - a' b is at most |(a, b)| |(a', b')| <= 2^61. A determinant has three products of these two:
 // less than 2^124. (The margins of the search add less than a thousandth.)
+//
+// In a tilted box cells begin with the bisectors of the images at +-u and +-v, two vectors that span the lattice, of
+// which no sum is shorter: 2 |u.v| <= |u|^2 <= |v|^2. Such a vertex is at most |v| away, and |v| is at most sqrt(5) / 2
+// of the longer side: so R is at most 2^30.2.
 
 #ifndef VOROCL_EXACT_CELLS_POLYGON
 #define VOROCL_EXACT_CELLS_POLYGON
@@ -167,17 +171,20 @@ static inline void cut(polygon_t* polygon, int a, int b, uint cell) {
   find_reach(polygon);
 }
 
+static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
+
 // The box around a site, counter-clockwise from its lower side: `sides` says how far its left, lower, right and upper
-// sides are; a periodic axis ends at the bisectors with the site's own images, a period away.
-static inline void begin_polygon(polygon_t* polygon, int4 sides, int2 periods, uint site) {
+// sides are. Where a vector of the lattice is given, u = lattice.s01 or v = lattice.s23, it ends at the bisectors with
+// the site's own images there.
+static inline void begin_polygon(polygon_t* polygon, int4 sides, int4 lattice, uint site) {
   POLYGON_SPACE edge_t* const edges = polygon->edges;
-  const int step_x = periods.s0 > 0 ? periods.s0 : 1, step_y = periods.s1 > 0 ? periods.s1 : 1;
-  const uint behind_x = periods.s0 > 0 ? site : NO_CELL, behind_y = periods.s1 > 0 ? site : NO_CELL;
-  const long square_x = (long)periods.s0 * periods.s0, square_y = (long)periods.s1 * periods.s1;
-  set_line(edges, 0, -step_y, periods.s1 > 0 ? square_y : 2 * (long)sides.s1, behind_y);
-  set_line(edges + 1, step_x, 0, periods.s0 > 0 ? square_x : 2 * (long)sides.s2, behind_x);
-  set_line(edges + 2, 0, step_y, periods.s1 > 0 ? square_y : 2 * (long)sides.s3, behind_y);
-  set_line(edges + 3, -step_x, 0, periods.s0 > 0 ? square_x : 2 * (long)sides.s0, behind_x);
+  const long square_u = square_of(lattice.s01), square_v = square_of(lattice.s23);
+  const int2 u = square_u > 0 ? lattice.s01 : (int2)(1, 0), v = square_v > 0 ? lattice.s23 : (int2)(0, 1);
+  const uint behind_u = square_u > 0 ? site : NO_CELL, behind_v = square_v > 0 ? site : NO_CELL;
+  set_line(edges, -v.s0, -v.s1, square_v > 0 ? square_v : 2 * (long)sides.s1, behind_v);
+  set_line(edges + 1, u.s0, u.s1, square_u > 0 ? square_u : 2 * (long)sides.s2, behind_u);
+  set_line(edges + 2, v.s0, v.s1, square_v > 0 ? square_v : 2 * (long)sides.s3, behind_v);
+  set_line(edges + 3, -u.s0, -u.s1, square_u > 0 ? square_u : 2 * (long)sides.s0, behind_u);
   for (int k = 0; k < 4; ++k) {
     edges[k].next = (k + 1) & 3;
     edges[k].before = (k + 3) & 3;

@@ -118,9 +118,32 @@ static inline void empty_stack(polygon_t* polygon, const tree_t* tree, int2 from
   }
 }
 
+// How far a coordinate is outside a stretch.
+static inline float outside(long at, int from, int to) { return convert_float(max(max(from - at, at - to), 0L)); }
+
+// Cuts a cell by the images of the sites in row j of the lattice. Along x no image can cut that is more than a period
+// away: the one a period nearer is nearer to the whole cell.
+static inline void cut_by_row(polygon_t* polygon, const tree_t* tree, int j, int2 at, int4 rectangle, int4 periods,
+                              stack_t* stack) {
+  const int y = (int)(at.s1 - (long)j * periods.s1);
+  long x = at.s0;
+  if (periods.s2 != 0) {
+    const long shifted = (x - rectangle.s0 - (long)j * periods.s2) % periods.s0;
+    x = rectangle.s0 + (shifted < 0 ? shifted + periods.s0 : shifted);
+  }
+  const int most_x = periods.s0 > 0;
+  for (int i = -most_x; i <= most_x; ++i) {
+    if (i == 0 && j == 0) continue;
+    const int2 from = (int2)((int)(x - (long)i * periods.s0), y);
+    push_group(polygon, tree, tree->top, 0, NO_CELL, from, stack);
+    empty_stack(polygon, tree, from, stack);
+  }
+}
+
 // Cuts a cell by all sites, and their images across the ends of periods: first by those that are next to its own in
-// the tree.
-static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site, int2 at, int2 periods) {
+// the tree. No row of images can cut that is more than a period away, but where the box is tilted.
+static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site, int2 at, int4 rectangle,
+                              int4 periods) {
   stack_t stack;
   stack.size = 0;
   cut_by_leaf(polygon, tree, site >> FAN_BITS, at);
@@ -129,13 +152,14 @@ static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site,
     push_group(polygon, tree, level, own >> FAN_BITS, own, at, &stack);
     empty_stack(polygon, tree, at, &stack);
   }
-  const int most_x = periods.s0 > 0, most_y = periods.s1 > 0;
-  for (int y = -most_y; y <= most_y; ++y) {
-    for (int x = -most_x; x <= most_x; ++x) {
-      if (x == 0 && y == 0) continue;
-      const int2 from = at - (int2)(x, y) * periods;
-      push_group(polygon, tree, tree->top, 0, NO_CELL, from, &stack);
-      empty_stack(polygon, tree, from, &stack);
+  cut_by_row(polygon, tree, 0, at, rectangle, periods, &stack);
+  if (periods.s1 == 0) return;
+  const int most_rows = periods.s2 != 0 ? INT_MAX : 1;
+  for (int side = -1; side <= 1; side += 2) {
+    for (int j = 1; j <= most_rows; ++j) {
+      const float away = outside(at.s1 - (long)(side * j) * periods.s1, rectangle.s1, rectangle.s3);
+      if (away * away >= 4 * polygon->reach) break;
+      cut_by_row(polygon, tree, side * j, at, rectangle, periods, &stack);
     }
   }
 }

@@ -49,9 +49,10 @@ def test_inner_cells_are_those_of_scipy(points):
     )
 
 
-def test_periodic_cells_are_those_of_freud(points):
-    found = vorocl.exact_cells(points, BOUNDS, periodic=(True, True))
-    box = freud.box.Box(4, 2, is2D=True)
+@pytest.mark.parametrize("tilt", [0, 0.7, -1, 1.99])
+def test_periodic_cells_are_those_of_freud(points, tilt):
+    found = vorocl.exact_cells(points, BOUNDS, periodic=(True, True), tilt=tilt)
+    box = freud.box.Box(4, 2, xy=tilt / 2, is2D=True)
     centred = np.column_stack([points - (1, 3), np.zeros(400)])
     voronoi = freud.locality.Voronoi().compute((box, centred))
     np.testing.assert_allclose(found.cells["area"], voronoi.volumes, rtol=1e-4)  # freud's are made in floats

@@ -63,6 +63,7 @@ WRONG = {
     + [1, [1, 2], np.zeros((2, 2, 2), int), np.zeros((0, 3), int), [[1], [1, 2]], np.array([["a"]])],
     "rounds": [-1, 2**31, 2**70, 1.5, "3", None, Hostile()],
     "distance": [-1, -1e-300, np.nan, "far", [], object(), 10**400, Hostile()],
+    "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
 WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
@@ -76,7 +77,7 @@ CALLS = {
     vorocl.areas: POINTS + ("units",),
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
-    vorocl.exact_cells: ("points", "bounds", "periodic", "outside", "device"),
+    vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
     vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),

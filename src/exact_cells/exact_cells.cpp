@@ -73,9 +73,9 @@ struct ExactCellsState {
     const cl_double2 origin = {{sites.origin.x, sites.origin.y}};
     return kernel(file, name)
         .over_items(items, site_count, places, boxes, levels, top_level, ids, sites.rectangle, sites.periods,
-                    origin, sites.step, areas, centroids, perimeters, edge_counts, neighbours, flags, begins,
-                    found_cells, found_vertices, static_cast<cl_uint>(most_edges(site_count)), counters,
-                    queue, more...);
+                    sites.lattice, origin, sites.step, areas, centroids, perimeters, edge_counts, neighbours,
+                    flags, begins, found_cells, found_vertices, static_cast<cl_uint>(most_edges(site_count)),
+                    counters, queue, more...);
   }
 };
 
@@ -292,7 +292,7 @@ ExactCellsCheck ExactCellsResult::check() const {
   return found;
 }
 
-Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
+Report exact_cells(const Seeds& seeds, ExactCellsResult& result, double tilt) {
   const Stopwatch stopwatch;
   FirstLaunches first_launches;
   ExactCellsState& state = Internal::result(result);
@@ -300,7 +300,7 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
   const Device& device = seeds.device();
   require_doubles(device);
   state.cells = seeds.size();
-  const auto [first, last] = state.start(device, sites_of(seeds.grid(), seeds.read()));
+  const auto [first, last] = state.start(device, sites_of(seeds.grid(), tilt, seeds.read()));
   check(clFlush(device.queue()()), "starting a measurement");
   state.is_made = true;
   return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());

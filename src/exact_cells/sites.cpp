@@ -13,7 +13,8 @@ namespace vorocl {
 
 namespace {
 
-constexpr int step_bits = 30;  // the longer side has at most 2^30 steps: see kernels/exact_cells/polygon.cl
+// The longer side has at most so many steps (kernels/exact_cells/polygon.cl says why).
+constexpr int step_bits = 30, step_bits_if_tilted = 29;
 constexpr std::size_t fan = 8;
 constexpr std::size_t sides = 4;  // of a box
 
@@ -35,11 +36,47 @@ Stretch stretch_of(const Axis& axis, const std::vector<std::optional<Point>>& po
   return stretch;
 }
 
-/// A step is the least power of two of which the longer side has at most 2^step_bits.
-int exponent_of_step(double longer_side) {
+/// A step is the least power of two of which the longer side has at most 2^bits.
+int exponent_of_step(double longer_side, int bits) {
   int exponent = 0;
   const bool is_power = std::frexp(longer_side, &exponent) == 0.5;
-  return exponent - (is_power ? 1 : 0) - step_bits;
+  return exponent - (is_power ? 1 : 0) - bits;
+}
+
+/// A tilt of at most half a period. Throws Error unless it is finite, and 0 or both axes are periodic.
+double reduced_tilt(const Grid& grid, double tilt) {
+  if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
+  if (tilt != 0 && grid.periodic() != Periodic::xy) {
+    throw Error("a tilted box must be periodic in x and y");
+  }
+  return tilt == 0 ? 0 : std::remainder(tilt, grid.x().to() - grid.x().from());
+}
+
+struct Vector {
+  std::int64_t x, y;
+};
+std::int64_t dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
+
+/// Two vectors of a lattice that span it, of which no sum is shorter, by Gauss's reduction.
+std::pair<Vector, Vector> reduced(Vector u, Vector v) {
+  if (dot(v, v) < dot(u, u)) std::swap(u, v);
+  while (true) {
+    const auto times = static_cast<std::int64_t>(
+        std::nearbyint(static_cast<double>(dot(u, v)) / static_cast<double>(dot(u, u))));
+    v = {v.x - times * u.x, v.y - times * u.y};
+    if (dot(v, v) >= dot(u, u)) return {u, v};
+    std::swap(u, v);
+  }
+}
+
+/// What repeats by periods and a tilt: see Sites.
+cl_int4 lattice_of(const cl_int4& periods) {
+  const cl_int4 flat = {{periods.s[0], 0, 0, periods.s[1]}};
+  if (periods.s[2] == 0) return flat;
+  auto [u, v] = reduced({periods.s[0], 0}, {periods.s[2], periods.s[1]});
+  if (u.x * v.y < u.y * v.x) v = {-v.x, -v.y};
+  return {{static_cast<cl_int>(u.x), static_cast<cl_int>(u.y), static_cast<cl_int>(v.x),
+           static_cast<cl_int>(v.y)}};
 }
 
 /// The steps of one axis.
@@ -50,6 +87,9 @@ class Steps {
   cl_int from() const { return at(axis_.from()); }
   cl_int to() const { return at(axis_.to()); }
   cl_int period() const { return axis_.is_periodic() ? to() - from() : 0; }
+  cl_int length(double extent) const {
+    return static_cast<cl_int>(std::nearbyint(std::ldexp(extent, -exponent_)));
+  }
 
   /// The step that a coordinate is rounded to.
   cl_int operator()(double coordinate) const {
@@ -134,13 +174,15 @@ void make_tree(Sites& sites) {
 
 }  // namespace
 
-Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+Sites sites_of(const Grid& grid, double tilt, const std::vector<std::optional<Point>>& points) {
+  tilt = reduced_tilt(grid, tilt);
   const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
-  const int exponent = exponent_of_step(std::max(x.length(), y.length()));
+  const int exponent =
+      exponent_of_step(std::max(x.length(), y.length()), tilt == 0 ? step_bits : step_bits_if_tilted);
   const Steps steps_x(grid.x(), x.from, exponent), steps_y(grid.y(), y.from, exponent);
   Sites sites;
   sites.rectangle = {{steps_x.from(), steps_y.from(), steps_x.to(), steps_y.to()}};
-  sites.periods = {{steps_x.period(), steps_y.period()}};
+  sites.periods = {{steps_x.period(), steps_y.period(), steps_x.length(tilt), 0}};
   sites.origin = {x.from, y.from};
   sites.step = std::ldexp(1.0, exponent);
   if (steps_x.from() >= steps_x.to() || steps_y.from() >= steps_y.to()) {
@@ -149,13 +191,19 @@ Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points
          << " x " << grid.y().to() - grid.y().from() << ", and positions are rounded to " << sites.step;
     throw Error(text.str());
   }
+  sites.lattice = lattice_of(sites.periods);
   std::vector<Place> places;
   places.reserve(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
     const auto bits = [](cl_int step) { return spread_bits(static_cast<std::uint32_t>(step)); };
-    places.push_back(
-        {bits(steps_x(points[id]->x)) | bits(steps_y(points[id]->y)) << 1, static_cast<cl_uint>(id)});
+    Point point = *points[id];
+    const cl_int step_y = steps_y(point.y);
+    if (tilt != 0) {
+      const double brought_up = point.y - (y.from + step_y * sites.step);
+      point.x -= std::nearbyint(brought_up / y.length()) * tilt;
+    }
+    places.push_back({bits(steps_x(point.x)) | bits(step_y) << 1, static_cast<cl_uint>(id)});
   }
   sort(places);
   const auto is_same = [](const Place& a, const Place& b) { return a.order == b.order; };

@@ -17,7 +17,8 @@ struct Sites {
   std::vector<cl_int> boxes;    // of each eight boxes eight left sides, and so on
   std::vector<cl_uint> levels;  // by level the first of its groups of boxes; level 0 has none
   cl_int4 rectangle = {};       // left, lower, right and upper sides
-  cl_int2 periods = {};         // 0: the axis is not periodic
+  cl_int4 periods = {};         // along x and y, 0: not periodic; how far images above are shifted in x
+  cl_int4 lattice = {};         // two short vectors of what repeats, counter-clockwise; or zeros
   Point origin;                 // in the units of the data: step 0 of both axes
   double step = 0;
 
@@ -25,7 +26,7 @@ struct Sites {
   cl_int top_level() const { return static_cast<cl_int>(levels.size()) - 1; }
 };
 
-/// Throws Error if the grid has less than a step along an axis.
-Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points);
+/// Throws Error if the grid has less than a step along an axis, or is tilted and not periodic along both.
+Sites sites_of(const Grid& grid, double tilt, const std::vector<std::optional<Point>>& points);
 
 }  // namespace vorocl

@@ -143,6 +143,28 @@ BOOST_AUTO_TEST_CASE(random_seeds_are_centres_of_pixels) {
   BOOST_TEST(sum == 3000, boost::test_tools::tolerance(rounding));
 }
 
+BOOST_AUTO_TEST_CASE(cells_of_a_tilted_box_are_those_of_its_lattice) {
+  // A lattice of triangles with the distance 2, in a box that holds two rows of it: every cell is a hexagon.
+  const TemporaryFolder folder;
+  folder.file(
+      "t.xyz",
+      "4\nLattice=\"4 0 0 2 3.4641016151377544 0 0 0 1\" Properties=species:S:1:pos:R:3 pbc=\"T T F\"\n"
+      "A 0 0 0\nA 2 0 0\nA 1 1.7320508075688772 0\nA 3 1.7320508075688772 0\n");
+  const json result = json::parse(
+      succeeds(folder, "cells --exact --trajectory t.xyz --cells c.csv --adjacency a.csv --json"));
+  BOOST_TEST(result.at("not_mutual") == 0);
+  const Table cells = read_table(folder / "c.csv");
+  BOOST_TEST_REQUIRE(cells.rows.size() == 4u);
+  constexpr std::size_t area = 3, perimeter = 10;
+  for (const TableRow& cell : cells.rows) {
+    BOOST_TEST(*cell[area] == 2 * std::sqrt(3.0), boost::test_tools::tolerance(1e-7));
+    BOOST_TEST(*cell[perimeter] == 4 * std::sqrt(3.0), boost::test_tools::tolerance(1e-7));
+  }
+  std::size_t long_edges = 0;
+  for (const TableRow& pair : read_table(folder / "a.csv").rows) long_edges += *pair[2] > 1 ? 1 : 0;
+  BOOST_TEST(long_edges == 12u);
+}
+
 BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,y\n1,1\n9,3\n");
@@ -167,8 +189,8 @@ BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
           {"p.csv", "point 1", "outside"});
   refuses(folder, exact + "--cells c.csv --periodic x --domain 0,0,10,10 --bounds 0,0,5,10", failure,
           {"p.csv", "whole periods", "0,0,10,10"});
-  refuses(folder, "cells --exact --trajectory tilted.xyz --cells c.csv --device none", failure,
-          {"tilted.xyz", "frame 0", "tilted"});
+  refuses(folder, "cells --exact --trajectory tilted.xyz --periodic x --cells c.csv --device none", failure,
+          {"tilted.xyz", "frame 0", "tilted", "--periodic xy"});
   refuses(folder, "cells --exact --trajectory tilted.xyz --frame 4 --cells c.csv --device none", failure,
           {"tilted.xyz", "no frame 4"});
   BOOST_TEST((folder.names() == std::set<std::string>{"p.csv", "tilted.xyz"}));

@@ -37,6 +37,7 @@ struct Set {
   std::string name;
   std::int64_t width, height;
   std::vector<Position> positions;
+  std::int64_t tilt = 0;
 };
 
 constexpr std::int64_t side = std::int64_t{1} << 30;
@@ -55,7 +56,8 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
 
 ExactCellsResult cells_of(const Set& set, Periodic periodic) {
   ExactCellsResult result;
-  exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions)), result);
+  exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions)), result,
+              static_cast<double>(set.tilt));
   return result;
 }
 
@@ -200,7 +202,8 @@ std::optional<std::pair<Fraction, Fraction>> visible_part(const std::vector<Half
 Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
   const Position& own = set.positions[id];
   std::vector<HalfPlane> planes;
-  const std::int64_t images = set.positions.size() > 8 ? 1 : 2;  // each way
+  // Each way. The lattices of tilted sets have short vectors a few periods away.
+  const std::int64_t images = set.tilt != 0 ? 4 : set.positions.size() > 8 ? 1 : 2;
   const std::int64_t images_x = has_x(periodic) ? images : 0, images_y = has_y(periodic) ? images : 0;
   for (std::uint32_t other = 0; other < set.positions.size(); ++other) {
     const Position& at = set.positions[other];
@@ -211,7 +214,7 @@ Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
       continue;
     for (std::int64_t x = -images_x; x <= images_x; ++x) {
       for (std::int64_t y = -images_y; y <= images_y; ++y) {
-        const std::int64_t a = at.x + x * set.width - own.x, b = at.y + y * set.height - own.y;
+        const std::int64_t a = at.x + x * set.width + y * set.tilt - own.x, b = at.y + y * set.height - own.y;
         if (a != 0 || b != 0) planes.push_back({a, b, Whole(a) * a + Whole(b) * b, other});
       }
     }
@@ -309,6 +312,69 @@ BOOST_AUTO_TEST_CASE(hurtful_sets_have_the_cells_of_rational_numbers) {
         check_as_a_whole(cells_of(set, periodic), set.name);
       }
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(tilted_boxes_have_the_cells_of_rational_numbers) {
+  const std::int64_t wide = side / 2;
+  std::vector<Position> hexagons;  // a lattice of its own, whose rows fit the tilt
+  for (std::int64_t row = 0; row < 4; ++row)
+    for (std::int64_t column = 0; column < 4; ++column)
+      hexagons.push_back({(wide / 4 * column + wide / 8 * row) % wide, wide / 4 * row});
+  const std::vector<Position> some = random_positions(wide, wide, 12, 31);
+  const Set sets[] = {
+      {"random", wide, wide, some, wide / 3 + 1},
+      {"random, tilted to the left", wide, wide, some, -wide / 5},
+      {"half a period", wide, wide, some, wide / 2},
+      {"one and a third", wide, wide, some, wide + wide / 3},
+      {"flat", wide, wide / 3, random_positions(wide, wide / 3, 9, 32), wide / 2 - 7},
+      {"high", wide / 4, wide, random_positions(wide / 4, wide, 9, 33), wide / 9},
+      {"lattice", wide, wide, lattice(wide / 4, 4, 4), wide / 4},
+      {"hexagons", wide, wide, hexagons, wide / 2},
+      {"one", wide, wide, {{5, 7}}, wide / 3},
+      {"one, flat", wide, wide / 3, {{5, 7}}, wide / 2},
+      {"two", wide, wide / 2, {{5, 7}, {wide - 9, wide / 4}}, wide / 2 - 1},
+      {"small", 20, 16, {{5, 7}, {19, 0}, {19, 15}, {0, 0}, {0, 15}}, 9},
+  };
+  for (const Set& set : sets) {
+    BOOST_TEST_CONTEXT(set.name) {
+      check_by_rational_numbers(set, Periodic::xy);
+      check_as_a_whole(cells_of(set, Periodic::xy), set.name);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_very_flat_tilted_box_is_filled) {
+  // Its short vectors are 500 rows away.
+  for (const std::size_t count : {1, 3, 200}) {
+    const Set set = {"very flat", side / 2, side / 2000, random_positions(side / 2, side / 2000, count, 34),
+                     side / 4 - 3};
+    check_as_a_whole(cells_of(set, Periodic::xy), set.name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(images_of_a_tilted_box_have_its_cells) {
+  const Set set = {"random", 1000, 600, random_positions(1000, 600, 50, 35), 300};
+  const std::vector<ExactCell> cells = cells_of(set, Periodic::xy).read();
+  Set moved = set;
+  std::mt19937_64 random(36);
+  for (Position& position : moved.positions) {
+    const std::int64_t i = below(random, 7) - 3, j = below(random, 7) - 3;
+    position = {position.x + i * set.width + j * set.tilt, position.y + j * set.height};
+  }
+  const std::vector<ExactCell> found = cells_of(moved, Periodic::xy).read();
+  BOOST_TEST_REQUIRE(found.size() == cells.size());
+  for (std::size_t id = 0; id < cells.size(); ++id) {
+    BOOST_TEST(found[id].area == cells[id].area);
+    BOOST_TEST(found[id].centroid.x == cells[id].centroid.x);
+    BOOST_TEST(found[id].perimeter == cells[id].perimeter);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_tilt_needs_periods_along_both_axes) {
+  for (const Periodic periodic : {Periodic::none, Periodic::x, Periodic::y}) {
+    const Set set = {"two", 10, 10, {{1, 2}, {3, 4}}, 3};
+    BOOST_CHECK_THROW(cells_of(set, periodic), Error);
   }
 }
 

@@ -68,7 +68,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
-  const Report report = exact_cells(seeds, result);
+  const Report report = exact_cells(seeds, result, input.tilt);
   const ExactCellRows rows(seeds, result, input.ids);
   if (cells) rows.write_cells(*cells, options.columns);
   if (adjacency) rows.write_pairs(*adjacency);

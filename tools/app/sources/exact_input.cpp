@@ -80,12 +80,19 @@ ExactInput input_from_trajectory(const SeedOptions& options) {
     Periodic periodic = options.periodic.value_or(Periodic::none);
     if (frame.box && !options.periodic)
       periodic = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
-    if (frame.box && frame.box->tilt != 0) {
-      throw Error(fmt::format("the box of frame {} is tilted, which --exact cannot cut", options.frame));
+    const double tilt = frame.box ? frame.box->tilt : 0;
+    if (tilt != 0 && periodic != Periodic::xy) {
+      throw Error(
+          fmt::format("the box of frame {} is tilted: --exact cuts it as periodic in x and y, so leave "
+                      "--periodic out, or give --periodic xy",
+                      options.frame));
     }
     const Bounds repeats = filled ? *filled : *options.bounds;
     const Grid grid = grid_of(options, repeats, periodic, "the box");
-    return input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
+    ExactInput input =
+        input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
+    input.tilt = tilt;
+    return input;
   } catch (const Error& error) {
     throw Error(options.trajectory + ": " + error.what());
   }

@@ -14,12 +14,13 @@ struct ExactInput {
   Grid grid;  ///< of few pixels, which do not count: the rectangle and its periodic axes
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;  ///< by seed; empty: the seeds' own
+  double tilt = 0;                 ///< of the box, as exact_cells() takes it
 };
 
 /// Checks the options, and reads and checks the files. Points and particles lie in the bounds, else in the
 /// domain, the box of the trajectory's frame or the points' bounding box; along a periodic axis in the domain
-/// or the box. Other seeds are the centres of pixels. Throws UsageError, Error if a file is bad or the box is
-/// tilted.
+/// or the box. Other seeds are the centres of pixels. Throws UsageError, Error if a file is bad, or a box is
+/// tilted of which an axis is said not to be periodic.
 ExactInput read_exact_input(const SeedOptions& options);
 
 }  // namespace vorocl::command
