@@ -225,6 +225,34 @@ BOOST_AUTO_TEST_CASE(measures_are_in_data_units) {
           {"--units data", "--points"});
 }
 
+BOOST_AUTO_TEST_CASE(columns_say_which_lengths_are_in_pixels) {
+  const TemporaryFolder folder;
+  folder.file("t.lammpstrj", text_of(stretched(3, 20), "pp pp pp"));
+  folder.file("p.csv", "x,y\n1,1\n9,3\n2,8\n");
+  const auto header = [&folder](const std::string& name) { return read_table(folder / name).header; };
+  const std::string seeds = "cells --points p.csv --bounds 0,0,10,10 --cells c.csv --adjacency a.csv ",
+                    some = "--cell-columns area,perimeter,largest_distance ";
+  for (const auto& [size, ending] :
+       {std::pair{"--size 20x10", "_px"}, {"--size 20x20", ""}, {"--size 20x10 --units px", ""}}) {
+    BOOST_TEST_CONTEXT(size) {
+      BOOST_TEST(run(folder, seeds + some + size).exit_code == 0);
+      BOOST_TEST(header("c.csv") == fmt::format("area,perimeter{0},largest_distance{0}", ending));
+      BOOST_TEST(header("a.csv") == fmt::format("a,b,length{}", ending));
+      BOOST_TEST(run(folder, fmt::format("tiles --points p.csv --bounds 0,0,10,10 {} --tile 16 --cells t.csv "
+                                         "--adjacency b.csv",
+                                         size))
+                     .exit_code == 0);
+      BOOST_TEST(header("t.csv").find(fmt::format(",perimeter{},", ending)) != std::string::npos);
+      BOOST_TEST(header("b.csv") == fmt::format("a,b,length{}", ending));
+    }
+  }
+  BOOST_TEST(
+      run(folder, "simulate --trajectory t.lammpstrj --size 90x30 --cells c.csv --adjacency a%d.csv " + some)
+          .exit_code == 0);
+  BOOST_TEST(header("c.csv") == "frame,timestep,area,perimeter_px,largest_distance_px");
+  BOOST_TEST(header("a1.csv") == "a,b,length_px");
+}
+
 BOOST_AUTO_TEST_CASE(one_frame_has_its_own_box_and_a_fitted_film_too) {
   const TemporaryFolder folder;
   const std::vector<Scene> scenes = stretched(3, 20);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/sources/seed_input.hpp"
 
@@ -11,7 +12,7 @@ struct ExactCellsOptions {
   SeedOptions seeds;
   std::string device;
   std::string cells, adjacency, polygons;  // paths; empty: not asked for
-  std::string columns;                     // of the cells
+  std::vector<std::string> columns;        // of the cells
   bool json = false;
 };
 

@@ -161,7 +161,7 @@ void write_border_file(const OutputFile& file, Measures& measures) {
 void FileKind::write(const OutputFile& file, Measures& measures) const {
   if (const TableKind* const kind = table()) {
     GrowingFile rows(file);
-    rows << kind->columns << "\n";
+    rows << measures.view().units.header(kind->columns);
     kind->add_rows(rows, "", measures);
     rows.finish();
   } else {
@@ -184,12 +184,10 @@ std::vector<std::string> cell_columns() {
 
 FileKind cells_kind(const std::vector<std::string>& names) {
   std::vector<CellColumn> columns;
-  std::string header;
   for (const std::string& name : names) {
     const auto column = std::find_if(all_cell_columns().begin(), all_cell_columns().end(),
                                      [&name](const CellColumn& any) { return any.name == name; });
     columns.push_back(*column);
-    header += (header.empty() ? "" : ",") + name;
   }
   const auto add_rows = [columns](GrowingFile& table, const std::string& first, Measures& measures) {
     add_cells(columns, table, first, measures);
@@ -197,7 +195,7 @@ FileKind cells_kind(const std::vector<std::string>& names) {
   return {"--cells",
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
-          TableKind{header, add_rows}};
+          TableKind{names, add_rows}};
 }
 
 const FileKind& adjacency_kind() {
@@ -205,7 +203,7 @@ const FileKind& adjacency_kind() {
       "--adjacency",
       "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
-      TableKind{"a,b,length", add_pairs}};
+      TableKind{{"a", "b", "length"}, add_pairs}};
   return kind;
 }
 

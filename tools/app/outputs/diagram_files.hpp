@@ -12,9 +12,10 @@
 
 namespace vorocl::command {
 
-/// What a table says of a diagram: the names of its columns, and its rows, each with `first` before it.
+/// What a table says of a diagram: the names of its columns, as Units::header() takes them, and its rows,
+/// each with `first` before it.
 struct TableKind {
-  std::string columns;
+  std::vector<std::string> columns;
   std::function<void(GrowingFile& table, const std::string& first, Measures& measures)> add_rows;
 };
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <sstream>
 #include <tuple>
 #include <utility>
 
@@ -62,13 +61,6 @@ Value value_of(const Row& row, const std::string& column) {
   return columns.at(column)(row);
 }
 
-std::vector<std::string> names_in(const std::string& header) {
-  std::vector<std::string> names;
-  std::istringstream text(header);
-  for (std::string name; std::getline(text, name, ',');) names.push_back(name);
-  return names;
-}
-
 }  // namespace
 
 ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
@@ -97,10 +89,9 @@ std::vector<Point> ExactCellRows::polygon_of(std::size_t seed) const {
   return {first + polygons_.offsets[seed], first + polygons_.offsets[seed + 1]};
 }
 
-void ExactCellRows::write_cells(const OutputFile& file, const std::string& header) const {
-  const std::vector<std::string> columns = names_in(header);
+void ExactCellRows::write_cells(const OutputFile& file, const std::vector<std::string>& columns) const {
   GrowingFile table(file);
-  table << header << "\n";
+  table << fmt::format("{}\n", fmt::join(columns, ","));
   fmt::memory_buffer text;
   for (const std::size_t seed : order_) {
     text.clear();

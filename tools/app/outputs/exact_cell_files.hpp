@@ -17,9 +17,9 @@ class ExactCellRows {
   /// `ids` says what files call each seed; empty: their indices. Waits; throws as the library.
   ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids);
 
-  /// One row per cell, by id, with the columns of this header: some of cell_columns(). Seeds outside the
-  /// rectangle have one only if their cells reach into it. A field is empty where an empty cell has no value.
-  void write_cells(const OutputFile& file, const std::string& header) const;
+  /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
+  /// have one only if their cells reach into it. A field is empty where an empty cell has no value.
+  void write_cells(const OutputFile& file, const std::vector<std::string>& columns) const;
 
   /// One row per edge between two cells, a <= b: its length and its middle.
   void write_pairs(const OutputFile& file) const;

@@ -22,7 +22,8 @@ std::string collection_path(const FileRequest& request) {
 
 FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : request_(request) {
   if (request.is_long_table()) {
-    table_ = open_table(request.path, "frame,timestep," + request.kind.table()->columns, journal);
+    table_ = open_table(request.path, journal);
+    needs_header_ = is_new(journal);
     return;
   }
   files_.emplace(request.path);
@@ -32,7 +33,10 @@ FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : requ
 
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   if (table_) {
-    request_.kind.table()->add_rows(*table_, fmt::format("{},{},", frame, time), measures);
+    const TableKind& kind = *request_.kind.table();
+    if (needs_header_) *table_ << "frame,timestep," << measures.view().units.header(kind.columns);
+    needs_header_ = false;
+    kind.add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
   request_.kind.write(files_->file(frame), measures);

@@ -44,6 +44,7 @@ class FrameFiles {
   FileRequest request_;
   std::optional<NumberedFiles> files_;
   std::unique_ptr<GrowingFile> table_;
+  bool needs_header_ = false;  // of the table, which depends on what the first frame is measured in
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
 };

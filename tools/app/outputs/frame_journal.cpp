@@ -71,11 +71,16 @@ void FrameJournal::finish() {
   append({line_of(*last_)});
 }
 
+bool is_new(const FrameJournal* journal) { return journal == nullptr || journal->last_frame() < 0; }
+
+std::unique_ptr<GrowingFile> open_table(const std::string& path, FrameJournal* journal) {
+  return journal != nullptr ? journal->open_table(path) : std::make_unique<GrowingFile>(OutputFile(path));
+}
+
 std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header,
                                         FrameJournal* journal) {
-  auto table =
-      journal != nullptr ? journal->open_table(path) : std::make_unique<GrowingFile>(OutputFile(path));
-  if (journal == nullptr || journal->last_frame() < 0) *table << header << "\n";
+  auto table = open_table(path, journal);
+  if (is_new(journal)) *table << header << "\n";
   return table;
 }
 

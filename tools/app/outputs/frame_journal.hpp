@@ -54,9 +54,15 @@ class FrameJournal : public Journal {
   std::vector<GrowingFile*> tables_;
 };
 
-/// A table of all frames with this header, which another run can continue if there is a journal. Throws Error
-/// if it cannot be made there.
+/// A table of all frames, which another run can continue if there is a journal. Throws Error if it cannot be
+/// made there.
+std::unique_ptr<GrowingFile> open_table(const std::string& path, FrameJournal* journal);
+
+/// The same with this header.
 std::unique_ptr<GrowingFile> open_table(const std::string& path, const std::string& header,
                                         FrameJournal* journal);
+
+/// Whether a run's tables begin with it: no journal tells of complete frames.
+bool is_new(const FrameJournal* journal);
 
 }  // namespace vorocl::command

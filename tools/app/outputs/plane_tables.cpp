@@ -53,7 +53,8 @@ class SharesByCell {
 void write_cells(const OutputFile& file, const PlaneCells& cells, const std::vector<PlaneCellPair>& pairs,
                  const Units& units, std::uint64_t pixels) {
   GrowingFile table(file);
-  table << "id,area,centroid_x,centroid_y,left,top,right,bottom,perimeter,neighbours,touches_border\n";
+  table << units.header({"id", "area", "centroid_x", "centroid_y", "left", "top", "right", "bottom",
+                         "perimeter", "neighbours", "touches_border"});
   SharesByCell shares_by_cell(pairs);
   std::uint64_t summed = 0;
   for (std::uint64_t id = 0; id < cells.size(); ++id) {
@@ -92,7 +93,7 @@ std::uint64_t hash_of(const std::vector<char>& bytes) {
 
 void write_pairs(const OutputFile& file, const std::vector<PlaneCellPair>& pairs, const Units& units) {
   GrowingFile table(file);
-  table << "a,b,length\n";
+  table << units.header({"a", "b", "length"});
   for (const PlaneCellPair& pair : pairs) {
     table << fmt::format("{},{},{}\n", pair.a, pair.b, units.length(static_cast<double>(pair.length)));
   }

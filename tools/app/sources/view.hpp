@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "formats/raster.hpp"
@@ -78,6 +80,17 @@ class Units {
   /// "data" or "px".
   const char* of_area() const { return area_in_data_ ? "data" : "px"; }
   const char* of_length() const { return length_in_data_ ? "data" : "px"; }
+
+  /// The first line of a table with these columns: where lengths stay in pixels beside positions in data
+  /// units, the names of their columns say so.
+  std::string header(const std::vector<std::string>& columns) const {
+    static const std::set<std::string> lengths = {"perimeter", "largest_distance", "length"};
+    const bool say_so = area_in_data_ && !length_in_data_;
+    std::string text;
+    for (const std::string& column : columns)
+      text += (text.empty() ? "" : ",") + column + (say_so && lengths.count(column) > 0 ? "_px" : "");
+    return text + "\n";
+  }
 
   /// The same as titles have them: "data units^2", "px".
   const char* area_title() const { return area_in_data_ ? "data units^2" : "px"; }
