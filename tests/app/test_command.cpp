@@ -29,7 +29,9 @@ BOOST_AUTO_TEST_CASE(every_level_has_help) {
   const TemporaryFolder folder;
   for (const char* subcommand : {"devices", "render", "simulate", "cells", "relax", "compare", "bench"}) {
     BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
-    BOOST_TEST(succeeds(folder, subcommand + std::string(" --help")).find("--json") != std::string::npos);
+    const std::string help = succeeds(folder, subcommand + std::string(" --help"));
+    BOOST_TEST(help.find("--json") != std::string::npos);
+    BOOST_TEST(help.find("[]") == std::string::npos, help);
   }
   BOOST_TEST(succeeds(folder, "--version") == "vorocl " VOROCL_VERSION "\n");
   // Without --bounds: one frame shows its own box, and a film what --fit says.

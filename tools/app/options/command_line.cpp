@@ -162,9 +162,25 @@ std::string Command::given(const std::vector<std::string>& others) const {
 
 void Command::set_work(const std::function<void()>& work) { app_->callback(work); }
 
+namespace {
+
+/// CLI11 shows the words of refuse_words() in the usage, without their name.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string name) const override {
+    constexpr std::string_view nameless = " []";
+    std::string usage = Formatter::make_usage(app, std::move(name));
+    const std::size_t at = usage.find(nameless);
+    return at == std::string::npos ? usage : usage.erase(at, nameless.size());
+  }
+};
+
+}  // namespace
+
 CommandLine::CommandLine(const std::string& about, const std::string& name, const std::string& version)
     : app_(std::make_unique<CLI::App>(about, name)) {
   name_program(name);
+  app_->formatter(std::make_shared<Help>());
   app_->set_version_flag("--version", version);
   app_->require_subcommand(-1);  // at most one: where there is none, run() first names what else was given
 }
