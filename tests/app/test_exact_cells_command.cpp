@@ -165,6 +165,71 @@ BOOST_AUTO_TEST_CASE(cells_of_a_tilted_box_are_those_of_its_lattice) {
   BOOST_TEST(long_edges == 12u);
 }
 
+BOOST_AUTO_TEST_CASE(frames_of_a_trajectory_have_the_cells_of_each_frame) {
+  const TemporaryFolder folder;
+  // The second box is tilted and has another particle; the third has a particle fewer.
+  const std::string properties = "Properties=id:I:1:pos:R:2";
+  folder.file("t.xyz", "3\nLattice=\"4 0 0 0 3 0 0 0 1\" " + properties +
+                           "\n7 0.5 0.5\n2 3 1\n9 1.5 2.25\n4\nLattice=\"5 0 0 1 3 0 0 0 1\" " + properties +
+                           "\n7 0.75 0.5\n2 3 1\n9 1.5 2.25\n1 4 2.5\n2\nLattice=\"4 0 0 0 3 0 0 0 1\" " +
+                           properties + "\n9 3 1\n1 1.5 2.25\n");
+  const std::string simulate = "simulate --exact --trajectory t.xyz ",
+                    columns = "--cell-columns id,area,largest_distance,neighbours ";
+  const json result = json::parse(succeeds(
+      folder, simulate + "--cells all.csv --adjacency a%d.csv --polygons p%d.vtp --json " + columns));
+  BOOST_TEST(result.at("frames") == 3);
+  BOOST_TEST(result.at("uncertified") == 0);
+  std::string expected;
+  for (const int frame : {0, 1, 2}) {
+    succeeds(folder,
+             fmt::format("cells --exact --trajectory t.xyz --frame {} --cells c.csv --adjacency a.csv "
+                         "--polygons p.vtp {}",
+                         frame, columns));
+    std::istringstream rows(content_of(folder / "c.csv"));
+    std::string line;
+    std::getline(rows, line);
+    if (frame == 0) expected = "frame,timestep," + line + "\n";
+    while (std::getline(rows, line)) expected += fmt::format("{0},{0},{1}\n", frame, line);
+    BOOST_TEST(content_of(folder / fmt::format("a{}.csv", frame)) == content_of(folder / "a.csv"));
+    BOOST_TEST(content_of(folder / fmt::format("p{}.vtp", frame)) == content_of(folder / "p.vtp"));
+  }
+  BOOST_TEST(content_of(folder / "all.csv") == expected);
+
+  succeeds(folder, simulate + "--cells c%d.csv --frames 2 --every 2 " + columns);
+  BOOST_TEST((std::ifstream(folder / "c0.csv").good() && std::ifstream(folder / "c2.csv").good()));
+  BOOST_TEST(!std::ifstream(folder / "c1.csv").good());
+  succeeds(folder, simulate + "--cells some.csv --frames 1 " + columns);
+  BOOST_TEST(read_table(folder / "some.csv").rows.size() == 7u);
+
+  // A bad frame leaves those before it.
+  folder.file("cut.xyz",
+              content_of(folder / "t.xyz") + "2\nLattice=\"4 0 0 0 3 0 0 0 1\" " + properties + "\n1 1");
+  const Result cut = run(folder, "simulate --exact --trajectory cut.xyz --cells kept.csv " + columns);
+  BOOST_TEST(cut.exit_code == failure);
+  BOOST_TEST(cut.error.find("cut.xyz:18") != std::string::npos, cut.error);
+  BOOST_TEST(cut.error.find("frames complete before that: 3") != std::string::npos, cut.error);
+  BOOST_TEST(content_of(folder / "kept.csv") == expected);
+}
+
+BOOST_AUTO_TEST_CASE(what_exact_frames_cannot_do_is_refused_before_the_work) {
+  const TemporaryFolder folder;
+  folder.file("t.xyz", "1\nLattice=\"4 0 0 0 4 0 0 0 4\"\nA 1 1 0\n");
+  const std::string exact = "simulate --exact --trajectory t.xyz --device none ";
+  refuses(folder, exact, usage, {"nothing to write", "--cells", "--adjacency", "--polygons"});
+  refuses(folder, "simulate --exact --random 5 --size 9x9 --cells c.csv", usage, {"--exact", "trajectory"});
+  for (const char* const option :
+       {"--method jfa", "--metric manhattan", "-o f.mp4", "--labels l%d.npy", "--statistics s.csv",
+        "--resume", "--compare-with jfa", "--units px", "--snap", "--size 9x9", "--fit frame"}) {
+    const std::string text = option;
+    refuses(folder, exact + "--cells c.csv " + text, usage, {text.substr(0, text.find(' ')), "--exact"});
+  }
+  refuses(folder, exact + "--polygons p.vtp", usage, {"p.vtp", "%05d"});
+  refuses(folder, exact + "--polygons p%d.txt", usage, {"p%d.txt", ".vtp"});
+  refuses(folder, "simulate --trajectory t.xyz --size 9x9 --polygons p%d.vtp", usage,
+          {"--polygons requires --exact"});
+  BOOST_TEST((folder.names() == std::set<std::string>{"t.xyz"}));
+}
+
 BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,y\n1,1\n9,3\n");

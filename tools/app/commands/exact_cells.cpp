@@ -24,7 +24,7 @@ std::vector<RequestedFile> requested_files(const ExactCellsOptions& options) {
           {"--polygons", options.polygons, polygon_extensions()}};
 }
 
-void print_result(const ExactCellsOptions& options, const Seeds& seeds, const ExactCellRows& rows,
+void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCellRows& rows,
                   const ExactCellsCheck& check, const Report& report) {
   const Axis &x = seeds.grid().x(), &y = seeds.grid().y();
   if (options.json) {
@@ -36,7 +36,7 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, const Ex
                     {"empty_cells", rows.empty_cells()},
                     {"mean_area", rows.mean_area()},
                     {"area_deviation", rows.area_deviation()},
-                    {"pairs", rows.pairs()},
+                    {"pairs", rows.pairs().size()},
                     {"area", check.area},
                     {"not_mutual", check.not_mutual},
                     {"uncertified", check.uncertified},
@@ -50,7 +50,7 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, const Ex
     print("{} of these lie where another does and have no cell\n", counted(rows.empty_cells(), "seed"));
   }
   print("the mean area is {:.6g}, with a deviation of {:.6g}\n", rows.mean_area(), rows.area_deviation());
-  print("{} between cells\n", counted(rows.pairs(), "edge"));
+  print("{} between cells\n", counted(rows.pairs().size(), "edge"));
   print_written(requested_files(options));
 }
 
@@ -69,7 +69,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result, input.tilt);
-  const ExactCellRows rows(seeds, result, input.ids);
+  ExactCellRows rows(seeds, result, input.ids);
   if (cells) rows.write_cells(*cells, options.columns);
   if (adjacency) rows.write_pairs(*adjacency);
   if (polygons) rows.write_polygons(*polygons);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/exact_frames.hpp"
 #include "app/commands/simulate_course.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
@@ -250,6 +251,25 @@ void run(const SimulateOptions& options) {
   print_result(options, *source, run.simulation(), course, measures);
 }
 
+/// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
+void run_exact(const Command& command, const SimulateOptions& options) {
+  const std::string others =
+      command.given({"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency",
+                     "--polygons", "--every", "--bounds", "--periodic", "--outside", "--device", "--json"});
+  if (!others.empty()) {
+    throw UsageError(others.substr(0, others.find_first_of(" \n")) +
+                     " is not for --exact, which cuts the cells of a trajectory's own positions and makes no "
+                     "diagrams");
+  }
+  const FileRequest &cells = options.output.files.at(1), &adjacency = options.output.files.at(2);
+  if (options.seeds.trajectory.empty()) throw UsageError("--exact requires --trajectory");
+  if (cells.path.empty() && adjacency.path.empty() && options.polygons.empty()) {
+    throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
+  }
+  run_exact_frames({options.seeds, options.device, cells, adjacency, options.polygons, options.motion.frames,
+                    options.output.every, options.json});
+}
+
 }  // namespace
 
 void add_simulate(CommandLine& line) {
@@ -285,7 +305,19 @@ void add_simulate(CommandLine& line) {
   add_frame_writer_options(command, options->output);
   add_device_option(command, options->device);
   add_json_option(command, options->json);
+  const Option exact = command.add("--exact", options->exact,
+                                   "Cut the cells of a trajectory as polygons, at the particles' own places "
+                                   "and without pixels: for --cells, "
+                                   "--adjacency and --polygons, in the units of the data");
+  command
+      .add("--polygons", options->polygons,
+           "The polygons of --exact, one file per frame, such as frames/%05d.vtp: .geojson, .csv (with a "
+           "column "
+           "of WKT) or .vtp (ParaView)")
+      .value_name("FILES")
+      .needs(exact);
   command.set_work([command, options] {
+    if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     snap_for(options->method, options->seeds);

@@ -28,7 +28,9 @@ struct SimulateOptions {
   FrameWriterOptions output;
   std::string device;
   bool json = false;
-  std::string run;  // in lines, what a run must share with the one that it goes on with
+  bool exact = false;    // cells as polygons, and no diagrams
+  std::string polygons;  // of these; empty: not asked for
+  std::string run;       // in lines, what a run must share with the one that it goes on with
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
   bool other_is_exact() const {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string_view>
 
+#include "app/outputs/table_rows.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/raster_files.hpp"
-#include "formats/workers.hpp"
 
 namespace vorocl::command {
 
@@ -87,26 +87,6 @@ const std::vector<CellColumn>& all_cell_columns() {
                                                   {"largest_distance", &CellRow::largest_distance},
                                                   {"touches_border", &CellRow::touches_border}};
   return columns;
-}
-
-/// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
-template <typename Item, typename Add>
-void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
-  constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
-  std::vector<fmt::memory_buffer> pieces(most_pieces);
-  Workers workers(items.size() / items_of_piece);  // none for few items
-  for (std::size_t begin = 0; begin < items.size();) {
-    std::size_t count = 0;
-    for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
-      workers.add([&items, &add, &piece = pieces[count], begin] {
-        piece.clear();
-        const std::size_t end = std::min(items.size(), begin + items_of_piece);
-        for (std::size_t i = begin; i < end; ++i) add(piece, items[i]);
-      });
-    }
-    workers.wait();
-    for (std::size_t i = 0; i < count; ++i) table << std::string_view(pieces[i].data(), pieces[i].size());
-  }
 }
 
 void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "app/outputs/table_rows.hpp"
 #include "formats/polygon_files.hpp"
 
 namespace vorocl::command {
@@ -17,12 +18,24 @@ namespace {
 
 using Value = std::optional<double>;
 
+/// The vertices of a polygon.
+struct Ring {
+  const Point *first = nullptr, *behind = nullptr;
+  const Point* begin() const { return first; }
+  const Point* end() const { return behind; }
+};
+
+Ring ring_of(const ExactPolygons& polygons, std::size_t seed) {
+  const Point* const vertices = polygons.vertices.data();
+  return {vertices + polygons.offsets[seed], vertices + polygons.offsets[seed + 1]};
+}
+
 /// A cell as its row has it: the columns of the cells of diagrams, of polygons.
 struct Row {
   std::uint32_t id;
   Point seed;
   const ExactCell& cell;
-  const std::vector<Point>& polygon;
+  Ring polygon;  // empty unless a column needs it
 
   Value extreme(double Point::*along, bool greatest) const {
     Value found;
@@ -39,37 +52,38 @@ struct Row {
     return found;
   }
 
-  Value if_full(double value) const { return polygon.empty() ? Value() : Value(value); }
+  Value if_full(double value) const { return cell.area > 0 ? Value(value) : Value(); }
 };
 
-Value value_of(const Row& row, const std::string& column) {
-  static const std::map<std::string, Value (*)(const Row&)> columns = {
-      {"id", [](const Row& of) { return Value(of.id); }},
-      {"x", [](const Row& of) { return Value(of.seed.x); }},
-      {"y", [](const Row& of) { return Value(of.seed.y); }},
-      {"area", [](const Row& of) { return Value(of.cell.area); }},
-      {"centroid_x", [](const Row& of) { return of.if_full(of.cell.centroid.x); }},
-      {"centroid_y", [](const Row& of) { return of.if_full(of.cell.centroid.y); }},
-      {"left", [](const Row& of) { return of.extreme(&Point::x, false); }},
-      {"top", [](const Row& of) { return of.extreme(&Point::y, true); }},
-      {"right", [](const Row& of) { return of.extreme(&Point::x, true); }},
-      {"bottom", [](const Row& of) { return of.extreme(&Point::y, false); }},
-      {"perimeter", [](const Row& of) { return Value(of.cell.perimeter); }},
-      {"neighbours", [](const Row& of) { return Value(of.cell.neighbours); }},
-      {"largest_distance", [](const Row& of) { return of.largest_distance(); }},
-      {"touches_border", [](const Row& of) { return Value(of.cell.touches_border ? 1 : 0); }}};
-  return columns.at(column)(row);
+struct Column {
+  Value (*value)(const Row& of);
+  bool of_polygon = false;
+};
+
+Column column_of(const std::string& name) {
+  static const std::map<std::string, Column> columns = {
+      {"id", {[](const Row& of) { return Value(of.id); }}},
+      {"x", {[](const Row& of) { return Value(of.seed.x); }}},
+      {"y", {[](const Row& of) { return Value(of.seed.y); }}},
+      {"area", {[](const Row& of) { return Value(of.cell.area); }}},
+      {"centroid_x", {[](const Row& of) { return of.if_full(of.cell.centroid.x); }}},
+      {"centroid_y", {[](const Row& of) { return of.if_full(of.cell.centroid.y); }}},
+      {"left", {[](const Row& of) { return of.extreme(&Point::x, false); }, true}},
+      {"top", {[](const Row& of) { return of.extreme(&Point::y, true); }, true}},
+      {"right", {[](const Row& of) { return of.extreme(&Point::x, true); }, true}},
+      {"bottom", {[](const Row& of) { return of.extreme(&Point::y, false); }, true}},
+      {"perimeter", {[](const Row& of) { return Value(of.cell.perimeter); }}},
+      {"neighbours", {[](const Row& of) { return Value(of.cell.neighbours); }}},
+      {"largest_distance", {[](const Row& of) { return of.largest_distance(); }, true}},
+      {"touches_border", {[](const Row& of) { return Value(of.cell.touches_border ? 1 : 0); }}}};
+  return columns.at(name);
 }
 
 }  // namespace
 
 ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
                              std::vector<std::uint32_t> ids)
-    : ids_(std::move(ids)),
-      points_(seeds.read()),
-      cells_(result.read()),
-      pairs_(result.read_pairs()),
-      polygons_(result.read_polygons()) {
+    : result_(result), ids_(std::move(ids)), points_(seeds.read()), cells_(result.read()) {
   const Grid& grid = seeds.grid();
   for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
     const std::optional<Point>& point = points_[seed];
@@ -78,50 +92,76 @@ ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
   }
   if (ids_.empty()) return;
   std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) { return ids_[a] < ids_[b]; });
-  for (ExactPair& pair : pairs_) std::tie(pair.a, pair.b) = std::minmax({ids_[pair.a], ids_[pair.b]});
-  std::stable_sort(pairs_.begin(), pairs_.end(), [](const ExactPair& p, const ExactPair& q) {
+}
+
+const ExactPolygons& ExactCellRows::polygons() {
+  if (!polygons_) polygons_ = result_.read_polygons();
+  return *polygons_;
+}
+
+const std::vector<ExactPair>& ExactCellRows::pairs() {
+  if (pairs_) return *pairs_;
+  pairs_ = result_.read_pairs();
+  if (ids_.empty()) return *pairs_;
+  for (ExactPair& pair : *pairs_) std::tie(pair.a, pair.b) = std::minmax({ids_[pair.a], ids_[pair.b]});
+  std::stable_sort(pairs_->begin(), pairs_->end(), [](const ExactPair& p, const ExactPair& q) {
     return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+  });
+  return *pairs_;
+}
+
+void ExactCellRows::write_cells(const OutputFile& file, const std::vector<std::string>& columns) {
+  GrowingFile table(file);
+  table << fmt::format("{}\n", fmt::join(columns, ","));
+  add_cells(table, "", columns);
+  table.finish();
+}
+
+void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
+                              const std::vector<std::string>& names) {
+  std::vector<Column> columns;
+  for (const std::string& name : names) columns.push_back(column_of(name));
+  const bool need_polygons =
+      std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_polygon; });
+  const ExactPolygons* const polygons = need_polygons ? &this->polygons() : nullptr;
+  add_rows(table, order_, [&](fmt::memory_buffer& text, std::size_t seed) {
+    const Ring ring = polygons != nullptr ? ring_of(*polygons, seed) : Ring();
+    const Row row = {id_of(seed), *points_[seed], cells_[seed], ring};
+    text.append(std::string_view(first));
+    bool is_first = true;
+    for (const Column& column : columns) {
+      if (!is_first) text.push_back(',');
+      is_first = false;
+      if (const Value value = column.value(row)) fmt::format_to(std::back_inserter(text), "{}", *value);
+    }
+    text.push_back('\n');
   });
 }
 
-std::vector<Point> ExactCellRows::polygon_of(std::size_t seed) const {
-  const auto first = polygons_.vertices.begin();
-  return {first + polygons_.offsets[seed], first + polygons_.offsets[seed + 1]};
-}
-
-void ExactCellRows::write_cells(const OutputFile& file, const std::vector<std::string>& columns) const {
+void ExactCellRows::write_pairs(const OutputFile& file) {
   GrowingFile table(file);
-  table << fmt::format("{}\n", fmt::join(columns, ","));
-  fmt::memory_buffer text;
-  for (const std::size_t seed : order_) {
-    text.clear();
-    const std::vector<Point> polygon = polygon_of(seed);
-    const Row row = {id_of(seed), *points_[seed], cells_[seed], polygon};
-    for (const std::string& column : columns) {
-      if (&column != columns.data()) text.push_back(',');
-      if (const Value value = value_of(row, column)) fmt::format_to(std::back_inserter(text), "{}", *value);
-    }
-    text.push_back('\n');
-    table << std::string_view(text.data(), text.size());
-  }
+  table << fmt::format("{}\n", fmt::join(pair_columns(), ","));
+  add_pairs(table, "");
   table.finish();
 }
 
-void ExactCellRows::write_pairs(const OutputFile& file) const {
-  GrowingFile table(file);
-  table << "a,b,length,midpoint_x,midpoint_y\n";
-  for (const ExactPair& pair : pairs_) {
-    table << fmt::format("{},{},{},{},{}\n", pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y);
-  }
-  table.finish();
+void ExactCellRows::add_pairs(GrowingFile& table, const std::string& first) {
+  add_rows(table, pairs(), [&first](fmt::memory_buffer& text, const ExactPair& pair) {
+    fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", first, pair.a, pair.b, pair.length,
+                   pair.midpoint.x, pair.midpoint.y);
+  });
 }
 
-void ExactCellRows::write_polygons(const OutputFile& file) const {
+void ExactCellRows::write_polygons(const OutputFile& file) {
   std::vector<PolygonCell> cells;
   cells.reserve(order_.size());
   for (const std::size_t seed : order_) {
-    cells.push_back(
-        {id_of(seed), *points_[seed], cells_[seed].area, cells_[seed].neighbours, polygon_of(seed)});
+    const Ring ring = ring_of(polygons(), seed);
+    cells.push_back({id_of(seed),
+                     *points_[seed],
+                     cells_[seed].area,
+                     cells_[seed].neighbours,
+                     {ring.begin(), ring.end()}});
   }
   command::write_polygons(file, cells);
 }
@@ -129,6 +169,11 @@ void ExactCellRows::write_polygons(const OutputFile& file) const {
 std::size_t ExactCellRows::empty_cells() const {
   return static_cast<std::size_t>(std::count_if(order_.begin(), order_.end(),
                                                 [this](std::size_t seed) { return cells_[seed].area == 0; }));
+}
+
+std::size_t ExactCellRows::uncertified() const {
+  return static_cast<std::size_t>(
+      std::count_if(cells_.begin(), cells_.end(), [](const ExactCell& cell) { return !cell.certified; }));
 }
 
 double ExactCellRows::mean_area() const {

@@ -11,25 +11,34 @@
 
 namespace vorocl::command {
 
-/// Exact cells by the ids that files have, read once for all files.
+/// Exact cells by the ids that files have. What is asked for is read once, when it is first asked for.
 class ExactCellRows {
  public:
-  /// `ids` says what files call each seed; empty: their indices. Waits; throws as the library.
+  /// `ids` says what files call each seed; empty: their indices. Keeps a reference to the result. Waits;
+  /// throws as the library, as do its functions.
   ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids);
 
   /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
   /// have one only if their cells reach into it. A field is empty where an empty cell has no value.
-  void write_cells(const OutputFile& file, const std::vector<std::string>& columns) const;
+  void write_cells(const OutputFile& file, const std::vector<std::string>& columns);
 
   /// One row per edge between two cells, a <= b: its length and its middle.
-  void write_pairs(const OutputFile& file) const;
+  void write_pairs(const OutputFile& file);
+
+  /// The rows of these tables, each with `first` before it.
+  void add_cells(GrowingFile& table, const std::string& first, const std::vector<std::string>& columns);
+  void add_pairs(GrowingFile& table, const std::string& first);
+
+  /// The columns of pairs.
+  static std::vector<std::string> pair_columns() { return {"a", "b", "length", "midpoint_x", "midpoint_y"}; }
 
   /// The same cells as polygons: see polygon_files.hpp.
-  void write_polygons(const OutputFile& file) const;
+  void write_polygons(const OutputFile& file);
 
   std::size_t cells() const { return order_.size(); }
   std::size_t empty_cells() const;
-  std::size_t pairs() const { return pairs_.size(); }
+  std::size_t uncertified() const;
+  const std::vector<ExactPair>& pairs();
   double mean_area() const;
   double area_deviation() const;
 
@@ -37,13 +46,14 @@ class ExactCellRows {
   std::uint32_t id_of(std::size_t seed) const {
     return ids_.empty() ? static_cast<std::uint32_t>(seed) : ids_.at(seed);
   }
-  std::vector<Point> polygon_of(std::size_t seed) const;
+  const ExactPolygons& polygons();
 
+  const ExactCellsResult& result_;
   std::vector<std::uint32_t> ids_;
   std::vector<std::optional<Point>> points_;
   std::vector<ExactCell> cells_;
-  std::vector<ExactPair> pairs_;
-  ExactPolygons polygons_;
+  std::optional<std::vector<ExactPair>> pairs_;
+  std::optional<ExactPolygons> polygons_;
   std::vector<std::size_t> order_;  // of the seeds that have rows, by id
 };
 

@@ -61,44 +61,56 @@ ExactInput input_from_points(const SeedOptions& options) {
   }
 }
 
-Frame read_frame(const SeedOptions& options) {
-  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(options.trajectory, "");
-  Frame frame;
-  for (int number = 0; number <= options.frame; ++number) {
-    if (reader->next(frame)) continue;
-    throw Error(fmt::format("there is no frame {}; the last one of the file is {}, counted from 0",
-                            options.frame, number - 1));
+ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number) {
+  const std::optional<Bounds> filled = bounds_of(frame);
+  if (!filled && !options.bounds) {
+    throw Error(fmt::format("frame {} has neither a box nor particles: give --bounds", number));
   }
-  return frame;
+  Periodic periodic = options.periodic.value_or(Periodic::none);
+  if (frame.box && !options.periodic) periodic = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
+  const double tilt = frame.box ? frame.box->tilt : 0;
+  if (tilt != 0 && periodic != Periodic::xy) {
+    throw Error(
+        fmt::format("the box of frame {} is tilted: --exact cuts it as periodic in x and y, so leave "
+                    "--periodic out, or give --periodic xy",
+                    number));
+  }
+  const Bounds repeats = filled ? *filled : *options.bounds;
+  const Grid grid = grid_of(options, repeats, periodic, "the box");
+  ExactInput input =
+      input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
+  input.tilt = tilt;
+  input.timestep = frame.timestep;
+  return input;
 }
 
 ExactInput input_from_trajectory(const SeedOptions& options) {
-  try {
-    Frame frame = read_frame(options);
-    const std::optional<Bounds> filled = bounds_of(frame);
-    if (!filled && !options.bounds) throw Error("the frame has neither a box nor particles: give --bounds");
-    Periodic periodic = options.periodic.value_or(Periodic::none);
-    if (frame.box && !options.periodic)
-      periodic = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
-    const double tilt = frame.box ? frame.box->tilt : 0;
-    if (tilt != 0 && periodic != Periodic::xy) {
-      throw Error(
-          fmt::format("the box of frame {} is tilted: --exact cuts it as periodic in x and y, so leave "
-                      "--periodic out, or give --periodic xy",
-                      options.frame));
-    }
-    const Bounds repeats = filled ? *filled : *options.bounds;
-    const Grid grid = grid_of(options, repeats, periodic, "the box");
-    ExactInput input =
-        input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
-    input.tilt = tilt;
-    return input;
-  } catch (const Error& error) {
-    throw Error(options.trajectory + ": " + error.what());
-  }
+  ExactFrames frames(options);
+  for (int number = 0; number < options.frame && frames.skip();) ++number;
+  if (std::optional<ExactInput> input = frames.next()) return std::move(*input);
+  throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
+                          options.trajectory, options.frame, frames.count() - 1));
 }
 
 }  // namespace
+
+ExactFrames::ExactFrames(const SeedOptions& options)
+    : options_(options), reader_(open_trajectory(options.trajectory, "")) {}
+
+bool ExactFrames::skip() {
+  const bool is_there = reader_->next(frame_);
+  count_ += is_there ? 1 : 0;
+  return is_there;
+}
+
+std::optional<ExactInput> ExactFrames::next() {
+  if (!skip()) return {};
+  try {
+    return input_of_frame(options_, std::move(frame_), count_ - 1);
+  } catch (const Error& error) {
+    throw Error(options_.trajectory + ": " + error.what());
+  }
+}
 
 ExactInput read_exact_input(const SeedOptions& options) {
   check_seed_options(options, false);

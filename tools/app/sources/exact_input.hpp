@@ -3,9 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
+#include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
@@ -13,8 +16,9 @@ namespace vorocl::command {
 struct ExactInput {
   Grid grid;  ///< of few pixels, which do not count: the rectangle and its periodic axes
   std::function<Seeds(const Device&)> place;
-  std::vector<std::uint32_t> ids;  ///< by seed; empty: the seeds' own
-  double tilt = 0;                 ///< of the box, as exact_cells() takes it
+  std::vector<std::uint32_t> ids;                       ///< by seed; empty: the seeds' own
+  double tilt = 0;                                      ///< of the box, as exact_cells() takes it
+  std::optional<std::int64_t> timestep = std::nullopt;  ///< of a trajectory's frame that has one
 };
 
 /// Checks the options, and reads and checks the files. Points and particles lie in the bounds, else in the
@@ -22,5 +26,27 @@ struct ExactInput {
 /// or the box. Other seeds are the centres of pixels. Throws UsageError, Error if a file is bad, or a box is
 /// tilted of which an axis is said not to be periodic.
 ExactInput read_exact_input(const SeedOptions& options);
+
+/// The frames of a trajectory as read_exact_input() has one, one after the other.
+class ExactFrames {
+ public:
+  /// Keeps a reference to the options. Throws Error, as the other functions do, if the file is bad.
+  explicit ExactFrames(const SeedOptions& options);
+
+  /// The next frame; none after the last.
+  std::optional<ExactInput> next();
+
+  /// Leaves a frame out; false after the last.
+  bool skip();
+
+  /// The frames that were read so far.
+  int count() const { return count_; }
+
+ private:
+  const SeedOptions& options_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  Frame frame_;
+  int count_ = 0;
+};
 
 }  // namespace vorocl::command

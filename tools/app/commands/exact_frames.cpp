@@ -1,0 +1,158 @@
+#include "app/commands/exact_frames.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "app/outputs/exact_cell_files.hpp"
+#include "app/outputs/output_files.hpp"
+#include "app/sources/exact_input.hpp"
+#include "app/terminal/console.hpp"
+#include "app/terminal/end_of_run.hpp"
+#include "app/terminal/progress.hpp"
+#include "app/terminal/selected_device.hpp"
+#include "formats/numbered_files.hpp"
+#include "formats/polygon_files.hpp"
+#include "trials/samples.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+std::vector<RequestedFile> requested_files(const ExactFramesOptions& options) {
+  return {requested_of_frames(options.cells),
+          requested_of_frames(options.adjacency),
+          {"--polygons", options.polygons, polygon_extensions(), true}};
+}
+
+/// Tables of one kind: one of all frames, or one of each.
+class ExactTables {
+ public:
+  using AddRows = std::function<void(ExactCellRows& rows, GrowingFile& table, const std::string& first)>;
+
+  ExactTables(const FileRequest& request, const std::vector<std::string>& columns, AddRows add_rows)
+      : header_(fmt::format("{}\n", fmt::join(columns, ","))), add_rows_(std::move(add_rows)) {
+    if (request.path.empty()) return;
+    if (!request.is_long_table()) {
+      files_.emplace(request.path);
+      return;
+    }
+    table_ = std::make_unique<GrowingFile>(OutputFile(request.path));
+    *table_ << "frame,timestep," << header_;
+  }
+
+  void add(ExactCellRows& rows, int frame, std::int64_t time, bool wants_files) {
+    if (table_) add_rows_(rows, *table_, fmt::format("{},{},", frame, time));
+    if (!files_ || !wants_files) return;
+    GrowingFile table(files_->file(frame));
+    table << header_;
+    add_rows_(rows, table, "");
+    table.finish();
+  }
+
+  void finish() {
+    if (table_) table_->finish();
+  }
+
+ private:
+  std::string header_;
+  AddRows add_rows_;
+  std::optional<NumberedFiles> files_;
+  std::unique_ptr<GrowingFile> table_;
+};
+
+class ExactRun {
+ public:
+  explicit ExactRun(const ExactFramesOptions& options)
+      : options_(options),
+        cells_(options.cells, options.cells.kind.table()->columns,
+               [columns = options.cells.kind.table()->columns](ExactCellRows& rows, GrowingFile& table,
+                                                               const std::string& first) {
+                 rows.add_cells(table, first, columns);
+               }),
+        pairs_(options.adjacency, ExactCellRows::pair_columns(),
+               [](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
+                 rows.add_pairs(table, first);
+               }) {
+    if (!options.polygons.empty()) polygons_.emplace(options.polygons);
+  }
+
+  void add(const Device& device, const ExactInput& input) {
+    const Seeds seeds = input.place(device);
+    const Report report = exact_cells(seeds, result_, input.tilt);
+    ExactCellRows rows(seeds, result_, input.ids);
+    const bool wants_files = frames_ % options_.every == 0;
+    cells_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
+    pairs_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
+    if (polygons_ && wants_files) rows.write_polygons(polygons_->file(frames_));
+    uncertified_ += rows.uncertified();
+    milliseconds_.add(report.milliseconds());
+    ++frames_;
+  }
+
+  void finish() {
+    cells_.finish();
+    pairs_.finish();
+  }
+
+  int frames() const { return frames_; }
+
+  void print_result(const Device& device) const {
+    if (options_.json) {
+      print_json(Json{{"exact", true},
+                      {"device", device.name()},
+                      {"frames", frames_},
+                      {"uncertified", uncertified_},
+                      {"milliseconds", milliseconds_.mean()}});
+      return;
+    }
+    print("exact cells of {} in {:.1f} ms each, on {}\n", counted(static_cast<std::size_t>(frames_), "frame"),
+          milliseconds_.mean(), device.name());
+    print_written(requested_files(options_));
+  }
+
+ private:
+  const ExactFramesOptions& options_;
+  ExactTables cells_, pairs_;
+  std::optional<NumberedFiles> polygons_;
+  ExactCellsResult result_;
+  int frames_ = 0;
+  std::size_t uncertified_ = 0;  // cells
+  Samples milliseconds_;
+};
+
+}  // namespace
+
+void run_exact_frames(const ExactFramesOptions& options) {
+  const Interruption interruption;  // before there are files
+  check_outputs(as_usage([&] { return requested_files(options); }), options.seeds);
+  check_seed_options(options.seeds, false);
+  ExactRun run(options);
+  ExactFrames frames(options.seeds);
+  std::optional<ExactInput> input = frames.next();
+  if (!input) throw Error(options.seeds.trajectory + ": there is no frame");
+  const Device device = select_device(options.device);
+  const FinishAtEnd finish(device);
+  std::string trouble;
+  try {
+    for (Progress progress; input && !(options.frames && run.frames() > *options.frames);
+         input = frames.next()) {
+      run.add(device, *input);
+      progress.show(run.frames(), std::nullopt);
+      if (interruption.came()) {
+        trouble = "interrupted";
+        break;
+      }
+    }
+  } catch (const std::exception& error) {
+    trouble = message_of(error);
+  }
+  if (run.frames() > 0) run.finish();
+  if (!trouble.empty())
+    throw Error(fmt::format("{}; frames complete before that: {}", trouble, run.frames()));
+  run.print_result(device);
+}
+
+}  // namespace vorocl::command

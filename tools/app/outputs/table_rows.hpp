@@ -1,0 +1,36 @@
+// The rows of tables, made by threads.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "formats/output_file.hpp"
+#include "formats/workers.hpp"
+
+namespace vorocl::command {
+
+/// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
+template <typename Item, typename Add>
+void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
+  constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
+  std::vector<fmt::memory_buffer> pieces(most_pieces);
+  Workers workers(items.size() / items_of_piece);  // none for few items
+  for (std::size_t begin = 0; begin < items.size();) {
+    std::size_t count = 0;
+    for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
+      workers.add([&items, &add, &piece = pieces[count], begin] {
+        piece.clear();
+        const std::size_t end = std::min(items.size(), begin + items_of_piece);
+        for (std::size_t i = begin; i < end; ++i) add(piece, items[i]);
+      });
+    }
+    workers.wait();
+    for (std::size_t i = 0; i < count; ++i) table << std::string_view(pieces[i].data(), pieces[i].size());
+  }
+}
+
+}  // namespace vorocl::command
