@@ -1,7 +1,7 @@
 // A cell as a convex polygon, cut by one line after another. All is whole numbers: positions are in steps of the grid
-// that the host rounds points to, at most 2^30 along a side, or 2^29 if the box is tilted. Seen from the site, in half steps, the bisector of a site
-// that is (a, b) steps away is the line a x + b y = c with c = a^2 + b^2. So are the sides of the box. A cell is where
-// a x + b y <= c for all its lines.
+// that the host rounds points to, at most 2^30 along a side, or 2^29 if the box is tilted. Seen from the site, in half
+// steps, the bisector of a site that is (a, b) steps away is the line a x + b y = c with c = a^2 + b^2. So are the
+// sides of the box. A cell is where a x + b y <= c for all its lines.
 //
 // A vertex is where two lines cross. Whether a third line cuts it off is the sign of a determinant, which is decided in
 // doubles where their error leaves no doubt, else in 128 bits. To touch is not to cut: so no edge has the length 0.
