@@ -1,0 +1,138 @@
+// How many commands a diagram and a frame give to the device's queue, and how often they read from it: on a
+// GPU a command costs microseconds, and a read a round trip. docs/gpu.md has these numbers.
+#define BOOST_TEST_MODULE commands
+#include <map>
+#include <mutex>
+#include <random>
+#include <set>
+
+#include "faulty_calls.hpp"
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+/// OpenCL's calls since they were last forgotten.
+class Calls {
+ public:
+  void add(const std::string& name) {
+    const std::lock_guard<std::mutex> turn(mutex_);
+    ++by_name_[name];
+  }
+
+  void forget() {
+    const std::lock_guard<std::mutex> turn(mutex_);
+    by_name_.clear();
+  }
+
+  std::size_t of(const std::set<std::string>& names) {
+    const std::lock_guard<std::mutex> turn(mutex_);
+    std::size_t sum = 0;
+    for (const auto& [name, count] : by_name_) sum += names.count(name) > 0 ? count : 0;
+    return sum;
+  }
+
+ private:
+  std::mutex mutex_;  // the library may call from threads of its own
+  std::map<std::string, std::size_t> by_name_;
+};
+
+Calls& calls() {
+  static Calls all;
+  return all;
+}
+
+struct Counts {
+  std::size_t commands, reads;
+};
+
+/// What an action enqueues, and how often it waits for what it reads. (It may wait for commands of long ago:
+/// a queue takes so many.) The action runs twice: first it builds programs and reserves memory.
+template <typename Action>
+Counts counts_of(Action action) {
+  action();
+  test_device().finish();
+  calls().forget();
+  action();
+  const Counts counts = {calls().of({"clEnqueueNDRangeKernel", "clEnqueueFillBuffer", "clEnqueueCopyBuffer",
+                                     "clEnqueueWriteBuffer", "clEnqueueUnmapMemObject"}),
+                         calls().of({"clEnqueueReadBuffer", "clEnqueueMapBuffer", "clFinish"})};
+  test_device().finish();
+  return counts;
+}
+
+Device shaped(Shape shape) {
+  Tuning tuning = test_device().tuning();
+  tuning.shape = shape;
+  return test_device().with_tuning(tuning);
+}
+
+const Grid flat(2048, 2048), periodic(2048, 2048, Periodic::xy);
+
+Seeds random_seeds(const Device& device, const Grid& grid, Snap snap) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(0, 2048);
+  std::vector<Point> points(16384);
+  for (Point& point : points) point = {place(random), place(random)};
+  return {device, grid, points, Outside::refuse, snap};
+}
+
+std::size_t to_size(int number) { return static_cast<std::size_t>(number); }
+
+}  // namespace
+
+namespace vorocl {
+
+bool call_fails(const char* name) {
+  calls().add(name);
+  return false;
+}
+
+}  // namespace vorocl
+
+BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
+  struct Case {
+    Shape shape;
+    Snap snap;
+    std::size_t commands, commands_if_periodic;
+  };
+  for (const Case& c : {Case{Shape::group, Snap::to_pixels, 12, 13},
+                        {Shape::vector, Snap::to_pixels, 13, 14},
+                        {Shape::group, Snap::none, 6, 6},
+                        {Shape::vector, Snap::none, 6, 6}}) {
+    for (const Grid& grid : {flat, periodic}) {
+      const Device device = shaped(c.shape);
+      const Seeds seeds = random_seeds(device, grid, c.snap);
+      Diagram diagram(device, grid);
+      const Counts counts = counts_of([&] { exact_diagram(seeds, diagram); });
+      BOOST_TEST_CONTEXT("shape " << static_cast<int>(c.shape) << ", snap " << static_cast<int>(c.snap)) {
+        BOOST_TEST(counts.commands == (grid == periodic ? c.commands_if_periodic : c.commands));
+        BOOST_TEST(counts.reads == 0u);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_five_more) {
+  const Seeds seeds = random_seeds(test_device(), flat, Snap::to_pixels);
+  Diagram diagram(test_device(), flat);
+  int waves = 0;
+  const Counts counts = counts_of([&] { waves = jump_flooding(seeds, diagram).waves(); });
+  BOOST_TEST(counts.commands == to_size(waves) + 5);
+  BOOST_TEST(counts.reads == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_frame_of_dynamic_jump_flooding_reads_once) {
+  Seeds seeds = random_seeds(test_device(), flat, Snap::to_pixels);
+  Diagram diagram(test_device(), flat);
+  dynamic_jump_flooding(seeds, diagram);
+  std::uint32_t frame = 0;
+  int waves = 0;
+  const Counts counts = counts_of([&] {
+    random_step(seeds, 3, Border::reflect, 1, ++frame);
+    waves = dynamic_jump_flooding(seeds, diagram).waves();
+  });
+  BOOST_TEST(counts.commands == to_size(waves) + 10);
+  BOOST_TEST(counts.reads == 1u);
+}
