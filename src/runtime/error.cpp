@@ -15,7 +15,7 @@ std::string error_name(cl_int code) {
     case CL_MEM_OBJECT_ALLOCATION_FAILURE:
       return "out of device memory";
     case CL_OUT_OF_RESOURCES:
-      return "out of device resources (often: out of device memory)";
+      return "out of device resources (device memory, or what a work-group takes)";
     case CL_OUT_OF_HOST_MEMORY:
       return "out of host memory";
     case CL_INVALID_VALUE:

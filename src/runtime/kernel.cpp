@@ -98,9 +98,19 @@ cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const s
   cl::Event event;
   check(clEnqueueNDRangeKernel(device_.queue()(), kernel_(), dimensions, nullptr, global, local, 0, nullptr,
                                &event()),
-        [&] { return "launching " + std::string(name_) + " on " + device_.name(); });
+        [&] {
+          return "launching " + std::string(name_) + " on " + device_.name() + " in groups of " +
+                 std::to_string(dimensions > 1 ? local[0] * local[1] : local[0]) + group_limit_text();
+        });
   note_launch(event, dimensions, global, local);
   return event;
+}
+
+std::string Kernel::group_limit_text() const {
+  std::size_t most = 0;
+  const cl_int code = clGetKernelWorkGroupInfo(kernel_(), device_.cl_device()(), CL_KERNEL_WORK_GROUP_SIZE,
+                                               sizeof most, &most, nullptr);
+  return code == CL_SUCCESS ? " (of which it takes at most " + std::to_string(most) + " there)" : "";
 }
 
 void Kernel::note_launch(const cl::Event& event, cl_uint dimensions, const std::size_t* global,

@@ -87,6 +87,10 @@ class Kernel {
   };
 
   bool is_for(const Device& device, const PixelGrid& grid) const;
+
+  /// For errors: how many work-items a group can have.
+  std::string group_limit_text() const;
+
   void set_arguments(std::size_t) {}
   template <typename First, typename... Rest>
   void set_arguments(std::size_t index, const First& first, const Rest&... rest) {

@@ -89,6 +89,28 @@ VOROCL_FAULTY_CALL(clGetEventInfo,
                    (cl_event event, cl_event_info name, size_t size, void* value, size_t* used),
                    (event, name, size, value, used))
 
+BOOST_AUTO_TEST_CASE(a_launch_that_fails_says_how_large_its_groups_were) {
+  const Seeds seeds = Seeds::random(test_device(), grid, 40, 1);
+  Diagram diagram(test_device(), grid);
+  std::size_t launches = 0;
+  for (int call = 1;; ++call) {
+    fault().set(call);
+    std::string text;
+    try {
+      exact_diagram(seeds, diagram);
+    } catch (const Error& error) {
+      text = error.what();
+    }
+    fault().set(0);
+    if (text.empty()) break;
+    if (text.find("launching ") != 0) continue;
+    ++launches;
+    BOOST_TEST(text.find(" in groups of ") != std::string::npos, text);
+    BOOST_TEST(text.find(" (of which it takes at most ") != std::string::npos, text);
+  }
+  BOOST_TEST(launches > 0u);
+}
+
 // With working memory still to be made, and with all of it there from earlier frames.
 BOOST_AUTO_TEST_CASE(methods_that_fail_leave_a_diagram_as_never_filled) {
   const Seeds before = Seeds::random(test_device(), grid, 40, 1),
