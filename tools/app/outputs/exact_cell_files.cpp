@@ -120,6 +120,7 @@ void ExactCellRows::write_cells(const OutputFile& file, const std::vector<std::s
 void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
                               const std::vector<std::string>& names) {
   std::vector<Column> columns;
+  columns.reserve(names.size());
   for (const std::string& name : names) columns.push_back(column_of(name));
   const bool need_polygons =
       std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_polygon; });
