@@ -27,7 +27,8 @@ std::vector<std::uint32_t> labels_of(const TemporaryFolder& folder, const std::s
 
 BOOST_AUTO_TEST_CASE(every_level_has_help) {
   const TemporaryFolder folder;
-  for (const char* subcommand : {"devices", "render", "simulate", "cells", "relax", "compare", "bench"}) {
+  for (const char* subcommand :
+       {"devices", "render", "simulate", "cells", "relax", "tiles", "compare", "bench"}) {
     BOOST_TEST(succeeds(folder, "--help").find(subcommand) != std::string::npos);
     const std::string help = succeeds(folder, subcommand + std::string(" --help"));
     BOOST_TEST(help.find("--json") != std::string::npos);
@@ -48,7 +49,7 @@ BOOST_AUTO_TEST_CASE(subcommands_that_have_left_say_where_they_are) {
   for (const std::string subcommand : {"evaluate", "ablation"}) {
     for (const char* options : {"", " -o t.csv", " --help"}) {
       refuses(folder, subcommand + options, usage,
-              {"vorocl " + subcommand + " is now vorocl-study " + subcommand + ", with the same options\n"});
+              {fmt::format("vorocl {0} is now vorocl-study {0}, with the same options\n", subcommand)});
     }
   }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "host_measures.hpp"
@@ -69,7 +70,8 @@ BOOST_AUTO_TEST_CASE(cities_fill_the_map) {
     const auto ring = ring_of(polygons[id]);
     BOOST_TEST((ring.front() == ring.back()));
     BOOST_TEST(std::abs(area_of(ring) - *row[3]) < 1e-9);  // far from the origin a sum loses digits
-    double left = INFINITY, top = -INFINITY, perimeter = 0, farthest = 0;
+    constexpr double none = std::numeric_limits<double>::infinity();
+    double left = none, top = -none, perimeter = 0, farthest = 0;
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
       left = std::min(left, ring[i].first);
       top = std::max(top, ring[i].second);
@@ -209,6 +211,9 @@ BOOST_AUTO_TEST_CASE(frames_of_a_trajectory_have_the_cells_of_each_frame) {
   BOOST_TEST(cut.error.find("cut.xyz:18") != std::string::npos, cut.error);
   BOOST_TEST(cut.error.find("frames complete before that: 3") != std::string::npos, cut.error);
   BOOST_TEST(content_of(folder / "kept.csv") == expected);
+  // One behind the last frame that is asked for is not read.
+  succeeds(folder, "simulate --exact --trajectory cut.xyz --frames 2 --cells kept.csv " + columns);
+  BOOST_TEST(content_of(folder / "kept.csv") == expected);
 }
 
 BOOST_AUTO_TEST_CASE(what_exact_frames_cannot_do_is_refused_before_the_work) {
@@ -221,7 +226,8 @@ BOOST_AUTO_TEST_CASE(what_exact_frames_cannot_do_is_refused_before_the_work) {
        {"--method jfa", "--metric manhattan", "-o f.mp4", "--labels l%d.npy", "--statistics s.csv",
         "--resume", "--compare-with jfa", "--units px", "--snap", "--size 9x9", "--fit frame"}) {
     const std::string text = option;
-    refuses(folder, exact + "--cells c.csv " + text, usage, {text.substr(0, text.find(' ')), "--exact"});
+    refuses(folder, fmt::format("{}--cells c.csv {}", exact, text), usage,
+            {text.substr(0, text.find(' ')), "--exact"});
   }
   refuses(folder, exact + "--polygons p.vtp", usage, {"p.vtp", "%05d"});
   refuses(folder, exact + "--polygons p%d.txt", usage, {"p%d.txt", ".vtp"});

@@ -88,8 +88,8 @@ std::vector<Position> circle(std::int64_t scale) {
   for (const auto& [a, b] : {std::pair{16, 63}, {25, 60}, {33, 56}, {39, 52}, {0, 65}}) {
     for (const auto& [p, q] : {std::pair{a, b}, {b, a}}) {
       for (const int sign : {-1, 1}) {
-        positions.push_back({side / 2 + p * scale, side / 2 + sign * q * scale});
-        positions.push_back({side / 2 - p * scale, side / 2 + sign * q * scale});
+        positions.push_back({side / 2 + p * scale, side / 2 + sign * (q * scale)});
+        positions.push_back({side / 2 - p * scale, side / 2 + sign * (q * scale)});
       }
     }
   }
@@ -129,6 +129,7 @@ std::vector<Set> hurtful_sets() {
           {"three", side, side, random_positions(side, side, 3, 4)},
           {"all equal", side, side, equal},
           {"GEOS 1040", 200, 200, {{84, 30}, {76, 36}, {70, 48}, {72, 42}}},  // on a circle
+          {"longest steps", side / 2 + 1, side / 2 + 1, random_positions(side / 2, side / 2, 9, 38)},
           {"no steps to spare", 2, 2, {{0, 0}, {1, 1}, {0, 1}}}};
 }
 
@@ -142,7 +143,7 @@ struct Fraction {
   }
 };
 
-Fraction fraction(Whole above, Whole below) {
+Fraction fraction(const Whole& above, const Whole& below) {
   if (below < 0) return {-above, -below};
   return {above, below};
 }
@@ -335,6 +336,8 @@ BOOST_AUTO_TEST_CASE(tilted_boxes_have_the_cells_of_rational_numbers) {
       {"one, flat", wide, wide / 3, {{5, 7}}, wide / 2},
       {"two", wide, wide / 2, {{5, 7}, {wide - 9, wide / 4}}, wide / 2 - 1},
       {"small", 20, 16, {{5, 7}, {19, 0}, {19, 15}, {0, 0}, {0, 15}}, 9},
+      // Of sides just above a power of two steps are the longest, beside them.
+      {"longest steps", wide / 2 + 1, wide / 2 + 1, random_positions(wide / 2, wide / 2, 9, 37), wide / 7},
   };
   for (const Set& set : sets) {
     BOOST_TEST_CONTEXT(set.name) {
@@ -509,9 +512,10 @@ BOOST_AUTO_TEST_CASE(large_lattices_and_duplicates_are_mutual_and_fill_the_recta
     for (const Periodic periodic : all_periods) check_as_a_whole(cells_of(set, periodic), set.name);
   }
   const ExactCellsResult torus = cells_of(sets[0], Periodic::xy);
+  const double step = static_cast<double>(side) / 128;
   for (const ExactCell& cell : torus.read()) {
     BOOST_TEST_REQUIRE(cell.neighbours == 4u);
-    BOOST_TEST_REQUIRE(cell.area == static_cast<double>(side / 128) * static_cast<double>(side / 128));
+    BOOST_TEST_REQUIRE(cell.area == step * step);
   }
 }
 
@@ -533,7 +537,7 @@ BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_no
   const ExactCellsResult steps = cells_of(set, Periodic::none);
   std::vector<std::optional<Point>> points;
   for (const Position& at : set.positions)
-    points.push_back(Point{-3 + static_cast<double>(at.x) * unit, 10 + static_cast<double>(at.y) * unit});
+    points.emplace_back(Point{-3 + static_cast<double>(at.x) * unit, 10 + static_cast<double>(at.y) * unit});
   points.emplace(points.begin() + 20, std::nullopt);
   const Grid grid(Axis(77, -3, 1), Axis(5, 10, 12).reversed());  // pixels do not count
   ExactCellsResult result;

@@ -70,8 +70,8 @@ void run_exact_cells(const ExactCellsOptions& options) {
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result, input.tilt);
   ExactCellRows rows(seeds, result, input.ids);
-  if (cells) rows.write_cells(*cells, options.columns);
-  if (adjacency) rows.write_pairs(*adjacency);
+  if (cells) exact_cells_table(options.columns).write(*cells, rows);
+  if (adjacency) exact_pairs_table().write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);
   print_result(options, seeds, rows, result.check(), report);
 }

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -30,26 +30,19 @@ std::vector<RequestedFile> requested_files(const ExactFramesOptions& options) {
 /// Tables of one kind: one of all frames, or one of each.
 class ExactTables {
  public:
-  using AddRows = std::function<void(ExactCellRows& rows, GrowingFile& table, const std::string& first)>;
-
-  ExactTables(const FileRequest& request, const std::vector<std::string>& columns, AddRows add_rows)
-      : header_(fmt::format("{}\n", fmt::join(columns, ","))), add_rows_(std::move(add_rows)) {
+  ExactTables(const FileRequest& request, ExactTable kind) : kind_(std::move(kind)) {
     if (request.path.empty()) return;
     if (!request.is_long_table()) {
       files_.emplace(request.path);
       return;
     }
     table_ = std::make_unique<GrowingFile>(OutputFile(request.path));
-    *table_ << "frame,timestep," << header_;
+    *table_ << "frame,timestep," << kind_.header();
   }
 
   void add(ExactCellRows& rows, int frame, std::int64_t time, bool wants_files) {
-    if (table_) add_rows_(rows, *table_, fmt::format("{},{},", frame, time));
-    if (!files_ || !wants_files) return;
-    GrowingFile table(files_->file(frame));
-    table << header_;
-    add_rows_(rows, table, "");
-    table.finish();
+    if (table_) kind_.add_rows(rows, *table_, fmt::format("{},{},", frame, time));
+    if (files_ && wants_files) kind_.write(files_->file(frame), rows);
   }
 
   void finish() {
@@ -57,8 +50,7 @@ class ExactTables {
   }
 
  private:
-  std::string header_;
-  AddRows add_rows_;
+  ExactTable kind_;
   std::optional<NumberedFiles> files_;
   std::unique_ptr<GrowingFile> table_;
 };
@@ -67,15 +59,8 @@ class ExactRun {
  public:
   explicit ExactRun(const ExactFramesOptions& options)
       : options_(options),
-        cells_(options.cells, options.cells.kind.table()->columns,
-               [columns = options.cells.kind.table()->columns](ExactCellRows& rows, GrowingFile& table,
-                                                               const std::string& first) {
-                 rows.add_cells(table, first, columns);
-               }),
-        pairs_(options.adjacency, ExactCellRows::pair_columns(),
-               [](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
-                 rows.add_pairs(table, first);
-               }) {
+        cells_(options.cells, exact_cells_table(options.cells.kind.table()->columns)),
+        pairs_(options.adjacency, exact_pairs_table()) {
     if (!options.polygons.empty()) polygons_.emplace(options.polygons);
   }
 
@@ -137,8 +122,8 @@ void run_exact_frames(const ExactFramesOptions& options) {
   const FinishAtEnd finish(device);
   std::string trouble;
   try {
-    for (Progress progress; input && !(options.frames && run.frames() > *options.frames);
-         input = frames.next()) {
+    const int most = options.frames ? *options.frames + 1 : std::numeric_limits<int>::max();
+    for (Progress progress; input; input = run.frames() < most ? frames.next() : std::nullopt) {
       run.add(device, *input);
       progress.show(run.frames(), std::nullopt);
       if (interruption.came()) {

@@ -110,13 +110,6 @@ const std::vector<ExactPair>& ExactCellRows::pairs() {
   return *pairs_;
 }
 
-void ExactCellRows::write_cells(const OutputFile& file, const std::vector<std::string>& columns) {
-  GrowingFile table(file);
-  table << fmt::format("{}\n", fmt::join(columns, ","));
-  add_cells(table, "", columns);
-  table.finish();
-}
-
 void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
                               const std::vector<std::string>& names) {
   std::vector<Column> columns;
@@ -137,13 +130,6 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
     }
     text.push_back('\n');
   });
-}
-
-void ExactCellRows::write_pairs(const OutputFile& file) {
-  GrowingFile table(file);
-  table << fmt::format("{}\n", fmt::join(pair_columns(), ","));
-  add_pairs(table, "");
-  table.finish();
 }
 
 void ExactCellRows::add_pairs(GrowingFile& table, const std::string& first) {
@@ -188,6 +174,28 @@ double ExactCellRows::area_deviation() const {
   double squares = 0;
   for (const std::size_t seed : order_) squares += (cells_[seed].area - mean) * (cells_[seed].area - mean);
   return order_.empty() ? 0 : std::sqrt(squares / static_cast<double>(order_.size()));
+}
+
+std::string ExactTable::header() const { return fmt::format("{}\n", fmt::join(columns, ",")); }
+
+void ExactTable::write(const OutputFile& file, ExactCellRows& rows) const {
+  GrowingFile table(file);
+  table << header();
+  add_rows(rows, table, "");
+  table.finish();
+}
+
+ExactTable exact_cells_table(const std::vector<std::string>& columns) {
+  return {columns, [columns](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
+            rows.add_cells(table, first, columns);
+          }};
+}
+
+ExactTable exact_pairs_table() {
+  return {{"a", "b", "length", "midpoint_x", "midpoint_y"},
+          [](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
+            rows.add_pairs(table, first);
+          }};
 }
 
 }  // namespace vorocl::command

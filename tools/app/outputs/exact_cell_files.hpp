@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,18 +20,12 @@ class ExactCellRows {
   ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids);
 
   /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
-  /// have one only if their cells reach into it. A field is empty where an empty cell has no value.
-  void write_cells(const OutputFile& file, const std::vector<std::string>& columns);
+  /// have one only if their cells reach into it. A field is empty where an empty cell has no value. `first`
+  /// stands before each row.
+  void add_cells(GrowingFile& table, const std::string& first, const std::vector<std::string>& columns);
 
   /// One row per edge between two cells, a <= b: its length and its middle.
-  void write_pairs(const OutputFile& file);
-
-  /// The rows of these tables, each with `first` before it.
-  void add_cells(GrowingFile& table, const std::string& first, const std::vector<std::string>& columns);
   void add_pairs(GrowingFile& table, const std::string& first);
-
-  /// The columns of pairs.
-  static std::vector<std::string> pair_columns() { return {"a", "b", "length", "midpoint_x", "midpoint_y"}; }
 
   /// The same cells as polygons: see polygon_files.hpp.
   void write_polygons(const OutputFile& file);
@@ -56,5 +51,21 @@ class ExactCellRows {
   std::optional<ExactPolygons> polygons_;
   std::vector<std::size_t> order_;  // of the seeds that have rows, by id
 };
+
+/// A table of exact cells: the names of its columns, and its rows, each with `first` before it.
+struct ExactTable {
+  std::vector<std::string> columns;
+  std::function<void(ExactCellRows& rows, GrowingFile& table, const std::string& first)> add_rows;
+
+  /// The first line.
+  std::string header() const;
+
+  /// Writes the table of one frame. Throws Error if that fails.
+  void write(const OutputFile& file, ExactCellRows& rows) const;
+};
+
+/// The tables of the rows that ExactCellRows has.
+ExactTable exact_cells_table(const std::vector<std::string>& columns);
+ExactTable exact_pairs_table();
 
 }  // namespace vorocl::command

@@ -180,9 +180,8 @@ void TrajectorySeeds::check_tilt() {
   }
   if (!told_axes_ && !tilt_noted_) {
     print_note(
-        "the box is tilted: the diagram is periodic in x only, and cells end at its border in y; 'vorocl "
-        "cells "
-        "--exact' cuts those of the lattice");
+        "the box is tilted: the diagram is periodic in x only, and cells end at its border in y; "
+        "'vorocl cells --exact' cuts those of the lattice");
   }
   tilt_noted_ = true;
 }
