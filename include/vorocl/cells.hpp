@@ -21,6 +21,9 @@ struct CellStatisticsState;
 /// diagram's window shows one whole period (Window::periodic()) each pixel counts where it lies the shorter
 /// way round from the seed (half a period away: behind it), which may be outside the window. Along other axes
 /// it counts where the window shows it. Labels that name absent seeds count nowhere.
+///
+/// In a tilted grid a pixel lies the shortest of all ways from the seed, in the diagram's metric, and perhaps
+/// between pixels: then `sum_x` is rounded, and a bounding box has the pixels that hold the centres.
 struct CellSums {
   std::uint32_t area = 0;  ///< pixels
   std::int64_t sum_x = 0;  ///< of the pixels' columns, from the window's first one on ...

@@ -118,10 +118,8 @@ class VOROCL_API ExactCellsResult {
 /// whole numbers, and cells that touch in a point are none. Vertices are right to about 2^-50 of their
 /// distance from the seed. The same numbers come on every device.
 ///
-/// `tilt` is for boxes that are parallelograms, with the edges (width, 0) and (tilt, height), of which the
-/// rectangle holds the same points: how far its copy at greater y is shifted along x. Both axes must be
-/// periodic then, and points are rounded to 2^-28 of the longer side. Any tilt is taken; those that differ by
-/// whole widths are the same.
+/// Of a grid that is tilted (Grid::tilted()) the cells are those of what repeats so, and points are rounded
+/// to 2^-28 of the longer side.
 ///
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
@@ -131,8 +129,8 @@ class VOROCL_API ExactCellsResult {
 /// polygons are asked for.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws BadPoint if one was bad;
-/// Error if the device has no doubles (cl_khr_fp64) or too little memory, the rectangle has no extent
-/// along an axis, or there is a tilt and an axis is not periodic.
-VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result, double tilt = 0);
+/// Error if the device has no doubles (cl_khr_fp64) or too little memory, or the rectangle has no extent
+/// along an axis.
+VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

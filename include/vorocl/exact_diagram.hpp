@@ -34,6 +34,11 @@ struct ExactOptions {
 /// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
 /// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds
 /// are few.
+///
+/// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
+/// pixels, and the host places their images whenever they have moved. In a flat box it looks at more of them:
+/// as many as rows of images may reach the window. Throws Error if such a grid has a side of more than
+/// 131,072 pixels.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -97,6 +97,10 @@ class VOROCL_API Axis {
   /// the pixel of the coordinate.
   double rounded_position(double coordinate) const;
 
+  /// How many periods a coordinate lies beyond [from, to): floor((coordinate - from) / (to - from)), as its
+  /// pixel is found. 0 if the axis is not periodic.
+  double periods_beyond(double coordinate) const;
+
   /// The coordinate of a position in pixels, of pixel(i) + 0.5 for the centre of pixel i.
   double coordinate(double position) const;
 
@@ -121,6 +125,7 @@ class VOROCL_API Axis {
 
   double mapped_pixel(double coordinate) const;
   double unreversed_pixel(double coordinate) const;
+  double offset_in_period(double coordinate) const;
   double position_in_period(double coordinate) const;
 
   std::int64_t pixels_;
@@ -138,6 +143,16 @@ class VOROCL_API Grid {
   /// A grid whose unit is the pixel. Throws as Axis.
   Grid(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
 
+  /// The same grid as that of a box which is tilted in its plane: a parallelogram with the edges (width, 0)
+  /// and (tilt, height), in the units of the data. What repeats at the same x without a tilt does so `tilt`
+  /// further along x one period of y onward. The grid is the rectangle that has the same points. Any tilt is
+  /// taken; those that differ by whole periods of x are the same, and that of 0 is none. Throws Error unless
+  /// it is finite, and unless both axes are periodic if there is one.
+  ///
+  /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
+  /// relaxation and tiles throw Error.
+  Grid tilted(double tilt) const;
+
   const Axis& x() const { return x_; }
   const Axis& y() const { return y_; }
   std::int64_t width() const { return x_.pixels(); }
@@ -147,20 +162,38 @@ class VOROCL_API Grid {
     return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
   }
 
+  /// The tilt, brought to at most half a period of x; 0 without one.
+  double tilt() const { return tilt_; }
+  bool is_tilted() const { return tilt_ != 0; }
+
+  /// The tilt as diagrams have it, in 1/4096 of a pixel: so far along x lies what repeats, height() rows
+  /// further down. Rounded once, so that images are sums of what is here and of whole periods.
+  std::int64_t shift() const;
+
+  /// A point as it repeats in the period along y, which the axes then take: the point itself but in a tilted
+  /// grid, where it is moved along x by the tilt for each period that it lies beyond.
+  Point in_box(const Point& point) const {
+    return is_tilted() ? Point{point.x - tilt_ * y_.periods_beyond(point.y), point.y} : point;
+  }
+
   /// The point, in the units of the data, of a position in pixels from the grid's first one.
   Point point(const Point& position) const { return {x_.coordinate(position.x), y_.coordinate(position.y)}; }
 
-  friend bool operator==(const Grid& a, const Grid& b) { return a.x_ == b.x_ && a.y_ == b.y_; }
+  friend bool operator==(const Grid& a, const Grid& b) {
+    return a.x_ == b.x_ && a.y_ == b.y_ && a.tilt_ == b.tilt_;
+  }
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
   Axis x_, y_;
+  double tilt_ = 0;
 };
 
 /// A rectangle of a grid's pixels: what a diagram covers, or a tile of it.
 ///
 /// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
-/// than the period shows each pixel at most once, where the grid has it, and no labels beside.
+/// than the period shows each pixel at most once, where the grid has it, and no labels beside. Of a tilted
+/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid.
 class VOROCL_API Window {
  public:
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
@@ -170,13 +203,14 @@ class VOROCL_API Window {
   Window(const Grid& grid);
 
   /// The pixels from column x and row y of a grid on. Throws Error unless the sides are from 1 to
-  /// Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere).
+  /// Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere, but along
+  /// y in a tilted grid it must begin less than a period from the grid's first row).
   Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height);
 
   const Grid& grid() const { return grid_; }
 
   /// The first column and row; along a periodic axis in [0, pixels) unless the window is longer than the
-  /// period.
+  /// period, or this is the row of a tilted grid.
   std::int64_t x() const { return x_; }
   std::int64_t y() const { return y_; }
 
@@ -190,8 +224,13 @@ class VOROCL_API Window {
   /// Whether it is all of its grid.
   bool is_whole() const { return x_ == 0 && y_ == 0 && width_ == grid_.width() && height_ == grid_.height(); }
 
-  /// The axes along which it shows exactly one period: its cells reach across its border.
+  /// The axes along which it shows exactly one period: its cells reach across its border. Of a tilted grid
+  /// both or none: both if the window has all rows of the grid, from the first one on, and all columns.
   Periodic periodic() const {
+    if (grid_.is_tilted()) {
+      const bool shows_all = width_ == grid_.width() && height_ == grid_.height() && y_ == 0;
+      return shows_all ? Periodic::xy : Periodic::none;
+    }
     return periodic_along(grid_.x().is_periodic() && width_ == grid_.width(),
                           grid_.y().is_periodic() && height_ == grid_.height());
   }

@@ -41,7 +41,7 @@ enum class Snap {
 ///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
-/// whole grid and holds all seeds, and periods of at most 32,000 pixels.
+/// whole grid, which is not tilted, and holds all seeds, and periods of at most 32,000 pixels.
 ///
 /// Memory: on the device 4 bytes per seed and frame that is remembered, 12 in a loop over frames, and where a
 /// diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that may own a

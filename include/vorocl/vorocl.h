@@ -105,6 +105,8 @@ typedef struct vorocl_axis {
 /// The pixels that there are: x to the right, y down.
 typedef struct vorocl_grid {
   vorocl_axis x, y;
+  double
+      tilt;  ///< how far the copy of the grid at greater y is shifted along x, in the units of the data; or 0
 } vorocl_grid;
 
 /// What a diagram covers: `width` x `height` pixels from column x and row y of the grid on. Along a periodic
@@ -590,11 +592,9 @@ typedef struct vorocl_exact_cells vorocl_exact_cells;
 VOROCL_API vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells);
 VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
 
-/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. `tilt`, 0 without, is how far
-/// the copy of the rectangle at greater y is shifted along x. Enqueues and returns. VOROCL_DEVICE_ERROR if
-/// the device has no doubles.
-VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds,
-                                                double tilt);
+/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. Enqueues and returns.
+/// VOROCL_DEVICE_ERROR if the device has no doubles.
+VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
 
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);

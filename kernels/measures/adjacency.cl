@@ -11,13 +11,19 @@
 // themselves are two 32-bit numbers.
 static inline uint edge_of(uint pixel, uint is_below) { return pixel << 1 | is_below; }
 
+// The labels, and those of the row behind the last one: along a periodic y the first row, in a tilted grid shifted.
+typedef struct {
+  global const uint* at;
+  global const uint* behind;
+  int width, height;
+} labels_t;
+
 // The ids of the cells on both sides of an edge, the lower one first.
-static inline uint2 pair_at(global const uint* labels, int width, int height, uint edge) {
-  const uint pixel = edge >> 1, is_below = edge & 1;
-  uint other = pixel + (is_below ? (uint)width : 1u);
-  if (PERIODIC_Y && is_below && other >= (uint)(width * height)) other -= (uint)(width * height);
-  if (PERIODIC_X && !is_below && other % (uint)width == 0) other -= (uint)width;
-  const uint p = labels[pixel], q = labels[other];
+static inline uint2 pair_at(labels_t labels, uint edge) {
+  const uint width = (uint)labels.width, pixels = width * (uint)labels.height, pixel = edge >> 1, is_below = edge & 1;
+  uint other = pixel + (is_below ? width : 1u);
+  if (PERIODIC_X && !is_below && other % width == 0) other -= width;
+  const uint p = labels.at[pixel], q = PERIODIC_Y && other >= pixels ? labels.behind[other - pixels] : labels.at[other];
   return (uint2)(min(p, q), max(p, q));
 }
 
@@ -28,13 +34,13 @@ static inline uint hash_of(uint2 pair) {
 }
 
 // Adds to the length of the border that an edge belongs to. The table has 2^bits slots, of which most stay free.
-static inline void add_border(global const uint* labels, int width, int height, uint edge, uint length,
-                              uint mask, global uint* slots, global uint* lengths, global uint* overflow) {
-  const uint2 pair = pair_at(labels, width, height, edge);
+static inline void add_border(labels_t labels, uint edge, uint length, uint mask, global uint* slots,
+                              global uint* lengths, global uint* overflow) {
+  const uint2 pair = pair_at(labels, edge);
   uint at = hash_of(pair) & mask;
   for (int probe = 0; probe < MOST_PROBES; ++probe, at = (at + 1) & mask) {
     const uint holder = atomic_cmpxchg(slots + at, EMPTY_SLOT, edge);
-    if (holder == EMPTY_SLOT || all(pair_at(labels, width, height, holder) == pair)) {
+    if (holder == EMPTY_SLOT || all(pair_at(labels, holder) == pair)) {
       atomic_add(lengths + at, length);
       return;
     }
@@ -43,14 +49,15 @@ static inline void add_border(global const uint* labels, int width, int height, 
 }
 
 // Two rows are walked at once, so that along a run the border with the row below is one piece.
-kernel void find_borders(global const uint* restrict labels, uint count, int width, int height, int wide, int high,
-                         uint mask, global uint* restrict slots, global uint* restrict lengths,
-                         global uint* restrict overflow) {
+kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
+                         int width, int height, int wide, int high, uint mask, global uint* restrict slots,
+                         global uint* restrict lengths, global uint* restrict overflow) {
+  const labels_t all_labels = {labels, row_behind, width, height};
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
   for (int y = block.top; y < block.bottom; ++y) {
     global const uint* const row = labels + y * width;
-    global const uint* const below = y + 1 < height ? row + width : PERIODIC_Y ? labels : row;
+    global const uint* const below = y + 1 < height ? row + width : PERIODIC_Y ? row_behind : row;
     walk_t walk = begin_walk(row, below, block.left, block.right);
     while (next_run(&walk)) {
       const int last = walk.to - 1;
@@ -58,11 +65,10 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
       if (label >= count) continue;
       const int right = PERIODIC_X || walk.to < width ? wrapped_x(walk.to, width) : last;
       if (row[right] < count && row[right] != label) {
-        add_border(labels, width, height, edge_of(pixel, 0), 1u, mask, slots, lengths, overflow);
+        add_border(all_labels, edge_of(pixel, 0), 1u, mask, slots, lengths, overflow);
       }
       if (below[last] < count && below[last] != label) {
-        add_border(labels, width, height, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths,
-                   overflow);
+        add_border(all_labels, edge_of(pixel, 1), (uint)(walk.to - walk.from), mask, slots, lengths, overflow);
       }
     }
   }
@@ -71,13 +77,15 @@ kernel void find_borders(global const uint* restrict labels, uint count, int wid
 // Writes each pair's cells into the table, the first one in place of the edge, for the labels may change later. Counts
 // each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell. Seeds that
 // are absent own nothing: their pairs leave the table.
-kernel void name_pairs(global const uint* restrict labels, global const seed_t* restrict seeds, int width, int height,
-                       uint slot_count, global uint* restrict slots, global uint* restrict seconds,
-                       global const uint* restrict lengths, global uint* restrict pairs,
-                       global uint* restrict neighbours, global uint* restrict perimeters) {
+kernel void name_pairs(global const uint* restrict labels, global const uint* restrict row_behind,
+                       global const seed_t* restrict seeds, int width, int height, uint slot_count,
+                       global uint* restrict slots, global uint* restrict seconds, global const uint* restrict lengths,
+                       global uint* restrict pairs, global uint* restrict neighbours,
+                       global uint* restrict perimeters) {
+  const labels_t all_labels = {labels, row_behind, width, height};
   const uint at = (uint)get_global_id(0);
   if (at >= slot_count || slots[at] == EMPTY_SLOT) return;
-  const uint2 pair = pair_at(labels, width, height, slots[at]);
+  const uint2 pair = pair_at(all_labels, slots[at]);
   const bool is_pair = is_there(seeds[pair.s0]) && is_there(seeds[pair.s1]);
   slots[at] = is_pair ? pair.s0 : EMPTY_SLOT;
   if (!is_pair) return;

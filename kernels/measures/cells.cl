@@ -105,6 +105,14 @@ kernel void join_areas(global const seed_t* restrict seeds, uint count, global u
 // Whether a coordinate is less than half a period away from a seed, where none of the ways round is shorter.
 static inline bool is_near(int at, int seed, int period) { return 2 * abs(at - seed) < (uint)period; }
 
+// How many periods a pixel of a tilted grid is away from where it lies by the rule of place.
+static inline int2 periods_away(seed_t seed, int2 way, int x, int y, window_t window) {
+  const long along_y = (long)seed_y(seed, window.height) * UNIT - centre_behind_y(seed) + way.y - (long)y * UNIT;
+  const long rows = along_y / ((long)window.period_y * UNIT);
+  const long along_x = (long)seed_x(seed, window.width) * UNIT - centre_behind_x(seed) + way.x - (long)x * UNIT;
+  return (int2)((int)((along_x - rows * window.shift) / ((long)window.period_x * UNIT)), (int)rows);
+}
+
 // How many periods the pixels of a cell are away, in sum, from where they lie by the rule of place. For windows that
 // show a whole period.
 kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
@@ -119,6 +127,16 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
+      if (is_tilted(window)) {
+        for (int from = walk.from, to; from < walk.to; from = to) {
+          const piece_t piece = piece_from(seed, from, walk.to, y, window);
+          to = piece.end;
+          const int2 away = periods_away(seed, piece.way, from, y, window) * (to - from);
+          if (away.x != 0) atomic_add(periods_x + label, away.x);
+          if (away.y != 0) atomic_add(periods_y + label, away.y);
+        }
+        continue;
+      }
       // Nearly all pixels are near.
       const int x = seed_x(seed, width);
       if (PERIODIC_X && !(is_near(walk.from, x, width) && is_near(walk.to - 1, x, width))) {
@@ -138,13 +156,14 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
   }
 }
 
-// Moves the sums there.
-kernel void unwrap_sums(uint count, int width, int height, global const int* restrict periods_x,
+// Moves the sums there. What the tilt adds is rounded to whole pixels.
+kernel void unwrap_sums(uint count, int4 periods, int width, int height, global const int* restrict periods_x,
                         global const int* restrict periods_y, global const uint* restrict area,
                         global long* restrict sum_x, global long* restrict sum_y) {
   const uint id = (uint)get_global_id(0);
   if (id >= count || area[id] == 0) return;
-  sum_x[id] += (long)periods_x[id] * width;
+  const window_t window = window_of(width, height, periods);
+  sum_x[id] += (long)periods_x[id] * width + (((long)periods_y[id] * window.shift + UNIT / 2) >> UNIT_BITS);
   sum_y[id] += (long)periods_y[id] * height;
 }
 
@@ -176,6 +195,25 @@ static inline bool is_shown(int at, int size, int period) {
   return at >= 0 && at < size;
 }
 
+// Whether a seed, or an image of it, lies in the window.
+static inline bool is_seed_shown(seed_t seed, window_t window) {
+  const int width = window.width, height = window.height;
+  if (!is_tilted(window)) {
+    return is_shown(seed_x(seed, width), width, window.period_x) &&
+           is_shown(seed_y(seed, height), height, window.period_y);
+  }
+  // Less than a period away from the pixels of a window which is no longer than a period, there is one image.
+  const int x = seed_x(seed, width), y = seed_y(seed, height);
+  const int row = height > window.period_y ? 0 : y < 0 ? 1 : y >= height ? -1 : 0;
+  const int unit = x * UNIT - centre_behind_x(seed) + CENTRE + row * window.shift;
+  int at = unit >> UNIT_BITS;
+  if (row != 0 && width <= window.period_x) {
+    if (at < 0) at += window.period_x;
+    if (at >= window.period_x) at -= window.period_x;
+  }
+  return is_shown(at, width, window.period_x) && y + row * window.period_y >= 0 && y + row * window.period_y < height;
+}
+
 // Statistics of all cells, as partial sums over parts of their list: how many there are (of seeds outside the window
 // those that own pixels), how many of them have pixels, the areas, and their squares.
 kernel void sum_areas(SEED_PARAMETERS, global const uint* restrict area, uint cells_per_item, uint items,
@@ -188,8 +226,7 @@ kernel void sum_areas(SEED_PARAMETERS, global const uint* restrict area, uint ce
   for (uint id = item * cells_per_item; id < end; ++id) {
     const seed_t seed = seeds[id];
     const ulong pixels = area[id];
-    const bool shown = is_there(seed) && is_shown(seed_x(seed, width), width, window.period_x) &&
-                       is_shown(seed_y(seed, height), height, window.period_y);
+    const bool shown = is_there(seed) && is_seed_shown(seed, window);
     sums += (ulong4)(shown || pixels != 0, pixels != 0, pixels, pixels * pixels);
   }
   partial[item] = sums;

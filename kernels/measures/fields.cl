@@ -76,22 +76,24 @@ kernel void copy_table(global const seed_t* restrict seeds, uint count, global c
   if (id <= count) copy[id] = is_there(seeds[id]) ? table[id] : NO_LABEL;
 }
 
-// Whether a pixel has another label than the pixel at (x, y), less than a period outside the grid.
-static inline bool differs(uint own, global const uint* labels, int x, int y, int width, int height) {
+// Whether a pixel has another label than the pixel at (x, y), less than half a period outside the grid. Beyond the rows
+// of a periodic y pixels are shifted by whole ones.
+static inline bool differs(uint own, global const uint* labels, int x, int y, int width, int height, int shift) {
+  if (PERIODIC_Y) x += y < 0 ? shift : y >= height ? -shift : 0;
   x = wrapped_x(x, width);
   y = wrapped_y(y, height);
   return x >= 0 && x < width && y >= 0 && y < height && labels[y * width + x] != own;
 }
 
 // Whether a pixel has another label than one of its four neighbours.
-static inline bool is_border(global const uint* labels, int x, int y, int width, int height) {
+static inline bool is_border(global const uint* labels, int x, int y, int width, int height, int shift) {
   const uint own = labels[y * width + x];
-  return differs(own, labels, x - 1, y, width, height) || differs(own, labels, x + 1, y, width, height) ||
-         differs(own, labels, x, y - 1, width, height) || differs(own, labels, x, y + 1, width, height);
+  return differs(own, labels, x - 1, y, width, height, shift) || differs(own, labels, x + 1, y, width, height, shift) ||
+         differs(own, labels, x, y - 1, width, height, shift) || differs(own, labels, x, y + 1, width, height, shift);
 }
 
-VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int width,
-                                int height) {
+VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar* restrict mask, int width, int height,
+                                int shift) {
   if (!has_vector(width, height)) return;
   const int x = vector_x(width), y = vector_y();
   global const uint* const pixels = labels + y * width + x;
@@ -102,6 +104,8 @@ VECTOR_KERNEL void mark_borders(global const uint* restrict labels, global uchar
                                   own != LOAD_VECTOR(pixels - width) || own != LOAD_VECTOR(pixels + width));
     STORE_VECTOR(TO_BYTES(differs), mask + y * width + x);
   } else {
-    for (int i = 0; i < VOROCL_WIDTH; ++i) mask[y * width + x + i] = (uchar)is_border(labels, x + i, y, width, height);
+    for (int i = 0; i < VOROCL_WIDTH; ++i) {
+      mask[y * width + x + i] = (uchar)is_border(labels, x + i, y, width, height, shift);
+    }
   }
 }

@@ -5,22 +5,27 @@
 // THE RULE OF PLACE. Along an axis of which the window shows one whole period (PERIODIC_X, PERIODIC_Y) a pixel lies the
 // shorter way round from its seed, half a period away behind it: perhaps outside the window. Along other axes it lies
 // where the window shows it. Distances go the shorter way round along every axis that has a period, shown whole or not.
+//
+// TILTED GRIDS, whose seeds have fractions. What is one period of y further down lies `shift` units further along x: a
+// pixel lies the shortest of all ways from its seed. Of equally short ones it is that to the nearest row of images, and
+// of two equally near the one above the pixel. Images may lie between pixels: then a pixel's place is the pixel that
+// holds its centre.
 
 #ifndef VOROCL_SEED_PLACE
 #define VOROCL_SEED_PLACE
 
 #include "core/plane.cl"
 
-// The window: its pixels, and the periods that distances know, 0 along an axis without one.
+// The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilt, in units.
 typedef struct {
-  int width, height, period_x, period_y;
+  int width, height, period_x, period_y, shift;
 } window_t;
 
 #ifdef VOROCL_OUTER_SEEDS
 typedef int2 seed_t;
 
-static inline window_t window_of(int width, int height, uint2 periods) {
-  const window_t window = {width, height, (int)periods.x, (int)periods.y};
+static inline window_t window_of(int width, int height, int4 periods) {
+  const window_t window = {width, height, periods.x, periods.y, periods.z};
   return window;
 }
 
@@ -52,9 +57,9 @@ static inline int way_y(seed_t seed, int y, window_t window) {
 typedef uint seed_t;
 
 // No axis has a period but those that are shown whole: they are known when the kernel is built.
-static inline window_t window_of(int width, int height, uint2 periods) {
+static inline window_t window_of(int width, int height, int4 periods) {
   (void)periods;
-  const window_t window = {width, height, PERIODIC_X ? width : 0, PERIODIC_Y ? height : 0};
+  const window_t window = {width, height, PERIODIC_X ? width : 0, PERIODIC_Y ? height : 0, 0};
   return window;
 }
 
@@ -88,11 +93,11 @@ static inline int way_y(seed_t seed, int y, window_t window) {
 
 // What kernels take of a diagram's seeds and its window; the list of seeds ends with one that is absent, and labels
 // that are no seed's id are clamped to it.
-#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, uint2 periods, int width, int height
+#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, int4 periods, int width, int height
 
 // The pixel at the end of a way from a seed: where that is, as the rule of place says.
 static inline int place_x(seed_t seed, int way, int width) {
-  return seed_x(seed, width) + ((way - centre_behind_x(seed)) >> UNIT_BITS);
+  return seed_x(seed, width) + ((way - centre_behind_x(seed) + UNIT / 2) >> UNIT_BITS);
 }
 static inline int place_y(seed_t seed, int way, int height) {
   return seed_y(seed, height) + ((way - centre_behind_y(seed)) >> UNIT_BITS);
@@ -104,10 +109,55 @@ static inline LENGTH distance_of_ways(int along_x, int along_y) {
   return ALONG(dx) + ALONG(dy);
 }
 
+#ifdef VOROCL_FRACTIONS
+static inline bool is_tilted(window_t window) { return window.shift != 0; }
+
+// The shortest of a way and those round by the periods of a tilted grid. Rows of images are looked at from the nearest
+// on, until they are too far.
+static inline int2 shortest_way_round(long x, long y, window_t window) {
+  const long period_x = (long)window.period_x * UNIT, period_y = (long)window.period_y * UNIT;
+  const int near_y = shorter_way_round(y, period_y);
+  const long near_x = x - (y - near_y) / period_y * window.shift;
+  int2 shortest = (int2)(shorter_way_round(near_x, period_x), near_y);
+  LENGTH least = distance_of_ways(shortest.x, shortest.y);
+  for (long row = 1;; ++row) {
+    bool is_far = true;
+    for (int side = 1; side >= -1; side -= 2) {
+      const long along_y = near_y + side * row * period_y;
+      if (ALONG((LENGTH)along_y) >= least) continue;
+      is_far = false;
+      const int2 way = (int2)(shorter_way_round(near_x + side * row * window.shift, period_x), (int)along_y);
+      const LENGTH distance = distance_of_ways(way.x, way.y);
+      if (distance >= least) continue;
+      least = distance;
+      shortest = way;
+    }
+    if (is_far) return shortest;
+  }
+}
+#else
+static inline bool is_tilted(window_t window) {
+  (void)window;
+  return false;
+}
+#endif
+
+// From a seed to a pixel's centre, in units.
+static inline int2 way_to(seed_t seed, int x, int y, window_t window) {
+#ifdef VOROCL_FRACTIONS
+  if (is_tilted(window)) {
+    return shortest_way_round((long)x * UNIT + CENTRE - seed.x, (long)y * UNIT + CENTRE - seed.y, window);
+  }
+#endif
+  return (int2)(way_x(seed, x, window), way_y(seed, y, window));
+}
+
 // The distance from a pixel to a seed; NO_SEED, which is more than any, to one that is absent.
 #define NO_SEED MOST_LENGTH
 static inline LENGTH distance_to(seed_t seed, int x, int y, window_t window) {
-  return is_there(seed) ? distance_of_ways(way_x(seed, x, window), way_y(seed, y, window)) : NO_SEED;
+  if (!is_there(seed)) return NO_SEED;
+  const int2 way = way_to(seed, x, y, window);
+  return distance_of_ways(way.x, way.y);
 }
 
 // Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without
@@ -120,6 +170,36 @@ static inline bool goes_on(int way, int step, int period) {
 // The end of the piece of pixels [from, to) that begins at `from`, which is `way` from the seed, and has no jump.
 static inline int piece_end(int from, int to, int way, int period) {
   return period == 0 ? to : from + (int)min((long)(to - from), (((long)period * UNIT / 2 - way) >> UNIT_BITS) + 1);
+}
+
+// Pixels of one row from the beginning of a piece to its end, and the way from their seed to the first of them. To the
+// others the way goes on along x.
+typedef struct {
+  int end;
+  int2 way;
+} piece_t;
+
+// The piece of pixels [from, to) of row y that begins at `from`. In a tilted grid the pixels of a row that are nearest
+// to an image follow each other, for along the row the image's lead on another one grows or falls: its end is found
+// between such a pixel and one that is not.
+static inline piece_t piece_from(seed_t seed, int from, int to, int y, window_t window) {
+  piece_t piece;
+  piece.way = way_to(seed, from, y, window);
+  if (!is_tilted(window)) {
+    piece.end = piece_end(from, to, piece.way.x, window.period_x);
+    return piece;
+  }
+  int inside = from, outside = to;
+  for (int at = to - 1; outside - inside > 1; at = (inside + outside) / 2) {
+    const int2 way = way_to(seed, at, y, window);
+    if (way.x - piece.way.x == (at - from) * UNIT && way.y == piece.way.y) {
+      inside = at;
+    } else {
+      outside = at;
+    }
+  }
+  piece.end = outside;
+  return piece;
 }
 
 #endif

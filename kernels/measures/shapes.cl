@@ -22,15 +22,16 @@ kernel void clear_shapes(uint count, global int4* restrict boxes, global int* re
   upper_words[id] = -1;
 }
 
-// Whether the next pixel along an axis is there, and as far from the seed as its place says.
+// Whether the next pixel along an axis is there, and as far from the seed as its place says. In a tilted grid that is
+// not asked: no pixel decides for another one.
 static inline bool goes_on_in(int at, int step, int size, int shown_whole, int way, int period) {
   return (shown_whole || (at + step >= 0 && at + step < size)) && goes_on(way, step, period);
 }
 static inline bool goes_on_x(int x, int step, int way, window_t window) {
-  return goes_on_in(x, step, window.width, PERIODIC_X, way, window.period_x);
+  return !is_tilted(window) && goes_on_in(x, step, window.width, PERIODIC_X, way, window.period_x);
 }
 static inline bool goes_on_y(int y, int step, int way, window_t window) {
-  return goes_on_in(y, step, window.height, PERIODIC_Y, way, window.period_y);
+  return !is_tilted(window) && goes_on_in(y, step, window.height, PERIODIC_Y, way, window.period_y);
 }
 
 static inline bool in_one_of(global const uint* row, global const uint* above, global const uint* below, int x,
@@ -53,14 +54,14 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
-      const int along_y = way_y(seed, y, window), row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
-      const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
-      global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
-      global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
       global int* const box = boxes + 4 * (size_t)label;
       for (int from = walk.from, to; from < walk.to; from = to) {
-        const int along_x = way_x(seed, from, window);
-        to = piece_end(from, walk.to, along_x, window.period_x);
+        const piece_t piece = piece_from(seed, from, walk.to, y, window);
+        const int along_x = piece.way.x, along_y = piece.way.y, row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
+        const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
+        global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
+        global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
+        to = piece.end;
         const int first = from, last = to - 1, along_x_last = along_x + (last - first) * UNIT;
         const int first_at = PERIODIC_X ? place_x(seed, along_x, width) : first;
         if (!(goes_on_x(first, -1, along_x, window) &&
@@ -108,12 +109,11 @@ kernel void add_lower_words(global const uint* restrict labels, SEED_PARAMETERS,
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count || !is_there(seeds[label])) continue;
-      const int along_y = way_y(seeds[label], y, window);
       for (int from = walk.from, to; from < walk.to; from = to) {
-        const int along_x = way_x(seeds[label], from, window);
-        to = piece_end(from, walk.to, along_x, window.period_x);
-        const LENGTH farthest = max(distance_of_ways(along_x, along_y),
-                                    distance_of_ways(along_x + (to - 1 - from) * UNIT, along_y));
+        const piece_t piece = piece_from(seeds[label], from, walk.to, y, window);
+        to = piece.end;
+        const LENGTH farthest = max(distance_of_ways(piece.way.x, piece.way.y),
+                                    distance_of_ways(piece.way.x + (to - 1 - from) * UNIT, piece.way.y));
         if (UPPER_WORD(farthest) == upper_words[label]) atomic_max(lower_words + label, (uint)farthest);
       }
     }

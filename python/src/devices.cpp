@@ -18,7 +18,7 @@ Device adopt(std::uintptr_t context, std::uintptr_t queue) {
 using Bounds = std::tuple<double, double, double, double>;
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it.
-Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool periodic_y,
+Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool periodic_y, double tilt,
                const std::optional<Bounds>& bounds, bool y_up, bool closed) {
   Axis x(width), y(height);
   if (bounds) {
@@ -30,7 +30,7 @@ Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool pe
   if (periodic_x) x = x.periodic();
   if (periodic_y) y = y.periodic();
   if (y_up) y = y.reversed();
-  const Grid grid(x, y);
+  const Grid grid = Grid(x, y).tilted(tilt);
   if (width > Window::max_side || height > Window::max_side || grid.pixels() > Window::max_pixels) {
     throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +
                 " pixels; at most 32,768 along a side and 2^30 in all are possible");
@@ -80,11 +80,13 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"), nb::arg("bounds").none(), nb::arg("y_up"), nb::arg("closed"))
+           nb::arg("periodic_y"), nb::arg("tilt"), nb::arg("bounds").none(), nb::arg("y_up"),
+           nb::arg("closed"))
       .def_prop_ro("width", &Grid::width)
       .def_prop_ro("height", &Grid::height)
       .def_prop_ro("periodic_x", [](const Grid& grid) { return grid.x().is_periodic(); })
-      .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); });
+      .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); })
+      .def_prop_ro("tilt", &Grid::tilt);
 
   nb::class_<Report>(module, "Report")
       .def_prop_ro("waves", &Report::waves)

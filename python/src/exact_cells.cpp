@@ -14,10 +14,10 @@ struct ExactCellsObject {
   ExactPolygons polygons;
 };
 
-std::unique_ptr<ExactCellsObject> cut(SeedsObject& seeds, double tilt) {
+std::unique_ptr<ExactCellsObject> cut(SeedsObject& seeds) {
   const std::lock_guard<std::mutex> turn(seeds.mutex);
   ExactCellsResult result;
-  exact_cells(seeds.seeds, result, tilt);
+  exact_cells(seeds.seeds, result);
   return std::make_unique<ExactCellsObject>(
       ExactCellsObject{result.read(), result.read_pairs(), result.read_polygons()});
 }
@@ -41,7 +41,7 @@ void bind_exact_cells(nb::module_& module) {
       .def("vertices", [](const Object& of) { return copy_of<double>(of.polygons.vertices); })
       .def("neighbours", [](const Object& of) { return copy_of<std::uint32_t>(of.polygons.neighbours); })
       .def("lengths", [](const Object& of) { return copy_of<double>(of.polygons.lengths); });
-  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("tilt"), without_gil());
+  module.def("exact_cells", cut, nb::arg("seeds"), without_gil());
 }
 
 }  // namespace vorocl::python

@@ -69,7 +69,7 @@ WRONG = {
 WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
-POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "outside", "y_up", "snap", "device")
+POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device")
 CALLS = {
     vorocl.diagram: POINTS + ("out",),
     vorocl.distances: POINTS + ("out", "units"),
@@ -82,10 +82,10 @@ CALLS = {
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),
     vorocl.similarity: ("a", "b"),
-    vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "outside", "y_up", "truth", "device"),
-    vorocl.Seeds: ("points", "shape", "bounds", "periodic", "outside", "y_up", "snap", "device"),
+    vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "truth", "device"),
+    vorocl.Seeds: ("points", "shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
     vorocl.Diagram: ("shape", "periodic", "device", "labels"),
-    vorocl.Simulation: ("shape", "bounds", "periodic", "outside", "y_up", "snap", "device"),
+    vorocl.Simulation: ("shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
 }
 RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), "mask": LABELS, "labels": LABELS, "a": LABELS, "b": LABELS}
 RIGHT_VALUES["outside"] = "refuse"

@@ -57,8 +57,9 @@ def to_grid(
     bounds: Optional[Bounds] = None,
     outside: Outside = "count",
     y_up: bool = False,
+    tilt: float = 0.0,
 ) -> _vorocl.Grid:
-    """The grid of a shape (H, W), of its periodic axes (x, y), and of what it shows of the points' plane.
+    """The grid of a shape (H, W), of its periodic axes (x, y) and its tilt, and of what it shows of the points' plane.
 
     Points at the bounds' far ends are inside, unless what is outside them counts all round.
     """
@@ -74,7 +75,7 @@ def to_grid(
     height, width = (max(-far, min(side, far)) for side in (height, width))
     corners, upwards = to_bounds(bounds), to_flag(y_up, "y_up")
     closed = corners is not None and (to_outside(outside) != "count" or periodic_x or periodic_y)
-    return _vorocl.Grid(width, height, periodic_x, periodic_y, corners, upwards, closed)
+    return _vorocl.Grid(width, height, periodic_x, periodic_y, to_number(tilt, "tilt"), corners, upwards, closed)
 
 
 def shape_of(grid: _vorocl.Grid) -> Tuple[int, int]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
-from ._arguments import Bounds, Outside, Periodic, shown, to_grid, to_number, to_outside, to_points
+from ._arguments import Bounds, Outside, Periodic, shown, to_grid, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._parameters import with_parameters
@@ -146,10 +146,8 @@ def exact_cells(
     periodic : (bool, bool), optional
         Which axes, x and y, are periodic: the rectangle is the period. Cells are whole across its ends, where they reach
         beyond it.
-    tilt : float, optional
-        How far the copy of the rectangle at greater y is shifted along x: the rectangle has the points of a
-        parallelogram with the edges (width, 0) and (tilt, height), as LAMMPS's ``xy``. Both axes must be periodic then,
-        and points are rounded to 2**-28 of the longer side.
+    <tilt>
+        Points are rounded to 2**-28 of the longer side then.
     outside : {"count", "absent", "refuse"}, optional
         What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them. "absent":
         they have no cell. "refuse": they are an error.
@@ -176,7 +174,7 @@ def exact_cells(
     """
     if bounds is None:
         raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); these are {shown(bounds)}")
-    grid = to_grid((1, 1), periodic, bounds, outside)
+    grid = to_grid((1, 1), periodic, bounds, outside, tilt=tilt)
     array = to_points(points)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    return ExactCells(array, _vorocl.exact_cells(seeds, to_number(tilt, "tilt")))
+    return ExactCells(array, _vorocl.exact_cells(seeds))

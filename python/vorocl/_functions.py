@@ -64,6 +64,7 @@ def _filled(
     metric: Metric,
     bounds: Optional[Bounds],
     periodic: Periodic,
+    tilt: float,
     outside: Outside,
     y_up: bool,
     snap: Optional[bool],
@@ -71,11 +72,11 @@ def _filled(
     labels: Optional[NDArray[np.uint32]] = None,
 ) -> Diagram:
     """The diagram, which is the thread's until its next call; or its labels alone, in an array."""
-    grid = to_grid(shape, periodic, bounds, outside, y_up)
-    shape, periodic = shape_of(grid), (grid.periodic_x, grid.periodic_y)
+    grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
+    shape, periodic, tilt = shape_of(grid), (grid.periodic_x, grid.periodic_y), grid.tilt
     corners, array = to_bounds(bounds), to_points(points)
     snapped = to_snap(snap, method)
-    wanted = (shape, periodic, corners, to_outside(outside), y_up, snapped, to_device(device))
+    wanted = (shape, periodic, tilt, corners, to_outside(outside), y_up, snapped, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
         seeds = Seeds(
@@ -83,6 +84,7 @@ def _filled(
             shape,
             bounds=corners,
             periodic=periodic,
+            tilt=tilt,
             outside=outside,
             y_up=y_up,
             snap=snapped,
@@ -111,6 +113,7 @@ def diagram(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -126,7 +129,7 @@ def diagram(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, snap>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap>
     out : ndarray, optional
         Where the labels go: uint32, shape (H, W), C-contiguous. Without it, a new array.
     <device>
@@ -159,7 +162,7 @@ def diagram(
     array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
     """
     labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
-    _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device, labels)
+    _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device, labels)
     return labels
 
 
@@ -285,6 +288,7 @@ def distances(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -296,7 +300,7 @@ def distances(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, units>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, units>
     out : ndarray, optional
         Where the distances go: float32, shape (H, W), C-contiguous. Without it, a new array.
     <device>
@@ -320,7 +324,7 @@ def distances(
     """
     to_units(units, True)
     values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).distances(values, units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).distances(values, units=units)
 
 
 @with_parameters
@@ -332,6 +336,7 @@ def cells(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -342,7 +347,7 @@ def cells(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -389,7 +394,7 @@ def cells(
     (8.0, 2.0, 1.0, 2.0)
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).cells(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).cells(units=units)
 
 
 @with_parameters
@@ -401,6 +406,7 @@ def areas(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -411,7 +417,7 @@ def areas(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -431,7 +437,7 @@ def areas(
     array([4., 4.])
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).areas(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).areas(units=units)
 
 
 @with_parameters
@@ -443,6 +449,7 @@ def adjacency(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -456,7 +463,7 @@ def adjacency(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -478,7 +485,7 @@ def adjacency(
     ([[0, 1], [1, 2]], [2, 2])
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).adjacency(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).adjacency(units=units)
 
 
 @with_parameters
@@ -490,6 +497,7 @@ def vertices(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     snap: Optional[bool] = None,
@@ -500,7 +508,7 @@ def vertices(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, outside, y_up, snap, units, device>
+    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
 
     Returns
     -------
@@ -519,7 +527,7 @@ def vertices(
     [[2.0, 2.0]]
     """
     to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, outside, y_up, snap, device).vertices(units=units)
+    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).vertices(units=units)
 
 
 class Relaxation(NamedTuple):
@@ -634,6 +642,7 @@ def errors(
     metric: Metric = "euclidean",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
+    tilt: float = 0.0,
     outside: Outside = "count",
     y_up: bool = False,
     truth: Truth = "snapped",
@@ -648,7 +657,7 @@ def errors(
     ----------
     labels : array_like
         Integers, shape (H, W): rows of `points`.
-    <points, metric, bounds, periodic, outside, y_up, truth, device>
+    <points, metric, bounds, periodic, tilt, outside, y_up, truth, device>
 
     Returns
     -------
@@ -671,7 +680,9 @@ def errors(
     image = to_labels(labels)
     to_truth(truth)
     shape = image.shape
-    seeds = Seeds(points, shape, bounds=bounds, periodic=periodic, outside=outside, y_up=y_up, device=device)
+    seeds = Seeds(
+        points, shape, bounds=bounds, periodic=periodic, tilt=tilt, outside=outside, y_up=y_up, device=device
+    )
     judged = Diagram(shape, periodic=periodic, device=device)
     judged.write(image, seeds, metric)
     return judged.errors(truth)

@@ -71,7 +71,7 @@ class Seeds(OnDevice):
 
     Parameters
     ----------
-    <points, shape, bounds, periodic, outside, y_up, snap, device>
+    <points, shape, bounds, periodic, tilt, outside, y_up, snap, device>
 
     Raises
     ------
@@ -100,14 +100,16 @@ class Seeds(OnDevice):
         *,
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
+        tilt: float = 0.0,
         outside: Outside = "count",
         y_up: bool = False,
         snap: Optional[bool] = None,
         device: Optional[Device] = None,
     ) -> None:
-        grid = to_grid(shape, periodic, bounds, outside, y_up)
+        grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
         array = to_points(points)
         self._shape, self._periodic, self._outside, self._y_up = shape, periodic, outside, y_up
+        self._bounds, self._tilt = bounds, tilt  # of the present frame
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
         self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap))
@@ -128,7 +130,9 @@ class Seeds(OnDevice):
         """How many seeds are not absent."""
         return self._seeds.alive
 
-    def move_to(self, points: ArrayLike, *, bounds: Optional[Bounds] = None) -> int:
+    def move_to(
+        self, points: ArrayLike, *, bounds: Optional[Bounds] = None, tilt: Optional[float] = None
+    ) -> int:
         """Move the seeds to new points: a new frame. Their number may change.
 
         Parameters
@@ -137,12 +141,15 @@ class Seeds(OnDevice):
             As that of the constructor, in the same units. A seed that is absent may come back.
         bounds : (float, float, float, float), optional
             What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
+        tilt : float, optional
+            The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
 
         Returns
         -------
         int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
-            shorter way round. Seeds that appear or vanish do not count, and none does where the bounds are others.
+            shorter way round. Seeds that appear or vanish do not count, and none does where the bounds or the tilt
+            are others.
 
         Raises
         ------
@@ -158,10 +165,13 @@ class Seeds(OnDevice):
         2
         """
         grid = None
-        if bounds is not None:
-            grid = to_grid(self._shape, self._periodic, bounds, self._outside, self._y_up)
+        shown = self._bounds if bounds is None else bounds
+        tilted = self._tilt if tilt is None else tilt
+        if bounds is not None or tilt is not None:
+            grid = to_grid(self._shape, self._periodic, shown, self._outside, self._y_up, tilted)
         self._seeds.move_to(to_points(points), grid)
-        self._are_in_data = self._are_in_data or grid is not None
+        self._bounds, self._tilt = shown, tilted
+        self._are_in_data = self._are_in_data or bounds is not None
         return int(self._seeds.displacement)
 
     @with_parameters
@@ -192,7 +202,7 @@ class Diagram(OnDevice):
     Parameters
     ----------
     shape, periodic, device
-        Those of the seeds that it will be filled from.
+        Those of the seeds that it will be filled from. Their bounds and their tilt it takes from them.
     labels : pyopencl.Buffer, optional
         Where the labels are to be: at least 4 * H * W bytes of the device's context, which kernels can read and write.
 
@@ -487,7 +497,7 @@ class Simulation(OnDevice):
     <shape>
     method : str, optional
         As that of `Diagram.fill`. "djfa" goes on from the last frame; "exact" is faster, and right.
-    <metric, bounds, periodic, outside, y_up, snap, device>
+    <metric, bounds, periodic, tilt, outside, y_up, snap, device>
 
     Attributes
     ----------
@@ -518,6 +528,7 @@ class Simulation(OnDevice):
         metric: Metric = "euclidean",
         bounds: Optional[Bounds] = None,
         periodic: Periodic = (False, False),
+        tilt: float = 0.0,
         outside: Outside = "count",
         y_up: bool = False,
         snap: Optional[bool] = None,
@@ -530,6 +541,7 @@ class Simulation(OnDevice):
             shape,
             bounds=bounds,
             periodic=periodic,
+            tilt=tilt,
             outside=outside,
             y_up=y_up,
             snap=to_snap(snap, self._method),
@@ -540,7 +552,9 @@ class Simulation(OnDevice):
     def __repr__(self) -> str:
         return f"<vorocl.Simulation of {len(self.seeds)} points, method {self._method}, of the shape {self.diagram.shape}>"
 
-    def step(self, points: ArrayLike, *, bounds: Optional[Bounds] = None) -> Diagram:
+    def step(
+        self, points: ArrayLike, *, bounds: Optional[Bounds] = None, tilt: Optional[float] = None
+    ) -> Diagram:
         """Move the seeds to the points of the next frame, and fill the diagram. Enqueues the work and returns.
 
         Parameters
@@ -549,6 +563,8 @@ class Simulation(OnDevice):
             As that of `Seeds`. Seeds may appear and vanish.
         bounds : (float, float, float, float), optional
             What the grid shows from this frame on, such as a box that changes. Without it, what it showed.
+        tilt : float, optional
+            The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
 
         Returns
         -------
@@ -561,6 +577,6 @@ class Simulation(OnDevice):
             The frame counts as not made then.
         BadArgument, DeviceMemoryError, DeviceError
         """
-        self.seeds.move_to(points, bounds=bounds)
+        self.seeds.move_to(points, bounds=bounds, tilt=tilt)
         self.report = self.diagram.fill(self.seeds, self._method, self._metric)
         return self.diagram

@@ -22,8 +22,8 @@ vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells) {
 
 void vorocl_exact_cells_free(vorocl_exact_cells* cells) { delete cells; }
 
-vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds, double tilt) {
-  return guarded([&] { exact_cells(of(seeds), of(cells), tilt); });
+vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds) {
+  return guarded([&] { exact_cells(of(seeds), of(cells)); });
 }
 
 vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count) {

@@ -29,13 +29,13 @@ vorocl_axis axis_of_pixels(std::int64_t pixels) { return {pixels, 0, static_cast
 
 }  // namespace
 
-Grid to_grid(const vorocl_grid& grid) { return {to_axis(grid.x), to_axis(grid.y)}; }
+Grid to_grid(const vorocl_grid& grid) { return Grid(to_axis(grid.x), to_axis(grid.y)).tilted(grid.tilt); }
 
 Window to_window(const vorocl_window& window) {
   return {to_grid(window.grid), window.x, window.y, window.width, window.height};
 }
 
-vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y())}; }
+vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y()), grid.tilt()}; }
 
 vorocl_window to_c(const Window& window) {
   return {to_c(window.grid()), window.x(), window.y(), window.width(), window.height()};
@@ -46,7 +46,7 @@ vorocl_window to_c(const Window& window) {
 using namespace vorocl;
 
 vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic) {
-  vorocl_grid grid = {axis_of_pixels(width), axis_of_pixels(height)};
+  vorocl_grid grid = {axis_of_pixels(width), axis_of_pixels(height), 0};
   const bool known = periodic >= VOROCL_PERIODIC_NONE && periodic <= VOROCL_PERIODIC_XY;
   // What is no choice of axes is no flag either, so that the grid is refused.
   grid.x.periodic = known ? periodic & VOROCL_PERIODIC_X : -1;

@@ -31,12 +31,20 @@ std::int64_t checked_pixels(std::int64_t pixels) {
               std::to_string(Axis::max_pixels));
 }
 
-/// Where a window begins along an axis. Throws Error if it does not lie in the grid.
-std::int64_t checked_begin(const Axis& axis, const char* name, std::int64_t begin, std::int64_t length) {
+/// Where a window begins along an axis. Throws Error if it does not lie in the grid. In a tilted grid a row
+/// that is a period away lies between other pixels.
+std::int64_t checked_begin(const Axis& axis, const char* name, std::int64_t begin, std::int64_t length,
+                           bool keeps_periods = false) {
   const std::int64_t pixels = axis.pixels();
   if (length < 1 || length > Axis::max_pixels) {
     throw Error("the window has " + std::to_string(length) + " pixels along " + name +
                 "; it must have from 1 to " + std::to_string(Axis::max_pixels));
+  }
+  if (keeps_periods) {
+    if (begin > -pixels && begin < pixels) return begin;
+    throw Error("the window begins at " + std::string(name) + " = " + std::to_string(begin) +
+                "; the grid is tilted, so it must begin less than its " + std::to_string(pixels) +
+                " pixels from 0");
   }
   if (axis.is_periodic()) {
     if (length > pixels) return begin % pixels;
@@ -89,14 +97,24 @@ bool Axis::covers(double coordinate) const {
   return periodic_ ? std::isfinite(coordinate) : coordinate >= from_ && coordinate <= to_;
 }
 
-double Axis::position_in_period(double coordinate) const {
+double Axis::offset_in_period(double coordinate) const {
   const double period = to_ - from_;
   double offset = coordinate - from_;
   if (!(offset >= 0 && offset < period)) {
     offset = std::fmod(offset, period);
     if (offset < 0) offset += period;
   }
-  return in_pixels_ ? offset : offset * static_cast<double>(pixels_) / period;
+  return offset;
+}
+
+double Axis::position_in_period(double coordinate) const {
+  const double offset = offset_in_period(coordinate);
+  return in_pixels_ ? offset : offset * static_cast<double>(pixels_) / (to_ - from_);
+}
+
+double Axis::periods_beyond(double coordinate) const {
+  if (!periodic_) return 0;
+  return std::nearbyint((coordinate - from_ - offset_in_period(coordinate)) / (to_ - from_));
 }
 
 double Axis::unreversed_pixel(double coordinate) const {
@@ -158,12 +176,30 @@ Axis axis_of_pixels(std::int64_t pixels, bool periodic) {
 Grid::Grid(std::int64_t width, std::int64_t height, Periodic periodic)
     : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic))) {}
 
+Grid Grid::tilted(double tilt) const {
+  if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
+  if (tilt != 0 && periodic() != Periodic::xy) throw Error("a tilted box must be periodic in x and y");
+  Grid grid = *this;
+  grid.tilt_ = 0;
+  if (tilt == 0) return grid;
+  const double period = x_.to() - x_.from(), reduced = std::remainder(tilt, period);
+  grid.tilt_ = 2 * reduced == -period ? -reduced : reduced;
+  return grid;
+}
+
+std::int64_t Grid::shift() const {
+  const double periods = tilt_ / (x_.to() - x_.from());
+  const auto parts =
+      static_cast<std::int64_t>(std::nearbyint(periods * static_cast<double>(width()) * fractions_of_pixel));
+  return x_.is_reversed() == y_.is_reversed() ? parts : -parts;
+}
+
 Window::Window(const Grid& grid) : grid_(grid), width_(grid.width()), height_(grid.height()) {}
 
 Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height)
     : grid_(grid),
       x_(checked_begin(grid.x(), "x", x, width)),
-      y_(checked_begin(grid.y(), "y", y, height)),
+      y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted())),
       width_(width),
       height_(height) {}
 
@@ -192,6 +228,12 @@ PixelGrid::PixelGrid(const Window& window)
 bool fits_in_a_diagram(const Grid& grid) {
   return grid.width() <= Window::max_side && grid.height() <= Window::max_side &&
          grid.pixels() <= Window::max_pixels;
+}
+
+void refuse_tilted(const Grid& grid, const char* what) {
+  if (!grid.is_tilted()) return;
+  throw Error("the grid is tilted, which " + std::string(what) +
+              " cannot take; exact diagrams of a window of the grid do");
 }
 
 std::string size_text(const PixelGrid& pixels) {

@@ -25,8 +25,8 @@ struct Entry {
 /// Calls a function with each place of a seed that is no pixel where seeds lie themselves and may be the
 /// nearest one of a pixel of the region.
 template <typename Use>
-void each_outer_place(const Region& region, const Periods& periods, const Place& seed, Use use) {
-  each_place(region, periods, seed, [&](const Place& place, bool is_image) {
+void each_outer_place(const Region& region, const Images& images, const Place& seed, Use use) {
+  each_place(region, images, seed, [&](const Place& place, bool is_image) {
     const bool inside = place.x >= region.left && place.x <= region.right && place.y >= region.top &&
                         place.y <= region.bottom;
     if (is_image || !inside) use(place);
@@ -35,7 +35,7 @@ void each_outer_place(const Region& region, const Periods& periods, const Place&
 
 /// The outer places, in order; of several on one pixel, which are images of seeds on one pixel, that of the
 /// lowest id.
-std::vector<Entry> ordered_entries(const Region& region, const Periods& periods,
+std::vector<Entry> ordered_entries(const Region& region, const Images& images,
                                    const std::vector<PlanePosition>& positions) {
   std::vector<Entry> entries;
   if (region.empty()) return entries;
@@ -47,10 +47,10 @@ std::vector<Entry> ordered_entries(const Region& region, const Periods& periods,
   Rim rim(region);
   each_seed([&](const Place& seed, std::size_t) {
     rim.add(seed);
-    each_outer_place(region, periods, seed, [&](const Place& place) { rim.add(place); });
+    each_outer_place(region, images, seed, [&](const Place& place) { rim.add(place); });
   });
   each_seed([&](const Place& seed, std::size_t id) {
-    each_outer_place(region, periods, seed, [&](const Place& place) {
+    each_outer_place(region, images, seed, [&](const Place& place) {
       if (rim.rules_out(place)) return;
       const cl_int2 at = {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}};
       entries.push_back({z_order(at.s[0], at.s[1]), at, static_cast<cl_uint>(id)});
@@ -119,8 +119,8 @@ std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const
   const Region home = home_region(window), region = labelled_region(window, home);
   outer.home = bounds_of(home);
   outer.region = bounds_of(region);
-  outer.periods = {{static_cast<cl_uint>(periods.x), static_cast<cl_uint>(periods.y)}};
-  const std::vector<Entry> entries = ordered_entries(region, periods, positions);
+  outer.periods = {{static_cast<cl_int>(periods.x), static_cast<cl_int>(periods.y), 0, 0}};
+  const std::vector<Entry> entries = ordered_entries(region, Images(window.grid()), positions);
   for (const Entry& entry : entries) near = near && is_near(pixels, entry.place);
   outer.extent = near ? Extent::near : Extent::far;
   positions.push_back({{absent_coordinate, 0}});

@@ -35,7 +35,7 @@ struct OuterSeeds {
   Extent extent = Extent::near;   // of all seeds and images
   cl_int4 region{};               // the pixels that get labels: left, top, right, bottom
   cl_int4 home{};                 // those of them whose seeds are in positions, not images
-  cl_uint2 periods{};             // 0 along an axis that is not periodic
+  cl_int4 periods{};              // 0 along an axis that is not periodic
   cl::Buffer seeds;               // positions by id, and one more that is absent
   cl::Buffer places, ids, nodes;  // the tree: of seeds outside and images that may own a pixel
   cl_uint count = 0;              // of these

@@ -8,7 +8,7 @@ namespace vorocl {
 
 bool kernels_go_round(const Window& window, const PixelGrid& shown) {
   constexpr int most = 32000;  // margins of the exact engine's index must fit beside a period
-  return window.is_whole() && shown.periodic() == window.grid().periodic() &&
+  return window.is_whole() && !window.grid().is_tilted() && shown.periodic() == window.grid().periodic() &&
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }
 
@@ -37,6 +37,10 @@ std::shared_ptr<const Placement> place_in_window(const Device& device, const Win
   auto positions = std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds"));
   if (all_inside && kernels_go_round(window, shown)) {
     return std::make_shared<const Placement>(Placement{shown, std::move(positions), nullptr});
+  }
+  if (window.grid().is_tilted()) {  // the images are places of points
+    return std::make_shared<const Placement>(
+        Placement{shown.without_periods(), std::move(positions), nullptr});
   }
   return std::make_shared<const Placement>(
       Placement{shown.without_periods(), std::move(positions),

@@ -1,5 +1,6 @@
 #include "core/point_placement.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 
@@ -23,12 +24,6 @@ Region centres_of(const Region& pixels) {
   return {centre_of(pixels.left), centre_of(pixels.top), centre_of(pixels.right), centre_of(pixels.bottom)};
 }
 
-Periods in_fractions(Periods periods) {
-  periods.x = in_fractions(periods.x);
-  periods.y = in_fractions(periods.y);
-  return periods;
-}
-
 bool fits(const Place& place) {
   const std::int64_t most = in_fractions(most_pixels_away);
   return place.x >= -most && place.x <= most && place.y >= -most && place.y <= most;
@@ -45,6 +40,14 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
                                                    const std::vector<PlanePosition>& pixels,
                                                    const std::vector<Fraction>& fractions) {
   const std::size_t count = pixels.size();
+  // So that all seeds are near where they lie themselves.
+  constexpr std::int64_t most_if_tilted = most_pixels_away / 2;
+  const Grid& grid = window.grid();
+  if (grid.is_tilted() && std::max(grid.width(), grid.height()) > most_if_tilted) {
+    throw Error("the grid is tilted and has " + std::to_string(grid.width()) + " x " +
+                std::to_string(grid.height()) + " pixels; diagrams of such grids take sides of at most " +
+                std::to_string(most_if_tilted));
+  }
   const auto place_of = [&](std::size_t id) {
     return Place{in_fractions(pixels[id].s[0] - window.x()) + fractions[id].x,
                  in_fractions(pixels[id].s[1] - window.y()) + fractions[id].y};
@@ -64,10 +67,11 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
 
   PointPlacement placed{shown, allocate_with(device, seeds, "the seeds"), {}, {}};
   const Region home = home_region(window), region = labelled_region(window, home);
-  const Periods periods(window.grid());
+  const Periods periods(grid);
   placed.region = {{static_cast<cl_int>(region.left), static_cast<cl_int>(region.top),
                     static_cast<cl_int>(region.right), static_cast<cl_int>(region.bottom)}};
-  placed.periods = {{static_cast<cl_uint>(periods.x), static_cast<cl_uint>(periods.y)}};
+  placed.periods = {
+      {static_cast<cl_int>(periods.x), static_cast<cl_int>(periods.y), static_cast<cl_int>(grid.shift()), 0}};
   if (all_inside && kernels_go_round(window, shown)) {
     placed.places = placed.seeds;
     placed.count = static_cast<cl_uint>(count);
@@ -79,11 +83,11 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   std::vector<cl_uint> ids;
   if (!region.empty()) {
     const Region centres = centres_of(region);
-    const Periods round = in_fractions(periods);
+    const Images images(grid, fractions_of_pixel);
     const auto each = [&](auto use) {
       for (std::size_t id = 0; id < count; ++id) {
         if (is_absent(pixels[id])) continue;
-        each_place(centres, round, place_of(id), [&](const Place& place, bool) { use(place, id); });
+        each_place(centres, images, place_of(id), [&](const Place& place, bool) { use(place, id); });
       }
     };
     Rim rim(centres);

@@ -21,17 +21,20 @@ struct Fraction {
 /// How many there are in a pixel.
 constexpr int fractions_of_pixel = 4096;
 
+constexpr Fraction centre_of_pixel = {fractions_of_pixel / 2, fractions_of_pixel / 2};
+
 /// What kernels get of the points of a frame. Nothing of it changes. Positions are in fractions of a pixel
-/// from the window's first pixel.
+/// from the window's first pixel. In a tilted grid those of snapped seeds are points too, at the centres of
+/// their pixels, for images do not lie in the middle of pixels.
 struct PointPlacement {
-  PixelGrid grid;      // the window's pixels; its axes are periodic where the kernels themselves go round
-  cl::Buffer seeds;    // int2 by id, and one more that is absent; absent too is what owns no pixel here and
-                       // lies far away
-  cl::Buffer places;   // int2: those seeds and images that may own a pixel
-  cl::Buffer ids;      // of their seeds; null: they are the seeds
-  cl_uint count = 0;   // of places
-  cl_int4 region{};    // the pixels that get labels: left, top, right, bottom
-  cl_uint2 periods{};  // in pixels, 0 along an axis that is not periodic
+  PixelGrid grid;     // the window's pixels; its axes are periodic where the kernels themselves go round
+  cl::Buffer seeds;   // int2 by id, and one more that is absent; absent too is what owns no pixel here and
+                      // lies far away
+  cl::Buffer places;  // int2: those seeds and images that may own a pixel
+  cl::Buffer ids;     // of their seeds; null: they are the seeds
+  cl_uint count = 0;  // of places
+  cl_int4 region{};   // the pixels that get labels: left, top, right, bottom
+  cl_int4 periods{};  // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
 };
 
 /// Places points. Throws Error if one that may own a pixel is too far away for 32 bits.

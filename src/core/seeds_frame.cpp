@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/snapping.hpp"
+#include "core/window_places.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
@@ -34,6 +35,30 @@ class Farthest {
 
  private:
   cl_uint period_, greatest_ = 0;
+};
+
+/// The same in a tilted grid, of ways along the axis where they are longer.
+class FarthestIfTilted {
+ public:
+  explicit FarthestIfTilted(const Grid& grid) : images_(grid, fractions_of_pixel) {}
+
+  void add(const PlanePosition& from, const PlanePosition& to) {
+    const Region start = {0, 0, 0, 0};
+    const Place way = {in_fractions(to.s[0]) - in_fractions(from.s[0]),
+                       in_fractions(to.s[1]) - in_fractions(from.s[1])};
+    std::int64_t least = std::max(images_.x, images_.y);
+    each_place(start, images_, way, [&](const Place& image, bool) {
+      least = std::min(least, std::max(std::abs(image.x), std::abs(image.y)));
+    });
+    greatest_ = std::max(greatest_, least);
+  }
+  double greatest() const { return static_cast<double>(greatest_) / fractions_of_pixel; }
+
+ private:
+  static std::int64_t in_fractions(cl_int pixels) { return std::int64_t{pixels} * fractions_of_pixel; }
+
+  Images images_;
+  std::int64_t greatest_ = 0;
 };
 
 double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
@@ -89,13 +114,23 @@ std::size_t PointCheck::absent() const {
 
 double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
                     const std::vector<PlanePosition>& to, bool some_absent) {
-  Farthest x(grid.x()), y(grid.y());
   const std::size_t count = std::min(from.size(), to.size());
-  for (std::size_t id = 0; id < count; ++id) {
-    if (some_absent && (is_absent(from[id]) || is_absent(to[id]))) continue;
-    x.add(from[id].s[0], to[id].s[0]);
-    y.add(from[id].s[1], to[id].s[1]);
+  const auto each_way = [&](auto use) {
+    for (std::size_t id = 0; id < count; ++id) {
+      if (some_absent && (is_absent(from[id]) || is_absent(to[id]))) continue;
+      use(from[id], to[id]);
+    }
+  };
+  if (grid.is_tilted()) {
+    FarthestIfTilted farthest(grid);
+    each_way([&](const PlanePosition& a, const PlanePosition& b) { farthest.add(a, b); });
+    return farthest.greatest();
   }
+  Farthest x(grid.x()), y(grid.y());
+  each_way([&](const PlanePosition& a, const PlanePosition& b) {
+    x.add(a.s[0], b.s[0]);
+    y.add(a.s[1], b.s[1]);
+  });
   return std::max(x.greatest(), y.greatest());
 }
 
@@ -184,6 +219,7 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
 }
 
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
+  refuse_tilted(frame.grid, what);
   if (!placement.outer) return;
   const std::size_t outside = placement.outer->outside;
   if (outside > 0) {

@@ -77,7 +77,8 @@ struct SeedsFrame {
   /// The pixels, by id, counted from the grid's first one; null where the device has placed the seeds.
   std::shared_ptr<const std::vector<PlanePosition>> pixels = nullptr;
 
-  /// Where in these pixels the points lie; null if the seeds are snapped to the centres.
+  /// Where in these pixels the points lie; null if the seeds are snapped to the centres of an untilted
+  /// grid's.
   std::shared_ptr<const std::vector<Fraction>> fractions = nullptr;
 
   /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
@@ -112,8 +113,7 @@ struct SeedsFrame {
 
   /// The position in pixels of a seed in this pixel: of its point, or the pixel's centre.
   Point position(std::size_t id, const PlanePosition& pixel) const {
-    constexpr Fraction centre = {fractions_of_pixel / 2, fractions_of_pixel / 2};
-    const Fraction& in = fractions ? (*fractions)[id] : centre;
+    const Fraction& in = fractions ? (*fractions)[id] : centre_of_pixel;
     return {pixel.s[0] + static_cast<double>(in.x) / fractions_of_pixel,
             pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel};
   }
@@ -129,7 +129,8 @@ std::shared_ptr<Placements> no_placements();
 double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
                     const std::vector<PlanePosition>& to, bool some_absent);
 
-/// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, for something
+/// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, or the grid is
+/// tilted, for something
 /// ("jump flooding") that does not know them.
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what);
 

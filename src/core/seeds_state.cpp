@@ -154,6 +154,11 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
   next.outside = pixels.size() - inside - absent;
   next.given = std::move(given);
   next.fractions = std::move(fractions);
+  if (grid.is_tilted() && !next.fractions) {
+    const std::shared_ptr<std::vector<Fraction>> centres = fractions_.take();
+    centres->resize(pixels.size(), centre_of_pixel);
+    next.fractions = centres;
+  }
   if (frame_->grid != grid) {
     next.way = {0, 0, next_number()};
   } else if (frame_->pixels) {

@@ -61,8 +61,8 @@ struct SeedsState {
   /// Makes the next frame of points in the caller's buffers.
   void place(const PointBuffer& points);
 
-  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` and
-  /// `fractions` may be null.
+  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` may be
+  /// null; so may `fractions`, if the seeds are at the centres.
   void place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> pixels,
              std::shared_ptr<const std::vector<Point>> given,
              std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);

@@ -35,7 +35,8 @@ class Snapping {
   /// seeds are absent. Throws BadPoint for a point that is not finite, too far away, or outside where that is
   /// refused.
   PlanePosition operator()(std::size_t id, const Point& point) const {
-    const double x = grid_.x().pixel(point.x), y = grid_.y().pixel(point.y);
+    const Point in_box = grid_.in_box(point);
+    const double x = grid_.x().pixel(in_box.x), y = grid_.y().pixel(in_box.y);
     if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y)) return far(id, point);
     const PlanePosition at = {{static_cast<cl_int>(x), static_cast<cl_int>(y)}};
     if (outside_ == Outside::count || is_inside(at)) return at;
@@ -46,7 +47,8 @@ class Snapping {
   /// Where in its pixel a point lies that has one: rounded to the nearest fraction, and never out of the
   /// pixel.
   Fraction fraction(const Point& point, const PlanePosition& at) const {
-    return {fraction_of(grid_.x(), point.x, at.s[0]), fraction_of(grid_.y(), point.y, at.s[1])};
+    const Point in_box = grid_.in_box(point);
+    return {fraction_of(grid_.x(), in_box.x, at.s[0]), fraction_of(grid_.y(), in_box.y, at.s[1])};
   }
 
   /// "point 7 (nan, 3) is outside the grid; ...", or not finite.

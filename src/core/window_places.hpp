@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "vorocl/grid.hpp"
@@ -30,6 +31,49 @@ struct Periods {
       : x(grid.x().is_periodic() ? grid.width() : 0), y(grid.y().is_periodic() ? grid.height() : 0) {}
 
   std::int64_t x, y;
+};
+
+/// Where the images of a seed lie: in rows a period of y apart, each of which is shifted along x to the row
+/// before.
+struct Images {
+  /// Those of a grid, in units of which a pixel has so many; with a tilt, 1/4096 of a pixel.
+  explicit Images(const Grid& grid, std::int64_t units_of_pixel = 1)
+      : x(units_of_pixel * Periods(grid).x),
+        y(units_of_pixel * Periods(grid).y),
+        shift(grid.is_tilted() ? grid.shift() : 0),
+        reach_x(x / 2),
+        reach_y(shift == 0 ? y / 2 : reach_of_lattice()) {}
+
+  std::int64_t x, y;  // the periods, 0 along an axis that is not periodic
+  std::int64_t shift;
+  std::int64_t reach_x, reach_y;  // how far along the axes the image that is nearest to a place is at most
+
+ private:
+  struct Vector {
+    std::int64_t x, y;
+    std::int64_t length() const { return std::abs(x) + std::abs(y); }
+  };
+
+  /// Every place is at most half of either of two vectors that span the lattice away from an image, and so,
+  /// along y, at most half the sum of what they are long by the Manhattan metric, which no distance along y
+  /// exceeds. Short vectors reach less far.
+  std::int64_t reach_of_lattice() const {
+    Vector u = {x, 0}, v = {shift, y};
+    while (true) {
+      if (v.length() < u.length()) std::swap(u, v);
+      // The whole number of times that u is taken off, so that what stays along its longer axis is least.
+      const bool along_x = std::abs(u.x) >= std::abs(u.y);
+      const std::int64_t times = rounded_quotient(along_x ? v.x : v.y, along_x ? u.x : u.y);
+      const Vector rest = {v.x - times * u.x, v.y - times * u.y};
+      if (rest.length() >= v.length()) return (u.length() + v.length()) / 2;
+      v = rest;
+    }
+  }
+
+  static std::int64_t rounded_quotient(std::int64_t a, std::int64_t b) {
+    if (b < 0) a = -a, b = -b;
+    return a >= 0 ? (a + b / 2) / b : -((-a + b / 2) / b);
+  }
 };
 
 /// The pixels of a window that lie in its grid's one period, where seeds lie themselves and not their images.
@@ -56,21 +100,30 @@ inline Region labelled_region(const Window& window, const Region& home) {
   return region;
 }
 
+/// Whole periods, from the first to the last: those that bring a coordinate between two others.
+struct Turns {
+  Turns(std::int64_t at, std::int64_t period, std::int64_t low, std::int64_t high) {
+    if (period == 0) return;
+    const auto floor_of = [period](std::int64_t way) {
+      return way >= 0 ? way / period : -((period - 1 - way) / period);
+    };
+    first = -floor_of(at - low);
+    last = floor_of(high - at);
+  }
+
+  std::int64_t first = 0, last = 0;
+};
+
 /// Calls a function with each place of a seed that may be the nearest one of a pixel of the region, and
-/// whether it is an image: no image farther than half a period is. A window may begin late in the period, and
-/// end nearly a period behind it.
+/// whether it is an image.
 template <typename Use>
-void each_place(const Region& region, const Periods& periods, const Place& seed, Use use) {
-  const std::int64_t images_x = periods.x > 0 ? 1 : 0, images_y = periods.y > 0 ? 1 : 0;
-  for (std::int64_t j = -images_y; j <= 2 * images_y; ++j) {
-    const std::int64_t y = seed.y + j * periods.y;
-    if (periods.y > 0 && (2 * (region.top - y) > periods.y || 2 * (y - region.bottom) > periods.y)) continue;
-    for (std::int64_t i = -images_x; i <= 2 * images_x; ++i) {
-      const std::int64_t x = seed.x + i * periods.x;
-      if (periods.x > 0 && (2 * (region.left - x) > periods.x || 2 * (x - region.right) > periods.x))
-        continue;
-      use(Place{x, y}, i != 0 || j != 0);
-    }
+void each_place(const Region& region, const Images& images, const Place& seed, Use use) {
+  const Turns rows(seed.y, images.y, region.top - images.reach_y, region.bottom + images.reach_y);
+  for (std::int64_t j = rows.first; j <= rows.last; ++j) {
+    const std::int64_t at = seed.x + j * images.shift;
+    const Turns turns(at, images.x, region.left - images.reach_x, region.right + images.reach_x);
+    for (std::int64_t i = turns.first; i <= turns.last; ++i)
+      use(Place{at + i * images.x, seed.y + j * images.y}, i != 0 || j != 0);
   }
 }
 

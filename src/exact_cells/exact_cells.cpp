@@ -292,7 +292,7 @@ ExactCellsCheck ExactCellsResult::check() const {
   return found;
 }
 
-Report exact_cells(const Seeds& seeds, ExactCellsResult& result, double tilt) {
+Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
   const Stopwatch stopwatch;
   FirstLaunches first_launches;
   ExactCellsState& state = Internal::result(result);
@@ -300,7 +300,7 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result, double tilt) {
   const Device& device = seeds.device();
   require_doubles(device);
   state.cells = seeds.size();
-  const auto [first, last] = state.start(device, sites_of(seeds.grid(), tilt, seeds.read()));
+  const auto [first, last] = state.start(device, sites_of(seeds.grid(), seeds.read()));
   check(clFlush(device.queue()()), "starting a measurement");
   state.is_made = true;
   return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());

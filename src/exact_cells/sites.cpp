@@ -43,15 +43,6 @@ int exponent_of_step(double longer_side, int bits) {
   return exponent - (is_power ? 1 : 0) - bits;
 }
 
-/// A tilt of at most half a period. Throws Error unless it is finite, and 0 or both axes are periodic.
-double reduced_tilt(const Grid& grid, double tilt) {
-  if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
-  if (tilt != 0 && grid.periodic() != Periodic::xy) {
-    throw Error("a tilted box must be periodic in x and y");
-  }
-  return tilt == 0 ? 0 : std::remainder(tilt, grid.x().to() - grid.x().from());
-}
-
 struct Vector {
   std::int64_t x, y;
 };
@@ -174,8 +165,8 @@ void make_tree(Sites& sites) {
 
 }  // namespace
 
-Sites sites_of(const Grid& grid, double tilt, const std::vector<std::optional<Point>>& points) {
-  tilt = reduced_tilt(grid, tilt);
+Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+  const double tilt = grid.tilt();
   const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
   const int exponent =
       exponent_of_step(std::max(x.length(), y.length()), tilt == 0 ? step_bits : step_bits_if_tilted);

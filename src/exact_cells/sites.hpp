@@ -26,7 +26,7 @@ struct Sites {
   cl_int top_level() const { return static_cast<cl_int>(levels.size()) - 1; }
 };
 
-/// Throws Error if the grid has less than a step along an axis, or is tilted and not periodic along both.
-Sites sites_of(const Grid& grid, double tilt, const std::vector<std::optional<Point>>& points);
+/// Throws Error if the grid has less than a step along an axis.
+Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points);
 
 }  // namespace vorocl

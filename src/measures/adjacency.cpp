@@ -37,7 +37,7 @@ struct AdjacencyState : Measured {
   std::size_t pairs = 0;                      // once they are listed
 
   // To find the pairs again:
-  cl::Buffer labels;
+  cl::Buffer labels, behind;
   std::shared_ptr<const std::atomic<std::uint64_t>> fills;
   std::uint64_t fill_measured = 0;
 
@@ -69,10 +69,11 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
     if (count > 0) fill(device, *numbers, cl_uint{0}, count);
   }
   const Blocks blocks(device, diagram.grid);
-  blocks.run(kernels, file, "find_borders", options, labels, count, width, height, blocks.wide(),
+  const cl::Buffer& row = row_behind(diagram, labels, behind);
+  blocks.run(kernels, file, "find_borders", options, labels, row, count, width, height, blocks.wide(),
              blocks.high(), static_cast<cl_uint>(slot_count - 1), slots, lengths, overflow);
   const cl::Event ended = kernels.get(device, file, "name_pairs", diagram.grid, options)
-                              .over_items(slot_count, labels, diagram.positions(), width, height,
+                              .over_items(slot_count, labels, row, diagram.positions(), width, height,
                                           static_cast<cl_uint>(slot_count), slots, seconds, lengths,
                                           pairs_of_cell, neighbours, perimeters);
   return {begun, ended};

@@ -51,10 +51,12 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
       make_room(*periods, of.device, count * sizeof(cl_int));
       fill(of.device, *periods, cl_int{0}, count);
     }
-    blocks.run(sums.kernels, file, "add_periods", options, diagram.labels(), of.positions(), count,
+    // Only in a tilted grid the metric says where a pixel lies.
+    const KernelOptions of_places = of.shift() == 0 ? options : of.options();
+    blocks.run(sums.kernels, file, "add_periods", of_places, diagram.labels(), of.positions(), count,
                of.periods(), width, height, wide, high, sums.periods_x, sums.periods_y);
-    last = run_over_cells("unwrap_sums", count, width, height, sums.periods_x, sums.periods_y, sums.area,
-                          sums.sum_x, sums.sum_y);
+    last = run_over_cells("unwrap_sums", count, of.periods(), width, height, sums.periods_x, sums.periods_y,
+                          sums.area, sums.sum_x, sums.sum_y);
   }
   return measuring.commit(std::move(of), count > 0 ? first : added, count > 0 ? last : added);
 }

@@ -53,8 +53,9 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   MeasuredDiagram of = cells_of(diagram);
   if (of.points) {
     throw Error(
-        "distances to points within their pixels are no whole numbers; ask for a field of floats, or snap "
-        "the seeds to pixels");
+        "distances to points within their pixels, and in tilted grids, are no whole numbers; ask for a field "
+        "of "
+        "floats, or snap the seeds to pixels of a grid that is not tilted");
   }
   state.make_room_for(of);
   make_room(state.too_long, of.device, sizeof(cl_uint));
@@ -81,8 +82,9 @@ Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
   FieldState<std::uint8_t>& state = measuring.state();
   MeasuredDiagram of = labels_of(diagram);
   state.make_room_for(of);
-  const cl::Event event = state.kernel(of, "mark_borders", {})
-                              .over_grid(diagram.labels(), state.values, of.grid.width(), of.grid.height());
+  const cl::Event event =
+      state.kernel(of, "mark_borders", {})
+          .over_grid(diagram.labels(), state.values, of.grid.width(), of.grid.height(), of.shift());
   return measuring.commit(std::move(of), event, event);
 }
 

@@ -1,5 +1,6 @@
 #include "measures/measurement.hpp"
 
+#include <cmath>
 #include <cstdint>
 
 #include "runtime/buffer.hpp"
@@ -45,6 +46,23 @@ void make_room(cl::Buffer& buffer, const Device& device, std::size_t bytes) {
   }
   buffer = cl::Buffer();
   buffer = allocate(device, bytes, "the measures of a diagram");
+}
+
+int MeasuredDiagram::shift() const {
+  const Grid& of = window.grid();
+  if (!of.is_tilted() || !grid.periodic_y()) return 0;
+  return static_cast<int>(std::llround(static_cast<double>(of.shift()) / fractions_of_pixel));
+}
+
+const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room) {
+  const int width = diagram.grid.width(), shift = (diagram.shift() + width) % width;
+  if (shift == 0) return labels;
+  const std::size_t size = sizeof(cl_uint), left = static_cast<std::size_t>(shift) * size,
+                    right = static_cast<std::size_t>(width - shift) * size;
+  make_room(room, diagram.device, left + right);
+  copy(diagram.device, labels, room, left, right, 0);
+  copy(diagram.device, labels, room, right, 0, left);
+  return room;
 }
 
 MeasuredDiagram labels_of(const Diagram& diagram) {

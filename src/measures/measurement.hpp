@@ -33,10 +33,15 @@ struct MeasuredDiagram {
     return outer() ? outer()->seeds : *placement->positions;
   }
   cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
-  cl_uint2 periods() const {
+  cl_int4 periods() const {
     if (points) return points->periods;
-    return outer() ? outer()->periods : cl_uint2{};
+    return outer() ? outer()->periods : cl_int4{};
   }
+
+  /// How many pixels further along x the first row follows the last one, where the window is periodic in y: 0
+  /// but for tilted grids. The pixels of the one lie between those of the other: an edge is of those that
+  /// share more of it.
+  int shift() const;
 
   /// The unit of distances: so many are a pixel.
   int units_of_pixel() const { return points ? fractions_of_pixel : 1; }
@@ -64,6 +69,10 @@ struct MeasuredDiagram {
     return outer() ? outer()->extent : Extent::grid;
   }
 };
+
+/// The labels of the row that follows the last one of a diagram which is periodic in y: the first row, which
+/// in a tilted grid is copied to `room` as it lies there.
+const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
 
 /// A diagram for a measure that looks at labels alone.
 MeasuredDiagram labels_of(const Diagram& diagram);

@@ -13,17 +13,13 @@ constexpr int corners_of_item = 1024;
 
 /// The corners between pixels, row by row, as vertices.cl marks them for a vector width.
 struct Corners {
-  Corners(const PixelGrid& grid, int vector_width)
+  Corners(const MeasuredDiagram& diagram, int vector_width)
       : width(vector_width),
-        columns(grid.width() == 1   ? 0
-                : grid.periodic_x() ? grid.width()
-                                    : grid.width() - 1),
-        rows(grid.height() == 1  ? 0
-             : grid.periodic_y() ? grid.height()
-                                 : grid.height() - 1) {}
+        columns(along(diagram.grid.width(), diagram.grid.periodic_x())),
+        rows(along(diagram.grid.height(), diagram.grid.periodic_y(), diagram.shift())) {}
 
-  int width;          // words of a chunk
-  int columns, rows;  // one pixel has no corner between it and itself
+  int width;  // words of a chunk
+  int columns, rows;
 
   bool none() const { return columns == 0 || rows == 0; }
   int chunk() const { return vectors_of_chunk * width; }
@@ -47,6 +43,11 @@ struct Corners {
   }
 
  private:
+  /// One pixel has no corner between it and itself, unless the next one is shifted.
+  static int along(int pixels, bool periodic, int shift = 0) {
+    return periodic && (pixels > 1 || shift != 0) ? pixels : pixels - 1;
+  }
+
   std::size_t of_rows(int of_one) const {
     return static_cast<std::size_t>(of_one) * static_cast<std::size_t>(rows);
   }
@@ -55,8 +56,8 @@ struct Corners {
 }  // namespace
 
 struct VerticesState : Measured {
-  cl::Buffer words, count;  // see vertices.cl
-  int vector_width = 1;     // that it was built for
+  cl::Buffer words, count, behind;  // see vertices.cl
+  int vector_width = 1;             // that it was built for
 };
 
 VerticesResult::VerticesResult() = default;
@@ -73,11 +74,12 @@ Report vertices(const Diagram& diagram, VerticesResult& result) {
   cl::Event last = first;
   Kernel& kernel = found.kernels.get(of.device, "measures/vertices.cl", "find_vertices", of.grid);
   found.vector_width = static_cast<int>(kernel.vector_width());
-  const Corners corners(of.grid, found.vector_width);
+  const Corners corners(of, found.vector_width);
   if (!corners.none()) {
     make_room(found.words, of.device, corners.words() * sizeof(cl_uint));
-    last = kernel.over_items(corners.items(), diagram.labels(), of.grid.width(), of.grid.height(),
-                             corners.chunks_of_item(), found.words, found.count);
+    last = kernel.over_items(corners.items(), diagram.labels(),
+                             row_behind(of, diagram.labels(), found.behind), of.grid.width(),
+                             of.grid.height(), corners.chunks_of_item(), found.words, found.count);
   }
   return measuring.commit(std::move(of), first, last);
 }
@@ -93,7 +95,7 @@ std::vector<Point> VerticesResult::read() const {
   const std::size_t number = count();
   if (number == 0) return points;
   points.reserve(number);
-  const Corners corners(state_->of->grid, state_->vector_width);
+  const Corners corners(*state_->of, state_->vector_width);
   corners.each_vertex(download<std::uint32_t>(state_->of->device, state_->words, corners.words()),
                       [&](int x, int y) {
                         points.push_back({x + 1.0, y + 1.0});

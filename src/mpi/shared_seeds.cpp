@@ -10,6 +10,7 @@
 #include "core/snapping.hpp"
 #include "mpi/agreement.hpp"
 #include "mpi/block_tree.hpp"
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/mpi.hpp"
 
@@ -279,7 +280,9 @@ struct SharedSeedsState {
 };
 
 SharedSeeds::SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap)
-    : state_(std::make_unique<SharedSeedsState>(communicator, grid, snap)) {}
+    : state_(std::make_unique<SharedSeedsState>(communicator, grid, snap)) {
+  refuse_tilted(grid, "a plane of tiles");
+}
 SharedSeeds::~SharedSeeds() = default;
 
 void SharedSeeds::add(const PlaneSeed* seeds, std::size_t count) {

@@ -69,10 +69,12 @@ void synchronise(const Device& device, const cl::Buffer& buffer, std::size_t byt
   check(clEnqueueUnmapMemObject(queue(), buffer(), mapped, 0, nullptr, nullptr), "unmapping a buffer");
 }
 
-cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes) {
+cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes,
+               std::size_t first_from, std::size_t first_to) {
   cl::Event event;
-  check(clEnqueueCopyBuffer(device.queue()(), from(), to(), 0, 0, bytes, 0, nullptr, &event()),
-        "copying a buffer");
+  check(
+      clEnqueueCopyBuffer(device.queue()(), from(), to(), first_from, first_to, bytes, 0, nullptr, &event()),
+      "copying a buffer");
   Internal::state(device).enqueued(event);
   return event;
 }

@@ -64,8 +64,9 @@ cl::Event fill(const Device& device, const cl::Buffer& buffer, T value, std::siz
   return event;
 }
 
-/// Copies the first `bytes` of a buffer to another one; returns the command's event.
-cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes);
+/// Copies bytes of a buffer, by default the first ones, to another one; returns the command's event.
+cl::Event copy(const Device& device, const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes,
+               std::size_t first_from = 0, std::size_t first_to = 0);
 
 /// Copies to the device. Waits, so that the caller may reuse the values.
 template <typename T>

@@ -43,6 +43,9 @@ class PixelGrid {
 /// Whether a diagram can show all of a grid.
 bool fits_in_a_diagram(const Grid& grid);
 
+/// Throws Error if a grid is tilted, for something ("flooding") that does not know how such grids repeat.
+void refuse_tilted(const Grid& grid, const char* what);
+
 /// "640 x 480, periodic in x".
 std::string size_text(const PixelGrid& pixels);
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "runtime/pixel_grid.hpp"
 #include "tiles/rim_walk.hpp"
 
 namespace vorocl {
@@ -17,7 +18,9 @@ constexpr std::uint64_t most_ids = no_label;  // 0 to no_label - 1
 SeedSource::~SeedSource() = default;
 
 PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside, Snap snap)
-    : state_(std::make_unique<PlaneSeedsState>(grid, outside, snap)) {}
+    : state_(std::make_unique<PlaneSeedsState>(grid, outside, snap)) {
+  refuse_tilted(grid, "a plane of tiles");
+}
 PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside, Snap snap)
     : PlaneSeeds(grid, outside, snap) {
   reserve(points.size());

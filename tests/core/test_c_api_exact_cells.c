@@ -25,11 +25,11 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
   OK(vorocl_exact_cells_count(all, &count));
   OK(vorocl_exact_cells_edges(all, &edges));
   CHECK(count == 0 && edges == 0);
-  OK(vorocl_exact_cells_read(all, NULL, 0));
+  OK(vorocl_exact_cells_read(all, NULL));
   OK(vorocl_exact_cells_buffers(all, &buffers[0], NULL, NULL, NULL, NULL));
   CHECK(buffers[0] == NULL);
 
-  OK(vorocl_exact_cells_cut(all, seeds, 0));
+  OK(vorocl_exact_cells_cut(all, seeds));
   OK(vorocl_exact_cells_count(all, &count));
   OK(vorocl_exact_cells_edges(all, &edges));
   CHECK(count == seed_count && edges >= 3 * 7 && edges <= most_edges);
@@ -86,24 +86,22 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   flat.y.from = flat.y.to = 3;
   FAILS(vorocl_exact_cells_create(NULL), VOROCL_NULL_ARGUMENT, "cells is NULL");
   OK(vorocl_exact_cells_create(&all));
-  FAILS(vorocl_exact_cells_cut(all, NULL, 0), VOROCL_NULL_ARGUMENT, "seeds is NULL");
-  FAILS(vorocl_exact_cells_cut(NULL, seeds, 0), VOROCL_NULL_ARGUMENT, "cells is NULL");
+  FAILS(vorocl_exact_cells_cut(all, NULL), VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_exact_cells_cut(NULL, seeds), VOROCL_NULL_ARGUMENT, "cells is NULL");
   FAILS(vorocl_exact_cells_count(all, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
   FAILS(vorocl_exact_cells_edges(NULL, &edges), VOROCL_NULL_ARGUMENT, "cells is NULL");
   FAILS(vorocl_exact_cells_buffers(NULL, NULL, NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT,
         "cells is NULL");
   FAILS(vorocl_exact_cells_polygon_buffers(NULL, NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT,
         "cells is NULL");
-  OK(vorocl_exact_cells_cut(all, seeds, 0));
+  OK(vorocl_exact_cells_cut(all, seeds));
   FAILS(vorocl_exact_cells_read(all, cells, 7), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_exact_cells_read(all, NULL, seed_count), VOROCL_NULL_ARGUMENT, "cells is NULL");
   FAILS(vorocl_exact_cells_read_polygons(all, NULL, seed_count, NULL, NULL, NULL, 1), VOROCL_BAD_ARGUMENT,
         "edges");
   OK(vorocl_seeds_from_points(device, flat, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
                               &of_flat));
-  FAILS(vorocl_exact_cells_cut(all, of_flat, 0), VOROCL_BAD_ARGUMENT, "extent");
-  FAILS(vorocl_exact_cells_cut(all, seeds, 0.5), VOROCL_BAD_ARGUMENT, "periodic in x and y");
-  FAILS(vorocl_exact_cells_cut(all, seeds, NAN), VOROCL_BAD_ARGUMENT, "tilt must be a finite number");
+  FAILS(vorocl_exact_cells_cut(all, of_flat), VOROCL_BAD_ARGUMENT, "extent");
   OK(vorocl_exact_cells_count(all, &count));
   CHECK(count == 0);
   vorocl_seeds_free(of_flat);

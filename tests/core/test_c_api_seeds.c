@@ -168,7 +168,7 @@ static void test_own_buffers(const vorocl_device* device) {
 /* The points with other coordinates, along axes that say so, have the same pixels. */
 static void test_axes(const vorocl_device* device) {
   const vorocl_axis x = {width, -1, 1, 0, 0, 1}, y = {height, 0, 8, 0, 1, 0};
-  const vorocl_grid stretched = {x, y};
+  const vorocl_grid stretched = {x, y, 0};
   vorocl_point list[seed_count], read[seed_count];
   vorocl_seeds* seeds = NULL;
   vorocl_diagram* diagram = NULL;
@@ -328,6 +328,53 @@ static void test_true_positions(const vorocl_device* device) {
   vorocl_diagram_free(diagram);
 }
 
+/* A box that is tilted by half a period repeats as one of twice the height does that has each seed twice. */
+static void test_tilted_grid(const vorocl_device* device) {
+  enum { half = height / 2, count = 3 };
+  vorocl_grid tilted = vorocl_grid_of_pixels(width, half, VOROCL_PERIODIC_XY);
+  const vorocl_grid twice = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_XY);
+  vorocl_point of_both[2 * count] = {{3.27, 2.71}, {50.53, 5.16}, {33.02, 16.48}};
+  vorocl_grid read_grid;
+  vorocl_seeds *few = NULL, *all = NULL;
+  vorocl_diagram *diagram = NULL, *other = NULL;
+  uint32_t labels[width * half], expected[pixels];
+  memset(&read_grid, 0, sizeof read_grid);
+  tilted.tilt = 0.5 * width;
+  for (int i = 0; i < count; ++i) {
+    of_both[count + i].x = of_both[i].x + tilted.tilt;
+    of_both[count + i].y = of_both[i].y + half;
+  }
+  OK(vorocl_seeds_from_points(device, tilted, of_both, NULL, count, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
+                              &few));
+  OK(vorocl_seeds_from_points(device, twice, of_both, NULL, 2 * count, VOROCL_OUTSIDE_COUNTS,
+                              VOROCL_SNAP_NONE, &all));
+  OK(vorocl_seeds_grid(few, &read_grid));
+  CHECK(read_grid.tilt == tilted.tilt);
+  OK(vorocl_diagram_create(device, vorocl_window_of_grid(tilted), &diagram));
+  OK(vorocl_diagram_create(device, vorocl_window_of_grid(twice), &other));
+  OK(run("exact", few, diagram, VOROCL_EUCLIDEAN));
+  OK(run("exact", all, other, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_read(diagram, labels, sizeof labels / sizeof *labels));
+  OK(vorocl_diagram_read(other, expected, pixels));
+  for (int i = 0; i < width * half; ++i) CHECK(labels[i] == expected[i] % count);
+  FAILS(run("jfa", few, diagram, VOROCL_EUCLIDEAN), VOROCL_BAD_ARGUMENT, "tilted");
+  vorocl_diagram_free(other);
+  vorocl_diagram_free(diagram);
+  vorocl_seeds_free(all);
+  vorocl_seeds_free(few);
+  all = NULL;
+  tilted.tilt = NAN;
+  FAILS(vorocl_seeds_from_points(device, tilted, of_both, NULL, count, VOROCL_OUTSIDE_COUNTS,
+                                 VOROCL_SNAP_NONE, &all),
+        VOROCL_BAD_ARGUMENT, "tilt must be a finite number");
+  tilted.tilt = 2;
+  tilted.y.periodic = 0;
+  FAILS(vorocl_seeds_from_points(device, tilted, of_both, NULL, count, VOROCL_OUTSIDE_COUNTS,
+                                 VOROCL_SNAP_NONE, &all),
+        VOROCL_BAD_ARGUMENT, "periodic in x and y");
+  CHECK(all == NULL);
+}
+
 /* A window shows the labels of its pixels of the grid, across the end of a period too. */
 static void test_windows(const vorocl_device* device) {
   const vorocl_grid periodic = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_X);
@@ -380,6 +427,7 @@ int main(void) {
   test_axes(device);
   test_points_outside(device);
   test_true_positions(device);
+  test_tilted_grid(device);
   test_windows(device);
   vorocl_device_free(device);
   return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

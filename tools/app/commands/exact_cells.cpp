@@ -68,7 +68,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
-  const Report report = exact_cells(seeds, result, input.tilt);
+  const Report report = exact_cells(seeds, result);
   ExactCellRows rows(seeds, result, input.ids);
   if (cells) exact_cells_table(options.columns).write(*cells, rows);
   if (adjacency) exact_pairs_table().write(*adjacency, rows);

@@ -66,7 +66,7 @@ class ExactRun {
 
   void add(const Device& device, const ExactInput& input) {
     const Seeds seeds = input.place(device);
-    const Report report = exact_cells(seeds, result_, input.tilt);
+    const Report report = exact_cells(seeds, result_);
     ExactCellRows rows(seeds, result_, input.ids);
     const bool wants_files = frames_ % options_.every == 0;
     cells_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);

@@ -105,7 +105,10 @@ Painter::Painter(const PictureOptions& options, bool many)
 cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
   const View& view = measures.view();
   const Size size = view.size();
-  const Periodic axes = view.window.periodic();
+  // Of a tilted box the last row does not lie on the first one, so that no line is drawn between them.
+  const Window& window = view.window;
+  const Periodic axes =
+      window.grid().is_tilted() && has_x(window.periodic()) ? Periodic::x : window.periodic();
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
   if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);

@@ -19,8 +19,9 @@ Axis axis_of(double low, double high, bool is_periodic, bool is_closed) {
   return is_closed ? axis.closed() : axis;
 }
 
-/// `repeats` is what does along the periodic axes: bounds that are given must be the same there.
-Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodic, const char* name) {
+/// `repeats` is what does along the periodic axes, with a tilt: bounds that are given must be the same there.
+Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodic, const char* name,
+             double tilt = 0) {
   const Bounds& shown = options.bounds ? *options.bounds : repeats;
   const bool parts_x = has_x(periodic) && (shown.x0 != repeats.x0 || shown.x1 != repeats.x1);
   const bool parts_y = has_y(periodic) && (shown.y0 != repeats.y0 || shown.y1 != repeats.y1);
@@ -30,8 +31,9 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodi
   }
   check_bounds(shown, periodic);
   const bool closed = options.outside.value_or(Outside::count) == Outside::refuse;
-  return {axis_of(shown.x0, shown.x1, has_x(periodic), closed),
-          axis_of(shown.y0, shown.y1, has_y(periodic), closed)};
+  return Grid(axis_of(shown.x0, shown.x1, has_x(periodic), closed),
+              axis_of(shown.y0, shown.y1, has_y(periodic), closed))
+      .tilted(tilt);
 }
 
 ExactInput input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
@@ -76,10 +78,9 @@ ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number) {
                     number));
   }
   const Bounds repeats = filled ? *filled : *options.bounds;
-  const Grid grid = grid_of(options, repeats, periodic, "the box");
+  const Grid grid = grid_of(options, repeats, periodic, "the box", tilt);
   ExactInput input =
       input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
-  input.tilt = tilt;
   input.timestep = frame.timestep;
   return input;
 }

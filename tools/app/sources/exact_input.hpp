@@ -14,10 +14,9 @@
 namespace vorocl::command {
 
 struct ExactInput {
-  Grid grid;  ///< of few pixels, which do not count: the rectangle and its periodic axes
+  Grid grid;  ///< of few pixels, which do not count: the rectangle, its periodic axes and its tilt
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;                       ///< by seed; empty: the seeds' own
-  double tilt = 0;                                      ///< of the box, as exact_cells() takes it
   std::optional<std::int64_t> timestep = std::nullopt;  ///< of a trajectory's frame that has one
 };
 

@@ -69,7 +69,8 @@ View view_of(const Mapping& mapping, const PlacedAxes& axes, const Size& picture
     x = grid_x;
     y = grid_y;
   }
-  const Grid grid(grid_x.length, grid_y.length, mapping.periodic);
+  const double tilt = mapping.tilt == 0 ? 0 : mapping.tilt / axes.x.scale().side_of_pixel();
+  const Grid grid = Grid(grid_x.length, grid_y.length, mapping.periodic).tilted(mapping.y_up ? -tilt : tilt);
   const std::int64_t first_x = grid_x.begin - x.begin, first_y = grid_y.begin - y.begin;
   return {raster_of(mapping, picture),
           Window(grid, -first_x, -first_y, x.length, y.length),
@@ -96,7 +97,8 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
       throw Error(fmt::format("{} at ({}, {}) is {}", name, point.x, point.y, why));
     };
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    Point place = {axes.x.place(point.x, mapping.snap), axes.y.place(point.y, mapping.snap)};
+    const double x = point.x - mapping.tilt * axes.y.periods_beyond(point.y);
+    Point place = {axes.x.place(x, mapping.snap), axes.y.place(point.y, mapping.snap)};
     if (std::max(std::abs(place.x), std::abs(place.y)) >= plane_side - Size::max_side) {
       refuse("2^31 pixels or more away from the bounds " + to_string(bounds));
     }

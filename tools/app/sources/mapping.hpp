@@ -24,6 +24,7 @@ struct Mapping {
   Periodic periodic = Periodic::none;
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds
   Ends ends;                     ///< of the domain, along the other axes
+  double tilt = 0;               ///< of the domain, if both axes are periodic: see Grid::tilted()
   Snap snap = Snap::to_pixels;   ///< whether points become the centres of their pixels
   bool in_pixels = false;        ///< what is measured stays in pixels
   bool has_one_scale = true;     ///< of both axes in all frames; without it, lengths stay in pixels

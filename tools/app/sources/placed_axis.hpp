@@ -46,6 +46,9 @@ class PlacedAxis {
            (snap == Snap::to_pixels ? axis_.pixel(at) + 0.5 : axis_.rounded_position(at));
   }
 
+  /// How many periods a point lies beyond the one that place() brings it to.
+  double periods_beyond(double at) const { return axis_.periods_beyond(at); }
+
   /// That of a point which must not be beyond an end.
   double held(double place, Snap snap) const;
 

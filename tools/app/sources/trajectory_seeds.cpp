@@ -18,12 +18,7 @@ namespace vorocl::command {
 
 namespace {
 
-/// Along which axes a box, as it is drawn, repeats.
-Periodic periodic_axes(const Box& box) {
-  const bool y = box.periodic_y && box.tilt == 0;
-  if (box.periodic_x) return y ? Periodic::xy : Periodic::x;
-  return y ? Periodic::y : Periodic::none;
-}
+Periodic periodic_axes(const Box& box) { return periodic_along(box.periodic_x, box.periodic_y); }
 
 /// The first particle at each place, in a table with room for twice as many or more.
 class FirstAtPlaces {
@@ -170,22 +165,6 @@ void TrajectorySeeds::note_of_file() const {
   }
 }
 
-void TrajectorySeeds::check_tilt() {
-  if (!frame_.box || frame_.box->tilt == 0) return;
-  if (told_axes_ && has_y(*told_axes_)) {
-    throw Error(
-        fmt::format("{}: the box of frame {} is tilted, so what is drawn of it repeats in x only; give "
-                    "--periodic x",
-                    path_, number_));
-  }
-  if (!told_axes_ && !tilt_noted_) {
-    print_note(
-        "the box is tilted: the diagram is periodic in x only, and cells end at its border in y; "
-        "'vorocl cells --exact' cuts those of the lattice");
-  }
-  tilt_noted_ = true;
-}
-
 Size TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
   if (options.size) return *options.size;
   if (!bounds) {
@@ -213,6 +192,11 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   if (const std::optional<Box>& box = frame_.box) {
     mapping.domain = bounds_of(frame_);
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
+    if (mapping.periodic == Periodic::xy) mapping.tilt = box->tilt;
+    if (mapping.tilt != 0 && !keeps_inside_.empty()) {
+      throw Error("the box is tilted, which " + keeps_inside_ +
+                  "; with --periodic x cells end at its border in y instead");
+    }
   } else if (given_bounds_ && has_boxes_ && mapping.periodic != Periodic::none) {
     throw Error("there is no box to say what repeats along the axes of --periodic; give --periodic none");
   }
@@ -244,7 +228,6 @@ void TrajectorySeeds::note_of_growth() {
 }
 
 void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size& picture) {
-  check_tilt();
   MappedPoints mapped{{picture, picture.grid()}, {}};
   Periods periods;
   if (bounds) {

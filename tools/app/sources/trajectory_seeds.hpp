@@ -78,10 +78,9 @@ class TrajectorySeeds {
   void read_ahead();
   /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
   std::optional<Bounds> shown_bounds();
-  /// Along which axes the frame's box, as it is drawn, repeats, or the bounds where there is no box.
+  /// Along which axes the frame's box repeats, or the bounds where there is no box.
   Periodic axes_of_frame() const;
   void note_of_file() const;
-  void check_tilt();
   Mapping mapping_of_frame(const Bounds& bounds) const;
   Size make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void note_of_scales(const Bounds& bounds, std::size_t outside);
@@ -100,7 +99,6 @@ class TrajectorySeeds {
   Snap snap_;
   bool in_pixels_;
   bool has_boxes_ = false;  // the first frame has one
-  bool tilt_noted_ = false;
   bool scales_checked_ = false;
   bool growth_noted_ = false;
 

@@ -20,7 +20,7 @@ struct Box {
   bool periodic_x = false;
   bool periodic_y = false;
   /// How far the copy of the box above it (at greater y) is shifted in x. Only where both axes are periodic:
-  /// a tilted box is drawn as the rectangle that holds the same particles.
+  /// the box is then the rectangle that has the same particles.
   double tilt = 0;
   /// Sides that give way to particles: shrink-wrapped ones. Beyond the others there is nothing.
   bool open_x0 = false, open_y0 = false, open_x1 = false, open_y1 = false;
