@@ -115,6 +115,10 @@ class VOROCL_API CellStatisticsResult {
   /// Waits. Nothing but zeros while the result is empty. Throws BadPoint if the frame of the seeds had one.
   CellStatistics read() const;
 
+  /// The pixels of each cell, by id, as CellSums::area: the statistics are made of them, and take less than
+  /// all sums. Waits. Empty while the result is. Throws BadPoint if the frame of the seeds had one.
+  std::vector<std::uint32_t> read_areas() const;
+
  private:
   friend struct Internal;
   std::unique_ptr<CellStatisticsState> state_;

@@ -72,8 +72,19 @@ Report cell_statistics(const CellSumsResult& sums, CellStatisticsResult& result)
   Measuring<CellStatisticsState> measuring(result);
   const CellSumsState* const summed = Internal::held(sums);
   if (summed == nullptr || summed->empty()) return {};
-  const cl::Event event = sum_areas(measuring.state(), *summed->of, summed->area);
+  CellStatisticsState& statistics = measuring.state();
+  const std::size_t bytes = summed->size() * sizeof(cl_uint);
+  make_room(statistics.area, summed->of->device, bytes);
+  if (bytes > 0) copy(summed->of->device, summed->area, statistics.area, bytes);
+  const cl::Event event = sum_areas(statistics, *summed->of, statistics.area);
   return measuring.commit(MeasuredDiagram(*summed->of), event, event);
+}
+
+std::vector<std::uint32_t> CellStatisticsResult::read_areas() const {
+  if (!state_ || state_->empty()) return {};
+  const MeasuredDiagram& of = *state_->of;
+  of.check();
+  return download<std::uint32_t>(of.device, state_->area, of.count());
 }
 
 CellStatistics CellStatisticsResult::read() const {

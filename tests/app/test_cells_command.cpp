@@ -118,6 +118,14 @@ BOOST_AUTO_TEST_CASE(columns_can_be_chosen) {
     const TableRow& row = all.rows[i];
     BOOST_TEST((some.rows[i] == TableRow{row[11], row[0], row[12], row[5]}));
   }
+  // Alone, a column is made of no more measures than it needs.
+  for (const auto& [name, column] : {std::pair{"x", 1u}, {"area", 3u}, {"right", 8u}, {"perimeter", 10u}, {"touches_border", 13u}}) {
+    succeeds(folder, cells + "one.csv --cell-columns " + name);
+    const Table one = read_table(folder / "one.csv");
+    BOOST_TEST_REQUIRE(one.rows.size() == all.rows.size());
+    for (std::size_t i = 0; i < all.rows.size(); ++i)
+      BOOST_TEST((one.rows[i] == TableRow{all.rows[i][column]}), name << " of row " << i);
+  }
   const Table frames = read_table(folder / "t.csv");
   BOOST_TEST(frames.header == "frame,timestep,area");
   BOOST_TEST(*frames.rows.at(0).at(2) == *all.rows.at(0).at(3));

@@ -63,6 +63,8 @@ def main():
         "`simulate --statistics`": f"{film} --statistics s.csv",
         "`simulate --labels`": f"{film} --labels l%03d.npy",
         "`simulate --cells`": f"{film} --cells c%03d.csv",
+        "`simulate --cells --cell-columns id,area`": f"{film} --cells c%03d.csv --cell-columns id,area",
+        "`simulate -o x.mp4`": f"{film} -o x.mp4",
     }
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

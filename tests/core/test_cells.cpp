@@ -131,6 +131,11 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   BOOST_TEST(statistics.cells == 3u);
   BOOST_TEST(statistics.empty_cells == 1u);
   BOOST_TEST(statistics.pixels == 11u);
+  CellStatisticsResult of_diagram;
+  BOOST_TEST(of_diagram.read_areas().empty());
+  cell_statistics(diagram, of_diagram);
+  const std::vector<std::uint32_t> three_areas = {5, 0, 6, 0};
+  BOOST_TEST(of_diagram.read_areas() == three_areas, boost::test_tools::per_element());
   BOOST_TEST(statistics.mean_area == 11 / 3.0);
   BOOST_TEST(statistics.area_deviation == std::sqrt((25 + 36) / 3.0 - 121 / 9.0),
              boost::test_tools::tolerance(1e-12));
@@ -150,10 +155,14 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   std::map<std::uint32_t, double> areas;
   each_pixel(large, dense.read(), [&](std::uint32_t label, int, int) { ++areas[label]; });
   double variance = 0;
+  std::vector<std::uint32_t> all_areas;
   for (std::uint32_t id = 0; id < 30000; ++id) {
     const double area = areas.count(id) > 0 ? areas[id] : 0;
     variance += (area - 7) * (area - 7) / 30000;
+    all_areas.push_back(static_cast<std::uint32_t>(area));
   }
+  cell_statistics(dense, of_diagram);
+  BOOST_TEST((of_diagram.read_areas() == all_areas));
   CellSumsResult sums;
   CellStatisticsResult of_sums;
   cell_statistics(sums, of_sums);
@@ -161,9 +170,11 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   cell_sums(dense, sums);
   cell_statistics(sums, of_sums);
   BOOST_TEST(of_sums.read().area_deviation == std::sqrt(variance), boost::test_tools::tolerance(1e-9));
+  BOOST_TEST((of_sums.read_areas() == all_areas));
   cell_sums(diagram, sums);  // fewer, into the same buffers
   cell_statistics(sums, of_sums);
   BOOST_TEST(of_sums.read().cells == 3u);
+  BOOST_TEST(of_sums.read_areas() == three_areas, boost::test_tools::per_element());
   const CellStatistics spread = statistics_of(dense);
   BOOST_TEST(spread.mean_area == 7);
   BOOST_TEST(spread.empty_cells == 30000 - areas.size());

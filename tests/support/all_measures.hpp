@@ -75,6 +75,7 @@ class AllMeasures {
     }
     const CellStatistics statistics = statistics_.read();
     numbers.add(statistics.cells, statistics.empty_cells, statistics.pixels, statistics.area_deviation);
+    numbers.add_all(statistics_.read_areas());
     for (const CellPair& pair : adjacency_.read_pairs()) numbers.add(pair.a, pair.b, pair.length);
     numbers.add_all(adjacency_.read_neighbours());
     numbers.add_all(adjacency_.read_perimeters());

@@ -102,13 +102,16 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
   const auto observer = [&](const Seeds& at, const Diagram& filled, const Relaxation& so_far) {
     const int round = so_far.rounds();
     if (writer != nullptr) {
-      Measures measures(at, filled, input.ids, input.view, buffers);
-      writer->add({round, round, stamp_of_round(round)}, measures, input.values);
+      FrameFacts facts = {round, round, stamp_of_round(round)};
+      facts.values = input.values;
+      writer->add(std::move(facts), std::make_shared<Measures>(at, filled, input.ids, input.view, buffers));
     }
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
     return !interruption.came();
   };
-  return relax(seeds, diagram, engine, options.rounds, observer);
+  const Relaxation relaxation = relax(seeds, diagram, engine, options.rounds, observer);
+  if (writer != nullptr) writer->wait();
+  return relaxation;
 }
 
 void write_end(const Outputs& outputs, const RelaxOptions& options, const Input& input, const Seeds& seeds,

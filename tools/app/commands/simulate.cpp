@@ -61,8 +61,9 @@ class Run {
   const Course& course() const { return course_; }
 
   /// Of the last frame.
-  Measures measures() {
-    return {simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(), source_.view(), buffers_};
+  std::shared_ptr<Measures> measures() {
+    return std::make_shared<Measures>(simulation_.seeds(), simulation_.diagram(main_engine), source_.ids(),
+                                      source_.view(), buffers_);
   }
 
   /// Goes through the frames that an earlier run has completed. A method that goes on from the last labels
@@ -79,13 +80,12 @@ class Run {
       makes_all || needs_diagram ? make_diagrams() : simulation_.skip();
       add_to_hash();
       if (frame == journal.last_frame() && course_.seeds.value() != journal.seeds()) refuse_seeds();
-      std::optional<Measures> measures;
-      if (needs_diagram) measures.emplace(this->measures());
-      writer_.go_on_from(facts(0), measures ? &*measures : nullptr, source_.values());
+      const std::shared_ptr<Measures> measures = needs_diagram ? this->measures() : nullptr;
+      writer_.go_on_from(facts(), measures.get());
       progress.show(frame + 1, source_.done());
       if (interruption_.came()) throw Error("interrupted, before there was a new frame");
     }
-    course_.frames = course_.made_before = journal.last_frame() + 1;
+    course_.frames = course_.made_before = writer_.complete();
   }
 
   /// The frames behind those that are complete: all, or those before a signal or an error.
@@ -94,7 +94,7 @@ class Run {
     try {
       for (bool more = course_.frames == 0 || source_.next(); more; more = source_.next()) {
         add_frame();
-        progress.show(course_.frames, source_.done());
+        progress.show(simulation_.frame() + 1, source_.done());
         if (interruption_.came()) {
           course_.trouble = "interrupted";
           break;
@@ -104,6 +104,12 @@ class Run {
         const std::exception& error) {  // ours, or out of memory, or OpenCV's: the frames so far are kept
       course_.trouble = message_of(error);
     }
+    try {
+      writer_.wait();
+    } catch (const std::exception& error) {  // of a frame before
+      course_.trouble = message_of(error);
+    }
+    course_.frames = writer_.complete();
   }
 
  private:
@@ -135,24 +141,26 @@ class Run {
     }
   }
 
-  /// Makes and writes the next frame.
+  /// Makes the next frame, and has it written.
   void add_frame() {
     make_diagrams();
     const int frame = simulation_.frame();
-    if (options_.compare_with && frame > 0) compare();
+    FrameFacts facts = this->facts();
+    if (options_.compare_with && frame > 0) facts.similarity = compare();
+    std::shared_ptr<Measures> measures;
     if (writer_.wants(frame)) {
-      Measures measures = this->measures();
-      writer_.add(facts(simulation_.report(main_engine).milliseconds()), measures, source_.values());
+      measures = this->measures();
+      facts.milliseconds = simulation_.report(main_engine).milliseconds();
     }
     if (writer_.journal() != nullptr) {
       add_to_hash();
-      writer_.journal()->complete(frame, course_.seeds.value());
+      facts.seeds = course_.seeds.value();
     }
+    writer_.add(std::move(facts), measures);
     if (frame % most_frames_ahead == 0) {
       simulation_.milliseconds(main_engine);  // waits, and forgets the events of these frames
       if (options_.compare_with) simulation_.milliseconds(other_engine);
     }
-    ++course_.frames;
   }
 
   /// The other method's labels, as ones by the first method's metric.
@@ -164,7 +172,7 @@ class Run {
     return *judged_;
   }
 
-  void compare() {
+  FrameSimilarity compare() {
     const Diagram& diagram = simulation_.diagram(main_engine);
     const Diagram& other = simulation_.diagram(other_engine);
     options_.tolerance ? similarity(diagram, in_one_metric(other), *options_.tolerance, similarity_)
@@ -177,13 +185,13 @@ class Run {
       course_.errors.add(*errors);
     }
     course_.similarities.add(percent);
-    writer_.add_similarity(simulation_.frame(), percent, errors);
+    return {percent, errors};
   }
 
-  FrameFacts facts(double milliseconds) const {
+  FrameFacts facts() const {
     const int frame = simulation_.frame();
-    return {frame, source_.timestep().value_or(frame), stamp_of(frame, source_.timestep()), milliseconds,
-            source_.box()};
+    return {frame, source_.timestep().value_or(frame), stamp_of(frame, source_.timestep()), 0, source_.box(),
+            source_.values()};
   }
 
   /// Adds what the frame's files follow from, besides the options.
@@ -247,8 +255,7 @@ void run(const SimulateOptions& options) {
     throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
                             course.frames, writer.frames()));
   }
-  Measures measures = run.measures();
-  print_result(options, *source, run.simulation(), course, measures);
+  print_result(options, *source, run.simulation(), course, *run.measures());
 }
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.

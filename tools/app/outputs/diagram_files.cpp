@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string_view>
@@ -33,76 +32,86 @@ class CellRow {
  public:
   using Value = std::optional<double>;
 
-  CellRow(const CellMeasures& cell, const View& view, Metric metric)
-      : cell_(cell), view_(view), metric_(metric) {}
+  CellRow(Measures& measures, std::uint32_t label)
+      : measures_(measures), view_(measures.view()), label_(label) {}
 
-  Value id() const { return cell_.id; }
-  Value x() const { return view_.position(cell_.seed).x; }
-  Value y() const { return view_.position(cell_.seed).y; }
-  Value area() const { return view_.units.area(cell_.sums.area); }
-  Value centroid_x() const { return if_full(view_.position(cell_.sums.centroid()).x); }
-  Value centroid_y() const { return if_full(view_.position(cell_.sums.centroid()).y); }
+  Value id() const { return measures_.id_of(label_); }
+  Value x() const { return view_.position(*measures_.seeds()[label_]).x; }
+  Value y() const { return view_.position(*measures_.seeds()[label_]).y; }
+  Value area() const { return view_.units.area(measures_.pixels()[label_]); }
+  Value centroid_x() const { return if_full(centroid().x); }
+  Value centroid_y() const { return if_full(centroid().y); }
   Value left() const { return if_full(extent().left); }
   Value top() const { return if_full(extent().top); }
   Value right() const { return if_full(extent().right); }
   Value bottom() const { return if_full(extent().bottom); }
-  Value perimeter() const { return view_.units.length(cell_.perimeter); }
-  Value neighbours() const { return cell_.neighbours; }
+  Value perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
+  Value neighbours() const { return measures_.neighbours()[label_]; }
   Value largest_distance() const {
-    return if_full(view_.units.length(distance_of(cell_.shape.largest_distance, metric_)));
+    return if_full(view_.units.length(distance_of(shape().largest_distance, measures_.metric())));
   }
-  Value touches_border() const { return cell_.shape.touches_border ? 1 : 0; }
+  Value touches_border() const { return shape().touches_border ? 1 : 0; }
 
  private:
+  Point centroid() const { return view_.position(measures_.sums()[label_].centroid()); }
+  const CellShape& shape() const { return measures_.shapes()[label_]; }
   Extent extent() const {
     const double x = view_.x, y = view_.y;
-    const CellShape& shape = cell_.shape;
-    return view_.units.extent({shape.left + x, shape.top + y, shape.right + x, shape.bottom + y});
+    return view_.units.extent({shape().left + x, shape().top + y, shape().right + x, shape().bottom + y});
   }
-  Value if_full(double value) const { return cell_.sums.area > 0 ? Value(value) : Value(); }
+  Value if_full(double value) const { return measures_.pixels()[label_] > 0 ? Value(value) : Value(); }
 
-  const CellMeasures& cell_;
+  Measures& measures_;
   const View& view_;
-  Metric metric_;
+  std::uint32_t label_;
 };
 
 struct CellColumn {
   std::string name;
   CellRow::Value (CellRow::*value)() const;
+  void (*read)(Measures& measures);  // what the value is made of, besides seeds and pixels
 };
 
 const std::vector<CellColumn>& all_cell_columns() {
-  static const std::vector<CellColumn> columns = {{"id", &CellRow::id},
-                                                  {"x", &CellRow::x},
-                                                  {"y", &CellRow::y},
-                                                  {"area", &CellRow::area},
-                                                  {"centroid_x", &CellRow::centroid_x},
-                                                  {"centroid_y", &CellRow::centroid_y},
-                                                  {"left", &CellRow::left},
-                                                  {"top", &CellRow::top},
-                                                  {"right", &CellRow::right},
-                                                  {"bottom", &CellRow::bottom},
-                                                  {"perimeter", &CellRow::perimeter},
-                                                  {"neighbours", &CellRow::neighbours},
-                                                  {"largest_distance", &CellRow::largest_distance},
-                                                  {"touches_border", &CellRow::touches_border}};
+  const auto nothing = [](Measures&) {};
+  const auto sums = [](Measures& measures) { measures.sums(); };
+  const auto shapes = [](Measures& measures) { measures.shapes(); };
+  const auto perimeters = [](Measures& measures) { measures.perimeters(); };
+  const auto neighbours = [](Measures& measures) { measures.neighbours(); };
+  static const std::vector<CellColumn> columns = {
+      {"id", &CellRow::id, nothing},
+      {"x", &CellRow::x, nothing},
+      {"y", &CellRow::y, nothing},
+      {"area", &CellRow::area, nothing},
+      {"centroid_x", &CellRow::centroid_x, sums},
+      {"centroid_y", &CellRow::centroid_y, sums},
+      {"left", &CellRow::left, shapes},
+      {"top", &CellRow::top, shapes},
+      {"right", &CellRow::right, shapes},
+      {"bottom", &CellRow::bottom, shapes},
+      {"perimeter", &CellRow::perimeter, perimeters},
+      {"neighbours", &CellRow::neighbours, neighbours},
+      {"largest_distance", &CellRow::largest_distance, shapes},
+      {"touches_border", &CellRow::touches_border, shapes}};
   return columns;
+}
+
+void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
+  for (const CellColumn& column : columns) column.read(measures);
+  measures.seeds();
+  measures.pixels();  // behind the sums, which have them
 }
 
 void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
                Measures& measures) {
-  const View& view = measures.view();
-  const Metric metric = measures.metric();
-  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, const CellMeasures& cell) {
-    const CellRow row(cell, view, metric);
+  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, std::uint32_t label) {
+    const CellRow row(measures, label);
     text.append(std::string_view(first));
     bool is_first = true;
     for (const CellColumn& column : columns) {
       if (!is_first) text.push_back(',');
       is_first = false;
-      if (const CellRow::Value value = (row.*column.value)()) {
-        fmt::format_to(std::back_inserter(text), "{}", *value);
-      }
+      if (const CellRow::Value value = (row.*column.value)()) add_number(text, *value);
     }
     text.push_back('\n');
   });
@@ -110,9 +119,14 @@ void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
-  add_rows(table, measures.pairs(), [&](fmt::memory_buffer& text, const CellPair& pair) {
-    fmt::format_to(std::back_inserter(text), "{}{},{},{}\n", first, pair.a, pair.b,
-                   units.length(pair.length));
+  add_rows(table, measures.pairs_by_id(), [&](fmt::memory_buffer& text, const CellPair& pair) {
+    text.append(std::string_view(first));
+    add_number(text, pair.a);
+    text.push_back(',');
+    add_number(text, pair.b);
+    text.push_back(',');
+    add_number(text, units.length(pair.length));
+    text.push_back('\n');
   });
 }
 
@@ -125,9 +139,8 @@ void write_distance_file(const OutputFile& file, Measures& measures) {
 
 void write_border_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
-  const std::vector<std::uint8_t> of_diagram = measures.borders();
   std::vector<std::uint8_t> room;
-  const std::vector<std::uint8_t>& borders = view.in_picture(of_diagram, std::uint8_t{0}, room);
+  const std::vector<std::uint8_t>& borders = view.in_picture(measures.borders(), std::uint8_t{0}, room);
   if (extension_of(file.path()) == ".png") {
     const Size& size = view.picture.size;
     write_picture(file, 255 * cv::Mat(borders).reshape(1, size.height()));
@@ -139,6 +152,7 @@ void write_border_file(const OutputFile& file, Measures& measures) {
 }  // namespace
 
 void FileKind::write(const OutputFile& file, Measures& measures) const {
+  read(measures);
   if (const TableKind* const kind = table()) {
     GrowingFile rows(file);
     rows << measures.view().units.header(kind->columns);
@@ -152,7 +166,7 @@ void FileKind::write(const OutputFile& file, Measures& measures) const {
 const FileKind& labels_kind() {
   static const FileKind kind = {
       "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards from the lower left corner)",
-      label_extensions(), write_label_file};
+      label_extensions(), [](Measures& measures) { measures.labels(); }, write_label_file};
   return kind;
 }
 
@@ -175,6 +189,7 @@ FileKind cells_kind(const std::vector<std::string>& names) {
   return {"--cells",
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
+          [columns](Measures& measures) { read_cells(columns, measures); },
           TableKind{names, add_rows}};
 }
 
@@ -183,6 +198,7 @@ const FileKind& adjacency_kind() {
       "--adjacency",
       "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
+      [](Measures& measures) { measures.pairs(); },
       TableKind{{"a", "b", "length"}, add_pairs}};
   return kind;
 }
@@ -193,6 +209,7 @@ const FileKind& distance_kind() {
       "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti (y upwards "
       "from the lower left corner)",
       {".npy", ".tif", ".tiff", ".vti"},
+      [](Measures& measures) { measures.distances(); },
       write_distance_file};
   return kind;
 }
@@ -202,6 +219,7 @@ const FileKind& border_kind() {
       "--border",
       "1 where a pixel's edge is shared with another cell, else 0: .npy (uint8), .vti, or .png (white for 1)",
       {".npy", ".png", ".vti"},
+      [](Measures& measures) { measures.borders(); },
       write_border_file};
   return kind;
 }

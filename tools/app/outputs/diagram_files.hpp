@@ -24,6 +24,10 @@ struct FileKind {
   std::string option;  // "--labels"
   std::string about;   // what the file holds, for the help
   std::vector<std::string> extensions;
+
+  /// Reads what write() and add_rows() make the file of, from the device.
+  std::function<void(Measures& measures)> read;
+
   std::variant<void (*)(const OutputFile& file, Measures& measures), TableKind> content;
 
   /// The kind of table that the file is; null: none.

@@ -126,7 +126,7 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
     for (const Column& column : columns) {
       if (!is_first) text.push_back(',');
       is_first = false;
-      if (const Value value = column.value(row)) fmt::format_to(std::back_inserter(text), "{}", *value);
+      if (const Value value = column.value(row)) add_number(text, *value);
     }
     text.push_back('\n');
   });
@@ -134,7 +134,7 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
 
 void ExactCellRows::add_pairs(GrowingFile& table, const std::string& first) {
   add_rows(table, pairs(), [&first](fmt::memory_buffer& text, const ExactPair& pair) {
-    fmt::format_to(std::back_inserter(text), "{}{},{},{},{},{}\n", first, pair.a, pair.b, pair.length,
+    fmt::format_to(fmt::appender(text), FMT_COMPILE("{}{},{},{},{},{}\n"), first, pair.a, pair.b, pair.length,
                    pair.midpoint.x, pair.midpoint.y);
   });
 }

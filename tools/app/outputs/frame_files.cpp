@@ -60,8 +60,13 @@ FrameStatistics::FrameStatistics(const std::string& path, FrameJournal* journal)
 
 void FrameStatistics::go_on_from(Measures& measures) { last_labels_ = measures.labels_in_picture(); }
 
+void FrameStatistics::read(Measures& measures) {
+  measures.statistics();
+  measures.labels();
+}
+
 void FrameStatistics::add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures) {
-  const CellStatistics statistics = measures.statistics();
+  const CellStatistics& statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
   const std::vector<std::uint32_t>& labels = measures.labels_in_picture();
   std::string changed;

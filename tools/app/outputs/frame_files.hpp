@@ -28,6 +28,9 @@ class FrameFiles {
   /// Throws Error if no file can be made there. With a journal, the table can be continued.
   explicit FrameFiles(const FileRequest& request, FrameJournal* journal = nullptr);
 
+  /// Reads what add() writes, from the device.
+  void read(Measures& measures) const { request_.kind.read(measures); }
+
   /// Writes the file or the rows of a frame, which shows this time.
   void add(int frame, std::int64_t time, Measures& measures);
 
@@ -54,6 +57,9 @@ class FrameStatistics {
  public:
   /// Throws Error if the file cannot be made there.
   explicit FrameStatistics(const std::string& path, FrameJournal* journal = nullptr);
+
+  /// Reads what add() counts, from the device.
+  static void read(Measures& measures);
 
   /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
   void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
@@ -127,9 +128,28 @@ bool FrameWriter::wants_images(int frame) const {
   return frame % options_.every == 0 && (film_ || pictures_ || !files_.empty());
 }
 
-void FrameWriter::add(const FrameFacts& facts, Measures& measures, const std::vector<double>& values) {
-  if (wants_images(facts.frame)) write_images(facts, measures, values);
-  if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, measures);
+void FrameWriter::add(FrameFacts facts, const std::shared_ptr<Measures>& measures) {
+  if (measures) {
+    read(facts.frame, *measures);
+    measures->leave_device();
+  }
+  behind_.add([this, facts = std::move(facts), measures] { write(facts, measures.get()); });
+}
+
+void FrameWriter::read(int frame, Measures& measures) const {
+  if (wants_images(frame)) {
+    for (const auto& files : files_) files->read(measures);
+    if (film_ || pictures_) painter_.read(measures);
+  }
+  if (statistics_) FrameStatistics::read(measures);
+}
+
+void FrameWriter::write(const FrameFacts& facts, Measures* measures) {
+  if (facts.similarity && similarities_) write_similarity(facts.frame, *facts.similarity);
+  if (wants_images(facts.frame)) write_images(facts, *measures);
+  if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, *measures);
+  if (journal_) journal_->complete(facts.frame, facts.seeds);
+  ++complete_;
 }
 
 bool FrameWriter::needs_diagram(int frame) const {
@@ -137,22 +157,22 @@ bool FrameWriter::needs_diagram(int frame) const {
   return pictures_ && wants_images(frame) && !painter_.is_independent();
 }
 
-void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures, const std::vector<double>& values) {
+void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures) {
   if (wants_images(facts.frame)) {
     for (const auto& files : files_) files->go_on_from(facts.frame, facts.time);
-    if (pictures_ && measures != nullptr && !painter_.is_independent()) painter_.draw(*measures, values);
+    if (pictures_ && measures != nullptr && !painter_.is_independent()) painter_.draw(*measures, facts.values);
     ++frames_;
   }
   if (statistics_ && measures != nullptr && facts.frame == journal_->last_frame()) {
     statistics_->go_on_from(*measures);
   }
+  ++complete_;
 }
 
-void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
-                               const std::vector<double>& values) {
+void FrameWriter::write_images(const FrameFacts& facts, Measures& measures) {
   for (const auto& files : files_) files->add(facts.frame, facts.time, measures);
   if (film_ || pictures_) {
-    const cv::Mat picture = painter_.draw(measures, values, facts.stamp);
+    const cv::Mat picture = painter_.draw(measures, facts.values, facts.stamp);
     if (film_) {
       film_->add(picture);
       if (film_->pictures() == 1) note_of_size(*film_, picture.size());
@@ -162,10 +182,9 @@ void FrameWriter::write_images(const FrameFacts& facts, Measures& measures,
   ++frames_;
 }
 
-void FrameWriter::add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors) {
-  if (!similarities_) return;
-  *similarities_ << fmt::format("{},{}", frame, percent);
-  if (errors) {
+void FrameWriter::write_similarity(int frame, const FrameSimilarity& similarity) {
+  *similarities_ << fmt::format("{},{}", frame, similarity.percent);
+  if (const std::optional<DistanceErrors>& errors = similarity.errors) {
     *similarities_ << fmt::format(",{},{},{}", errors->wrong_percent(), errors->largest_excess,
                                   errors->mean_excess);
   }

@@ -12,6 +12,7 @@
 #include "app/outputs/painter.hpp"
 #include "formats/images/film.hpp"
 #include "formats/numbered_files.hpp"
+#include "formats/workers.hpp"
 #include "vorocl/distance_errors.hpp"
 
 namespace vorocl::command {
@@ -31,6 +32,12 @@ struct FrameWriterOptions {
 /// number.
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options);
 
+/// What a frame is compared with, as a row of a table.
+struct FrameSimilarity {
+  double percent = 0;
+  std::optional<DistanceErrors> errors;
+};
+
 /// What is written of a frame besides its diagram.
 struct FrameFacts {
   int frame = 0;
@@ -38,10 +45,16 @@ struct FrameFacts {
   std::string stamp;        ///< what is written into pictures where the options ask for it
   double milliseconds = 0;  ///< of the device, for the diagram
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
+  std::vector<double> values = {};        ///< those that pictures may show, as in Painter::draw()
+  std::optional<FrameSimilarity> similarity = std::nullopt;
+  std::uint64_t seeds = 0;  ///< what the journal notes of the seeds of all frames so far
 };
 
 /// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names
 /// until finish(); without it, they do not stay, unless the run can be resumed.
+///
+/// Frames are written in order by a thread of its own, behind the caller, who can make the next one
+/// meanwhile. It holds one frame at most, and none behind one that failed.
 class FrameWriter {
  public:
   /// Throws UsageError for names that are not possible, Error if no files can be made there.
@@ -53,9 +66,13 @@ class FrameWriter {
   /// Whether add() writes anything of this frame's diagram.
   bool wants(int frame) const { return statistics_ || wants_images(frame); }
 
-  /// `values` are those that pictures may show, as in Painter::draw().
-  void add(const FrameFacts& facts, Measures& measures, const std::vector<double>& values);
-  void add_similarity(int frame, double percent, const std::optional<DistanceErrors>& errors);
+  /// Reads what is written of a frame from the device, waits until the frame before is written, and returns.
+  /// `measures`, of a frame that it wants, stay until this one is. Throws what went wrong with a frame
+  /// before, each time from then on.
+  void add(FrameFacts facts, const std::shared_ptr<Measures>& measures);
+
+  /// Waits until all frames are written. Throws what went wrong.
+  void wait() { behind_.wait(); }
 
   /// How far an earlier run came, if this one goes on with it; null: it cannot be resumed.
   FrameJournal* journal() const { return journal_.get(); }
@@ -64,12 +81,14 @@ class FrameWriter {
   bool needs_diagram(int frame) const;
 
   /// As add(), of a frame that is complete: writes nothing. `measures` are null if it needs none.
-  void go_on_from(const FrameFacts& facts, Measures* measures, const std::vector<double>& values);
+  void go_on_from(const FrameFacts& facts, Measures* measures);
 
-  /// The frames whose images are written.
+  /// The frames that are complete, and those whose images are written: once wait() has ended, also where it
+  /// threw.
+  int complete() const { return complete_; }
   int frames() const { return frames_; }
 
-  /// Gives the film and the tables their names, and lists the numbered files. Throws Error if one was not
+  /// After wait(), also where that threw: gives the film and the tables their names, and lists the numbered files. Throws Error if one was not
   /// written whole.
   void finish();
 
@@ -77,7 +96,10 @@ class FrameWriter {
   void open_files();
   void check_written() const;
   bool wants_images(int frame) const;
-  void write_images(const FrameFacts& facts, Measures& measures, const std::vector<double>& values);
+  void read(int frame, Measures& measures) const;
+  void write(const FrameFacts& facts, Measures* measures);
+  void write_images(const FrameFacts& facts, Measures& measures);
+  void write_similarity(int frame, const FrameSimilarity& similarity);
 
   FrameWriterOptions options_;
   Painter painter_;
@@ -87,7 +109,8 @@ class FrameWriter {
   std::vector<std::unique_ptr<FrameFiles>> files_;
   std::unique_ptr<GrowingFile> similarities_;
   std::optional<FrameStatistics> statistics_;
-  int frames_ = 0;
+  int complete_ = 0, frames_ = 0;
+  Workers behind_{1};  // the last member: its thread ends before what it writes goes
 };
 
 }  // namespace vorocl::command

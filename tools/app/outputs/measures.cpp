@@ -1,8 +1,8 @@
 #include "app/outputs/measures.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <tuple>
 
 #include "app/sources/bounds.hpp"
@@ -11,115 +11,136 @@
 
 namespace vorocl::command {
 
+namespace {
+
+/// What `made` holds, made by `make` when it is first asked for.
+template <typename T, typename Make>
+const T& once(std::optional<T>& made, const Make& make) {
+  if (!made) made = make();
+  return *made;
+}
+
+}  // namespace
+
 Diagram MeasureBuffers::diagram_to_read(const Device& device, const Window& window) {
+  std::vector<std::uint32_t>& labels = images[taken % images.size()].labels;
   labels.resize(window.pixels());
   return {device, window, labels.data()};
 }
 
 Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
                    const View& view, MeasureBuffers& buffers)
-    : seeds_(seeds), diagram_(diagram), ids_(ids), view_(view), buffers_(buffers) {}
+    : seeds_(&seeds),
+      diagram_(&diagram),
+      metric_(diagram.metric()),
+      ids_(ids),
+      view_(view),
+      buffers_(buffers),
+      images_(buffers.take_images()) {}
+
+void Measures::leave_device() {
+  seeds_ = nullptr;
+  diagram_ = nullptr;
+}
+
+const Diagram& Measures::diagram() const {
+  if (diagram_ == nullptr) throw std::logic_error("a measure of a frame was not read in time");
+  return *diagram_;
+}
 
 const std::vector<std::uint32_t>& Measures::labels() {
   if (!has_labels_) {
-    buffers_.labels.resize(view_.size().pixels());
-    diagram_.read(buffers_.labels.data());
+    images_.labels.resize(view_.size().pixels());
+    diagram().read(images_.labels.data());
   }
   has_labels_ = true;
-  return buffers_.labels;
+  return images_.labels;
 }
 
-const std::vector<std::uint32_t>& Measures::labels_by_id() {
-  if (ids_.empty()) return labels();
-  if (!has_ids_) {
-    buffers_.ids.resize(labels().size());
-    std::transform(labels().begin(), labels().end(), buffers_.ids.begin(),
-                   [this](std::uint32_t label) { return label == no_label ? no_label : id_of(label); });
+const std::vector<float>& Measures::distances() {
+  if (!has_distances_) {
+    distance_field(diagram(), buffers_.distances);
+    images_.distances.resize(view_.size().pixels());
+    buffers_.distances.read(images_.distances.data());
   }
-  has_ids_ = true;
-  return buffers_.ids;
+  has_distances_ = true;
+  return images_.distances;
 }
 
-const std::vector<std::uint32_t>& Measures::labels_in_picture() {
-  if (ids_in_picture_ == nullptr) {
-    ids_in_picture_ = &view_.in_picture(labels_by_id(), no_label, buffers_.ids_in_picture);
-  }
-  return *ids_in_picture_;
+const std::vector<std::uint8_t>& Measures::borders() {
+  return once(borders_, [&] {
+    border_mask(diagram(), buffers_.borders);
+    return buffers_.borders.read();
+  });
 }
 
 const std::vector<std::optional<Point>>& Measures::seeds() {
-  if (points_) return *points_;
-  points_ = seeds_.read_pixels();
-  for (std::optional<Point>& point : *points_) {
-    if (point) point = view_.from_grid(*point);
-  }
-  return *points_;
+  return once(points_, [&] {
+    diagram();
+    std::vector<std::optional<Point>> points = seeds_->read_pixels();
+    for (std::optional<Point>& point : points) {
+      if (point) point = view_.from_grid(*point);
+    }
+    return points;
+  });
 }
 
-std::vector<double> Measures::areas() {
-  std::vector<double> areas;
-  for (const CellSums& sums : sums_result().read()) areas.push_back(view_.units.area(sums.area));
-  return areas;
+const std::vector<std::uint32_t>& Measures::pixels() {
+  return once(pixels_, [&] {
+    if (!sums_) return statistics_result().read_areas();
+    std::vector<std::uint32_t> pixels;
+    pixels.reserve(sums_->size());
+    for (const CellSums& sums : *sums_) pixels.push_back(sums.area);
+    return pixels;
+  });
 }
 
-std::vector<double> Measures::neighbours() {
-  const std::vector<std::uint32_t> counts = adjacency_result().read_neighbours();
-  return {counts.begin(), counts.end()};
+const std::vector<CellSums>& Measures::sums() {
+  return once(sums_, [&] { return sums_result().read(); });
 }
 
-std::vector<CellMeasures> Measures::cells() {
-  cell_shapes(diagram_, buffers_.shapes);
-  const std::vector<CellSums> sums = sums_result().read();
-  const std::vector<CellShape> shapes = buffers_.shapes.read();
-  const std::vector<std::uint32_t> neighbours = adjacency_result().read_neighbours();
-  const std::vector<std::uint32_t> perimeters = adjacency_result().read_perimeters();
-  std::vector<CellMeasures> cells;
-  cells.reserve(seeds_.alive());
-  for (std::size_t label = 0; label < seeds_.size(); ++label) {
-    const std::optional<Point>& seed = seeds()[label];
-    if (!seed || (sums[label].area == 0 && !view_.size().holds(*seed))) continue;
-    cells.push_back({id_of(label), *seed, sums[label], shapes[label], neighbours[label], perimeters[label]});
-  }
-  std::sort(cells.begin(), cells.end(),
-            [](const CellMeasures& a, const CellMeasures& b) { return a.id < b.id; });
-  return cells;
+const std::vector<CellShape>& Measures::shapes() {
+  return once(shapes_, [&] {
+    cell_shapes(diagram(), buffers_.shapes);
+    return buffers_.shapes.read();
+  });
 }
 
-std::vector<CellPair> Measures::pairs() {
-  std::vector<CellPair> pairs = adjacency_result().read_pairs();
-  if (ids_.empty()) return pairs;
-  for (CellPair& pair : pairs) {
-    std::tie(pair.a, pair.b) = std::minmax({id_of(pair.a), id_of(pair.b)});
-  }
-  std::sort(pairs.begin(), pairs.end(),
-            [](const CellPair& p, const CellPair& q) { return std::tie(p.a, p.b) < std::tie(q.a, q.b); });
-  return pairs;
+const std::vector<std::uint32_t>& Measures::neighbours() {
+  return once(neighbours_, [&] { return adjacency_result().read_neighbours(); });
+}
+
+const std::vector<std::uint32_t>& Measures::perimeters() {
+  return once(perimeters_, [&] { return adjacency_result().read_perimeters(); });
+}
+
+const std::vector<CellPair>& Measures::pairs() {
+  return once(pairs_, [&] { return adjacency_result().read_pairs(); });
 }
 
 std::size_t Measures::pair_count() { return adjacency_result().pairs(); }
 
 std::size_t Measures::vertices() {
-  vorocl::vertices(diagram_, buffers_.vertices);
+  vorocl::vertices(diagram(), buffers_.vertices);
   return buffers_.vertices.count();
 }
 
-CellStatistics Measures::statistics() {
-  has_sums_ ? cell_statistics(buffers_.sums, buffers_.statistics)
-            : cell_statistics(diagram_, buffers_.statistics);
-  CellStatistics statistics = buffers_.statistics.read();
-  statistics.mean_area = view_.units.area(statistics.mean_area);
-  statistics.area_deviation = view_.units.area(statistics.area_deviation);
-  return statistics;
+const CellStatistics& Measures::statistics() {
+  return once(statistics_, [&] {
+    CellStatistics statistics = statistics_result().read();
+    statistics.mean_area = view_.units.area(statistics.mean_area);
+    statistics.area_deviation = view_.units.area(statistics.area_deviation);
+    return statistics;
+  });
 }
 
 CellCount Measures::cell_count() {
   constexpr std::size_t few_pixels = std::size_t{1} << 24;  // to copy to the host for this alone
-  const bool is_copied = has_labels_ || diagram_.window().pixels() <= few_pixels;
-  if (!diagram_.window().is_whole() || seeds_.outside() > 0 || !is_copied) {
-    const CellStatistics of_window = statistics();
-    return {of_window.cells, of_window.empty_cells};
+  const bool is_copied = has_labels_ || diagram().window().pixels() <= few_pixels;
+  if (!diagram().window().is_whole() || seeds_->outside() > 0 || !is_copied) {
+    return {statistics().cells, statistics().empty_cells};
   }
-  std::vector<bool> has_pixels(seeds_.size());
+  std::vector<bool> has_pixels(seeds_->size());
   std::size_t count = 0;
   std::uint32_t last = no_label;
   for (const std::uint32_t label : labels()) {
@@ -129,38 +150,81 @@ CellCount Measures::cell_count() {
     has_pixels[label] = true;
     ++count;
   }
-  return {seeds_.alive(), seeds_.alive() - count};
+  return {seeds_->alive(), seeds_->alive() - count};
 }
 
-const std::vector<float>& Measures::distances() {
-  if (!has_distances_) {
-    distance_field(diagram_, buffers_.distances);
-    buffers_.distances_on_host.resize(view_.size().pixels());
-    buffers_.distances.read(buffers_.distances_on_host.data());
+const std::vector<std::uint32_t>& Measures::labels_by_id() {
+  if (ids_.empty()) return labels();
+  if (!has_ids_) {
+    images_.ids.resize(labels().size());
+    std::transform(labels().begin(), labels().end(), images_.ids.begin(),
+                   [this](std::uint32_t label) { return label == no_label ? no_label : id_of(label); });
   }
-  has_distances_ = true;
-  return buffers_.distances_on_host;
+  has_ids_ = true;
+  return images_.ids;
 }
 
-std::vector<std::uint8_t> Measures::borders() {
-  border_mask(diagram_, buffers_.borders);
-  return buffers_.borders.read();
+const std::vector<std::uint32_t>& Measures::labels_in_picture() {
+  if (ids_in_picture_ == nullptr) {
+    ids_in_picture_ = &view_.in_picture(labels_by_id(), no_label, images_.ids_in_picture);
+  }
+  return *ids_in_picture_;
 }
 
-std::uint32_t Measures::id_of(std::size_t label) const {
-  return ids_.empty() ? static_cast<std::uint32_t>(label) : ids_.at(label);
+std::vector<double> Measures::areas() {
+  std::vector<double> areas;
+  areas.reserve(pixels().size());
+  for (const std::uint32_t pixels_of_cell : pixels()) areas.push_back(view_.units.area(pixels_of_cell));
+  return areas;
 }
 
-const AdjacencyResult& Measures::adjacency_result() {
-  if (!has_adjacency_) adjacency(diagram_, buffers_.adjacency);
-  has_adjacency_ = true;
-  return buffers_.adjacency;
+std::vector<std::uint32_t> Measures::cells() {
+  const Size size = view_.size();
+  std::vector<std::uint32_t> cells;
+  cells.reserve(seeds().size());
+  for (std::size_t label = 0; label < seeds().size(); ++label) {
+    const std::optional<Point>& seed = seeds()[label];
+    if (seed && (pixels()[label] > 0 || size.holds(*seed))) {
+      cells.push_back(static_cast<std::uint32_t>(label));
+    }
+  }
+  const auto by_id = [this](std::uint32_t a, std::uint32_t b) { return id_of(a) < id_of(b); };
+  if (!std::is_sorted(cells.begin(), cells.end(), by_id)) std::sort(cells.begin(), cells.end(), by_id);
+  return cells;
+}
+
+std::vector<CellPair> Measures::pairs_by_id() {
+  std::vector<CellPair> pairs = this->pairs();
+  if (ids_.empty()) return pairs;
+  for (CellPair& pair : pairs) {
+    std::tie(pair.a, pair.b) = std::minmax({id_of(pair.a), id_of(pair.b)});
+  }
+  const auto by_ids = [](const CellPair& p, const CellPair& q) {
+    return std::tie(p.a, p.b) < std::tie(q.a, q.b);
+  };
+  if (!std::is_sorted(pairs.begin(), pairs.end(), by_ids)) std::sort(pairs.begin(), pairs.end(), by_ids);
+  return pairs;
 }
 
 CellSumsResult& Measures::sums_result() {
-  if (!has_sums_) cell_sums(diagram_, buffers_.sums);
+  if (!has_sums_) cell_sums(diagram(), buffers_.sums);
   has_sums_ = true;
   return buffers_.sums;
+}
+
+const CellStatisticsResult& Measures::statistics_result() {
+  if (!has_statistics_) {
+    has_sums_ ? cell_statistics(buffers_.sums, buffers_.statistics)
+              : cell_statistics(diagram(), buffers_.statistics);
+  }
+  has_statistics_ = true;
+  return buffers_.statistics;
+}
+
+const AdjacencyResult& Measures::adjacency_result() {
+  if (!has_adjacency_) adjacency(diagram(), buffers_.adjacency);
+  has_adjacency_ = true;
+  return buffers_.adjacency;
 }
 
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {

@@ -1,6 +1,7 @@
 // A diagram and all that is measured of it, by the ids that files have.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,11 +14,22 @@
 
 namespace vorocl::command {
 
+/// The images of one diagram on the host.
+struct HostImages {
+  std::vector<std::uint32_t> labels, ids, ids_in_picture;
+  std::vector<float> distances;
+};
+
 /// The memory of measurements, on the device and the host: with one for all frames, later frames allocate
 /// nothing.
 struct MeasureBuffers {
-  /// A diagram whose labels are made where they are read, if the device shares the host's memory.
+  /// A diagram whose labels are made where the next Measures reads them, if the device shares the host's
+  /// memory.
   Diagram diagram_to_read(const Device& device, const Window& window);
+
+  /// Those of the next Measures: in turn, so that the images of one frame can be written while those of the
+  /// next one are read.
+  HostImages& take_images() { return images[taken++ % images.size()]; }
 
   CellSumsResult sums;
   CellShapesResult shapes;
@@ -26,8 +38,8 @@ struct MeasureBuffers {
   VerticesResult vertices;
   Field<float> distances;
   Field<std::uint8_t> borders;
-  std::vector<std::uint32_t> labels, ids, ids_in_picture;
-  std::vector<float> distances_on_host;
+  std::array<HostImages, 2> images;
+  std::size_t taken = 0;
 };
 
 /// How many cells there are, and how many of them have no pixel.
@@ -35,76 +47,96 @@ struct CellCount {
   std::size_t cells = 0, empty = 0;
 };
 
-/// What is known of a cell.
-struct CellMeasures {
-  std::uint32_t id = 0;
-  Point seed;
-  CellSums sums;
-  CellShape shape;
-  std::uint32_t neighbours = 0;
-  std::uint32_t perimeter = 0;  ///< pixel edges shared with other cells
-};
-
-/// Measures of one diagram. Each is made when it is first asked for, and waits; all throw as the library's
-/// functions of the same names.
+/// Measures of one diagram. Each is made and read from the device when it is first asked for, which waits; all
+/// throw as the library's functions of the same names. Those that were read stay when the diagram changes.
 class Measures {
  public:
   /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. `view` says
-  /// how the diagram stands in the picture. Keeps references to all.
+  /// how the diagram stands in the picture. Keeps references to the seeds, the diagram and the buffers.
   Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
            const View& view, MeasureBuffers& buffers);
 
+  /// Seeds and diagram may change from here on, and another thread may ask for what was read. What was not
+  /// is an error.
+  void leave_device();
+
   const View& view() const { return view_; }
-  Metric metric() const { return diagram_.metric(); }
+  Metric metric() const { return metric_; }
 
-  // Positions and images are in pixels of the diagram, and the view brings them into the picture.
+  // Read from the device, in pixels of the diagram, by label, absent seeds included.
 
-  /// The labels as the diagram has them, as files have them, and these in the picture. Row-major.
+  /// Row-major.
   const std::vector<std::uint32_t>& labels();
-  const std::vector<std::uint32_t>& labels_by_id();
-  const std::vector<std::uint32_t>& labels_in_picture();
+  const std::vector<float>& distances();
+  const std::vector<std::uint8_t>& borders();
 
-  /// By label, absent seeds included: the centre of its pixel; the area of its cell, in the view's units; the
-  /// cells that share a pixel edge with that.
+  /// The centres of the seeds' pixels.
   const std::vector<std::optional<Point>>& seeds();
-  std::vector<double> areas();
-  std::vector<double> neighbours();
 
-  /// In pixels, sorted by id; no absent seeds, and of those outside the diagram only those that own pixels.
-  std::vector<CellMeasures> cells();
+  /// The pixels of the cells: alone in less time than their sums, if these were not read before.
+  const std::vector<std::uint32_t>& pixels();
+  const std::vector<CellSums>& sums();
+  const std::vector<CellShape>& shapes();
 
-  /// In pixels, sorted by a and then b, a < b.
-  std::vector<CellPair> pairs();
+  /// The cells that share a pixel edge with one, and how many edges that is.
+  const std::vector<std::uint32_t>& neighbours();
+  const std::vector<std::uint32_t>& perimeters();
+
+  /// By index, sorted by a and then b, a < b.
+  const std::vector<CellPair>& pairs();
   std::size_t pair_count();
   std::size_t vertices();
 
   /// Areas in the view's units.
-  CellStatistics statistics();
+  const CellStatistics& statistics();
 
   /// As statistics() counts them; on the host where that can, which needs no program of the device.
   CellCount cell_count();
 
-  /// In pixels, row-major.
-  const std::vector<float>& distances();
-  std::vector<std::uint8_t> borders();
+  // Made of these on the host.
+
+  /// The labels as files have them, and these in the picture.
+  const std::vector<std::uint32_t>& labels_by_id();
+  const std::vector<std::uint32_t>& labels_in_picture();
+
+  /// What files call a label.
+  std::uint32_t id_of(std::size_t label) const {
+    return ids_.empty() ? static_cast<std::uint32_t>(label) : ids_.at(label);
+  }
+
+  /// The areas of the cells by label, in the view's units.
+  std::vector<double> areas();
+
+  /// The labels of the cells, sorted by id: no absent seeds, and of those outside the diagram only those that
+  /// own pixels.
+  std::vector<std::uint32_t> cells();
+
+  /// By id, sorted by a and then b, a < b.
+  std::vector<CellPair> pairs_by_id();
 
  private:
-  std::uint32_t id_of(std::size_t label) const;
-  const AdjacencyResult& adjacency_result();
+  const Diagram& diagram() const;
   CellSumsResult& sums_result();
+  const CellStatisticsResult& statistics_result();
+  const AdjacencyResult& adjacency_result();
 
-  const Seeds& seeds_;
-  const Diagram& diagram_;
-  const std::vector<std::uint32_t>& ids_;
-  const View& view_;
+  const Seeds* seeds_;  // null, as the diagram: they may have changed
+  const Diagram* diagram_;
+  Metric metric_;
+  std::vector<std::uint32_t> ids_;
+  View view_;
   MeasureBuffers& buffers_;
-  bool has_sums_ = false;
-  bool has_adjacency_ = false;
-  bool has_labels_ = false;
-  bool has_ids_ = false;
-  bool has_distances_ = false;
+  HostImages& images_;
+  bool has_sums_ = false, has_statistics_ = false, has_adjacency_ = false;
+  bool has_labels_ = false, has_ids_ = false, has_distances_ = false;
   const std::vector<std::uint32_t>* ids_in_picture_ = nullptr;
+  std::optional<std::vector<std::uint8_t>> borders_;
   std::optional<std::vector<std::optional<Point>>> points_;
+  std::optional<std::vector<std::uint32_t>> pixels_, neighbours_, perimeters_;
+  std::optional<std::vector<CellSums>> sums_;
+  std::optional<std::vector<CellShape>> shapes_;
+  std::optional<std::vector<CellPair>> pairs_;
+  std::optional<CellStatistics> statistics_;
 };
 
 /// How a diagram of seeds was made, and how it stands in the data.

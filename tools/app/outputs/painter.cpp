@@ -102,6 +102,15 @@ Painter::Painter(const PictureOptions& options, bool many)
       palette_(options.palette.value_or(Palette::viridis)),
       contour_interval_(options.contour_interval) {}
 
+void Painter::read(Measures& measures) const {
+  const Quantity quantity = options_.color.quantity;
+  if (quantity == Quantity::area) measures.pixels();
+  if (quantity == Quantity::neighbours) measures.neighbours();
+  if (quantity == Quantity::distance || options_.contours) measures.distances();
+  if (quantity != Quantity::distance || options_.edge_width > 0) measures.labels();
+  if (options_.points_overlay) measures.seeds();
+}
+
 cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
   const View& view = measures.view();
   const Size size = view.size();
@@ -143,7 +152,7 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
     case Quantity::area:
       return color_by_values(measures, measures.areas());
     case Quantity::neighbours:
-      return color_by_values(measures, measures.neighbours());
+      return color_by_values(measures, {measures.neighbours().begin(), measures.neighbours().end()});
     case Quantity::column:
       return color_by_values(measures, values);
     default:

@@ -51,6 +51,9 @@ class Painter {
   /// Of many, later ones may have values beyond the scale of the first: the colour bar says so.
   explicit Painter(const PictureOptions& options, bool many = false);
 
+  /// Reads what draw() draws, from the device.
+  void read(Measures& measures) const;
+
   /// `values` are those of the value column, by label; NaN: absent. `stamp` is written where the options ask
   /// for it. Throws Error if they ask for a scale or colours that the values do not allow. Notes on standard
   /// error, once, what a logarithmic scale leaves out of the first picture.

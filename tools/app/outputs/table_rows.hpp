@@ -1,10 +1,13 @@
 // The rows of tables, made by threads.
 #pragma once
 
+#include <fmt/compile.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +15,18 @@
 #include "formats/workers.hpp"
 
 namespace vorocl::command {
+
+/// Adds a number as "{}" writes it. Most numbers of tables are whole, for which there is a shorter way.
+inline void add_number(fmt::memory_buffer& text, double value) {
+  constexpr double most = 1e15;  // of those that "{}" writes without an exponent
+  const bool is_whole = std::fabs(value) < most && value == std::trunc(value);
+  if (is_whole && !(value == 0 && std::signbit(value))) {
+    const fmt::format_int digits(static_cast<std::int64_t>(value));
+    text.append(digits.data(), digits.data() + digits.size());
+  } else {
+    fmt::format_to(fmt::appender(text), FMT_COMPILE("{}"), value);
+  }
+}
 
 /// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
 template <typename Item, typename Add>

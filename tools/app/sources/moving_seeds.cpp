@@ -1,6 +1,8 @@
 #include "app/sources/moving_seeds.hpp"
 
 #include <algorithm>
+#include <future>
+#include <system_error>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
@@ -42,45 +44,95 @@ class RandomWalk : public MovingSeeds {
   int frame_ = 0;
 };
 
+/// What is known of a frame of a trajectory.
+struct PlacedFrame {
+  std::vector<std::optional<Point>> points;
+  std::vector<std::uint32_t> ids;
+  std::vector<double> values;
+  std::optional<View> view;  // of every frame
+  std::optional<double> displacement;
+  std::optional<Box> box;
+  std::optional<std::int64_t> timestep;
+  std::optional<std::uintmax_t> bytes_left;
+  bool is_there = true;
+};
+
+/// Reads and places the next frame of a file in a thread, while the present one is worked on.
 class Trajectory : public MovingSeeds {
  public:
   Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const std::optional<Bounds>& bounds)
       : particles_(seeds, 0, motion.fit, bounds),
         snap_(seeds.snapping()),
         frames_(motion.frames),
-        bytes_(particles_.bytes_left()) {}
+        bytes_(particles_.bytes_left()) {
+    take_particles(present_);
+  }
 
-  const View& view() const override { return particles_.view(); }
+  const View& view() const override { return *present_.view; }
   Seeds place(const Device& device) const override {
-    return {device, view().window.grid(), particles_.points(), Outside::count, snap_};
+    return {device, view().window.grid(), present_.points, Outside::count, snap_};
   }
   bool next() override {
-    if (frame_ == frames_ || !particles_.next()) return false;
+    if (frame_ == frames_) return false;
+    PlacedFrame next = ahead_.valid() ? ahead_.get() : place_next(std::move(room_));
+    if (!next.is_there) return false;
+    room_ = std::exchange(present_, std::move(next));
     ++frame_;
+    place_ahead();
     return true;
   }
   void move(Seeds& seeds, Window& window) const override {
     window = view().window;
-    seeds.move_to(window.grid(), particles_.points());
+    seeds.move_to(window.grid(), present_.points);
   }
-  std::optional<double> displacement() const override { return particles_.max_displacement(); }
-  const std::vector<std::uint32_t>& ids() const override { return particles_.ids(); }
-  const std::vector<double>& values() const override { return particles_.values(); }
-  std::optional<Box> box() const override { return particles_.box(); }
-  std::optional<std::int64_t> timestep() const override { return particles_.timestep(); }
+  std::optional<double> displacement() const override { return present_.displacement; }
+  const std::vector<std::uint32_t>& ids() const override { return present_.ids; }
+  const std::vector<double>& values() const override { return present_.values; }
+  std::optional<Box> box() const override { return present_.box; }
+  std::optional<std::int64_t> timestep() const override { return present_.timestep; }
   std::optional<double> done() const override {
     const double of_frames = frames_ ? static_cast<double>(frame_) / *frames_ : 0;
-    const auto left = particles_.bytes_left();
+    const auto left = present_.bytes_left;
     if (!bytes_ || !left || *bytes_ == 0) return frames_ ? std::optional<double>(of_frames) : std::nullopt;
     return std::max(of_frames, 1 - static_cast<double>(*left) / static_cast<double>(*bytes_));
   }
 
  private:
-  TrajectorySeeds particles_;
+  void take_particles(PlacedFrame& frame) const {
+    frame.points = particles_.points();
+    frame.ids = particles_.ids();
+    frame.values = particles_.values();
+    frame.view = particles_.view();
+    frame.displacement = particles_.max_displacement();
+    frame.box = particles_.box();
+    frame.timestep = particles_.timestep();
+    frame.bytes_left = particles_.bytes_left();
+  }
+
+  PlacedFrame place_next(PlacedFrame room) {
+    room.is_there = particles_.next();
+    if (room.is_there) take_particles(room);
+    return room;
+  }
+
+  void place_ahead() {
+    // Not from a pipe, where the next frame may never come.
+    if (frame_ == frames_ || !present_.bytes_left) return;
+    try {
+      ahead_ = std::async(std::launch::async,
+                          [this, room = std::move(room_)]() mutable { return place_next(std::move(room)); });
+    } catch (const std::system_error&) {
+      // Where the system allows no more threads, the frame is placed when it is needed.
+    }
+  }
+
+  TrajectorySeeds particles_;  // those of the frame that was placed last
   Snap snap_;
   std::optional<int> frames_;
   std::optional<std::uintmax_t> bytes_;  // after frame 0
   int frame_ = 0;
+  PlacedFrame present_, room_;       // and memory for the next one
+  std::future<PlacedFrame> ahead_;  // none: nothing is being placed
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "formats/images/film.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdint>
 #include <filesystem>
@@ -52,6 +53,14 @@ bool has_whole_boxes(const std::string& path) {
   return file && place == end && end > 0;
 }
 
+/// On CPUs with AVX-512, x264's film of pictures whose width is no multiple of 64 depends on memory that was
+/// never set (seen with version 164). That it holds the same in every run makes the same film again.
+void make_unset_memory_the_same() {
+#ifdef M_PERTURB
+  mallopt(M_PERTURB, 0x55);
+#endif
+}
+
 }  // namespace
 
 cv::Size film_size(const cv::Size& picture) {
@@ -63,20 +72,22 @@ Film::Film(const std::string& path, double frames_per_second)
 
 void Film::add(const cv::Mat& picture) {
   if (!encoder_) {
+    make_unset_memory_the_same();
     encoder_ = film_module().open(file_.temporary_path(), frames_per_second_, film_size(picture.size()));
   }
   if (!encoder_) {
     throw Error(
-        fmt::format("{}: no film of {} x {} can be made here (OpenCV needs FFmpeg with an H.264 encoder); "
+        fmt::format("{}: no film of {} x {} can be made here (that needs FFmpeg with an H.264 encoder); "
                     "write numbered pictures, such as frames/%05d.png",
                     file_.path(), picture.cols, picture.rows));
   }
-  encoder_->add(padded(picture));
+  behind_.add([this, added = padded(picture)] { encoder_->add(added); });
   ++pictures_;
 }
 
 void Film::finish() {
   if (pictures_ == 0) return;
+  behind_.wait();
   encoder_.reset();
   // The encoder does not say what went wrong.
   const std::string path = file_.temporary_path();

@@ -7,13 +7,15 @@
 
 #include "formats/modules.hpp"
 #include "formats/output_file.hpp"
+#include "formats/workers.hpp"
 
 namespace vorocl::command {
 
 /// The size of a film of pictures of this size: its sides are even.
 cv::Size film_size(const cv::Size& picture);
 
-/// Grows under a temporary name until finish(); without it, nothing stays.
+/// Grows under a temporary name until finish(); without it, nothing stays. A thread of its own encodes each
+/// picture while the caller makes the next one.
 class Film {
  public:
   /// Throws Error if no file can be made there, and for a pipe.
@@ -21,8 +23,9 @@ class Film {
 
   const std::string& path() const { return file_.path(); }
 
-  /// Appends a picture; all have one size. Its last row or column is repeated where film_size() is larger.
-  /// Throws Error if this machine cannot make the film.
+  /// Appends a picture, which must not change afterwards; all have one size. Its last row or column is
+  /// repeated where film_size() is larger. Waits for the picture before. Throws Error if this machine cannot
+  /// make the film.
   void add(const cv::Mat& picture);
 
   /// How many pictures were added.
@@ -37,6 +40,7 @@ class Film {
   double frames_per_second_;
   std::unique_ptr<FilmEncoder> encoder_;
   int pictures_ = 0;
+  Workers behind_{1};  // the last member: its thread ends before the encoder does
 };
 
 }  // namespace vorocl::command

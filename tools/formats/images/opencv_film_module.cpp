@@ -1,6 +1,4 @@
-// The module of films: vorocl_films.so.
-#include <malloc.h>
-
+// The module of films, vorocl_films.so, where OpenCV encodes them: of a build without VOROCL_FFMPEG.
 #include <cmath>
 #include <cstdlib>
 #include <opencv2/videoio.hpp>
@@ -10,14 +8,6 @@
 namespace vorocl::command {
 
 namespace {
-
-/// On CPUs with AVX-512, x264's film of pictures whose width is no multiple of 64 depends on memory that was
-/// never set (seen with version 164). That it holds the same in every run makes the same film again.
-void make_unset_memory_the_same() {
-#ifdef M_PERTURB
-  mallopt(M_PERTURB, 0x55);
-#endif
-}
 
 class Encoder : public FilmEncoder {
  public:
@@ -37,7 +27,6 @@ class Module : public FilmModule {
   std::unique_ptr<FilmEncoder> open(const std::string& path, double frames_per_second,
                                     const cv::Size& size) const override {
     setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // quiet: what goes wrong is said in our words
-    make_unset_memory_the_same();
     auto encoder = std::make_unique<Encoder>(path, frames_per_second, size);
     if (!encoder->is_open()) return nullptr;
     return encoder;
