@@ -104,7 +104,10 @@ void prepare_at(const Scale& scale, const Device& device, const Specialisation& 
   random_step(seeds, 1, Border::reflect, 1, 1);
   Diagram diagram(device, grid), other(device, grid);
   const Method& exact = method("exact");
+  RelaxOptions by_weight;
+  by_weight.density.assign(grid.pixels(), 1.0F);
   relax(seeds, diagram, engine(exact, options), 1);
+  relax(seeds, diagram, engine(exact, options), 1, {}, by_weight);
   exact.run(seeds, other, options);
   measure(diagram, other, Snap::to_pixels);
 

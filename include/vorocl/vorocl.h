@@ -426,11 +426,13 @@ typedef struct vorocl_relaxation {
 } vorocl_relaxation;
 
 /// Moves seeds to the centroids of their cells, for at most so many rounds: see vorocl::relax(). In the end
-/// the diagram is that of the seeds. `energies` has room for `rounds` + 1 values, at the start and after each
-/// round; `moved`, the seeds that each round moved, for `rounds`; each of the three may be NULL. Waits.
+/// the diagram is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
+/// vorocl::RelaxOptions::density; NULL: all pixels weigh alike. `energies` has room for `rounds` + 1 values,
+/// at the start and after each round; `moved`, the seeds that each round moved, for `rounds`; each of the
+/// three may be NULL. Waits.
 VOROCL_API vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* method,
-                                      const vorocl_method_options* options, int rounds, double* energies,
-                                      size_t* moved, vorocl_relaxation* relaxation);
+                                      const vorocl_method_options* options, int rounds, const float* density,
+                                      double* energies, size_t* moved, vorocl_relaxation* relaxation);
 
 /// @}
 /// @name Measures that give numbers: they wait

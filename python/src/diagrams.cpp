@@ -273,7 +273,8 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
 
 /// Ctrl-C ends it after a round.
 Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
-                 const std::string& metric, int rounds) {
+                 const std::string& metric, int rounds,
+                 const std::optional<Array<const float, nb::ndim<2>>>& density) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const auto go_on = [](const Seeds&, const Diagram&, const Relaxation&) {
     const nb::gil_scoped_acquire locked;
@@ -283,7 +284,9 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
   const Simulation::Engine fills = engine(method(name), options_with(metric));
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
-  Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on);
+  RelaxOptions options;
+  if (density) options.density.assign(density->data(), density->data() + density->size());
+  Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on, options);
   remember(diagram, seeds.seeds, truth_of(method(name), seeds));
   return done;
 }
@@ -335,7 +338,7 @@ void bind_diagrams(nb::module_& module) {
       .def("vertices", find_vertices)
       .def("errors", errors, nb::arg("of_points").none(), without_gil())
       .def("relax", relax, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("rounds"),
-           without_gil());
+           nb::arg("density").none(), without_gil());
 }
 
 }  // namespace vorocl::python

@@ -165,6 +165,23 @@ def test_relaxed_points_are_centroids():
     assert len(vorocl.relax(points, (80, 80), rounds=0, bounds=bounds).energies) == 1
 
 
+def test_a_density_draws_points():
+    points = np.random.default_rng(5).uniform(0, (90, 60), (150, 2))
+    density = np.zeros((60, 90))
+    density[:, :45], density[:, 45:] = 1, 16
+    relaxed = vorocl.relax(points, (60, 90), rounds=1, density=density)
+    labels = vorocl.diagram(points, (60, 90))
+    row, column = np.indices(labels.shape)
+    weight = np.bincount(labels.ravel(), density.ravel())
+    centroids = [np.bincount(labels.ravel(), (density * (at + 0.5)).ravel()) / weight for at in (column, row)]
+    # The weights are rounded to 1/65535 of the greatest, and positions to 1/4096.
+    np.testing.assert_allclose(relaxed.points, np.transpose(centroids), atol=1e-3)
+    squares = (column + 0.5 - points[labels, 0]) ** 2 + (row + 0.5 - points[labels, 1]) ** 2
+    np.testing.assert_allclose(relaxed.energies[0], (density * squares).sum(), rtol=1e-3)
+    as_integers = vorocl.relax(points, (60, 90), rounds=1, density=density.astype(np.uint8).tolist())
+    np.testing.assert_array_equal(as_integers.points, relaxed.points)
+
+
 @pytest.mark.parametrize("truth", ["snapped", "true"])
 def test_errors_are_those_of_brute_force(truth):
     points = rng.uniform(0, (60, 50), (40, 2))

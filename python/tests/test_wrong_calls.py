@@ -62,6 +62,9 @@ WRONG = {
     "labels": NO_NUMBERS
     + [1, [1, 2], np.zeros((2, 2, 2), int), np.zeros((0, 3), int), [[1], [1, 2]], np.array([["a"]])],
     "rounds": [-1, 2**31, 2**70, 1.5, "3", None, Hostile()],
+    "density": NO_NUMBERS[1:]
+    + [1, [1, 2], [[1], [1, 2]], np.zeros((10, 8)), np.zeros((8, 10)), np.full((8, 10), -1), np.full((8, 10), np.nan)]
+    + [np.full((8, 10), 1e300)],
     "distance": [-1, -1e-300, np.nan, "far", [], object(), 10**400, Hostile()],
     "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
@@ -78,7 +81,7 @@ CALLS = {
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
     vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
-    vorocl.relax: ("points", "shape", "rounds", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
+    vorocl.relax: ("points", "shape", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("labels", "distance", "device"),
     vorocl.similarity: ("a", "b"),

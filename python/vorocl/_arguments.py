@@ -194,6 +194,17 @@ def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
+def to_density(density: ArrayLike, shape: Shape) -> NDArray[np.float32]:
+    """(H, W) weights of pixels, C-contiguous; what they must be, the library says."""
+    array = to_image(density, "density")
+    if array.dtype.kind not in "biuf":
+        raise BadArgument(f"density must be real numbers; this array has the dtype {array.dtype}")
+    if array.shape != tuple(shape):
+        raise BadArgument(f"density must have the shape of the diagram, {tuple(shape)}; this array has {array.shape}")
+    with np.errstate(over="ignore"):  # they become infinite
+        return np.ascontiguousarray(array, dtype=np.float32)
+
+
 def output(out: Optional[NDArray[Any]], shape: Shape, dtype: Any) -> NDArray[Any]:
     """The caller's array, or a new one."""
     if out is None:

@@ -24,6 +24,7 @@ from ._arguments import (
     shown,
     to_bounds,
     to_count,
+    to_density,
     to_grid,
     to_image,
     to_labels,
@@ -536,7 +537,8 @@ class Relaxation(NamedTuple):
     points: NDArray[np.float64]
     """(N, 2): the points at the end, in the units that they were given in; NaN for absent ones."""
     energies: NDArray[np.float64]
-    """At the start and after each round: the sum of the squared distances of all pixels to their points, in pixels."""
+    """At the start and after each round: the sum of the squared distances of all pixels to their points, in pixels; with a
+    density the sum of density times squared distance."""
     moved: NDArray[np.int64]
     """The points that each round moved: one entry less than the energies."""
     converged: bool
@@ -549,6 +551,7 @@ def relax(
     shape: Shape,
     *,
     rounds: int = 100,
+    density: Optional[ArrayLike] = None,
     method: Method = "exact",
     bounds: Optional[Bounds] = None,
     periodic: Periodic = (False, False),
@@ -567,6 +570,11 @@ def relax(
     <points, shape>
     rounds : int, optional
         How many at most. It ends before if no point would move by 1/64 of a pixel or more.
+    density : array_like, optional
+        How dense the points shall be: an image of `shape` with a number of at least 0 for each pixel. The centroids are
+        those of cells whose pixels weigh as much (Secord 2002, "Weighted Voronoi stippling"). Weights are rounded to
+        1/65535 of the greatest. Points whose cells weigh nothing stay. Many points come to lie as densely as the square
+        root of the density: give its square for points as dense as it is.
     <method, bounds, periodic, outside, y_up, snap, device>
 
     Returns
@@ -597,7 +605,10 @@ def relax(
         device=device,
     )
     made = Diagram(shape, periodic=periodic, device=device)
-    done = made._diagram.relax(seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"))
+    weights = None if density is None else to_density(density, made.shape)
+    done = made._diagram.relax(
+        seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights
+    )
     places = np.empty((len(seeds), 2))
     seeds._seeds.read(places, in_pixels=False)
     return Relaxation(

@@ -75,8 +75,8 @@ vorocl_status vorocl_prepare(const char* name, const vorocl_device* device, voro
 }
 
 vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const char* name,
-                           const vorocl_method_options* options, int rounds, double* energies, size_t* moved,
-                           vorocl_relaxation* relaxation) {
+                           const vorocl_method_options* options, int rounds, const float* density,
+                           double* energies, size_t* moved, vorocl_relaxation* relaxation) {
   return guarded([&] {
     const Method& wanted = method(&given(name, "method"));
     vorocl_diagram& to = given(diagram, "diagram");
@@ -85,7 +85,9 @@ vorocl_status vorocl_relax(vorocl_seeds* seeds, vorocl_diagram* diagram, const c
       to.report = wanted.run(from, filled, its_options);
       return to.report;
     };
-    const Relaxation done = relax(of(seeds), to.diagram, run, rounds);
+    RelaxOptions how;
+    if (density != nullptr) how.density.assign(density, density + to.diagram.window().pixels());
+    const Relaxation done = relax(of(seeds), to.diagram, run, rounds, {}, how);
     if (energies != nullptr) std::copy(done.energies.begin(), done.energies.end(), energies);
     if (moved != nullptr) std::copy(done.moved.begin(), done.moved.end(), moved);
     store(relaxation, vorocl_relaxation{done.rounds(), done.converged ? 1 : 0});

@@ -5,10 +5,12 @@
 #include <cstdlib>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "core/seeds_state.hpp"
 #include "measures/measurement.hpp"
+#include "motion/density.hpp"
 #include "runtime/buffer.hpp"
 #include "vorocl/cells.hpp"
 
@@ -20,8 +22,9 @@ constexpr std::size_t seeds_per_item = 256;
 
 /// What a relaxation keeps from round to round.
 struct Rounds {
+  std::optional<Density> density;  // none: all pixels weigh alike
   KernelSet kernels;
-  CellSumsResult cells;
+  CellSumsResult cells;               // of pixels that weigh alike
   cl::Buffer partial;                 // the energy of each block
   cl::Buffer moved_and_displacement;  // two words: see relaxation.cl
 };
@@ -32,21 +35,31 @@ struct Move {
   double displacement = 0;  // in pixels
 };
 
-/// The position nearest to a centroid, given by the pixels of a cell and the sum of their coordinates along
-/// an axis, in fractions of a pixel.
-std::int64_t position_of_centroid(std::uint32_t area, std::int64_t sum) {
-  const std::int64_t twice = std::int64_t{2} * area, parts = fractions_of_pixel;
+/// The position nearest to a centroid, given by the weight of a cell and the sum of its pixels' coordinates
+/// along an axis, in fractions of a pixel.
+std::int64_t position_of_centroid(std::uint64_t weight, std::int64_t sum) {
+  const auto once = static_cast<std::int64_t>(weight);
+  const std::int64_t twice = 2 * once, parts = fractions_of_pixel;
   // The mean of the pixels' centres, which are half a pixel behind their starts; in two steps, as the product
   // may be long.
-  const std::int64_t doubled = 2 * sum + area,
+  const std::int64_t doubled = 2 * sum + once,
                      whole = doubled >= 0 ? doubled / twice : -((twice - 1 - doubled) / twice);
-  return whole * parts + ((doubled - whole * twice) * parts + area) / twice;
+  return whole * parts + ((doubled - whole * twice) * parts + once) / twice;
+}
+
+/// What the centroids of the cells follow from, by id. Waits.
+std::vector<CellWeight> weights_of(const Rounds& rounds, std::size_t cells) {
+  if (rounds.density) return rounds.density->read(cells);
+  std::vector<CellWeight> weights;
+  weights.reserve(cells);
+  for (const CellSums& sums : rounds.cells.read()) weights.push_back({sums.area, sums.sum_x, sums.sum_y});
+  return weights;
 }
 
 Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
   const SeedsFrame& frame = *state.frame();
-  const std::vector<CellSums> cells = rounds.cells.read();
+  const std::vector<CellWeight> cells = weights_of(rounds, state.size());
   const auto pixels = std::make_shared<std::vector<PlanePosition>>(*frame.pixels);
   const auto fractions = std::make_shared<std::vector<Fraction>>(*frame.fractions);
   const auto go = [](const Axis& axis, std::int64_t to, cl_int& pixel, std::uint16_t& fraction) {
@@ -64,13 +77,13 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   Move move;
   std::int64_t greatest = 0;
   for (std::size_t id = 0; id < cells.size(); ++id) {
-    if (cells[id].area == 0) continue;
+    if (cells[id].weight == 0) continue;
     PlanePosition& pixel = (*pixels)[id];
     Fraction& fraction = (*fractions)[id];
     const std::int64_t x =
-        go(frame.grid.x(), position_of_centroid(cells[id].area, cells[id].sum_x), pixel.s[0], fraction.x);
+        go(frame.grid.x(), position_of_centroid(cells[id].weight, cells[id].sum_x), pixel.s[0], fraction.x);
     const std::int64_t y =
-        go(frame.grid.y(), position_of_centroid(cells[id].area, cells[id].sum_y), pixel.s[1], fraction.y);
+        go(frame.grid.y(), position_of_centroid(cells[id].weight, cells[id].sum_y), pixel.s[1], fraction.y);
     move.seeds += x > 0 || y > 0 ? 1 : 0;
     greatest = std::max({greatest, x, y});
   }
@@ -87,11 +100,20 @@ Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   const PixelGrid grid{Window(state.grid())};
   make_room(rounds.moved_and_displacement, device, 2 * sizeof(cl_uint));
   fill(device, rounds.moved_and_displacement, cl_uint{0}, 2);
-  rounds.kernels.get(device, "motion/relaxation.cl", "move_to_centroids", grid)
-      .over_items((state.size() + seeds_per_item - 1) / seeds_per_item, *positions,
-                  static_cast<cl_uint>(state.size()), static_cast<cl_uint>(seeds_per_item),
-                  rounds.cells.area(), rounds.cells.sum_x(), rounds.cells.sum_y(), grid.width(),
-                  grid.height(), rounds.moved_and_displacement);
+  const auto move_to_means = [&](const char* name, const cl::Buffer& weight, const cl::Buffer& sum_x,
+                                 const cl::Buffer& sum_y) {
+    rounds.kernels.get(device, "motion/relaxation.cl", name, grid)
+        .over_items((state.size() + seeds_per_item - 1) / seeds_per_item, *positions,
+                    static_cast<cl_uint>(state.size()), static_cast<cl_uint>(seeds_per_item), weight, sum_x,
+                    sum_y, grid.width(), grid.height(), rounds.moved_and_displacement);
+  };
+  if (rounds.density) {
+    const Density& cells = *rounds.density;
+    move_to_means("move_to_weighted_centroids", cells.weight(), cells.sum_x(), cells.sum_y());
+  } else {
+    const CellSumsResult& cells = rounds.cells;
+    move_to_means("move_to_centroids", cells.area(), cells.sum_x(), cells.sum_y());
+  }
   const auto words = download<cl_uint>(device, rounds.moved_and_displacement, 2);
   const Move move = {words[0], static_cast<double>(words[1])};
   if (move.displacement >= tolerance) state.moved(positions, move.displacement);
@@ -134,13 +156,14 @@ Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engin
     throw Error("Lloyd relaxation needs a diagram of the whole grid, and this one shows a part of it");
   }
   Rounds state;
+  if (!options.density.empty()) state.density.emplace(diagram.device(), diagram.window(), options.density);
   Relaxation relaxation;
   while (true) {
     engine(seeds, diagram);
-    relaxation.energies.push_back(energy_of(diagram, state));
+    relaxation.energies.push_back(state.density ? state.density->weigh(diagram) : energy_of(diagram, state));
     const bool goes_on = !observer || observer(seeds, diagram, relaxation);
     if (!goes_on || relaxation.rounds() == rounds) return relaxation;
-    cell_sums(diagram, state.cells);
+    if (!state.density) cell_sums(diagram, state.cells);
     const Move move = move_to_centroids(seeds, state, options.tolerance);
     if (move.displacement < options.tolerance) {
       relaxation.converged = true;

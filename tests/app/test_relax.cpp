@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
@@ -217,6 +218,66 @@ BOOST_AUTO_TEST_CASE(after_ctrl_c_the_files_show_the_last_round) {
   succeeds(folder, "cells --points p.csv --bounds 0,0,900,800 --size 900x800 --labels l.npy");
   BOOST_TEST(cv::norm(cv::imread(folder / fmt::format("r/{}.png", rounds)),
                       color_by_id(labels_of(folder, "l.npy").labels, Grid(900, 800)), cv::NORM_INF) == 0);
+}
+
+namespace {
+
+/// A picture of 60 x 40 pixels whose left half is white and whose right half is dark, in some type and
+/// format.
+cv::Mat half_dark(int type, double white, double dark) {
+  cv::Mat picture(40, 60, type, cv::Scalar::all(white));
+  picture.colRange(30, 60).setTo(cv::Scalar::all(dark));
+  return picture;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(dark_pixels_of_a_picture_and_great_numbers_are_dense) {
+  const TemporaryFolder folder;
+  cv::imwrite(folder / "grey.png", half_dark(CV_8UC1, 255, 51));
+  cv::imwrite(folder / "deep.png", half_dark(CV_16UC1, 65535, 13107));
+  cv::imwrite(folder / "colour.png", half_dark(CV_8UC3, 255, 51));
+  std::vector<float> weights;
+  for (int i = 0; i < 60 * 40; ++i) weights.push_back(i % 60 < 30 ? 0.0F : 204.0F);
+  command::write_pixels(command::OutputFile(folder / "n.npy"), "density", command::Size(60, 40), weights);
+  const auto relaxed = [&](const std::string& density, const std::string& size) {
+    const json result = json::parse(succeeds(folder,
+                                             "relax --random 40 --rounds 3 --relaxed-points p.csv --json "
+                                             "--density " +
+                                                 density + size));
+    BOOST_TEST(result.at("width") == 60);
+    BOOST_TEST(result.at("energy_at_end").get<double>() < result.at("energy_at_start").get<double>());
+    return content_of(folder / "p.csv");
+  };
+  const std::string points = relaxed("n.npy", " --size 60x40");
+  BOOST_TEST(relaxed("grey.png", "") == points);
+  BOOST_TEST(relaxed("deep.png", "") == points);
+  BOOST_TEST(relaxed("colour.png", "") == points);
+  std::size_t dark = 0;
+  for (const TableRow& row : read_table(folder / "p.csv").rows) dark += *row[1] >= 30 ? 1 : 0;
+  BOOST_TEST(dark > 16u);  // of 40 seeds, 14 began there
+}
+
+BOOST_AUTO_TEST_CASE(densities_that_cannot_be_are_refused) {
+  const TemporaryFolder folder;
+  const auto write = [&](const std::string& name, float value) {
+    std::vector<float> values(200, 1.0F);
+    values[73] = value;
+    command::write_pixels(command::OutputFile(folder / name), "density", command::Size(10, 20), values);
+  };
+  write("negative.npy", -2);
+  write("nan.npy", std::nanf(""));
+  cv::imwrite(folder / "white.png", cv::Mat(20, 10, CV_8UC1, cv::Scalar(255)));
+  folder.file("points.npy", "1,2");
+  const std::string relax = "relax --random 5 --rounds 3 --labels l.npy --density ";
+  refuses(folder, relax + "negative.npy", failure, {"pixel (3, 7)", "-2", "at least 0"});
+  refuses(folder, relax + "nan.npy", failure, {"pixel (3, 7)", "nan"});
+  refuses(folder, relax + "white.png", failure, {"0 everywhere"});
+  refuses(folder, relax + "points.npy", failure, {"points.npy", ".npy"});
+  refuses(folder, relax + "none.png", failure, {"none.png"});
+  refuses(folder, relax + "white.png --size 20x20", failure, {"white.png is 10 x 20", "20 x 20"});
+  refuses(folder, "relax --random 5 --rounds 3 --labels nan.npy --density nan.npy", usage,
+          {"--labels would replace", "--density reads"});
 }
 
 BOOST_AUTO_TEST_CASE(bad_options_are_refused_before_the_work) {

@@ -109,6 +109,15 @@ void make_windows(const Device& device, Metric metric) {
   }
 }
 
+/// By a density that grows from pixel to pixel.
+void relax_by_weights(Seeds& seeds, Diagram& diagram) {
+  const auto engine = [](const Seeds& moved, Diagram& filled) { return exact_diagram(moved, filled); };
+  RelaxOptions options;
+  for (std::size_t i = 0; i < diagram.window().pixels(); ++i)
+    options.density.push_back(static_cast<float>(i));
+  relax(seeds, diagram, engine, 1, {}, options);
+}
+
 /// Points within their pixels: few, several in a pixel, many on one point; also around a window, and relaxed.
 void make_diagrams_of_points(const Device& device, Metric metric) {
   std::vector<Point> points = {{3.25, 4.5}, {3.5, 4.5}, {30.125, 8.75}};
@@ -131,6 +140,7 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
     distance_field(diagram, distances);
     distance_errors(diagram, by_short_lists, errors);
     device.finish();
+    if (window.is_whole() && metric == Metric::euclidean) relax_by_weights(seeds, diagram);
   }
 }
 
@@ -161,6 +171,7 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
     return jump_flooding(moved, filled, {metric});
   };
   relax(seeds, diagram, engine, 1);
+  if (metric == Metric::euclidean) relax_by_weights(seeds, diagram);
   exact_diagram(seeds, other, {metric});
   jump_flooding(seeds, diagram, {metric});
   AllMeasures measures;

@@ -249,25 +249,27 @@ static void test_failures(const vorocl_device* device) {
   FAILS(vorocl_vertices(diagram, NULL, 1, &count), VOROCL_NULL_ARGUMENT, "points is NULL");
   FAILS(vorocl_vertices(diagram, &vertex, 1, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
 
-  FAILS(vorocl_relax(NULL, diagram, "exact", NULL, 1, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
+  FAILS(vorocl_relax(NULL, diagram, "exact", NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
         "seeds is NULL");
-  FAILS(vorocl_relax(seeds, NULL, "exact", NULL, 1, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
+  FAILS(vorocl_relax(seeds, NULL, "exact", NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
         "diagram is NULL");
-  FAILS(vorocl_relax(seeds, diagram, NULL, NULL, 1, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
+  FAILS(vorocl_relax(seeds, diagram, NULL, NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_NULL_ARGUMENT,
         "method is NULL");
-  FAILS(vorocl_relax(seeds, diagram, "fast", NULL, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_relax(seeds, diagram, "fast", NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
         "no method \"fast\"");
-  FAILS(vorocl_relax(seeds, diagram, "exact", NULL, -1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT, "-1");
-  FAILS(vorocl_relax(seeds, other, "exact", NULL, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_relax(seeds, diagram, "exact", NULL, -1, NULL, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
+        "-1");
+  FAILS(vorocl_relax(seeds, other, "exact", NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
         "61 x 40");
   options.metric = 9;
-  FAILS(vorocl_relax(seeds, diagram, "exact", &options, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
-        "metric 9");
+  FAILS(vorocl_relax(seeds, diagram, "exact", &options, 1, NULL, NULL, NULL, &relaxation),
+        VOROCL_BAD_ARGUMENT, "metric 9");
   OK(vorocl_seeds_from_points(device, grid, &outside, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
                               &outer));
-  FAILS(vorocl_relax(outer, diagram, "exact", NULL, 1, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_relax(outer, diagram, "exact", NULL, 1, NULL, NULL, NULL, &relaxation), VOROCL_BAD_ARGUMENT,
         "outside");
-  OK(vorocl_relax(seeds, diagram, "exact", NULL, 1, NULL, NULL, &relaxation)); /* they are as they were */
+  OK(vorocl_relax(seeds, diagram, "exact", NULL, 1, NULL, NULL, NULL,
+                  &relaxation)); /* they are as they were */
   CHECK(relaxation.rounds == 1);
   vorocl_field_free(field);
   vorocl_field_free(NULL);
@@ -287,17 +289,18 @@ static void test_relaxation(const vorocl_device* device) {
   vorocl_point places[seed_count], centroids[seed_count];
   uint32_t labels[pixels], area[seed_count];
   double energies[201], energy = 0, squares = 0;
+  float density[pixels];
   size_t moved[200];
   int waves = -1;
   OK(vorocl_diagram_create(device, window, &diagram));
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, labels);
   for (int i = 0; i < pixels; ++i)
     squares += (double)distance(i, pixel_of(points[labels[i]]), VOROCL_EUCLIDEAN);
-  OK(vorocl_relax(seeds, diagram, "exact", NULL, 0, energies, NULL, &relaxation));
+  OK(vorocl_relax(seeds, diagram, "exact", NULL, 0, NULL, energies, NULL, &relaxation));
   CHECK(relaxation.rounds == 0 && !relaxation.converged && energies[0] == squares);
   CHECK(has_labels(diagram, labels));
 
-  OK(vorocl_relax(seeds, diagram, "exact", NULL, 200, energies, moved, &relaxation));
+  OK(vorocl_relax(seeds, diagram, "exact", NULL, 200, NULL, energies, moved, &relaxation));
   CHECK(relaxation.converged && relaxation.rounds > 1 && energies[0] == squares);
   for (int round = 0; round < relaxation.rounds && round < 200; ++round) {
     CHECK(energies[round + 1] <= energies[round] && moved[round] > 0);
@@ -313,7 +316,13 @@ static void test_relaxation(const vorocl_device* device) {
     if (area[id] == 0) continue;
     CHECK(fabs(places[id].x - centroids[id].x) <= 0.5 && fabs(places[id].y - centroids[id].y) <= 0.5);
   }
-  OK(vorocl_relax(seeds, diagram, "jfa", NULL, 5, NULL, NULL, NULL));
+  for (int i = 0; i < pixels; ++i) density[i] = 2;
+  OK(vorocl_relax(seeds, diagram, "exact", NULL, 0, density, energies, NULL, NULL));
+  CHECK(energies[0] == 2 * energy);
+  density[pixels - 1] = -1;
+  FAILS(vorocl_relax(seeds, diagram, "exact", NULL, 0, density, NULL, NULL, NULL), VOROCL_BAD_ARGUMENT,
+        "pixel (60, 39)");
+  OK(vorocl_relax(seeds, diagram, "jfa", NULL, 5, NULL, NULL, NULL, NULL));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6); /* that of the method's last diagram */
   vorocl_cell_sums_free(sums);

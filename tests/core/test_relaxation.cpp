@@ -11,39 +11,55 @@ namespace {
 
 Report exactly(const Seeds& seeds, Diagram& diagram) { return exact_diagram(seeds, diagram); }
 
+/// The weights of pixels, as whole numbers: empty if all weigh 1.
+using Weights = std::vector<std::int64_t>;
+
+std::int64_t weight_at(const Grid& grid, const Weights& weights, int x, int y) {
+  return weights.empty() ? 1 : weights[static_cast<std::size_t>(y * grid.width() + x)];
+}
+
 double energy_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
-                      const std::vector<Pixel>& seeds) {
-  std::uint64_t sum = 0;
+                      const std::vector<Pixel>& seeds, const Weights& weights = {}) {
+  std::int64_t sum = 0;
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
-    sum += static_cast<std::uint64_t>(distance(grid, {x, y}, seeds[label], Metric::euclidean));
+    sum += weight_at(grid, weights, x, y) * distance(grid, {x, y}, seeds[label], Metric::euclidean);
   });
   return static_cast<double>(sum);
 }
 
-/// A round as its definition says it: of all pixels the one nearest to the centroid, the seed's own first.
-std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
-                                 std::vector<Pixel> seeds) {
-  struct Sums {
-    std::int64_t area = 0, x = 0, y = 0;
-  };
+struct Sums {
+  std::int64_t weight = 0, x = 0, y = 0;
+};
+
+/// Of the pixels of each cell, where they are nearest to its seed.
+std::vector<Sums> sums_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                               const std::vector<Pixel>& seeds, const Weights& weights) {
   std::vector<Sums> sums(seeds.size());
   each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
     const Pixel image = nearest_image(grid, {x, y}, seeds[label]);
-    ++sums[label].area;
-    sums[label].x += image.x;
-    sums[label].y += image.y;
+    const std::int64_t weight = weight_at(grid, weights, x, y);
+    sums[label].weight += weight;
+    sums[label].x += weight * image.x;
+    sums[label].y += weight * image.y;
   });
-  const auto nearest = [](std::int64_t area, std::int64_t sum, std::int64_t present, std::int64_t size) {
+  return sums;
+}
+
+/// A round as its definition says it: of all pixels the one nearest to the centroid, the seed's own first.
+std::vector<Pixel> round_on_host(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                                 std::vector<Pixel> seeds, const Weights& weights = {}) {
+  const std::vector<Sums> sums = sums_on_host(grid, labels, seeds, weights);
+  const auto nearest = [](std::int64_t weight, std::int64_t sum, std::int64_t present, std::int64_t size) {
     std::int64_t best = present;
     for (std::int64_t at = -size; at < 2 * size; ++at) {
-      if (std::abs(at * area - sum) < std::abs(best * area - sum)) best = at;
+      if (std::abs(at * weight - sum) < std::abs(best * weight - sum)) best = at;
     }
     return best;
   };
   for (std::size_t id = 0; id < seeds.size(); ++id) {
-    if (sums[id].area == 0) continue;
-    const Pixel image = {nearest(sums[id].area, sums[id].x, seeds[id].x, grid.width()),
-                         nearest(sums[id].area, sums[id].y, seeds[id].y, grid.height())};
+    if (sums[id].weight == 0) continue;
+    const Pixel image = {nearest(sums[id].weight, sums[id].x, seeds[id].x, grid.width()),
+                         nearest(sums[id].weight, sums[id].y, seeds[id].y, grid.height())};
     seeds[id] = in_grid(grid, image).value();
   }
   return seeds;
@@ -76,6 +92,185 @@ BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
         pixels = next;
       }
     }
+  }
+}
+
+// --- densities ---
+
+namespace {
+
+std::vector<Point> random_points(const Grid& grid, std::size_t count, unsigned rng_seed) {
+  std::mt19937 rng(rng_seed);
+  const auto along = [&](std::int64_t pixels) {
+    return static_cast<double>(pixels) * static_cast<double>(rng()) * 0x1p-32;
+  };
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double x = along(grid.width());
+    points.push_back({x, along(grid.height())});
+  }
+  return points;
+}
+
+/// Of random values, a part of them 0.
+std::vector<float> random_density(const Grid& grid) {
+  std::mt19937 rng(11);
+  std::vector<float> density(grid.pixels());
+  for (float& value : density) value = rng() % 4 == 0 ? 0.0F : static_cast<float>(rng() % 100000) * 0.37F;
+  return density;
+}
+
+/// The whole numbers that stand for it: of 65535 to the greatest, the nearest.
+Weights weights_of(const std::vector<float>& density) {
+  const double greatest = *std::max_element(density.begin(), density.end());
+  Weights weights;
+  for (const double value : density)
+    weights.push_back(static_cast<std::int64_t>(std::floor(value / greatest * 65535 + 0.5)));
+  return weights;
+}
+
+RelaxOptions with_density(std::vector<float> density) {
+  RelaxOptions options;
+  options.density = std::move(density);
+  return options;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(weighted_rounds_are_those_of_the_definition) {
+  for (const Device& device : shapes()) {
+    for (const Case& test : measured_cases()) {
+      if (test.grid.pixels() > 300000) continue;
+      const std::vector<float> density = random_density(test.grid);
+      const Weights weights = weights_of(density);
+      const double unit = *std::max_element(density.begin(), density.end()) / 65535.0;
+      if (unit == 0) continue;
+      std::vector<Pixel> pixels = test.seeds;
+      Seeds seeds(device, test.grid, centres(pixels));
+      Diagram diagram(device, test.grid);
+      exact_diagram(seeds, diagram);
+      for (int round = 0; round < 2; ++round) {
+        const std::vector<std::uint32_t> labels = diagram.read();
+        const double expected = unit * energy_on_host(test.grid, labels, pixels, weights);
+        const std::vector<Pixel> next = round_on_host(test.grid, labels, pixels, weights);
+        const Relaxation relaxation = relax(seeds, diagram, exactly, 1, {}, with_density(density));
+        BOOST_TEST(relaxation.energies.front() == expected, test.name);
+        BOOST_TEST(relaxation.converged == same(next, pixels), test.name);
+        BOOST_TEST(same(pixels_of(points_of(seeds)), next), test.name << ": seeds moved elsewhere");
+        pixels = next;
+      }
+    }
+  }
+}
+
+// With points themselves a seed goes to the whole number of 1/4096 pixel that is nearest to the weighted mean
+// of the centres.
+BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
+  constexpr std::int64_t parts = 4096;
+  for (const Device& device : shapes()) {
+    for (const Periodic periodic : {Periodic::none, Periodic::x, Periodic::xy}) {
+      const Grid grid(300, 190, periodic);
+      const std::vector<float> density = random_density(grid);
+      const Weights weights = weights_of(density);
+      Seeds seeds(device, grid, random_points(grid, 200, 5), Outside::count, Snap::none);
+      Diagram diagram(device, grid);
+      exact_diagram(seeds, diagram);
+      // From the seeds' pixels the way to a pixel is not always the shorter one: cells are too small here.
+      const std::vector<Sums> sums = sums_on_host(grid, diagram.read(), pixels_of(points_of(seeds)), weights);
+      const double start = energy(diagram);
+      const Relaxation relaxation = relax(seeds, diagram, exactly, 1, {}, with_density(density));
+      BOOST_TEST(relaxation.energies.size() == 2u);
+      BOOST_TEST(relaxation.energies.front() < start * *std::max_element(density.begin(), density.end()));
+      const std::vector<Point> moved = points_of(seeds);
+      const auto nearest = [&](std::int64_t weight, std::int64_t sum, std::int64_t size, bool repeats) {
+        const std::int64_t at = ((2 * sum + weight) * parts + weight) / (2 * weight);
+        return static_cast<double>(repeats ? (at + size * parts) % (size * parts) : at) / parts;
+      };
+      for (std::size_t id = 0; id < moved.size(); ++id) {
+        const Sums& of = sums[id];
+        BOOST_TEST_REQUIRE(of.weight > 0);
+        // Negative sums lie a period away, where division rounds down as well.
+        const std::int64_t x = of.x + (has_x(periodic) ? of.weight * grid.width() : 0);
+        const std::int64_t y = of.y + (has_y(periodic) ? of.weight * grid.height() : 0);
+        BOOST_TEST(moved[id].x == nearest(of.weight, x, grid.width(), has_x(periodic)));
+        BOOST_TEST(moved[id].y == nearest(of.weight, y, grid.height(), has_y(periodic)));
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
+  const Grid grid(200, 150, Periodic::x);
+  for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+    const std::vector<Point> points = random_points(grid, 120, 2);
+    Seeds one(test_device(), grid, points, Outside::count, snap);
+    Seeds other(test_device(), grid, points, Outside::count, snap);
+    Diagram of_one(test_device(), grid), of_other(test_device(), grid);
+    const Relaxation evenly = relax(one, of_one, exactly, 8);
+    const Relaxation weighted =
+        relax(other, of_other, exactly, 8, {}, with_density(std::vector<float>(grid.pixels(), 3.0F)));
+    BOOST_TEST(evenly.moved == weighted.moved, boost::test_tools::per_element());
+    BOOST_TEST((of_one.read() == of_other.read()));
+    for (std::size_t round = 0; round < evenly.energies.size(); ++round) {
+      BOOST_TEST(3 * evenly.energies[round] == weighted.energies[round], boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+// Gersho's law in the plane: many seeds come to lie as densely as the square root of the density.
+BOOST_AUTO_TEST_CASE(seeds_come_to_lie_as_the_square_root_of_the_density) {
+  const Grid grid(384, 384, Periodic::xy);
+  const auto wanted = [](std::size_t x) {
+    return 2 + std::cos(2 * 3.14159265358979 * (static_cast<double>(x % 384) + 0.5) / 384);  // 3 to 1
+  };
+  std::vector<float> density(grid.pixels());
+  for (std::size_t i = 0; i < density.size(); ++i) density[i] = static_cast<float>(std::pow(wanted(i), 2));
+  Seeds seeds(test_device(), grid, random_points(grid, 320, 4), Outside::count, Snap::none);
+  Diagram diagram(test_device(), grid);
+  const Relaxation relaxation = relax(seeds, diagram, exactly, 1500, {}, with_density(density));
+  for (std::size_t round = 1; round < relaxation.energies.size(); ++round) {
+    BOOST_TEST(relaxation.energies[round] < relaxation.energies[round - 1] * (1 + 1e-6));
+  }
+
+  std::vector<double> counted(4), expected(4);
+  for (const Point& point : points_of(seeds)) ++counted[static_cast<std::size_t>(point.x / 96)];
+  for (std::size_t x = 0; x < 384; ++x) expected[x / 96] += wanted(x) / 768 * 320;
+  for (std::size_t i = 0; i < 4; ++i) {
+    BOOST_TEST(counted[i] == expected[i],
+               boost::test_tools::tolerance(0.08));  // 105 and 55; by the density itself 125 and 35
+  }
+}
+
+BOOST_AUTO_TEST_CASE(seeds_whose_cells_weigh_nothing_stay) {
+  const Grid grid(40, 20);
+  std::vector<float> density(grid.pixels());
+  for (std::size_t i = 0; i < density.size(); ++i) density[i] = i % 40 < 20 ? 0.0F : 1.0F;
+  for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+    Seeds seeds(test_device(), grid, {{3.5, 4.5}, {7.5, 9.5}, {25.5, 9.5}}, Outside::count, snap);
+    Diagram diagram(test_device(), grid);
+    const Relaxation relaxation = relax(seeds, diagram, exactly, 1, {}, with_density(density));
+    const std::vector<Point> moved = points_of(seeds);
+    BOOST_TEST((moved[0].x == 3.5 && moved[0].y == 4.5));
+    BOOST_TEST((moved[1].x == 7.5 && moved[1].y == 9.5));
+    BOOST_TEST(moved[2].x > 29);
+    BOOST_TEST(relaxation.moved.front() == 1u);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(densities_that_cannot_be_are_refused) {
+  const Grid grid(10, 20);
+  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}});
+  Diagram diagram(test_device(), grid);
+  const auto refused = [&](std::vector<float> density, std::initializer_list<std::string> parts) {
+    check_error([&] { relax(seeds, diagram, exactly, 1, {}, with_density(std::move(density))); }, parts);
+  };
+  refused(std::vector<float>(199, 1.0F), {"199", "10 x 20"});
+  refused(std::vector<float>(200, 0.0F), {"0 everywhere"});
+  std::vector<float> density(200, 1.0F);
+  for (const float bad :
+       {-1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    density[73] = bad;
+    refused(density, {"pixel (3, 7)", "at least 0"});
   }
 }
 

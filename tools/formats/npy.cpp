@@ -179,22 +179,46 @@ std::vector<Point> read_npy_points(const std::string& path) {
   return points.read(0, points.size());
 }
 
-LabelImage read_npy_labels(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  const Header header = read_header(file, path);
+namespace {
+
+/// The size of an image that a header names. Throws Error if it is none, and says what it had to be.
+Size size_of_image(const Header& header, bool has_type, const std::string& path, const std::string& wanted) {
   const auto& shape = header.shape;
   constexpr std::size_t most = Size::max_side;
   const bool is_image =
       shape.size() == 2 && shape[0] >= 1 && shape[0] <= most && shape[1] >= 1 && shape[1] <= most;
-  if (header.type != "<u4" || !is_image) {
-    throw Error(path + " holds " + header.type + " of shape " + to_string(shape) +
-                "; labels are uint32 (<u4) of shape (height, width), with sides from 1 to " +
-                std::to_string(most));
+  if (!has_type || !is_image) {
+    throw Error(path + " holds " + header.type + " of shape " + to_string(shape) + "; " + wanted +
+                " of shape (height, width), with sides from 1 to " + std::to_string(most));
   }
-  LabelImage image{Size(static_cast<int>(shape[1]), static_cast<int>(shape[0])), {}};
+  return {static_cast<int>(shape[1]), static_cast<int>(shape[0])};
+}
+
+}  // namespace
+
+LabelImage read_npy_labels(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  const Header header = read_header(file, path);
+  LabelImage image{size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)"), {}};
   find_values(file, header, image.size.pixels(), path);
   image.labels.resize(image.size.pixels());
   read_bytes(file, image.labels.data(), image.labels.size() * sizeof no_label, path);
+  return image;
+}
+
+DensityImage read_npy_density(const std::string& path) {
+  std::ifstream file = open_to_read(path);
+  const Header header = read_header(file, path);
+  DensityImage image{size_of_image(header, true, path, "a density has numbers"), {}};
+  find_values(file, header, image.size.pixels(), path);
+  const Type& type = types().at(header.type);
+  std::vector<char> row(static_cast<std::size_t>(image.size.width()) * type.size);
+  image.values.reserve(image.size.pixels());
+  for (int y = 0; y < image.size.height(); ++y) {
+    read_bytes(file, row.data(), row.size(), path);
+    for (std::size_t at = 0; at < row.size(); at += type.size)
+      image.values.push_back(static_cast<float>(type.read(&row[at])));
+  }
   return image;
 }
 

@@ -37,6 +37,10 @@ std::vector<Point> read_npy_points(const std::string& path);
 /// Labels: uint32, shape (height, width). Throws Error if the file is something else.
 LabelImage read_npy_labels(const std::string& path);
 
+/// Numbers of any integer or floating-point type, as NpyPoints, of shape (height, width). Throws Error if the
+/// file is something else.
+DensityImage read_npy_density(const std::string& path);
+
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
 /// Error if the file cannot be written.
 template <typename T>

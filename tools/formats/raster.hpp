@@ -54,6 +54,12 @@ struct LabelImage {
   std::vector<std::uint32_t> labels;  // row-major
 };
 
+/// How much each pixel of an image weighs.
+struct DensityImage {
+  Size size;
+  std::vector<float> values;  // row-major
+};
+
 /// The pixels of an image file, and where they lie in the data.
 struct Raster {
   /// Of data in pixels, where y = 0 is at the bottom.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
@@ -13,6 +14,7 @@
 #include "app/terminal/selected_device.hpp"
 #include "formats/files.hpp"
 #include "formats/images/pictures.hpp"
+#include "formats/npy.hpp"
 #include "formats/point_files.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/relaxation.hpp"
@@ -21,9 +23,10 @@ namespace vorocl::command {
 
 namespace {
 
-struct RelaxOptions {
+struct RelaxCommand {
   SeedOptions seeds;
   int rounds = 0;
+  std::string density_path;
   std::string device;
   FrameWriterOptions pictures;  // -o: a film or pictures of the rounds, or one picture
   FileRequest labels = {labels_kind(), ""};
@@ -38,7 +41,7 @@ struct RelaxOptions {
   }
 };
 
-std::vector<RequestedFile> requested_files(const RelaxOptions& options) {
+std::vector<RequestedFile> requested_files(const RelaxCommand& options) {
   std::vector<RequestedFile> files = {requested(options.labels),
                                       {"--relaxed-points", options.points_path, {".csv", ".npy"}},
                                       {"--energy", options.energy_path, {".csv"}}};
@@ -59,8 +62,8 @@ struct Outputs {
   std::optional<OutputFile> energy;
 };
 
-Outputs open_outputs(const RelaxOptions& options) {
-  check_outputs(requested_files(options), options.seeds);
+Outputs open_outputs(const RelaxCommand& options) {
+  check_outputs(requested_files(options), options.seeds, {{"--density", options.density_path, {}}});
   check_picture_options(options.pictures.picture);
   Outputs outputs;
   if (options.shows_rounds()) {  // first: it makes the folder of numbered pictures
@@ -94,8 +97,23 @@ void write_energies(const OutputFile& file, const Relaxation& relaxation) {
   table.finish();
 }
 
-Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& seeds, Diagram& diagram,
-                      const Interruption& interruption, FrameWriter* writer) {
+DensityImage read_density(const std::string& path) {
+  return extension_of(path) == ".npy" ? read_npy_density(path) : read_darkness(path);
+}
+
+/// The density of the grid's pixels; none if it is not asked for.
+std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<DensityImage>&& density,
+                                   const Input& input) {
+  if (!density) return {};
+  const Size size(input.view.window);
+  if (density->size == size) return std::move(density->values);
+  throw Error(fmt::format("{} is {} x {} pixels and the grid {} x {}; a density has a value for each pixel",
+                          options.density_path, density->size.width(), density->size.height(), size.width(),
+                          size.height()));
+}
+
+Relaxation run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
+                      const Interruption& interruption, FrameWriter* writer, RelaxOptions&& how) {
   Progress progress({"rounds"});
   MeasureBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled) { return exact_diagram(at, filled); };
@@ -109,12 +127,12 @@ Relaxation run_rounds(const RelaxOptions& options, const Input& input, Seeds& se
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
     return !interruption.came();
   };
-  const Relaxation relaxation = relax(seeds, diagram, engine, options.rounds, observer);
+  const Relaxation relaxation = relax(seeds, diagram, engine, options.rounds, observer, how);
   if (writer != nullptr) writer->wait();
   return relaxation;
 }
 
-void write_end(const Outputs& outputs, const RelaxOptions& options, const Input& input, const Seeds& seeds,
+void write_end(const Outputs& outputs, const RelaxCommand& options, const Input& input, const Seeds& seeds,
                const Diagram& diagram, const Relaxation& relaxation) {
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
@@ -129,7 +147,7 @@ void write_end(const Outputs& outputs, const RelaxOptions& options, const Input&
   if (outputs.rounds) outputs.rounds->finish();
 }
 
-void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxation& relaxation) {
+void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxation& relaxation) {
   if (options.json) {
     print_json({{"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
@@ -150,10 +168,15 @@ void print_result(const RelaxOptions& options, const Seeds& seeds, const Relaxat
   print_written(requested_files(options));
 }
 
-void run(const RelaxOptions& options) {
+void run(RelaxCommand& options) {
   const Interruption interruption;  // before there are files
   const Outputs outputs = open_outputs(options);
+  std::optional<DensityImage> density;
+  if (!options.density_path.empty()) density = read_density(options.density_path);
+  if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size;
   const Input input = read_input(options.seeds);
+  RelaxOptions how;
+  how.density = density_of_grid(options, std::move(density), input);
   refuse_window(input, "relax");
   check_picture_size(options.pictures.picture, input.view.picture.size);
   const Device device = select_device(options.device);
@@ -161,7 +184,7 @@ void run(const RelaxOptions& options) {
   Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
   const Relaxation relaxation =
-      run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get());
+      run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get(), std::move(how));
   write_end(outputs, options, input, seeds, diagram, relaxation);
   if (!relaxation.converged && relaxation.rounds() < options.rounds) {
     throw Error(fmt::format("interrupted after {}; the files show the last of them",
@@ -173,7 +196,7 @@ void run(const RelaxOptions& options) {
 }  // namespace
 
 void add_relax(CommandLine& line) {
-  const auto options = std::make_shared<RelaxOptions>();
+  const auto options = std::make_shared<RelaxCommand>();
   Command command = line.add("relax", "Move seeds to the centroids of their exact cells (Lloyd relaxation)");
   add_seed_options(command, options->seeds);
   add_frame_option(command, options->seeds);
@@ -185,6 +208,13 @@ void add_relax(CommandLine& line) {
       .value_name("K")
       .in_range(0, 1000000000)
       .required();
+  command
+      .add(
+          "--density", options->density_path,
+          "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
+          "as "
+          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its size")
+      .value_name("IMAGE");
   add_device_option(command, options->device);
   add_film_options(
       command, options->pictures, "PICTURE|FILM|PICTURES",

@@ -8,9 +8,11 @@
 
 namespace vorocl::command {
 
-void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds) {
-  const RequestedFile inputs[] = {
+void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds,
+                   const std::vector<RequestedFile>& other_inputs) {
+  std::vector<RequestedFile> inputs = {
       {"--points", seeds.points, {}}, {"--mask", seeds.mask, {}}, {"--trajectory", seeds.trajectory, {}}};
+  inputs.insert(inputs.end(), other_inputs.begin(), other_inputs.end());
   for (const RequestedFile& file : files) {
     if (file.path.empty()) continue;
     as_usage([&] {

@@ -19,9 +19,10 @@ struct RequestedFile {
 };
 
 /// Throws UsageError for a name that ends in none of its extensions, a pattern without its place for a
-/// number, two options that would write one file, and one that would replace a file which the seeds are read
-/// from.
-void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds);
+/// number, two options that would write one file, and one that would replace a file which the seeds, or other
+/// options, read.
+void check_outputs(const std::vector<RequestedFile>& files, const SeedOptions& seeds,
+                   const std::vector<RequestedFile>& other_inputs = {});
 
 /// The file, to be written later, if it is asked for. Throws Error if it cannot be made there.
 std::optional<OutputFile> open_output(const std::string& path);

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 
 #include "formats/files.hpp"
@@ -75,6 +77,36 @@ Mask read_mask(const std::string& path) {
   }
   if (!has_seeds) throw Error(path + " has no pixel that is not zero: there is no seed");
   return mask;
+}
+
+namespace {
+
+template <typename T>
+void add_darkness(const T* pixel, int pixels, int channels, std::vector<float>& values) {
+  constexpr float white = std::numeric_limits<T>::max();
+  for (const T* const end = pixel + std::ptrdiff_t{pixels} * channels; pixel < end; pixel += channels) {
+    const float grey = channels == 1 ? pixel[0] : 0.114F * pixel[0] + 0.587F * pixel[1] + 0.299F * pixel[2];
+    values.push_back(std::max(0.0F, white - grey));
+  }
+}
+
+}  // namespace
+
+DensityImage read_darkness(const std::string& path) {
+  const cv::Mat image = read_picture(path);
+  if (image.depth() != CV_8U && image.depth() != CV_16U) {
+    throw Error(path + " is no picture of 8 or 16 bits; give other numbers as .npy");
+  }
+  DensityImage dark{Size(image.cols, image.rows), {}};
+  dark.values.reserve(image.total());
+  for (int y = 0; y < image.rows; ++y) {
+    if (image.depth() == CV_8U) {
+      add_darkness(image.ptr<std::uint8_t>(y), image.cols, image.channels(), dark.values);
+    } else {
+      add_darkness(image.ptr<std::uint16_t>(y), image.cols, image.channels(), dark.values);
+    }
+  }
+  return dark;
 }
 
 }  // namespace vorocl::command

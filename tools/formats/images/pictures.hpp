@@ -56,4 +56,9 @@ struct Mask {
 /// read or no pixel is set.
 Mask read_mask(const std::string& path);
 
+/// The darkness of each pixel of any image that OpenCV reads in 8 or 16 bits: how far its grey value (ITU-R
+/// BT.601) is from white, as ink on paper. An alpha channel does not count. Throws Error if the file cannot
+/// be read or has no such bits.
+DensityImage read_darkness(const std::string& path);
+
 }  // namespace vorocl::command

@@ -1,0 +1,80 @@
+// Cells of pixels that weigh differently: their weights, first moments and energy. A weight is a whole number of 16
+// bits, so that all sums are exact in 64: of 2^30 pixels, each at most 2^16 pixels from the window's first one.
+
+#include "measures/runs.cl"
+#include "measures/seed_place.cl"
+
+// Without 64-bit atomics, which OpenCL C 1.2 leaves to chance: a pair (low word, high word) and a carry.
+static inline void add_long_to_pair(global uint* pair, ulong value) {
+  const uint low = (uint)value;
+  uint high = (uint)(value >> 32);
+  if (low != 0 && atomic_add(pair, low) > 0xffffffffu - low) ++high;
+  if (high != 0) atomic_add(pair + 1, high);
+}
+
+// The sums of a cell are its weight and the moments along both axes: the sum of weight times way, in pixels from the
+// seed's own. What the block that holds the seed adds needs no atomics (see measures/cells.cl): it goes to `at_home`.
+// The rest goes to `elsewhere`, in pairs.
+//
+// The energy of a block is in units of weight times square pixels.
+kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+                        global const ushort* restrict weights, global ulong* restrict at_home,
+                        global uint* restrict elsewhere, global ulong* restrict energies) {
+  const window_t window = window_of(width, height, periods);
+  block_t block;
+  if (!take_block(width, height, wide, high, &block)) return;
+  ulong energy_low = 0, energy_high = 0;  // of the low words of the squares, and of the high ones
+  for (int y = block.top; y < block.bottom; ++y) {
+    global const uint* const row = labels + y * width;
+    walk_t walk = begin_walk(row, row, block.left, block.right);
+    while (next_run(&walk)) {
+      const uint label = run_label(&walk);
+      if (label >= count || !is_there(seeds[label])) continue;
+      const seed_t seed = seeds[label];
+      const int home_x = seed_x(seed, width), home_y = seed_y(seed, height);
+      const long dy = way_y(seed, y, window);
+      ulong weight = 0, moment_x = 0;
+      for (int from = walk.from, to; from < walk.to; from = to) {
+        const int way = way_x(seed, from, window);
+        to = piece_end(from, walk.to, way, window.period_x);
+        long dx = way, column = place_x(seed, way, width) - home_x;
+        for (int x = from; x < to; ++x, ++column, dx += UNIT) {
+          const ulong of_pixel = weights[y * width + x], square = (ulong)(dx * dx + dy * dy);
+          weight += of_pixel;
+          moment_x += of_pixel * (ulong)column;
+          energy_low += of_pixel * (square & 0xffffffffu);
+          energy_high += of_pixel * (square >> 32);
+        }
+      }
+      if (weight == 0) continue;
+      const ulong moment_y = weight * (ulong)(long)(place_y(seed, (int)dy, height) - home_y);
+      if (block_of(home_x, home_y, width, wide, high) == block.index) {
+        global ulong* const sums = at_home + 3 * (size_t)label;
+        sums[0] += weight;
+        sums[1] += moment_x;
+        sums[2] += moment_y;
+      } else {
+        global uint* const sums = elsewhere + 6 * (size_t)label;
+        add_long_to_pair(sums, weight);
+        add_long_to_pair(sums + 2, moment_x);
+        add_long_to_pair(sums + 4, moment_y);
+      }
+    }
+  }
+  energies[block.index] = (energy_high << (32 - 2 * UNIT_BITS)) + (energy_low >> (2 * UNIT_BITS));
+}
+
+// The sums of all blocks, of coordinates from the window's first pixel on.
+kernel void join_weights(SEED_PARAMETERS, global const ulong* restrict at_home, global const uint2* restrict elsewhere,
+                         global ulong* restrict weight, global long* restrict sum_x, global long* restrict sum_y) {
+  (void)periods;
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  global const ulong* const near = at_home + 3 * (size_t)id;
+  global const uint2* const far = elsewhere + 3 * (size_t)id;
+  const ulong all = near[0] + upsample(far[0].s1, far[0].s0);
+  weight[id] = all;
+  if (all == 0) return;
+  sum_x[id] = (long)(near[1] + upsample(far[1].s1, far[1].s0) + all * (ulong)(long)seed_x(seeds[id], width));
+  sum_y[id] = (long)(near[2] + upsample(far[2].s1, far[2].s0) + all * (ulong)(long)seed_y(seeds[id], height));
+}
