@@ -33,7 +33,7 @@ struct ExactOptions {
 /// Any window of any grid: seeds outside it, and images across its periods, are taken into account, in 64-bit
 /// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
 /// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds
-/// are few.
+/// are few. With Shape::group, as on a GPU, that holds of periods of more than 16,000 pixels.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl
