@@ -25,7 +25,7 @@ has_header() { g++ ${with:+"-I$with/include"} -fsyntax-only -x c++ - <<<"#includ
 for header in CL/cl.h CL/opencl.hpp boost/test/test_tools.hpp; do has_header $header || missing+=("the header $header"); done
 
 if [ ${#missing[@]} -gt 0 ]; then
-  printf 'gpu_report.sh: there is no %s\n' "${missing[@]}" >&2
+  printf 'gpu_report.sh: missing: %s\n' "${missing[@]}" >&2
   echo "gpu_report.sh: for headers, run tools/setup.sh gpu FOLDER where there is a network, and give --with FOLDER here" >&2
   exit 2
 fi
