@@ -1,8 +1,16 @@
 #!/usr/bin/env bash
 # Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
-# The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides) and
-# drivers (what tools/check_drivers.sh runs the tests on). Without any: build and test.
+# The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides),
+# drivers (what tools/check_drivers.sh runs the tests on) and warps (what tools/simulated_warps counts with). Without any:
+# build and test.
+#   setup.sh gpu FOLDER    copies what tools/gpu_report.sh needs besides a compiler into FOLDER, some 10 MB, for a machine
+#                          without a network whose C library is at least as new as this one's
 set -euo pipefail
+gpu_folder=
+if [ "${1:-}" = gpu ]; then
+  gpu_folder=$(realpath -m "${2:?"setup.sh gpu needs a folder"}")
+  set -- core
+fi
 cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- build test
 
@@ -25,6 +33,7 @@ for group in "$@"; do
       libopencv-dev libavcodec-dev libavformat-dev libswscale-dev libtiff-dev zlib1g-dev libgeotiff-dev libcli11-dev libfmt-dev nlohmann-json3-dev libnanoflann-dev
       python3-dev python3-venv)
     ;;
+  core) packages+=(g++ ocl-icd-opencl-dev opencl-clhpp-headers libboost-test-dev) ;;
   test) packages+=(libboost-test-dev pkgconf groff-base python3-matplotlib) ;;
   check)
     # libclc is of the version of the distribution's clang, which a fresh system does not know yet.
@@ -33,8 +42,9 @@ for group in "$@"; do
     packages+=(clang "libclang-rt-$clang-dev" "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
       python3-numpy python3-zarr python3-gdal python3-pip libopenmpi-dev openmpi-bin procps abigail-tools xz-utils)
     ;;
+  warps) packages+=(g++ oclgrind liboclgrind-dev llvm-14-dev) ;; # the LLVM that Oclgrind is built with
   drivers) packages+=(pocl-opencl-icd python3-pip) ;;
-  *) echo "setup.sh: there is no group \"$group\", but build, test, check and drivers" >&2; exit 2 ;;
+  *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, warps and gpu FOLDER" >&2; exit 2 ;;
   esac
 done
 
@@ -48,6 +58,26 @@ if [ ${#missing[@]} -gt 0 ]; then
   echo "Installing ${missing[*]}"
   as_root apt-get update -qq
   as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+fi
+
+# Headers, OpenCL's loader and Boost.Test, of whose headers those alone that the tests include.
+if [ -n "$gpu_folder" ]; then
+  mkdir -p "$gpu_folder"/{include,lib/cmake/Boost}
+  headers=$(grep -rhoE '#include <(boost|CL)/[^>]+>' include src tests/core tests/support
+    grep -oE '<boost/[^>]+>' tests/CMakeLists.txt | sed 's/^/#include /')
+  # shellcheck disable=SC2046 # names of headers, without blanks
+  (cd /usr/include && cp --parents $(g++ -M -std=c++17 -DBOOST_TEST_DYN_LINK -x c++ - <<<"$headers" |
+    grep -oE '/usr/include/(boost|CL)/[^ ]+' | sed 's|/usr/include/||' | sort -u) "$gpu_folder/include")
+  libraries=$(dirname "$(ldconfig -p | grep -om1 '/.*/libOpenCL.so$')")
+  cp -P "$libraries"/libOpenCL.so* "$libraries"/libboost_unit_test_framework.so* "$gpu_folder/lib"
+  cat >"$gpu_folder/lib/cmake/Boost/BoostConfig.cmake" <<'END'
+get_filename_component(folder "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
+add_library(Boost::unit_test_framework SHARED IMPORTED)
+set_target_properties(Boost::unit_test_framework PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${folder}/include"
+                      IMPORTED_LOCATION "${folder}/lib/libboost_unit_test_framework.so")
+END
+  git describe --always --dirty >"$gpu_folder/commit" 2>/dev/null || true
+  du -sh "$gpu_folder"
 fi
 
 # ptxas, where no CUDA is installed: tools/check_gpu.sh looks for it there.

@@ -17,7 +17,7 @@ struct DeviceState;
 /// How the kernels of exact diagrams are cut.
 enum class Shape {
   vector,  ///< a work-item labels bins of pixels in vectors, for CPUs
-  group,   ///< a work-group labels a square of pixels together, for GPUs; with periods up to 16,000
+  group,   ///< a work-group labels a square of pixels together, for GPUs
 };
 
 /// How kernels are shaped for a device. Results never depend on it, only speed does.

@@ -33,7 +33,7 @@ struct ExactOptions {
 /// Any window of any grid: seeds outside it, and images across its periods, are taken into account, in 64-bit
 /// integers where they need be. Where the window is not one whole period of at most 32,000 pixels, or seeds
 /// lie outside it, they cost 0.5 bytes per pixel and a search near the window's rim, farther in where seeds
-/// are few.
+/// are few. With Shape::group, as on a GPU, that holds of periods of more than 16,000 pixels.
 ///
 /// In a tilted grid (Grid::tilted()) all seeds are taken as points, snapped ones at the centres of their
 /// pixels, and the host places their images whenever they have moved. In a flat box it looks at more of them:

@@ -125,6 +125,10 @@ const PointPlacement& Filling::take_points() {
   return *next_.points;
 }
 
+void Filling::place_images_outside() {
+  next_.placement = seeds().place_in(diagram_.window, diagram_.grid.without_periods());
+}
+
 Kernel& Filling::kernel(const char* file, const char* name, Neighbourhood neighbourhood) {
   return diagram_.kernels.get(diagram_.device, file, name, placement().grid, {next_.metric, neighbourhood});
 }

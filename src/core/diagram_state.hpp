@@ -102,6 +102,10 @@ class Filling {
   /// Takes the points of the seeds, which must have fractions, for the positions that the labels are made of.
   const PointPlacement& take_points();
 
+  /// Takes the images of the seeds along periodic axes for outer seeds: for an engine that cannot go round
+  /// periods of this length. The host waits if the device has placed the seeds.
+  void place_images_outside();
+
   /// A kernel of the diagram for these seeds and this metric, on the diagram's device or that with another
   /// tuning.
   Kernel& kernel(const char* file, const char* name, Neighbourhood neighbourhood = Neighbourhood::moore);

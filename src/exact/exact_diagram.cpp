@@ -32,10 +32,8 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   DiagramState& state = Internal::state(diagram);
   if (filling.seeds().fractions) return exact_diagram_of_points(filling, state);
   const Device& device = state.device;
+  if (device.tuning().shape == Shape::group) return exact_diagram_in_groups(filling, state);
   const PixelGrid& grid = filling.placement().grid;
-  if (device.tuning().shape == Shape::group && fits_in_groups(grid)) {
-    return exact_diagram_in_groups(filling, state);
-  }
   const IndexFrame frame(grid, Shape::vector);
   const int width = grid.width(), height = grid.height();
   const std::size_t pairs = bins_across(frame, 0) * ((bins_down(frame, 0) - 1) / PAIR + 1);

@@ -38,14 +38,16 @@ std::size_t groups_of_search(const Device& device, std::size_t patches) {
   return std::min(patches, 8 * units);
 }
 
-}  // namespace
-
-bool fits_in_groups(const PixelGrid& grid) {
+/// Whether the index has room for images of the seeds along these periods.
+bool index_holds_images(const PixelGrid& grid) {
   return (!grid.periodic_x() || grid.width() <= MOST_PERIOD_OF_GROUPS) &&
          (!grid.periodic_y() || grid.height() <= MOST_PERIOD_OF_GROUPS);
 }
 
+}  // namespace
+
 Report exact_diagram_in_groups(Filling& filling, DiagramState& state) {
+  if (!index_holds_images(filling.placement().grid)) filling.place_images_outside();
   const PixelGrid& grid = filling.placement().grid;
   const int width = grid.width(), height = grid.height();
   const std::size_t patches = patches_along(width) * patches_along(height);

@@ -6,9 +6,6 @@
 
 namespace vorocl {
 
-/// Whether the shape can do it: its periods are limited.
-bool fits_in_groups(const PixelGrid& grid);
-
 /// Fills a diagram as exact_diagram(), whatever the shape of the device's tuning.
 Report exact_diagram_in_groups(Filling& filling, DiagramState& state);
 

@@ -17,6 +17,7 @@ may_include() {
 }
 may_include formats
 may_include trials formats
+may_include gpu formats trials
 may_include app/terminal formats trials
 may_include app/sources formats trials app/terminal
 may_include app/outputs formats trials app/terminal app/sources

@@ -177,11 +177,14 @@ BOOST_AUTO_TEST_CASE(periodic_axes) {
   check_lists({"circle", {300, 290, Periodic::xy}, circle({300, 290}, 300, 140)}, Metric::euclidean, both);
   check_lists({"torus", {1001, 700, Periodic::xy}, random_pixels({1001, 700}, 3000, 5)}, Metric::euclidean,
               both);
-  // The longest period, and one that is left to the vector shape.
+  // The longest period that the index has images for, and one whose images are outer seeds.
   for (const int width : {16000, 16001}) {
     check_lists({"long", {width, 90, Periodic::x}, random_pixels({width, 90}, 40, 6)}, Metric::euclidean,
                 full);
   }
+  const Grid tall(70, 31999, Periodic::xy);
+  for (const std::size_t seeds : {3u, 900u})
+    check_lists({"tall", tall, random_pixels(tall, seeds, 7)}, Metric::manhattan, full);
 }
 
 BOOST_AUTO_TEST_CASE(rows_of_many_bins) {

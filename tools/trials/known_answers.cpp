@@ -10,68 +10,125 @@ namespace vorocl::command {
 
 namespace {
 
-constexpr int width = 61, height = 47, seeds = 300, frames = 3;
+struct Setting {
+  const char* name;
+  int width, height;
+  std::size_t seeds;  // of those that are random
+  int frames;
+};
+
+const Setting& setting_of(Scene scene) {
+  static const Setting all[] = {{"", 61, 47, 300, 3},
+                                {"window", 61, 47, 300, 3},
+                                {"ring", 301, 287, 0, 1},
+                                {"blocks", 260, 200, 0, 1},
+                                {"few seeds", 500, 300, 5, 1},
+                                {"long period", 16001, 24, 40, 1},
+                                {"full size", 2048, 2048, 16384, 2}};
+  return all[static_cast<int>(scene)];
+}
+
+/// In whole numbers, which are the same with every compiler: the pixels between two circles.
+std::vector<Point> ring(const Setting& setting) {
+  std::vector<Point> points;
+  for (int y = 0; y < setting.height; ++y) {
+    for (int x = 0; x < setting.width; ++x) {
+      const int dx = 2 * x - setting.width, dy = 2 * y - setting.height, squared = dx * dx + dy * dy;
+      if (squared >= 278 * 278 && squared < 280 * 280) points.push_back({x + 0.5, y + 0.5});
+    }
+  }
+  return points;
+}
+
+std::vector<Point> blocks(const Setting& setting) {
+  constexpr int side = 64;
+  std::vector<Point> points;
+  for (int y = 0; y < setting.height; ++y) {
+    for (int x = 0; x < setting.width; ++x) {
+      if ((x / side + y / side) % 2 == 0) points.push_back({x + 0.5, y + 0.5});
+    }
+  }
+  return points;
+}
 
 }  // namespace
 
 const std::vector<KnownAnswer>& known_answers() {
   constexpr Metric euclidean = Metric::euclidean, manhattan = Metric::manhattan;
   constexpr Periodic none = Periodic::none, xy = Periodic::xy;
+  constexpr Scene plain = Scene::scattered;
   static const std::vector<KnownAnswer> all = {
-      {"standard-flooding", euclidean, none, false, 0x3108721ca3f0548f},
-      {"standard-flooding", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"standard-flooding", manhattan, none, false, 0xb0930d64a2657292},
-      {"standard-flooding", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"jfa", euclidean, none, false, 0x72c2e55b8e6085c9},
-      {"jfa", euclidean, xy, false, 0x296df24cdc07a7d2},
-      {"jfa", manhattan, none, false, 0xb0930d64a2657292},
-      {"jfa", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"jfa+1", euclidean, none, false, 0x3108721ca3f0548f},
-      {"jfa+1", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"jfa+1", manhattan, none, false, 0xb0930d64a2657292},
-      {"jfa+1", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"jfa+2", euclidean, none, false, 0x3108721ca3f0548f},
-      {"jfa+2", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"jfa+2", manhattan, none, false, 0xb0930d64a2657292},
-      {"jfa+2", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"1+jfa", euclidean, none, false, 0x3108721ca3f0548f},
-      {"1+jfa", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"1+jfa", manhattan, none, false, 0xb0930d64a2657292},
-      {"1+jfa", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"djfa", euclidean, none, false, 0x45ee351e7f225d29},
-      {"djfa", euclidean, xy, false, 0x369dfa1e13d278ff},
-      {"djfa", manhattan, none, false, 0xb0930d64a2657292},
-      {"djfa", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"low-resolution", euclidean, none, false, 0x3108721ca3f0548f},
-      {"low-resolution", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"low-resolution", manhattan, none, false, 0x1cf00f1969cdb6c7},
-      {"low-resolution", manhattan, xy, false, 0xeeb35281394bec7b},
-      {"exact", euclidean, none, false, 0x3108721ca3f0548f},
-      {"exact", euclidean, xy, false, 0xc758a8ac434e6e6c},
-      {"exact", manhattan, none, false, 0xb0930d64a2657292},
-      {"exact", manhattan, xy, false, 0x9e1f6a0c8cdce5da},
-      {"exact", euclidean, none, true, 0x74b92478e058a27c},
-      {"exact", manhattan, none, true, 0x99a9e17a3772c216},
+      {"standard-flooding", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"standard-flooding", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"standard-flooding", manhattan, none, plain, 0xb0930d64a2657292},
+      {"standard-flooding", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"jfa", euclidean, none, plain, 0x72c2e55b8e6085c9},
+      {"jfa", euclidean, xy, plain, 0x296df24cdc07a7d2},
+      {"jfa", manhattan, none, plain, 0xb0930d64a2657292},
+      {"jfa", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"jfa+1", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"jfa+1", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"jfa+1", manhattan, none, plain, 0xb0930d64a2657292},
+      {"jfa+1", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"jfa+2", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"jfa+2", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"jfa+2", manhattan, none, plain, 0xb0930d64a2657292},
+      {"jfa+2", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"1+jfa", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"1+jfa", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"1+jfa", manhattan, none, plain, 0xb0930d64a2657292},
+      {"1+jfa", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"djfa", euclidean, none, plain, 0x45ee351e7f225d29},
+      {"djfa", euclidean, xy, plain, 0x369dfa1e13d278ff},
+      {"djfa", manhattan, none, plain, 0xb0930d64a2657292},
+      {"djfa", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"low-resolution", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"low-resolution", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"low-resolution", manhattan, none, plain, 0x1cf00f1969cdb6c7},
+      {"low-resolution", manhattan, xy, plain, 0xeeb35281394bec7b},
+      {"exact", euclidean, none, plain, 0x3108721ca3f0548f},
+      {"exact", euclidean, xy, plain, 0xc758a8ac434e6e6c},
+      {"exact", manhattan, none, plain, 0xb0930d64a2657292},
+      {"exact", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
+      {"exact", euclidean, none, Scene::window, 0x74b92478e058a27c},
+      {"exact", manhattan, none, Scene::window, 0x99a9e17a3772c216},
+      {"exact", euclidean, none, Scene::ring, 0x3d94d10a382b024e},
+      {"exact", manhattan, none, Scene::ring, 0x8cda90e1be87eaa2},
+      {"exact", euclidean, none, Scene::blocks, 0xb7aa335c714b0dcc},
+      {"exact", manhattan, none, Scene::blocks, 0xb7aa335c714b0dcc},
+      {"exact", euclidean, none, Scene::few, 0xc31094612a376823},
+      {"exact", manhattan, none, Scene::few, 0x2fe792820a313112},
+      {"exact", euclidean, Periodic::x, Scene::long_period, 0xef105ace872187fd},
+      {"exact", manhattan, Periodic::x, Scene::long_period, 0x31ebfe0273924a41},
+      {"jfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
+      {"djfa", euclidean, none, Scene::full_size, 0xa22b41d04a969ed5},
   };
   return all;
 }
 
-Grid known_grid(const KnownAnswer& answer) { return {width, height, answer.periodic}; }
+Grid known_grid(const KnownAnswer& answer) {
+  const Setting& setting = setting_of(answer.scene);
+  return {setting.width, setting.height, answer.periodic};
+}
 
 std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer) {
+  const Setting& setting = setting_of(answer.scene);
+  if (answer.scene == Scene::ring) return {ring(setting)};
+  if (answer.scene == Scene::blocks) return {blocks(setting)};
   std::mt19937 random(1);  // the same numbers with every standard library
   const auto below = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
-  std::vector<int> x(seeds), y(seeds);
-  for (std::size_t i = 0; i < seeds; ++i) {
+  const int width = setting.width, height = setting.height;
+  std::vector<int> x(setting.seeds), y(setting.seeds);
+  for (std::size_t i = 0; i < setting.seeds; ++i) {
     x[i] = below(width);
     y[i] = below(height);
   }
   std::vector<std::vector<Point>> result;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < setting.frames; ++frame) {
     std::vector<Point>& points = result.emplace_back();
-    for (std::size_t i = 0; i < seeds; ++i) {
-      const int column = answer.window ? 3 * x[i] - width : x[i],
-                row = answer.window ? 3 * y[i] - height : y[i];
+    for (std::size_t i = 0; i < setting.seeds; ++i) {
+      const bool spread = answer.scene == Scene::window;
+      const int column = spread ? 3 * x[i] - width : x[i], row = spread ? 3 * y[i] - height : y[i];
       points.push_back({column + 0.5, row + 0.5});
       const int dx = below(2 * known_displacement + 1), dy = below(2 * known_displacement + 1);
       x[i] = std::clamp(x[i] + dx - known_displacement, 0, width - 1);
@@ -83,7 +140,8 @@ std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer) {
 
 std::string to_string(const KnownAnswer& answer) {
   return answer.method + ", " + to_string(answer.metric) +
-         (answer.periodic == Periodic::none ? "" : ", periodic") + (answer.window ? ", window" : "");
+         (answer.periodic == Periodic::none ? "" : ", periodic") +
+         (answer.scene == Scene::scattered ? "" : std::string(", ") + setting_of(answer.scene).name);
 }
 
 std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {

@@ -11,23 +11,35 @@
 
 namespace vorocl::command {
 
+/// Where seeds are. Each scene is there for kernels, or branches of them, that the others do not reach.
+enum class Scene {
+  scattered,    // 300 on 61 x 47 pixels, three frames
+  window,       // 300 that fill a plane of three by three such grids: most are outside
+  ring,         // in the middle of it all seeds are as near
+  blocks,       // full ones: nearly all seeds are hidden by others
+  few,          // far apart: they are found from the top of the pyramid down
+  long_period,  // of more than 16,000 pixels
+  full_size,    // 16,384 on 2048 x 2048 pixels, two frames
+};
+
 /// The diagrams of known_frames(), made one after the other by a method with its default options.
 struct KnownAnswer {
   std::string method;
   Metric metric;
   Periodic periodic;
-  bool window;         // the seeds fill a plane of three by three grids: most are outside
+  Scene scene;
   std::uint64_t hash;  // of the labels of all frames, as Hash has it
 };
 
-/// Every method in both metrics, with and without periodic axes, and the exact one in a window. The test
-/// known_answers computes the hashes anew: by brute force, or by a reference of flooding on the host.
+/// Every method in both metrics, with and without periodic axes; the exact one in all scenes but that of full
+/// size, which is for jfa and djfa. The test known_answers computes the hashes anew: by brute force or a k-d
+/// tree, or by a reference of flooding on the host.
 const std::vector<KnownAnswer>& known_answers();
 
-/// 61 x 47 pixels.
 Grid known_grid(const KnownAnswer& answer);
 
-/// Three frames of 300 seeds, some of which share a pixel, and how far one moves along an axis, at most.
+/// The frames of the scene, in some of which seeds share a pixel, and how far one moves along an axis, at
+/// most.
 std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer);
 constexpr int known_displacement = 2;
 

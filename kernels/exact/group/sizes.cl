@@ -6,7 +6,7 @@
 
 #include "exact/sizes.cl"
 
-// The longest period: the index has all of it twice, and its coordinates have 15 bits.
+// The longest period whose images the index holds: it has all of it twice, and its coordinates have 15 bits.
 #define MOST_PERIOD_OF_GROUPS 16000
 
 // A patch is a square of pixels that a work-group labels, 2 x 2 bins. Its side in pixels, as a power of two.
