@@ -57,7 +57,8 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       global int* const box = boxes + 4 * (size_t)label;
       for (int from = walk.from, to; from < walk.to; from = to) {
         const piece_t piece = piece_from(seed, from, walk.to, y, window);
-        const int along_x = piece.way.x, along_y = piece.way.y, row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
+        const int along_x = piece.way.x, along_y = piece.way.y;
+        const int row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
         const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
         global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
         global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;

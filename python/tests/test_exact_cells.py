@@ -62,6 +62,51 @@ def test_periodic_cells_are_those_of_freud(points, tilt):
     assert not found.cells["touches_border"].any()
 
 
+@pytest.mark.parametrize("tilt", [0, 0.7, -1, 1.99, 4 + 0.7])
+def test_pixels_of_a_tilted_box_have_the_cells_of_freud(points, tilt):
+    box = dict(bounds=BOUNDS, periodic=(True, True), tilt=tilt, y_up=True)
+    areas = vorocl.areas(points, (800, 1600), **box)
+    centred = np.column_stack([points - (1, 3), np.zeros(400)])
+    voronoi = freud.locality.Voronoi().compute((freud.box.Box(4, 2, xy=tilt / 2, is2D=True), centred))
+    assert np.sqrt(np.mean((areas - voronoi.volumes) ** 2)) < 0.005 * 8 / 400
+    pairs, lengths = vorocl.adjacency(points, (800, 1600), **box)
+    exact = vorocl.exact_cells(points, BOUNDS, periodic=(True, True), tilt=tilt).pairs
+    pixels = 16 * 4 / 1600  # shorter edges may be missed, or invented; those of cells less than a pixel wide, too
+    assert len(edges_of(exact[exact["length"] > pixels]) - {(int(a), int(b)) for a, b in pairs}) <= 2
+    assert {(int(a), int(b)) for a, b in pairs[lengths > pixels]} <= edges_of(exact)
+    # Of all images the nearest.
+    distances = vorocl.distances(points, (20, 40), **box)
+    x, y = np.meshgrid((np.arange(40) + 0.5) / 10 - 1, 4 - (np.arange(20) + 0.5) / 10)
+    nearest = np.full((20, 40), np.inf)
+    for row in range(-3, 4):
+        for column in range(-6, 7):
+            for px, py in points + (4 * column + tilt * row, 2 * row):
+                np.minimum(nearest, np.hypot(x - px, y - py), out=nearest)
+    np.testing.assert_allclose(distances, nearest, atol=0.1 / 4096)
+
+
+def test_a_box_that_is_sheared(points):
+    simulation = vorocl.Simulation((40, 80), bounds=BOUNDS, periodic=(True, True))
+    for tilt in (0, 0.5, 1.9, -1.9):
+        labels = simulation.step(points, tilt=tilt).read()
+        box = dict(bounds=BOUNDS, periodic=(True, True), tilt=tilt)
+        np.testing.assert_array_equal(labels, vorocl.diagram(points, (40, 80), **box))
+        np.testing.assert_array_equal(simulation.diagram.areas(), vorocl.areas(points, (40, 80), **box))
+    np.testing.assert_array_equal(simulation.step(points).read(), labels)  # the tilt stays
+    shifted = (0, 2, 4, 4)
+    np.testing.assert_array_equal(
+        simulation.step(points, bounds=shifted).read(),
+        vorocl.diagram(points, (40, 80), bounds=shifted, periodic=(True, True), tilt=-1.9),
+    )
+    assert vorocl.errors(labels, points, bounds=BOUNDS, periodic=(True, True), tilt=-1.9, truth="true").wrong_pixels == 0
+    with pytest.raises(vorocl.BadArgument, match="tilted, which flooding cannot take"):
+        vorocl.diagram(points, (40, 80), method="jfa", **box)
+    with pytest.raises(vorocl.BadArgument, match="periodic in x and y"):
+        vorocl.Seeds(points, (40, 80), tilt=1)
+    with pytest.raises(vorocl.BadArgument, match="finite"):
+        simulation.step(points, tilt=np.nan)
+
+
 def test_shapely_and_geopandas_by_one_call(points, tmp_path):
     given = points.copy()
     given[7] = np.nan

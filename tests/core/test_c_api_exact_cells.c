@@ -25,7 +25,7 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
   OK(vorocl_exact_cells_count(all, &count));
   OK(vorocl_exact_cells_edges(all, &edges));
   CHECK(count == 0 && edges == 0);
-  OK(vorocl_exact_cells_read(all, NULL));
+  OK(vorocl_exact_cells_read(all, NULL, 0));
   OK(vorocl_exact_cells_buffers(all, &buffers[0], NULL, NULL, NULL, NULL));
   CHECK(buffers[0] == NULL);
 

@@ -173,7 +173,7 @@ std::size_t index_in(const TiltedBox& box, std::int64_t x, std::int64_t y) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
-  const unsigned cases = long_tests ? 20000 : 600;
+  const unsigned cases = long_tests ? 20000 : 400;
   for (unsigned number = 0; number < cases; ++number) {
     const RandomCase random(number);
     const Engine& engine = engines()[number % engines().size()];
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
 }
 
 BOOST_AUTO_TEST_CASE(measures_are_those_of_the_nearest_images) {
-  const unsigned cases = long_tests ? 4000 : 150;
+  const unsigned cases = long_tests ? 4000 : 60;
   for (unsigned number = 0; number < cases; ++number) {
     const RandomCase random(number + 1000000);
     const TiltedBox& box = random.box;
