@@ -119,7 +119,8 @@ BOOST_AUTO_TEST_CASE(columns_can_be_chosen) {
     BOOST_TEST((some.rows[i] == TableRow{row[11], row[0], row[12], row[5]}));
   }
   // Alone, a column is made of no more measures than it needs.
-  for (const auto& [name, column] : {std::pair{"x", 1u}, {"area", 3u}, {"right", 8u}, {"perimeter", 10u}, {"touches_border", 13u}}) {
+  for (const auto& [name, column] :
+       {std::pair{"x", 1u}, {"area", 3u}, {"right", 8u}, {"perimeter", 10u}, {"touches_border", 13u}}) {
     succeeds(folder, cells + "one.csv --cell-columns " + name);
     const Table one = read_table(folder / "one.csv");
     BOOST_TEST_REQUIRE(one.rows.size() == all.rows.size());

@@ -99,8 +99,8 @@ BOOST_AUTO_TEST_CASE(a_frame_that_cannot_be_written_ends_the_run_behind_those_be
   BOOST_TEST(result.error ==
              "vorocl: error: cannot write l3.npy: it is a folder; frames complete before that: 3, written of "
              "them: 3\n");
-  BOOST_TEST((folder.names() ==
-              std::set<std::string>{"f.mp4", "l0.npy", "l1.npy", "l2.npy", "l3.npy", "s.csv"}));
+  BOOST_TEST(
+      (folder.names() == std::set<std::string>{"f.mp4", "l0.npy", "l1.npy", "l2.npy", "l3.npy", "s.csv"}));
   BOOST_TEST(pictures_of(folder / "f.mp4").size() == 3u);
   const std::string rows = content_of(folder / "s.csv");
   BOOST_TEST(std::count(rows.begin(), rows.end(), '\n') == 1 + 3);

@@ -122,16 +122,18 @@ BOOST_AUTO_TEST_CASE(each_frame_is_written_as_it_is_alone) {
   const TemporaryFolder folder, alone;
   const std::string melt = "--trajectory " VOROCL_SAMPLES "/lj-melt.lammpstrj --width 400 ",
                     picture = " --color area --scale 0,2 --edges --points-overlay";
-  const int frames = 5;
-  run(folder, fmt::format("simulate {} --frames {} --labels l%d.npy --cells c%d.csv --adjacency a%d.csv --distance "
-                          "d%d.vti -o p%d.png {}",
-                          melt, frames, picture));
+  const int frames = 3;
+  run(folder,
+      fmt::format("simulate {} --frames {} --labels l%d.npy --cells c%d.csv --adjacency a%d.csv --distance "
+                  "d%d.vti -o p%d.png {}",
+                  melt, frames, picture));
   BOOST_TEST(folder.names().size() == 5u * (frames + 1) + 1);
   for (int frame = 0; frame <= frames; ++frame) {
     const std::string of_frame = fmt::format("{} --frame {} ", melt, frame);
-    run(alone, fmt::format("cells {} --labels l{frame}.npy --cells c{frame}.csv --adjacency a{frame}.csv --distance "
-                           "d{frame}.vti",
-                           of_frame, fmt::arg("frame", frame)));
+    run(alone,
+        fmt::format("cells {} --labels l{frame}.npy --cells c{frame}.csv --adjacency a{frame}.csv --distance "
+                    "d{frame}.vti",
+                    of_frame, fmt::arg("frame", frame)));
     run(alone, fmt::format("render {} -o p{}.png {}", of_frame, frame, picture));
   }
   for (const std::string& name : alone.names())

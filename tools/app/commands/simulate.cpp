@@ -190,7 +190,11 @@ class Run {
 
   FrameFacts facts() const {
     const int frame = simulation_.frame();
-    return {frame, source_.timestep().value_or(frame), stamp_of(frame, source_.timestep()), 0, source_.box(),
+    return {frame,
+            source_.timestep().value_or(frame),
+            stamp_of(frame, source_.timestep()),
+            0,
+            source_.box(),
             source_.values()};
   }
 

@@ -78,21 +78,20 @@ const std::vector<CellColumn>& all_cell_columns() {
   const auto shapes = [](Measures& measures) { measures.shapes(); };
   const auto perimeters = [](Measures& measures) { measures.perimeters(); };
   const auto neighbours = [](Measures& measures) { measures.neighbours(); };
-  static const std::vector<CellColumn> columns = {
-      {"id", &CellRow::id, nothing},
-      {"x", &CellRow::x, nothing},
-      {"y", &CellRow::y, nothing},
-      {"area", &CellRow::area, nothing},
-      {"centroid_x", &CellRow::centroid_x, sums},
-      {"centroid_y", &CellRow::centroid_y, sums},
-      {"left", &CellRow::left, shapes},
-      {"top", &CellRow::top, shapes},
-      {"right", &CellRow::right, shapes},
-      {"bottom", &CellRow::bottom, shapes},
-      {"perimeter", &CellRow::perimeter, perimeters},
-      {"neighbours", &CellRow::neighbours, neighbours},
-      {"largest_distance", &CellRow::largest_distance, shapes},
-      {"touches_border", &CellRow::touches_border, shapes}};
+  static const std::vector<CellColumn> columns = {{"id", &CellRow::id, nothing},
+                                                  {"x", &CellRow::x, nothing},
+                                                  {"y", &CellRow::y, nothing},
+                                                  {"area", &CellRow::area, nothing},
+                                                  {"centroid_x", &CellRow::centroid_x, sums},
+                                                  {"centroid_y", &CellRow::centroid_y, sums},
+                                                  {"left", &CellRow::left, shapes},
+                                                  {"top", &CellRow::top, shapes},
+                                                  {"right", &CellRow::right, shapes},
+                                                  {"bottom", &CellRow::bottom, shapes},
+                                                  {"perimeter", &CellRow::perimeter, perimeters},
+                                                  {"neighbours", &CellRow::neighbours, neighbours},
+                                                  {"largest_distance", &CellRow::largest_distance, shapes},
+                                                  {"touches_border", &CellRow::touches_border, shapes}};
   return columns;
 }
 

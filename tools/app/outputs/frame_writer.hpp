@@ -88,8 +88,8 @@ class FrameWriter {
   int complete() const { return complete_; }
   int frames() const { return frames_; }
 
-  /// After wait(), also where that threw: gives the film and the tables their names, and lists the numbered files. Throws Error if one was not
-  /// written whole.
+  /// After wait(), also where that threw: gives the film and the tables their names, and lists the numbered
+  /// files. Throws Error if one was not written whole.
   void finish();
 
  private:

@@ -47,8 +47,9 @@ struct CellCount {
   std::size_t cells = 0, empty = 0;
 };
 
-/// Measures of one diagram. Each is made and read from the device when it is first asked for, which waits; all
-/// throw as the library's functions of the same names. Those that were read stay when the diagram changes.
+/// Measures of one diagram. Each is made and read from the device when it is first asked for, which waits;
+/// all throw as the library's functions of the same names. Those that were read stay when the diagram
+/// changes.
 class Measures {
  public:
   /// `ids` says what files call each seed, no_label for one that is absent; empty: their indices. `view` says

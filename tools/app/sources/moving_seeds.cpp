@@ -131,7 +131,7 @@ class Trajectory : public MovingSeeds {
   std::optional<int> frames_;
   std::optional<std::uintmax_t> bytes_;  // after frame 0
   int frame_ = 0;
-  PlacedFrame present_, room_;       // and memory for the next one
+  PlacedFrame present_, room_;      // and memory for the next one
   std::future<PlacedFrame> ahead_;  // none: nothing is being placed
 };
 
