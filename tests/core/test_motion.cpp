@@ -50,6 +50,24 @@ BOOST_AUTO_TEST_CASE(frames_differ_and_repeat) {
   BOOST_TEST(same(moved(grid, from, 0, Border::reflect, 1), from));
 }
 
+BOOST_AUTO_TEST_CASE(steps_are_the_same_for_every_vector_width) {
+  const Grid grid(30000, 20000);
+  const std::vector<Point> from = centres(random_pixels(grid, 1003, 1));
+  const auto moved_by = [&](int width) {
+    Seeds seeds(test_device().with_tuning({width, 64, 1}), grid, from);
+    random_step(seeds, 32768, Border::reflect, 0x9e3779b97f4a7c15, 77);
+    return points_of(seeds);
+  };
+  const std::vector<Point> one_by_one = moved_by(1);
+  for (const int width : {2, 4, 8, 16}) {
+    const std::vector<Point> points = moved_by(width);
+    for (std::size_t id = 0; id < points.size(); ++id) {
+      BOOST_TEST((points[id].x == one_by_one[id].x && points[id].y == one_by_one[id].y),
+                 "width " << width << ", seed " << id);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(borders_reflect_or_wrap) {
   // The step of a seed in the middle of a large grid, folded by hand into a small one, whatever its length.
   const Grid large(30001, 30001), small(7, 5);
