@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Passes the core's tests on several OpenCL drivers for CPUs, with the exact engine in both shapes: check_drivers.sh [BUILD]
 # BUILD is the folder of a build with the tests; without it build/ is built. The drivers are PoCL, as the system has it
-# (Debian 12: 3.1, Debian 13: 6.0), and Intel's runtime, which it installs into a folder of its own. What cannot be had is
-# listed as skipped. The logs are in BUILD/drivers/.
+# (Debian 12: 3.1, Debian 13: 6.0), Intel's runtime, which it installs into a folder of its own, and on Debian 13 Mesa's
+# rusticl on llvmpipe. What cannot be had is listed as skipped. The logs are in BUILD/drivers/.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools/setup.sh drivers || echo "Not every driver can be installed here."
@@ -49,4 +49,10 @@ pocl=$(cat /etc/OpenCL/vendors/pocl.icd 2>/dev/null || true)
 if [ -n "$pocl" ]; then check_driver PoCL "$pocl" ""; else echo "PoCL is not installed: skipped"; fi
 intel=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/intel-opencl/lib
 if [ -e "$intel" ]; then check_driver Intel "$intel/libintelocl.so" "$intel"; else echo "Intel's runtime cannot be had: skipped"; fi
+rusticl=$(cat /etc/OpenCL/vendors/rusticl.icd 2>/dev/null || true)
+if [ -n "$rusticl" ]; then
+  RUSTICL_ENABLE=llvmpipe check_driver rusticl "$rusticl" ""
+else
+  echo "rusticl is not installed: skipped"
+fi
 exit $failed

@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
-# Checks without a GPU that every kernel which a GPU gets fits one: clang compiles it for NVIDIA's PTX as the library
-# builds it, ptxas assembles it for an A100 (sm_80) and an H100 (sm_90), and then no kernel has a stack frame or spilled
-# registers, more than 64 registers or more than 16 KB of local memory. Prints the table.
-# Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
-#   CLANG   a clang with the NVPTX target     LIBCLC   libclc's nvptx64--nvidiacl.bc of the same version
+# Checks without a GPU that every kernel which a GPU gets fits one: check_gpu.sh [MAKER]...
+#   nvidia (without any)   clang compiles it for PTX as the library builds it, and ptxas assembles it for an A100 (sm_80) and an
+#                          H100 (sm_90)
+#   amd                    clang compiles it for a Radeon VII (gfx906), an MI200 (gfx90a) and a Radeon RX 6000 (gfx1030)
+# No kernel may have a stack frame or spilled registers, more than 64 registers or more than 16 KB of local memory. Prints the
+# table. Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
+#   CLANG   a clang with the maker's target       LIBCLC   the folder of libclc's .bc files of the same version
 #   PTXAS   ptxas, of CUDA 11.4 or newer
 set -euo pipefail
 cd "$(dirname "$0")/.."
-: "${CLANG:=clang}" "${LIBCLC:=/usr/lib/clc/nvptx64--nvidiacl.bc}"
+: "${CLANG:=clang}" "${LIBCLC:=/usr/lib/clc}"
+[ $# -gt 0 ] || set -- nvidia
 installed=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas/nvidia/cuda_nvcc/bin/ptxas
 : "${PTXAS:=$(command -v ptxas || echo "$installed")}"
 most_registers=64 most_local=16384
 
 command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
-[ -e "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
-command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
+[ -d "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
+[[ " $* " != *" nvidia "* ]] || command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
 
 # A GPU gets all programs but those of the vector shape of exact diagrams.
 kernel_files() {
@@ -27,13 +30,12 @@ kernel_files() {
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# NVIDIA's compiler inlines every function, as far as is known.
-compile() { # FILE METRIC NEIGHBOURS OPTION...
-  "$CLANG" -S -x cl -cl-std=CL1.2 -target nvptx64-nvidia-nvcl -Xclang -target-cpu -Xclang sm_80 \
-    -Xclang -target-feature -Xclang +ptx74 -Xclang -finclude-default-header -O3 \
+# Drivers inline every function, as far as is known.
+compile() { # TARGET LIBRARY FILE OPTION...
+  "$CLANG" -S -x cl -cl-std=CL1.2 -target "$1" -Xclang -finclude-default-header -O3 \
     -mllvm -inline-threshold=1000000 -mllvm -inlinehint-threshold=1000000 \
-    -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC" -Wno-linker-warnings -Ikernels \
-    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "-DVOROCL_$2" "-DVOROCL_NEIGHBOURS=$3" "${@:4}" "$1" -o "$work/kernel.ptx"
+    -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC/$2" -Wno-linker-warnings -Ikernels \
+    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "${@:4}" "$3" -o "$work/kernel.s"
 }
 
 # What programs are built for besides a plain grid: seeds outside it, and periodic axes.
@@ -42,29 +44,46 @@ more_options() { # FILE
   if [[ $1 == kernels/exact/group/diagram.cl || $1 == kernels/exact/points/pixels.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
 }
 
-# ptxas's report as lines of: file, kernel, options, architecture, registers, stack, spilled bytes, local memory.
-assemble() { # FILE OPTIONS ARCHITECTURE
-  "$PTXAS" -v "-arch=$3" "$work/kernel.ptx" -o "$work/kernel.cubin" 2>"$work/log" || { cat "$work/log" >&2; return 1; }
-  awk -v OFS='\t' -v file="${1#kernels/}" -v options="$2" -v architecture="$3" '
-    /Compiling entry function/ { split($0, quoted, "\047"); kernel = quoted[2] }
-    /bytes stack frame/ { stack += $1; spilled += $5 + $9 }
-    /Used [0-9]+ registers/ {
-      match($0, /Used [0-9]+/); registers = substr($0, RSTART + 5, RLENGTH - 5)
-      memory = match($0, /[0-9]+ bytes smem/) ? substr($0, RSTART, RLENGTH) + 0 : 0
-      print file, kernel, options, architecture, registers, stack, spilled, memory
-      stack = spilled = 0
-    }' "$work/log"
+# What the compilers report as lines of: file, kernel, options, GPU, registers, stack, spilled bytes, local memory.
+report_nvidia() { # FILE OPTION...
+  local architecture
+  compile nvptx64-nvidia-nvcl nvptx64--nvidiacl.bc "$@" -Xclang -target-cpu -Xclang sm_80 -Xclang -target-feature -Xclang +ptx74
+  for architecture in sm_80 sm_90; do
+    "$PTXAS" -v -arch=$architecture "$work/kernel.s" -o "$work/kernel.cubin" 2>"$work/log" || { cat "$work/log" >&2; return 1; }
+    awk -v OFS='\t' -v file="${1#kernels/}" -v options="${*:2}" -v architecture=$architecture '
+      /Compiling entry function/ { split($0, quoted, "\047"); kernel = quoted[2] }
+      /bytes stack frame/ { stack += $1; spilled += $5 + $9 }
+      /Used [0-9]+ registers/ {
+        match($0, /Used [0-9]+/); registers = substr($0, RSTART + 5, RLENGTH - 5)
+        memory = match($0, /[0-9]+ bytes smem/) ? substr($0, RSTART, RLENGTH) + 0 : 0
+        print file, kernel, options, architecture, registers, stack, spilled, memory
+        stack = spilled = 0
+      }' "$work/log"
+  done
 }
 
-for file in $(kernel_files); do
-  for metric in EUCLIDEAN MANHATTAN; do
-    for neighbours in 9 5; do
-      compile "$file" $metric $neighbours
-      for architecture in sm_80 sm_90; do assemble "$file" "$metric,$neighbours" $architecture; done
-    done
-    more_options "$file" | while read -r option; do
-      compile "$file" $metric 9 $option
-      for architecture in sm_80 sm_90; do assemble "$file" "$metric,$option" $architecture; done
+report_amd() { # FILE OPTION...
+  local architecture
+  for architecture in gfx906 gfx90a gfx1030; do
+    compile amdgcn-amd-amdhsa amdgcn--amdhsa.bc "$@" -nogpulib -mcpu=$architecture
+    awk -v OFS='\t' -v file="${1#kernels/}" -v options="${*:2}" -v architecture=$architecture '
+      /^  - \.a/ { kernel = "" }
+      /^    \.group_segment_fixed_size:/ { memory = $2 }
+      /^    \.name:/ { kernel = $2 }
+      /^    \.private_segment_fixed_size:/ { stack = $2 }
+      /^    \.vgpr_count:/ { registers = $2 }
+      /^    \.vgpr_spill_count:/ { print file, kernel, options, architecture, registers, stack, 4 * $2, memory }' "$work/kernel.s"
+  done
+}
+
+for maker in "$@"; do
+  [[ $maker == nvidia || $maker == amd ]] || { echo "There is no maker \"$maker\", but nvidia and amd." >&2; exit 2; }
+  for file in $(kernel_files); do
+    for metric in EUCLIDEAN MANHATTAN; do
+      for neighbours in 9 5; do "report_$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours; done
+      more_options "$file" | while read -r option; do
+        "report_$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $option
+      done
     done
   done
 done >"$work/rows"

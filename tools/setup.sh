@@ -44,7 +44,10 @@ for group in "$@"; do
       python3-numpy python3-zarr python3-gdal python3-pip libopenmpi-dev openmpi-bin procps abigail-tools xz-utils)
     ;;
   warps) packages+=(g++ oclgrind liboclgrind-dev llvm-14-dev) ;; # the LLVM that Oclgrind is built with
-  drivers) packages+=(pocl-opencl-icd python3-pip) ;;
+  drivers)
+    packages+=(pocl-opencl-icd python3-pip)
+    ! grep -q '^VERSION_ID="13"' /etc/os-release || packages+=(mesa-opencl-icd)
+    ;;
   *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, warps and gpu FOLDER" >&2; exit 2 ;;
   esac
 done

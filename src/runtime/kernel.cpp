@@ -107,10 +107,18 @@ cl::Event Kernel::enqueue(cl_uint dimensions, const std::size_t* global, const s
 }
 
 std::string Kernel::group_limit_text() const {
+  const cl_device_id device = device_.cl_device()();
   std::size_t most = 0;
-  const cl_int code = clGetKernelWorkGroupInfo(kernel_(), device_.cl_device()(), CL_KERNEL_WORK_GROUP_SIZE,
-                                               sizeof most, &most, nullptr);
-  return code == CL_SUCCESS ? " (of which it takes at most " + std::to_string(most) + " there)" : "";
+  cl_ulong memory = 0, memory_there = 0;
+  const bool known = clGetKernelWorkGroupInfo(kernel_(), device, CL_KERNEL_WORK_GROUP_SIZE, sizeof most,
+                                              &most, nullptr) == CL_SUCCESS &&
+                     clGetKernelWorkGroupInfo(kernel_(), device, CL_KERNEL_LOCAL_MEM_SIZE, sizeof memory,
+                                              &memory, nullptr) == CL_SUCCESS &&
+                     clGetDeviceInfo(device, CL_DEVICE_LOCAL_MEM_SIZE, sizeof memory_there, &memory_there,
+                                     nullptr) == CL_SUCCESS;
+  if (!known) return "";
+  return " (of which it takes at most " + std::to_string(most) + " there, with " + std::to_string(memory) +
+         " of " + std::to_string(memory_there) + " bytes of local memory)";
 }
 
 void Kernel::note_launch(const cl::Event& event, cl_uint dimensions, const std::size_t* global,

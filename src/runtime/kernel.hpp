@@ -88,7 +88,7 @@ class Kernel {
 
   bool is_for(const Device& device, const PixelGrid& grid) const;
 
-  /// For errors: how many work-items a group can have.
+  /// For errors: how many work-items a group can have, and how much of the local memory it takes.
   std::string group_limit_text() const;
 
   void set_arguments(std::size_t) {}

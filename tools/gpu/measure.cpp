@@ -82,8 +82,8 @@ std::vector<Point> points_of(const std::string& path) {
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   constexpr std::size_t preamble = 10;
   if (bytes.size() < preamble) throw Error(path + " is no .npy file");
-  const std::size_t begin =
-      preamble + static_cast<unsigned char>(bytes[8]) + 256u * static_cast<unsigned char>(bytes[9]);
+  const std::size_t begin = preamble + static_cast<unsigned char>(bytes[8]) +
+                            std::size_t{256} * static_cast<unsigned char>(bytes[9]);
   if (bytes.substr(0, begin).find("<f8") == std::string::npos) throw Error(path + " holds no doubles");
   std::vector<Point> points((bytes.size() - begin) / sizeof(Point));
   std::memcpy(points.data(), bytes.data() + begin, points.size() * sizeof(Point));
@@ -116,8 +116,9 @@ std::size_t wrong_pixels(const Seeds& seeds, const Labels& labels, const Labels&
   const std::vector<std::optional<Point>> pixels = seeds.read_pixels();
   const auto width = static_cast<std::size_t>(seeds.grid().width());
   const auto squared = [&](std::size_t i, std::uint32_t label) {
-    const double dx = pixels.at(label)->x - (static_cast<double>(i % width) + 0.5);
-    const double dy = pixels.at(label)->y - (static_cast<double>(i / width) + 0.5);
+    const std::size_t x = i % width, y = i / width;
+    const double dx = pixels.at(label)->x - (static_cast<double>(x) + 0.5);
+    const double dy = pixels.at(label)->y - (static_cast<double>(y) + 0.5);
     return dx * dx + dy * dy;
   };
   std::size_t wrong = 0;
