@@ -3,7 +3,7 @@
 #define POLYGON_SPACE private
 #include "exact_cells/measure.cl"
 
-#define ROOM 20  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
+#define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
 
 // Cells of coincident points but the first, and of points that are not there, are empty.
 kernel void clear_cells(uint cells, global double* restrict areas, global double2* restrict centroids,
@@ -20,25 +20,56 @@ kernel void clear_cells(uint cells, global double* restrict areas, global double
 kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, MEASURE_PARAMETERS) {
   const uint site = (uint)get_global_id(0);
   if (site >= count) return;
-  edge_t edges[ROOM];
-  measure_cell(SITE_ARGUMENTS, MEASURE_ARGUMENTS, site, edges, ROOM);
+  const tree_t tree = SITE_ARGUMENTS;
+  double memory[POLYGON_MEMORY(ROOM)];
+  measure_cell(&tree, MEASURE_ARGUMENTS, site, memory, ROOM);
 }
 
-// Puts the edges of each cell where they belong: by the caller's ids, in the units of the data.
-kernel void place_edges(uint count, global const int* restrict sites, global const uint* restrict ids, double2 origin,
-                        double step, global const uint* restrict begins, global const uint* restrict edge_counts,
-                        global const uint* restrict found_cells, global const double2* restrict found_vertices,
-                        global const uint* restrict offsets, global uint* restrict cells,
-                        global double* restrict lengths, global double2* restrict vertices) {
+static inline line_t found_line(const tree_t* tree, uint2 edge, int2 at, uint site) {
+  const int image = as_int(edge.s1);
+  if (image < FIRST_LINES + 4) return first_line_of(tree, image - FIRST_LINES, at, site);
+  return line_towards(site_at(tree, edge.s0) - seen_from(tree, at, image), edge.s0, image);
+}
+
+// Puts the edges of each cell where they belong, by the caller's ids: the cells behind them, and where they begin, in
+// half steps from the site. And says which site that is.
+kernel void place_edges(SITE_PARAMETERS, global const uint* restrict ids, global const uint* restrict begins,
+                        global const uint2* restrict found, global const uint* restrict offsets,
+                        global uint* restrict cells, global double2* restrict vertices,
+                        global uint* restrict sites_of_cells) {
   const uint site = (uint)get_global_id(0);
   if (site >= count) return;
-  const double2 at = convert_double2(site_at(sites, site));
-  const uint id = ids[site], begin = begins[site], size = edge_counts[id], offset = offsets[id];
+  const tree_t tree = SITE_ARGUMENTS;
+  const int2 at = site_at(&tree, site);
+  const uint id = ids[site], begin = begins[site], offset = offsets[id], size = offsets[id + 1] - offset;
+  if (size == 0) return;
+  sites_of_cells[id] = site;
+  line_t before = found_line(&tree, found[begin + size - 1], at, site);
   for (uint i = 0; i < size; ++i) {
-    const double2 from = found_vertices[begin + i], way = found_vertices[begin + (i + 1 < size ? i + 1 : 0)] - from;
-    const uint cell = found_cells[begin + i];
-    cells[offset + i] = cell == NO_CELL ? NO_CELL : ids[cell];
-    lengths[offset + i] = sqrt(way.s0 * way.s0 + way.s1 * way.s1) / 2 * step;
-    vertices[offset + i] = origin + (at + from / 2) * step;
+    const line_t line = found_line(&tree, found[begin + i], at, site);
+    cells[offset + i] = line.cell == NO_CELL ? NO_CELL : ids[line.cell];
+    vertices[offset + i] = crossing(before, line);
+    before = line;
+  }
+}
+
+// Measures the edges, and puts their vertices into the units of the data. The lengths lie where found edges did. In the
+// order of cells, so that memory is read and written as it lies.
+kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restrict sites_of_cells, double2 origin,
+                          double step, global const uint* restrict offsets, global double2* restrict vertices,
+                          global double* restrict lengths) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= cells) return;
+  const uint offset = offsets[id], end = offsets[id + 1];
+  if (offset == end) return;
+  const tree_t tree = SITE_ARGUMENTS;
+  const double2 at = convert_double2(site_at(&tree, sites_of_cells[id]));
+  const double2 first = vertices[offset];
+  double2 from = first;
+  for (uint i = offset; i < end; ++i) {
+    const double2 to = i + 1 < end ? vertices[i + 1] : first, way = to - from;
+    lengths[i] = sqrt(way.s0 * way.s0 + way.s1 * way.s1) / 2 * step;
+    vertices[i] = origin + (at + from / 2) * step;
+    from = to;
   }
 }

@@ -5,8 +5,9 @@
 
 kernel __attribute__((vec_type_hint(float8))) void cut_large_cells(SITE_PARAMETERS, MEASURE_PARAMETERS,
                                                                    global const uint* restrict large, uint from,
-                                                                   uint to, global edge_t* restrict edges, int room) {
+                                                                   uint to, global double* restrict memory, int room) {
   const uint i = (uint)get_global_id(0);
   if (i >= to - from) return;
-  measure_cell(SITE_ARGUMENTS, MEASURE_ARGUMENTS, large[from + i], edges + (size_t)i * (size_t)room, room);
+  const tree_t tree = SITE_ARGUMENTS;
+  measure_cell(&tree, MEASURE_ARGUMENTS, large[from + i], memory + (size_t)i * (size_t)POLYGON_MEMORY(room), room);
 }

@@ -1,4 +1,4 @@
-// What is measured of a cell, and its edges, as they are found.
+// What is measured of a cell, and the lines of its edges, as they are found.
 
 #ifndef VOROCL_EXACT_CELLS_MEASURE
 #define VOROCL_EXACT_CELLS_MEASURE
@@ -8,76 +8,64 @@
 #define TOUCHES_BORDER 1u
 #define CERTIFIED 2u
 
-// Which sites there are, what they are called in the caller's list, and the rectangle: left, lower, right and upper
-// sides, in steps; the periods along x and y, 0 along an axis without, and how far the images above are shifted in x;
-// two short vectors of that lattice, or zeros; and where step 0 is, and how long one, in the units of the data.
-#define SITE_PARAMETERS \
-  uint count, global const int *sites, global const int *boxes, \
-      global const uint *levels, int top, global const uint *ids, int4 rectangle, int4 periods, \
-      int4 lattice, double2 origin, double step
-
-// By the caller's ids. `begins` is by site: where its edges lie among the found ones, which come in the order in which
-// cells are done. `counters`: the edges found; the cells in the queue of those with more edges than there is room for.
+// What sites are called in the caller's list; where step 0 is, and how long one, in the units of the data; and what
+// is found, by the caller's ids. `begins` is by site: where its edges lie among the found ones, of which each is a
+// site and an image. They come in the order in which cells are done. `counters`: the edges found; the cells in the
+// queue of those with more edges than there is room for.
 #define MEASURE_PARAMETERS \
-  global double *areas, global double2 *centroids, global double *perimeters, \
-      global uint *edge_counts, global uint *neighbours, global uchar *flags, \
-      global uint *begins, global uint *found_cells, global double2 *found_vertices, \
-      uint room_for_edges, global uint *counters, global uint *queue
+  global const uint *ids, double2 origin, double step, global double *areas, global double2 *centroids, \
+      global double *perimeters, global uint *edge_counts, global uint *neighbours, global uchar *flags, \
+      global uint *begins, global uint2 *found, uint room_for_edges, global uint *counters, global uint *queue
 
-#define SITE_ARGUMENTS count, sites, boxes, levels, top, ids, rectangle, periods, lattice, origin, step
 #define MEASURE_ARGUMENTS \
-  areas, centroids, perimeters, edge_counts, neighbours, flags, begins, found_cells, found_vertices, room_for_edges, \
+  ids, origin, step, areas, centroids, perimeters, edge_counts, neighbours, flags, begins, found, room_for_edges, \
       counters, queue
 
-static inline int2 site_at(global const int* sites, uint site) {
-  const size_t at = (size_t)(site >> FAN_BITS) * (2 * FAN) + (site & (FAN - 1));
-  return (int2)(sites[at], sites[at + FAN]);
+// The edge that begins in the lowest vertex, and of two in the left one.
+static inline int first_edge(const polygon_t* polygon) {
+  int lowest = 0;
+  for (int k = 1; k < polygon->size; ++k) {
+    const double y = polygon->y[k], least = polygon->y[lowest];
+    lowest = y < least || (y == least && polygon->x[k] < polygon->x[lowest]) ? k : lowest;
+  }
+  return lowest + 1 < polygon->size ? lowest + 1 : 0;
 }
 
 // Sums are taken in half steps from the site, where they lose least.
-static inline void measure_cell(SITE_PARAMETERS, MEASURE_PARAMETERS, uint site, POLYGON_SPACE edge_t* edges, int room) {
-  const tree_t tree = {sites, boxes, levels, count, top};
-  const int2 at = site_at(sites, site);
-  polygon_t polygon;
-  polygon.edges = edges;
-  polygon.room = room;
-  begin_polygon(&polygon, (int4)(at - rectangle.s01, rectangle.s23 - at), lattice, site);
-  cut_by_all(&polygon, &tree, site, at, rectangle, periods);
+static inline void measure_cell(const tree_t* tree, MEASURE_PARAMETERS, uint site, POLYGON_SPACE double* memory,
+                                int room) {
+  const int2 at = site_at(tree, site);
+  polygon_t polygon = polygon_in(memory, room);
+  begin_polygon(&polygon, tree, at, site);
+  cut_by_all(&polygon, tree, site, at);
   if (polygon.is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;
   }
-  const uint id = ids[site];
-  uint edge_count = 0, touching = 0;
-  if (polygon.first >= 0) {
-    int k = polygon.first;
-    do {
-      ++edge_count;
-      touching += edges[k].cell == NO_CELL ? 1u : 0u;
-      k = edges[k].next;
-    } while (k != polygon.first);
-  }
+  const uint id = ids[site], edge_count = (uint)polygon.size;
   const uint begin = atomic_add(counters, edge_count);
   begins[site] = begin;
   edge_counts[id] = edge_count;
-  neighbours[id] = edge_count - touching;
-  flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);
   if (edge_count == 0 || begin + edge_count > room_for_edges) return;
+  uint touching = 0;
   double area = 0, perimeter = 0;
   double2 moment = 0;
-  int k = polygon.first;
-  double2 from = (double2)(edges[edges[k].before].x, edges[edges[k].before].y);
+  int k = first_edge(&polygon);
+  const int before = (k > 0 ? k : polygon.size) - 1;
+  double2 from = (double2)(polygon.x[before], polygon.y[before]);
   for (uint i = 0; i < edge_count; ++i) {
-    const double2 to = (double2)(edges[k].x, edges[k].y), way = to - from;
+    const double2 to = (double2)(polygon.x[k], polygon.y[k]), way = to - from;
     const double part = from.s0 * to.s1 - to.s0 * from.s1;
     area += part;
     moment += part * (from + to);
     perimeter += sqrt(way.s0 * way.s0 + way.s1 * way.s1);
-    found_vertices[begin + i] = from;
-    found_cells[begin + i] = edges[k].cell;
+    touching += polygon.cell[k] == NO_CELL ? 1u : 0u;
+    found[begin + i] = (uint2)(polygon.cell[k], as_uint(polygon.image[k]));
     from = to;
-    k = edges[k].next;
+    k = k + 1 < polygon.size ? k + 1 : 0;
   }
+  neighbours[id] = edge_count - touching;
+  flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);
   areas[id] = area / 8 * step * step;
   perimeters[id] = perimeter / 2 * step;
   centroids[id] = origin + (convert_double2(at) + moment / (3 * area) / 2) * step;

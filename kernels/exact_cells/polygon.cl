@@ -27,31 +27,70 @@
 
 #define NO_CELL 0xffffffffu  // behind a side of the box
 
-// An edge of the polygon, and the vertex at its end, counter-clockwise where y points up.
+#define LANES 8  // vertices that a line is tried against at once
+
+// Lists of a polygon with room for so many edges, a multiple of LANES, take so many doubles.
+#define POLYGON_MEMORY(room) (7 * ((room) + LANES))
+
+// A line a x + b y = c, with the site behind it. In a periodic box `image` says which of its images (see search.cl), or
+// which of the lines that the cell began with this is.
 typedef struct {
   long c;
-  double x, y;          // the vertex, in half steps
-  float rough_x, rough_y, reach;  // the same in steps; its squared distance with a margin; -1 of an unused edge
   int a, b;
-  uint cell;            // behind the edge: a site
-  int next, before;     // edges of the ring; of unused edges `next` makes a list
-  int side;             // of the line that is being tried: -1 is inside, 0 on the line, 1 cut off
-} edge_t;
+  uint cell;
+  int image;
+} line_t;
 
+// A ring of edges, counter-clockwise where y points up, as lists. Vertex k is where edge k ends, and edge k + 1 begins.
+// Behind the last one come vertices that are the site itself, which no line cuts off.
 typedef struct {
-  POLYGON_SPACE edge_t* edges;
-  int room;    // for edges
-  int used;    // of these, with those that are unused again
-  int unused;  // the first of them, or -1
-  int first;   // an edge of the ring; -1: nothing is left
-  float reach;  // the largest of the vertices
+  POLYGON_SPACE double* x;  // vertices, in half steps
+  POLYGON_SPACE double* y;
+  POLYGON_SPACE float* rough_x;  // the same in steps
+  POLYGON_SPACE float* rough_y;
+  POLYGON_SPACE float* reaches;  // their squared distances, with a margin
+  POLYGON_SPACE long* c;         // lines
+  POLYGON_SPACE int* a;
+  POLYGON_SPACE int* b;
+  POLYGON_SPACE uint* cell;
+  POLYGON_SPACE int* image;
+  int room, size;  // in edges
+  float reach;     // the largest; 0 if nothing is left to be cut
   bool is_full;
 } polygon_t;
 
-// a b' - a' b of two lines' directions.
-static inline long cross_of(int a, int b, int other_a, int other_b) { return (long)a * other_b - (long)other_a * b; }
+static inline polygon_t polygon_in(POLYGON_SPACE double* memory, int room) {
+  const int length = room + LANES;
+  polygon_t polygon;
+  polygon.x = memory;
+  polygon.y = memory + length;
+  polygon.c = (POLYGON_SPACE long*)(memory + 2 * length);
+  polygon.rough_x = (POLYGON_SPACE float*)(memory + 3 * length);
+  polygon.rough_y = polygon.rough_x + length;
+  polygon.reaches = polygon.rough_x + 2 * length;
+  polygon.a = (POLYGON_SPACE int*)(memory + 5 * length);
+  polygon.b = polygon.a + length;
+  polygon.cell = (POLYGON_SPACE uint*)(memory + 6 * length);
+  polygon.image = polygon.a + 3 * length;
+  polygon.room = room;
+  return polygon;
+}
 
-#define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
+static inline line_t line_of(const polygon_t* polygon, int k) {
+  const line_t line = {polygon->c[k], polygon->a[k], polygon->b[k], polygon->cell[k], polygon->image[k]};
+  return line;
+}
+
+static inline void set_line(polygon_t* polygon, int k, line_t line) {
+  polygon->c[k] = line.c;
+  polygon->a[k] = line.a;
+  polygon->b[k] = line.b;
+  polygon->cell[k] = line.cell;
+  polygon->image[k] = line.image;
+}
+
+// a b' - a' b of two lines' directions.
+static inline long cross_of(line_t p, line_t q) { return (long)p.a * q.b - (long)q.a * p.b; }
 
 // c b - c' b', right but for 2^-51 of itself. A c of less than 2^53 is a double, and what it loses when it is
 // multiplied is known; a greater one is of seeds that are far from each other, of which there are few.
@@ -64,137 +103,162 @@ static inline double difference(long c, int b, long other_c, int other_b) {
   return fma(p, q, -rounded) + fma(-r, s, rounded);
 }
 
-// Computes the vertex at the end of an edge. Both coordinates are right but for 2^-50 of themselves.
-static inline void set_vertex(POLYGON_SPACE edge_t* edges, int k) {
-  POLYGON_SPACE const edge_t* const p = edges + k;
-  POLYGON_SPACE const edge_t* const q = edges + p->next;
-  const double d = convert_double(cross_of(p->a, p->b, q->a, q->b));
-  const double x = difference(p->c, q->b, q->c, p->b) / d, y = difference(q->c, p->a, p->c, q->a) / d;
-  const float rough_x = convert_float(x) * 0.5f, rough_y = convert_float(y) * 0.5f;
-  edges[k].x = x;
-  edges[k].y = y;
-  edges[k].rough_x = rough_x;
-  edges[k].rough_y = rough_y;
-  edges[k].reach = (rough_x * rough_x + rough_y * rough_y) * ROUGH_MARGIN;
+// Where two lines cross. Both coordinates are right but for 2^-50 of themselves.
+static inline double2 crossing(line_t p, line_t q) {
+  const double d = convert_double(cross_of(p, q));
+  return (double2)(difference(p.c, q.b, q.c, p.b) / d, difference(q.c, p.a, p.c, q.a) / d);
 }
 
-// On which side of a line a vertex is, in whole numbers.
-static inline int exact_side(POLYGON_SPACE const edge_t* edges, int k, int a, int b, long c) {
-  const edge_t p = edges[k], q = edges[p.next];
-  return -sign_of(sum(sum(product(p.c, cross_of(q.a, q.b, a, b)), product(q.c, cross_of(a, b, p.a, p.b))),
-                      product(c, cross_of(p.a, p.b, q.a, q.b))));
-}
+#define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
-static inline int side_of(POLYGON_SPACE const edge_t* edges, int k, int a, int b, long c) {
-  const double ax = a * edges[k].x, by = b * edges[k].y, to = convert_double(c);
-  const double over = ax + by - to;
-  const double doubt = 0x1p-49 * (fabs(ax) + fabs(by) + fabs(to));
-  if (!(fabs(over) > doubt)) return exact_side(edges, k, a, b, c);
-  return (over > 0) * 2 - 1;  // without a branch, which processors would often guess wrong
+static inline void set_vertex(polygon_t* polygon, int k, double2 vertex) {
+  const float rough_x = convert_float(vertex.s0) * 0.5f, rough_y = convert_float(vertex.s1) * 0.5f;
+  polygon->x[k] = vertex.s0;
+  polygon->y[k] = vertex.s1;
+  polygon->rough_x[k] = rough_x;
+  polygon->rough_y[k] = rough_y;
+  polygon->reaches[k] = (rough_x * rough_x + rough_y * rough_y) * ROUGH_MARGIN;
 }
 
 static inline void find_reach(polygon_t* polygon) {
-  float reach = 0;
-  for (int k = 0; k < polygon->used; ++k) reach = max(reach, polygon->edges[k].reach);
-  polygon->reach = reach;
+  float8 reach = 0;
+  for (int k = 0; k < polygon->size; k += LANES) reach = max(reach, vload8(0, polygon->reaches + k));
+  const float4 of_four = max(reach.lo, reach.hi);
+  const float2 of_two = max(of_four.lo, of_four.hi);
+  polygon->reach = max(of_two.s0, of_two.s1);
 }
 
-static inline void set_line(POLYGON_SPACE edge_t* edge, int a, int b, long c, uint cell) {
-  edge->a = a;
-  edge->b = b;
-  edge->c = c;
-  edge->cell = cell;
+// On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
+static inline int exact_side(const polygon_t* polygon, int k, line_t line) {
+  const line_t p = line_of(polygon, k), q = line_of(polygon, k + 1 < polygon->size ? k + 1 : 0);
+  return -sign_of(sum(sum(product(p.c, cross_of(q, line)), product(q.c, cross_of(line, p))),
+                      product(line.c, cross_of(p, q))));
 }
 
-// An edge that is not in the ring; -1 if there is no room.
-static inline int new_edge(polygon_t* polygon) {
-  if (polygon->unused >= 0) {
-    const int k = polygon->unused;
-    polygon->unused = polygon->edges[k].next;
-    return k;
+// A bit for each lane that holds.
+static inline int bits_of_ints(int8 lanes) {
+  const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const int4 of_four = bits.lo | bits.hi;
+  const int2 of_two = of_four.lo | of_four.hi;
+  return of_two.s0 | of_two.s1;
+}
+static inline int bits_of_longs(long8 lanes) {
+  const long8 bits = lanes & (long8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const long4 of_four = bits.lo | bits.hi;
+  const long2 of_two = of_four.lo | of_four.hi;
+  return (int)(of_two.s0 | of_two.s1);
+}
+
+static inline int lowest_bit(int bits) { return 31 - (int)clz(bits & -bits); }
+static inline int highest_bit(int bits) { return 31 - (int)clz(bits); }
+
+// Which of the vertices from k on, as bits, are beyond a line (s0), and which are beyond or on it (s1).
+static inline int2 beyond(const polygon_t* polygon, int k, line_t line) {
+  const double8 ax = convert_double(line.a) * vload8(0, polygon->x + k);
+  const double8 by = convert_double(line.b) * vload8(0, polygon->y + k);
+  const double c = convert_double(line.c);
+  const double8 over = ax + by - c;
+  const double8 doubt = 0x1p-49 * (fabs(ax) + fabs(by) + fabs(c));
+  int is_beyond = bits_of_longs(over > doubt), is_or_on = is_beyond;
+  for (int unsure = bits_of_longs(!(fabs(over) > doubt)); unsure != 0; unsure &= unsure - 1) {
+    const int lane = lowest_bit(unsure), side = exact_side(polygon, k + lane, line);
+    is_beyond |= (side > 0) << lane;
+    is_or_on |= (side >= 0) << lane;
   }
-  return polygon->used < polygon->room ? polygon->used++ : -1;
+  return (int2)(is_beyond, is_or_on);
 }
 
-// Out of the ring: a vertex that no line cuts off and no site is near enough to.
-static inline void discard_edge(polygon_t* polygon, int k) {
-  POLYGON_SPACE edge_t* const edge = polygon->edges + k;
-  edge->x = edge->y = 0;
-  edge->rough_x = edge->rough_y = 0;
-  edge->reach = -1;
-  edge->next = polygon->unused;
-  polygon->unused = k;
+// Moves the edges from `from` on, and what is behind them.
+static inline void move_edges(polygon_t* polygon, int from, int to, int count) {
+  const int last = (count - 1) & ~(LANES - 1), step = to < from ? LANES : -LANES;
+  for (int k = to < from ? 0 : last; k >= 0 && k <= last; k += step) {
+    const int source = from + k, goal = to + k;
+    vstore8(vload8(0, polygon->x + source), 0, polygon->x + goal);
+    vstore8(vload8(0, polygon->y + source), 0, polygon->y + goal);
+    vstore8(vload8(0, polygon->rough_x + source), 0, polygon->rough_x + goal);
+    vstore8(vload8(0, polygon->rough_y + source), 0, polygon->rough_y + goal);
+    vstore8(vload8(0, polygon->reaches + source), 0, polygon->reaches + goal);
+    vstore8(vload8(0, polygon->c + source), 0, polygon->c + goal);
+    vstore8(vload8(0, polygon->a + source), 0, polygon->a + goal);
+    vstore8(vload8(0, polygon->b + source), 0, polygon->b + goal);
+    vstore8(vload8(0, polygon->cell + source), 0, polygon->cell + goal);
+    vstore8(vload8(0, polygon->image + source), 0, polygon->image + goal);
+  }
+}
+
+// Makes the places of edges that are gone such as those behind the last one.
+static inline void clear_edges(polygon_t* polygon, int from, int to) {
+  for (int k = from; k < to; k += LANES) {
+    vstore8((double8)0, 0, polygon->x + k);
+    vstore8((double8)0, 0, polygon->y + k);
+    vstore8((float8)0, 0, polygon->reaches + k);
+  }
 }
 
 // Cuts off what lies beyond a line.
-static inline void cut(polygon_t* polygon, int a, int b, uint cell) {
-  POLYGON_SPACE edge_t* const edges = polygon->edges;
-  const long c = (long)a * a + (long)b * b;
-  int beyond = -1;
-  for (int k = 0; k < polygon->used; ++k) {
-    const int side = side_of(edges, k, a, b, c);
-    edges[k].side = side;
-    if (side > 0) beyond = k;
+static inline void cut(polygon_t* polygon, line_t line) {
+  const int size = polygon->size;
+  int is_cut = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
+  for (int k = 0; k < size; k += LANES) {
+    const int2 sides = beyond(polygon, k, line);
+    const int gone = sides.s1, kept = ~gone & ((1 << min(size - k, LANES)) - 1);
+    is_cut |= sides.s0;
+    first_gone = gone != 0 ? min(first_gone, k + lowest_bit(gone)) : first_gone;
+    last_gone = gone != 0 ? k + highest_bit(gone) : last_gone;
+    first_kept = kept != 0 ? min(first_kept, k + lowest_bit(kept)) : first_kept;
+    last_kept = kept != 0 ? k + highest_bit(kept) : last_kept;
   }
-  if (beyond < 0) return;
-  // From the first to the last vertex that goes. Those on the line go with them, and new ones take their places.
-  int first = beyond, last = beyond;
-  while (edges[edges[first].before].side >= 0 && edges[first].before != beyond) first = edges[first].before;
-  while (edges[edges[last].next].side >= 0 && edges[last].next != first) last = edges[last].next;
-  if (edges[last].next == first) {
-    polygon->first = -1;
+  if (is_cut == 0) return;
+  if (last_kept < 0) {
+    polygon->size = 0;
+    polygon->reach = 0;
     return;
   }
-  const int after = edges[last].next;
-  int made = last;
-  if (first == last) {
-    made = new_edge(polygon);
-    if (made < 0) {
-      polygon->is_full = true;
-      return;
-    }
-  } else {
-    for (int k = edges[first].next; k != last;) {
-      const int next = edges[k].next;
-      discard_edge(polygon, k);
-      k = next;
-    }
+  // From the first to the last vertex that goes. Those on the line go with them, and new ones take their places: one
+  // more edge, less the edges between two vertices that go.
+  const bool is_split = first_gone == 0 && last_gone == size - 1;  // by the end of the lists
+  const int first = is_split ? last_kept + 1 : first_gone, last = is_split ? first_kept - 1 : last_gone;
+  const int after = last + 1 < size ? last + 1 : 0;
+  const int kept = last_kept - first_kept + 1;
+  const int new_size = (is_split ? kept : size - (last - first + 1)) + 2;
+  if (new_size > polygon->room) {
+    polygon->is_full = true;
+    polygon->reach = 0;
+    return;
   }
-  set_line(edges + made, a, b, c, cell);
-  edges[first].next = made;
-  edges[made].before = first;
-  edges[made].next = after;
-  edges[after].before = made;
-  set_vertex(edges, first);
-  set_vertex(edges, made);
-  polygon->first = first;
+  const line_t before_line = line_of(polygon, first), after_line = line_of(polygon, after);
+  const double2 begin = crossing(before_line, line), end = crossing(line, after_line);
+  const int at = is_split ? kept : first;
+  if (is_split) {
+    move_edges(polygon, first_kept, 0, kept);
+    set_line(polygon, at, before_line);
+  } else {
+    move_edges(polygon, last + 1, first + 2, size - (last + 1));
+  }
+  polygon->size = new_size;
+  set_line(polygon, at + 1, line);
+  set_vertex(polygon, at, begin);
+  set_vertex(polygon, at + 1, end);
+  clear_edges(polygon, new_size, size);
   find_reach(polygon);
 }
 
 static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }
 
-// The box around a site, counter-clockwise from its lower side: `sides` says how far its left, lower, right and upper
-// sides are. Where a vector of the lattice is given, u = lattice.s01 or v = lattice.s23, it ends at the bisectors with
-// the site's own images there.
-static inline void begin_polygon(polygon_t* polygon, int4 sides, int4 lattice, uint site) {
-  POLYGON_SPACE edge_t* const edges = polygon->edges;
-  const long square_u = square_of(lattice.s01), square_v = square_of(lattice.s23);
-  const int2 u = square_u > 0 ? lattice.s01 : (int2)(1, 0), v = square_v > 0 ? lattice.s23 : (int2)(0, 1);
-  const uint behind_u = square_u > 0 ? site : NO_CELL, behind_v = square_v > 0 ? site : NO_CELL;
-  set_line(edges, -v.s0, -v.s1, square_v > 0 ? square_v : 2 * (long)sides.s1, behind_v);
-  set_line(edges + 1, u.s0, u.s1, square_u > 0 ? square_u : 2 * (long)sides.s2, behind_u);
-  set_line(edges + 2, v.s0, v.s1, square_v > 0 ? square_v : 2 * (long)sides.s3, behind_v);
-  set_line(edges + 3, -u.s0, -u.s1, square_u > 0 ? square_u : 2 * (long)sides.s0, behind_u);
-  for (int k = 0; k < 4; ++k) {
-    edges[k].next = (k + 1) & 3;
-    edges[k].before = (k + 3) & 3;
-  }
-  for (int k = 0; k < 4; ++k) set_vertex(edges, k);
-  polygon->used = 4;
-  polygon->unused = -1;
-  polygon->first = 0;
-  polygon->is_full = false;
-  find_reach(polygon);
+#define FIRST_LINES INT_MIN  // and the three that follow are the images of the lines that cells begin with
+
+// Line k of the four around a site, counter-clockwise from its lower side: `sides` says how far the left, lower, right
+// and upper sides of the box are. Where a vector of the lattice is given, u = lattice.s01 or v = lattice.s23, it is
+// the bisector with the site's own image there.
+static inline line_t first_line(int k, int4 sides, int4 lattice, uint site) {
+  const bool is_level = (k & 1) == 0, is_lower = k == 0 || k == 3;
+  const int2 vector = is_level ? lattice.s23 : lattice.s01;
+  const long square = square_of(vector);
+  const int2 normal = square > 0 ? vector : is_level ? (int2)(0, 1) : (int2)(1, 0);
+  const int side = is_level ? (is_lower ? sides.s1 : sides.s3) : (is_lower ? sides.s0 : sides.s2);
+  const line_t line = {square > 0 ? square : 2 * (long)side, is_lower ? -normal.s0 : normal.s0,
+                       is_lower ? -normal.s1 : normal.s1, square > 0 ? site : NO_CELL, FIRST_LINES + k};
+  return line;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// The sites that may cut a cell, from a tree of boxes. The host has put the sites in Morton's order; each eight are a
+// The sites that may cut a cell, from a tree of boxes. The host has put the sites in Hilbert's order; each eight are a
 // leaf, and each eight boxes have one around them, up to one group of at most eight.
 //
 // A site cuts a cell only if it is nearer to one of the cell's vertices than the cell's own site is. This is asked of
@@ -12,154 +12,190 @@
 #define FAN 8
 #define FAN_BITS 3
 #define MOST_LEVELS 10  // of boxes, for 2^30 sites
-#define STACK (MOST_LEVELS * FAN)
+
+// Which sites there are: in the kernels' arguments, and as what functions take.
+#define SITE_PARAMETERS \
+  uint count, global const int *sites, global const int *boxes, \
+      global const uint *levels, int top, int4 rectangle, int4 periods, int4 lattice
+#define SITE_ARGUMENTS {count, sites, boxes, levels, top, rectangle, periods, lattice}
 
 typedef struct {
-  global const int* sites;   // per leaf eight x and eight y
-  global const int* boxes;   // per group eight left sides, eight right ones, eight lower and eight upper ones
-  global const uint* levels; // by level: its first group. Those of level 1 are boxes around leaves.
-  uint count;                // of sites
-  int top;                   // the last level
+  uint count;                 // of sites
+  global const int* sites;    // per leaf eight x and eight y, in steps
+  global const int* boxes;    // per group eight left sides, eight right ones, eight lower and eight upper ones
+  global const uint* levels;  // by level: its first group. Those of level 1 are boxes around leaves.
+  int top;                    // the last level
+  int4 rectangle;             // left, lower, right and upper sides
+  int4 periods;  // along x and y, 0 along an axis without; and how far the images above are shifted in x
+  int4 lattice;  // two short vectors of that lattice, or zeros
 } tree_t;
 
-// A part of the tree that is still to be looked at, and its squared distance.
-typedef struct {
-  int level[STACK];
-  uint index[STACK];
-  float distance[STACK];
-  int size;
-} stack_t;
-
-// The boxes or sites of a level.
-static inline uint nodes_of(const tree_t* tree, int level) {
-  return (tree->count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level);
+static inline int2 site_at(const tree_t* tree, uint site) {
+  const size_t at = (size_t)(site >> FAN_BITS) * (2 * FAN) + (site & (FAN - 1));
+  return (int2)(tree->sites[at], tree->sites[at + FAN]);
 }
 
-// Which of eight boxes may hold a site that cuts off a vertex. The boxes are seen from the cell's site.
-static inline int8 may_cut(const polygon_t* polygon, float8 left, float8 right, float8 lower, float8 upper) {
-  int8 hits = 0;
-  for (int k = 0; k < polygon->used; ++k) {
-    const float x = polygon->edges[k].rough_x, y = polygon->edges[k].rough_y;
-    const float8 dx = max(max(left - x, x - right), 0.0f), dy = max(max(lower - y, y - upper), 0.0f);
-    hits |= dx * dx + dy * dy < polygon->edges[k].reach;
+// --- images ---
+
+// In row j of the lattice, which is j periods above, an image is i periods to the right of one in the rectangle.
+// Along x no image can cut that is more than a period away: the one a period nearer is nearer to the whole cell.
+static inline int image_of(int i, int j) { return 4 * j + i + 1; }
+#define ITSELF 1  // image_of(0, 0)
+
+// Where a site is as seen from an image of all sites.
+static inline int2 seen_from(const tree_t* tree, int2 at, int image) {
+  const int i = (image & 3) - 1, j = image >> 2;
+  long x = at.s0;
+  if (tree->periods.s2 != 0) {
+    const long left = tree->rectangle.s0, period = tree->periods.s0;
+    const long shifted = (x - left - (long)j * tree->periods.s2) % period;
+    x = left + (shifted < 0 ? shifted + period : shifted);
   }
-  return hits;
+  return (int2)((int)(x - (long)i * tree->periods.s0), (int)(at.s1 - (long)j * tree->periods.s1));
 }
+
+static inline line_t line_towards(int2 way, uint cell, int image) {
+  const line_t line = {square_of(way), way.s0, way.s1, cell, image};
+  return line;
+}
+
+static inline line_t first_line_of(const tree_t* tree, int k, int2 at, uint site) {
+  return first_line(k, (int4)(at - tree->rectangle.s01, tree->rectangle.s23 - at), tree->lattice, site);
+}
+
+static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at, uint site) {
+  polygon->size = 4;
+  polygon->is_full = false;
+  clear_edges(polygon, 0, polygon->room + 1);
+  for (int k = 0; k < 4; ++k) {
+    const line_t line = first_line_of(tree, k, at, site);
+    set_line(polygon, k, line);
+    set_vertex(polygon, k, crossing(line, first_line_of(tree, (k + 1) & 3, at, site)));
+  }
+  find_reach(polygon);
+}
+
+// --- boxes and sites, eight at a time ---
+
+#define FAR 0xffffffffu  // of those that cut nothing
+
+// The nearest of eight come first: numbers that grow with a squared distance, and end with which one it is.
+static inline uint8 order_of(float8 distances, int8 may_cut) {
+  const uint8 order = (as_uint8(distances) & ~(uint)(FAN - 1)) | (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+  return order | ~as_uint8(may_cut);
+}
+
+static inline uint least_of(uint8 numbers) {
+  const uint4 of_four = min(numbers.lo, numbers.hi);
+  const uint2 of_two = min(of_four.lo, of_four.hi);
+  return min(of_two.s0, of_two.s1);
+}
+
+static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
+
+// Behind which nothing can cut.
+static inline uint end_of(const polygon_t* polygon) { return as_uint(4 * polygon->reach); }
+
+// Those of eight of which there are so many.
+static inline int8 first_of(uint many) { return (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int)min(many, (uint)FAN); }
 
 // Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree sees it.
-static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from) {
-  const int8 x = vload8(2 * (size_t)leaf, tree->sites) - from.s0;
-  const int8 y = vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1;
-  const float8 rough_x = convert_float8(x), rough_y = convert_float8(y);
-  const int8 hits = may_cut(polygon, rough_x, rough_x, rough_y, rough_y);
-  if (!any(hits)) return;
-  int is_hit[FAN], a[FAN], b[FAN];
-  float distances[FAN];
-  vstore8(hits, 0, is_hit);
-  vstore8(x, 0, a);
-  vstore8(y, 0, b);
-  vstore8(rough_x * rough_x + rough_y * rough_y, 0, distances);
-  const uint first = leaf * FAN;
-  const int count = (int)min(tree->count - first, (uint)FAN);
-  int order[FAN], size = 0;
-  for (int i = 0; i < count; ++i) {
-    if (!is_hit[i] || (a[i] == 0 && b[i] == 0)) continue;
-    int place = size++;
-    for (; place > 0 && distances[order[place - 1]] > distances[i]; --place) order[place] = order[place - 1];
-    order[place] = i;
+static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
+  const float8 x = convert_float8(vload8(2 * (size_t)leaf, tree->sites) - from.s0);
+  const float8 y = convert_float8(vload8(2 * (size_t)leaf + 1, tree->sites) - from.s1);
+  const float8 distances = x * x + y * y;
+  int8 may_cut = 0;
+  for (int k = 0; k < polygon->size; ++k) {
+    const float8 dx = x - polygon->rough_x[k], dy = y - polygon->rough_y[k];
+    may_cut |= dx * dx + dy * dy < polygon->reaches[k];
   }
-  for (int i = 0; i < size && polygon->first >= 0; ++i) {
-    cut(polygon, a[order[i]], b[order[i]], first + (uint)order[i]);
+  const uint first = leaf * FAN;
+  may_cut &= first_of(tree->count - first) & (distances > 0);
+  uint8 order = order_of(distances, may_cut);
+  for (uint next = least_of(order); next < end_of(polygon); next = least_of(order)) {
+    const uint site = first + (next & (FAN - 1));
+    order = without(order, next);
+    cut(polygon, line_towards(site_at(tree, site) - from, site, image));
   }
 }
 
-// Puts those boxes of a group on the stack that may hold sites which cut, the nearest on top. `own` is left out.
-static inline void push_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own, int2 from,
-                              stack_t* stack) {
+// Which boxes of a group may hold sites that cut. `own` is left out.
+static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own,
+                                   int2 from) {
   const size_t at = 4 * (size_t)(tree->levels[level] + group);
   const float8 left = convert_float8(vload8(at, tree->boxes) - from.s0),
                right = convert_float8(vload8(at + 1, tree->boxes) - from.s0),
                lower = convert_float8(vload8(at + 2, tree->boxes) - from.s1),
                upper = convert_float8(vload8(at + 3, tree->boxes) - from.s1);
-  const float8 dx = max(max(left, -right), 0.0f), dy = max(max(lower, -upper), 0.0f);
-  const float8 distance = dx * dx + dy * dy;
-  if (!any(distance < 4 * polygon->reach)) return;
-  const int8 hits = may_cut(polygon, left, right, lower, upper);
-  if (!any(hits)) return;
-  int is_hit[FAN];
-  float distances[FAN];
-  vstore8(hits, 0, is_hit);
-  vstore8(distance, 0, distances);
-  const uint first = group * FAN, count = min(nodes_of(tree, level) - first, (uint)FAN);
-  const int bottom = stack->size;
-  for (uint i = 0; i < count; ++i) {
-    if (!is_hit[i] || first + i == own) continue;
-    int place = stack->size++;
-    for (; place > bottom && stack->distance[place - 1] < distances[i]; --place) {
-      stack->level[place] = stack->level[place - 1];
-      stack->index[place] = stack->index[place - 1];
-      stack->distance[place] = stack->distance[place - 1];
+  const float8 away_x = max(max(left, -right), 0.0f), away_y = max(max(lower, -upper), 0.0f);
+  const float8 distances = away_x * away_x + away_y * away_y;
+  const uint nodes = (tree->count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level), first = group * FAN;
+  const int8 is_near = (distances < 4 * polygon->reach) & first_of(nodes - first) &
+                       ((int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - first));
+  if (bits_of_ints(is_near) == 0) return FAR;
+  int8 may_cut = 0;
+  for (int k = 0; k < polygon->size; ++k) {
+    const float x = polygon->rough_x[k], y = polygon->rough_y[k];
+    const float8 dx = max(max(left - x, x - right), 0.0f), dy = max(max(lower - y, y - upper), 0.0f);
+    may_cut |= dx * dx + dy * dy < polygon->reaches[k];
+  }
+  return order_of(distances, may_cut & is_near);
+}
+
+// Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
+static inline void cut_by_group(polygon_t* polygon, const tree_t* tree, int top, uint group, uint own, int2 from,
+                                int image) {
+  uint8 orders[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
+  uint firsts[MOST_LEVELS + 1];
+  int level = top;
+  firsts[level] = group * FAN;
+  orders[level] = order_of_group(polygon, tree, level, group, own, from);
+  while (level <= top) {
+    const uint next = least_of(orders[level]);
+    if (next >= end_of(polygon)) {
+      ++level;
+      continue;
     }
-    stack->level[place] = level;
-    stack->index[place] = first + i;
-    stack->distance[place] = distances[i];
+    orders[level] = without(orders[level], next);
+    const uint node = firsts[level] + (next & (FAN - 1));
+    if (level == 1) {
+      cut_by_leaf(polygon, tree, node, from, image);
+    } else {
+      --level;
+      firsts[level] = node * FAN;
+      orders[level] = order_of_group(polygon, tree, level, node, FAR, from);
+    }
   }
 }
 
-static inline void empty_stack(polygon_t* polygon, const tree_t* tree, int2 from, stack_t* stack) {
-  while (stack->size > 0 && polygon->first >= 0 && !polygon->is_full) {
-    const int at = --stack->size, level = stack->level[at];
-    if (stack->distance[at] >= 4 * polygon->reach) continue;
-    if (level == 1) {
-      cut_by_leaf(polygon, tree, stack->index[at], from);
-    } else {
-      push_group(polygon, tree, level - 1, stack->index[at], NO_CELL, from, stack);
-    }
-  }
+static inline void cut_by_image(polygon_t* polygon, const tree_t* tree, int2 at, int i, int j) {
+  const int image = image_of(i, j);
+  cut_by_group(polygon, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
 }
 
 // How far a coordinate is outside a stretch.
 static inline float outside(long at, int from, int to) { return convert_float(max(max(from - at, at - to), 0L)); }
 
-// Cuts a cell by the images of the sites in row j of the lattice. Along x no image can cut that is more than a period
-// away: the one a period nearer is nearer to the whole cell.
-static inline void cut_by_row(polygon_t* polygon, const tree_t* tree, int j, int2 at, int4 rectangle, int4 periods,
-                              stack_t* stack) {
-  const int y = (int)(at.s1 - (long)j * periods.s1);
-  long x = at.s0;
-  if (periods.s2 != 0) {
-    const long shifted = (x - rectangle.s0 - (long)j * periods.s2) % periods.s0;
-    x = rectangle.s0 + (shifted < 0 ? shifted + periods.s0 : shifted);
-  }
-  const int most_x = periods.s0 > 0;
-  for (int i = -most_x; i <= most_x; ++i) {
-    if (i == 0 && j == 0) continue;
-    const int2 from = (int2)((int)(x - (long)i * periods.s0), y);
-    push_group(polygon, tree, tree->top, 0, NO_CELL, from, stack);
-    empty_stack(polygon, tree, from, stack);
-  }
-}
-
 // Cuts a cell by all sites, and their images across the ends of periods: first by those that are next to its own in
 // the tree. No row of images can cut that is more than a period away, but where the box is tilted.
-static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site, int2 at, int4 rectangle,
-                              int4 periods) {
-  stack_t stack;
-  stack.size = 0;
-  cut_by_leaf(polygon, tree, site >> FAN_BITS, at);
+static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site, int2 at) {
+  cut_by_leaf(polygon, tree, site >> FAN_BITS, at, ITSELF);
   for (int level = 1; level <= tree->top; ++level) {
     const uint own = site >> (FAN_BITS * level);
-    push_group(polygon, tree, level, own >> FAN_BITS, own, at, &stack);
-    empty_stack(polygon, tree, at, &stack);
+    cut_by_group(polygon, tree, level, own >> FAN_BITS, own, at, ITSELF);
   }
-  cut_by_row(polygon, tree, 0, at, rectangle, periods, &stack);
+  const int4 rectangle = tree->rectangle, periods = tree->periods;
+  if (periods.s0 > 0) {
+    cut_by_image(polygon, tree, at, -1, 0);
+    cut_by_image(polygon, tree, at, 1, 0);
+  }
   if (periods.s1 == 0) return;
-  const int most_rows = periods.s2 != 0 ? INT_MAX : 1;
+  const int most_x = periods.s0 > 0, most_rows = periods.s2 != 0 ? INT_MAX : 1;
   for (int side = -1; side <= 1; side += 2) {
     for (int j = 1; j <= most_rows; ++j) {
       const float away = outside(at.s1 - (long)(side * j) * periods.s1, rectangle.s1, rectangle.s3);
       if (away * away >= 4 * polygon->reach) break;
-      cut_by_row(polygon, tree, side * j, at, rectangle, periods, &stack);
+      for (int i = -most_x; i <= most_x; ++i) cut_by_image(polygon, tree, at, i, side * j);
     }
   }
 }

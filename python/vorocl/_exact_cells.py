@@ -58,9 +58,9 @@ class ExactCells:
         ``midpoint_x``, ``midpoint_y``. Across the ends of periods two cells may share several edges, and a cell may be
         its own neighbour.
     offsets, vertices, neighbours, lengths : ndarray
-        The polygons: that of point i has the edges from ``offsets[i]`` up to ``offsets[i + 1]``. Each begins at its row
-        of `vertices`, counter-clockwise where y points up, has a length, and the cell `neighbours` behind it:
-        ``NO_LABEL`` is a side of the rectangle.
+        The polygons: that of point i has the edges from ``offsets[i]`` up to ``offsets[i + 1]``, counter-clockwise where
+        y points up, from the lowest vertex on. Each begins at its row of `vertices`, has a length, and the cell
+        `neighbours` behind it: ``NO_LABEL`` is a side of the rectangle.
     """
 
     def __init__(self, points: NDArray[np.float64], cut: _vorocl.ExactCells) -> None:

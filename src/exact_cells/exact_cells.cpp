@@ -17,7 +17,9 @@ namespace {
 constexpr const char* cells_file = "exact_cells/cells.cl";
 constexpr const char* large_cells_file = "exact_cells/large_cells.cl";
 constexpr cl_uchar touches_border = 1, certified = 2;  // of measure.cl
-constexpr std::size_t bytes_of_edge = 64;              // edge_t of polygon.cl
+
+/// Of the lists of a polygon with room for so many edges: POLYGON_MEMORY of polygon.cl.
+std::size_t bytes_of_polygon(std::size_t room) { return 7 * (room + 8) * sizeof(cl_double); }
 
 /// The edges of all cells, and on the sides of the rectangle: a planar graph with a node more for each side
 /// has fewer than three edges per node, and each is an edge of two cells. On a torus it is the same without
@@ -46,10 +48,12 @@ struct ExactCellsState {
   Upload<cl_int> upload_of_places, upload_of_boxes;
   Upload<cl_uint> upload_of_levels, upload_of_ids;
 
-  cl::Buffer areas, centroids, perimeters, edge_counts, neighbours, flags;  // by cell
-  cl::Buffer begins, found_cells, found_vertices;                           // edges as they were found
-  cl::Buffer counters, queue, large, scratch;                               // see measure.cl
-  cl::Buffer offsets, vertices, edge_neighbours, lengths;                   // edges by cell
+  cl::Buffer areas, centroids, perimeters, neighbours, flags;  // by cell
+  cl::Buffer begins, counters, large, scratch;                 // see measure.cl
+  cl::Buffer queue;                                            // at last the site of each cell
+  cl::Buffer offsets;                                          // at first the number of edges, by cell
+  cl::Buffer lengths;                                          // at first the edges as they were found
+  cl::Buffer vertices, edge_neighbours;                        // edges by cell
   bool is_settled = false, is_listed = false;
   std::size_t edges = 0;  // once they are listed
 
@@ -68,15 +72,23 @@ struct ExactCellsState {
     return kernels.get(*device, file, name, PixelGrid(1, 1));
   }
 
+  /// Launches a kernel that takes the sites (SITE_PARAMETERS of search.cl) first.
+  template <typename... More>
+  cl::Event over_sites(const char* file, const char* name, std::size_t items, const More&... more) {
+    return kernel(file, name)
+        .over_items(items, site_count, places, boxes, levels, top_level, sites.rectangle, sites.periods,
+                    sites.lattice, more...);
+  }
+
+  /// As above, of MEASURE_PARAMETERS of measure.cl.
   template <typename... More>
   cl::Event measure(const char* file, const char* name, std::size_t items, const More&... more) {
-    const cl_double2 origin = {{sites.origin.x, sites.origin.y}};
-    return kernel(file, name)
-        .over_items(items, site_count, places, boxes, levels, top_level, ids, sites.rectangle, sites.periods,
-                    sites.lattice, origin, sites.step, areas, centroids, perimeters, edge_counts, neighbours,
-                    flags, begins, found_cells, found_vertices, static_cast<cl_uint>(most_edges(site_count)),
-                    counters, queue, more...);
+    return over_sites(file, name, items, ids, origin(), sites.step, areas, centroids, perimeters, offsets,
+                      neighbours, flags, begins, lengths, static_cast<cl_uint>(most_edges(site_count)),
+                      counters, queue, more...);
   }
+
+  cl_double2 origin() const { return {{sites.origin.x, sites.origin.y}}; }
 };
 
 std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&& of) {
@@ -91,12 +103,14 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&&
   room(levels, of.levels.size(), sizeof(cl_uint));
   room(ids, of.ids.size(), sizeof(cl_uint));
   for (cl::Buffer* const numbers : {&areas, &perimeters}) room(*numbers, cells, sizeof(cl_double));
-  for (cl::Buffer* const counts : {&edge_counts, &neighbours}) room(*counts, cells, sizeof(cl_uint));
+  room(neighbours, cells, sizeof(cl_uint));
+  room(offsets, cells + 1, sizeof(cl_uint));
   room(centroids, cells, sizeof(cl_double2));
   room(flags, cells, 1);
-  for (cl::Buffer* const numbers : {&begins, &queue, &large}) room(*numbers, site_count, sizeof(cl_uint));
-  room(found_cells, most_edges(site_count), sizeof(cl_uint));
-  room(found_vertices, most_edges(site_count), sizeof(cl_double2));
+  room(begins, site_count, sizeof(cl_uint));
+  room(queue, cells, sizeof(cl_uint));
+  static_assert(sizeof(cl_double) == sizeof(cl_uint2));
+  room(lengths, most_edges(site_count), sizeof(cl_double));
   room(counters, 2, sizeof(cl_uint));
   upload_of_places.start(on, places, std::move(of.places));
   upload_of_boxes.start(on, boxes, std::move(of.boxes));
@@ -107,7 +121,7 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&&
   const cl::Event first = fill(on, counters, cl_uint{0}, 2);
   const cl::Event cleared = kernel(cells_file, "clear_cells")
                                 .over_items(cells, static_cast<cl_uint>(cells), areas, centroids, perimeters,
-                                            edge_counts, neighbours, flags);
+                                            offsets, neighbours, flags);
   const cl::Event last = measure(cells_file, "cut_cells", site_count);
   return {first, site_count > 0 ? last : cells > 0 ? cleared : first};
 }
@@ -115,12 +129,13 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&&
 void ExactCellsState::settle() {
   if (is_settled) return;
   constexpr std::size_t most_scratch = std::size_t{1} << 26;
-  const std::size_t most = 9 * std::size_t{site_count} + 8;  // edges of a cell, with all images of the sites
+  const std::size_t most = 9 * std::size_t{site_count} + 16;  // edges of a cell, with all images of the sites
   std::size_t left = download<cl_uint>(*device, counters, 2).back();
   for (std::size_t room = 1024; left > 0; room *= 16) {
-    room = std::min(room, most);
-    const std::size_t batch = std::clamp<std::size_t>(most_scratch / (room * bytes_of_edge), 1, left);
-    make_room(scratch, *device, batch * room * bytes_of_edge);
+    room = std::min(room, most / 8 * 8);
+    const std::size_t batch = std::clamp<std::size_t>(most_scratch / bytes_of_polygon(room), 1, left);
+    make_room(scratch, *device, batch * bytes_of_polygon(room));
+    make_room(large, *device, left * sizeof(cl_uint));
     copy(*device, queue, large, left * sizeof(cl_uint));
     check(clEnqueueFillBuffer(device->queue()(), counters(), "\0\0\0", sizeof(cl_uint), sizeof(cl_uint),
                               sizeof(cl_uint), 0, nullptr, nullptr),
@@ -138,7 +153,7 @@ void ExactCellsState::settle() {
 void ExactCellsState::list() {
   settle();
   if (is_listed) return;
-  std::vector<cl_uint> begin_of = download<cl_uint>(*device, edge_counts, cells);
+  std::vector<cl_uint> begin_of = download<cl_uint>(*device, offsets, cells);
   begin_of.push_back(0);
   cl_uint sum = 0;
   for (cl_uint& entry : begin_of) {
@@ -146,17 +161,16 @@ void ExactCellsState::list() {
     entry = sum;
     sum += here;
   }
-  make_room(offsets, *device, begin_of.size() * sizeof(cl_uint));
   make_room(edge_neighbours, *device, sum * sizeof(cl_uint));
-  make_room(lengths, *device, sum * sizeof(cl_double));
   make_room(vertices, *device, sum * sizeof(cl_double2));
+  is_made = false;  // if anything fails from here on: counts and found edges are written over
   upload(*device, offsets, begin_of);
-  const cl_double2 origin = {{sites.origin.x, sites.origin.y}};
-  kernel(cells_file, "place_edges")
-      .over_items(site_count, site_count, places, ids, origin, sites.step, begins, edge_counts, found_cells,
-                  found_vertices, offsets, edge_neighbours, lengths, vertices);
+  over_sites(cells_file, "place_edges", site_count, ids, begins, lengths, offsets, edge_neighbours, vertices,
+             queue);
+  over_sites(cells_file, "measure_edges", cells, static_cast<cl_uint>(cells), queue, origin(), sites.step,
+             offsets, vertices, lengths);
   edges = sum;
-  is_listed = true;
+  is_listed = is_made = true;
 }
 
 // --- ExactCellsResult ---

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
-#include "core/z_order.hpp"
+#include "exact_cells/hilbert_order.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl {
@@ -36,11 +37,11 @@ Stretch stretch_of(const Axis& axis, const std::vector<std::optional<Point>>& po
   return stretch;
 }
 
-/// A step is the least power of two of which the longer side has at most 2^bits.
+/// A step is the least power of two of which the longer side has at most 2^bits, and that has an inverse.
 int exponent_of_step(double longer_side, int bits) {
   int exponent = 0;
   const bool is_power = std::frexp(longer_side, &exponent) == 0.5;
-  return exponent - (is_power ? 1 : 0) - bits;
+  return std::max(exponent - (is_power ? 1 : 0) - bits, std::numeric_limits<double>::min_exponent);
 }
 
 struct Vector {
@@ -73,14 +74,13 @@ cl_int4 lattice_of(const cl_int4& periods) {
 /// The steps of one axis.
 class Steps {
  public:
-  Steps(const Axis& axis, double origin, int exponent) : axis_(axis), origin_(origin), exponent_(exponent) {}
+  Steps(const Axis& axis, double origin, int exponent)
+      : axis_(axis), origin_(origin), per_unit_(std::ldexp(1.0, -exponent)) {}
 
   cl_int from() const { return at(axis_.from()); }
   cl_int to() const { return at(axis_.to()); }
   cl_int period() const { return axis_.is_periodic() ? to() - from() : 0; }
-  cl_int length(double extent) const {
-    return static_cast<cl_int>(std::nearbyint(std::ldexp(extent, -exponent_)));
-  }
+  cl_int length(double extent) const { return static_cast<cl_int>(std::nearbyint(extent * per_unit_)); }
 
   /// The step that a coordinate is rounded to.
   cl_int operator()(double coordinate) const {
@@ -94,26 +94,27 @@ class Steps {
 
  private:
   cl_int at(double coordinate) const {
-    return static_cast<cl_int>(std::nearbyint(std::ldexp(coordinate - origin_, -exponent_)));
+    return static_cast<cl_int>(std::nearbyint((coordinate - origin_) * per_unit_));
   }
 
   Axis axis_;
   double origin_;
-  int exponent_;
+  double per_unit_;  // a power of two, so that products are exact
 };
 
-/// A point on the Z-curve.
+/// A point's place in Hilbert's order.
 struct Place {
   std::uint64_t order;
   cl_uint id;
 };
 
-/// Sorts by place; points at one place stay in the order of their ids.
+/// Sorts by place; points at one place come in the order of their ids. By the upper bits first, in which few
+/// points are the same.
 void sort(std::vector<Place>& places) {
-  constexpr int digit_bits = 11, all_bits = 62;
+  constexpr int digit_bits = 11, first_bit = 31, all_bits = 64;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
   std::vector<Place> sorted(places.size());
-  for (int shift = 0; shift < all_bits; shift += digit_bits) {
+  for (int shift = first_bit; shift < all_bits; shift += digit_bits) {
     const auto digit = [shift](const Place& place) { return (place.order >> shift) & (digits - 1); };
     std::array<std::size_t, digits> next = {};
     for (const Place& place : places) ++next[digit(place)];
@@ -125,6 +126,17 @@ void sort(std::vector<Place>& places) {
     }
     for (const Place& place : places) sorted[next[digit(place)]++] = place;
     places.swap(sorted);
+  }
+  for (auto begin = places.begin(); begin != places.end();) {
+    const std::uint64_t upper = begin->order >> first_bit;
+    auto end = begin + 1;
+    while (end != places.end() && end->order >> first_bit == upper) ++end;
+    if (end - begin > 1) {
+      std::sort(begin, end, [](const Place& p, const Place& q) {
+        return std::tie(p.order, p.id) < std::tie(q.order, q.id);
+      });
+    }
+    begin = end;
   }
 }
 
@@ -183,18 +195,21 @@ Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points
     throw Error(text.str());
   }
   sites.lattice = lattice_of(sites.periods);
+  std::vector<cl_int2> positions(points.size());
   std::vector<Place> places;
   places.reserve(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
-    const auto bits = [](cl_int step) { return spread_bits(static_cast<std::uint32_t>(step)); };
     Point point = *points[id];
     const cl_int step_y = steps_y(point.y);
     if (tilt != 0) {
       const double brought_up = point.y - (y.from + step_y * sites.step);
       point.x -= std::nearbyint(brought_up / y.length()) * tilt;
     }
-    places.push_back({bits(steps_x(point.x)) | bits(step_y) << 1, static_cast<cl_uint>(id)});
+    const cl_int step_x = steps_x(point.x);
+    positions[id] = {{step_x, step_y}};
+    places.push_back({hilbert_order(static_cast<std::uint32_t>(step_x), static_cast<std::uint32_t>(step_y)),
+                      static_cast<cl_uint>(id)});
   }
   sort(places);
   const auto is_same = [](const Place& a, const Place& b) { return a.order == b.order; };
@@ -204,8 +219,9 @@ Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points
   for (std::size_t i = 0; i < places.size(); ++i) {
     sites.ids.push_back(places[i].id);
     cl_int* const leaf = &sites.places[i / fan * 2 * fan];
-    leaf[i % fan] = static_cast<cl_int>(gather_bits(places[i].order));
-    leaf[fan + i % fan] = static_cast<cl_int>(gather_bits(places[i].order >> 1));
+    const cl_int2& position = positions[places[i].id];
+    leaf[i % fan] = position.s[0];
+    leaf[fan + i % fan] = position.s[1];
   }
   make_tree(sites);
   return sites;

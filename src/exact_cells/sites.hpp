@@ -1,4 +1,4 @@
-// The points of seeds as kernels cut cells of them: rounded, in an order along a Z-curve, in a tree of boxes.
+// The points of seeds as kernels cut cells of them: rounded, in Hilbert's order, in a tree of boxes.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@
 #include <tuple>
 
 #include "brute_force.hpp"
+#include "exact_cells/hilbert_order.hpp"
 #include "fixture.hpp"
 #include "samples.hpp"
 
@@ -550,6 +551,40 @@ BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_no
     BOOST_TEST(std::abs(cell.centroid.x - (-3 + in_steps[id].centroid.x * unit)) < 1e-14);
     BOOST_TEST(std::abs(cell.centroid.y - (10 + in_steps[id].centroid.y * unit)) < 1e-14);
     BOOST_TEST(cell.neighbours == in_steps[id].neighbours);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(polygons_begin_in_their_lowest_vertex) {
+  const Set sets[] = {{"random", side, side, random_positions(side, side, 500, 39)},
+                      {"lattice", side, side, lattice(side / 8, 8, 8)},
+                      {"star", side, side, star(100)}};
+  for (const Set& set : sets) {
+    for (const Periodic periodic : all_periods) {
+      const ExactPolygons polygons = cells_of(set, periodic).read_polygons();
+      for (std::size_t id = 0; id < set.positions.size(); ++id) {
+        const auto begin = polygons.vertices.begin() + polygons.offsets[id];
+        const auto end = polygons.vertices.begin() + polygons.offsets[id + 1];
+        const auto lowest = std::min_element(begin, end, [](const Point& p, const Point& q) {
+          return std::tie(p.y, p.x) < std::tie(q.y, q.x);
+        });
+        BOOST_TEST_REQUIRE((lowest - begin) == 0, set.name << ", cell " << id);
+      }
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_curve_that_sorts_points_does_not_jump) {
+  constexpr std::uint32_t length = 64;
+  std::vector<std::pair<std::uint64_t, Position>> places;
+  for (std::uint32_t x = 0; x < length; ++x) {
+    for (std::uint32_t y = 0; y < length; ++y) places.push_back({hilbert_order(x, y), {x, y}});
+  }
+  std::sort(places.begin(), places.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    BOOST_TEST_REQUIRE(places[i].first == i);
+    if (i == 0) continue;
+    const Position &last = places[i - 1].second, &here = places[i].second;
+    BOOST_TEST_REQUIRE(std::abs(here.x - last.x) + std::abs(here.y - last.y) == 1);
   }
 }
 

@@ -291,6 +291,10 @@ BOOST_AUTO_TEST_CASE(measures_that_fail_are_empty) {
   fails_when_measured(
       [&] { exact_cells(seeds, exact); },
       [&] { return exact.size() == 0 && exact.areas()() == nullptr && exact.read().empty(); });
+  exact_cells(seeds, exact);
+  const std::vector<double> lengths = exact.read_polygons().lengths;
+  fail_each_call([&] { exact_cells(seeds, exact); }, [&] { exact.edges(); },
+                 [&] { BOOST_TEST((exact.size() == 0 || exact.read_polygons().lengths == lengths)); });
 }
 
 // While an event holds the queue back, a thread that makes one frame after the other stops.
