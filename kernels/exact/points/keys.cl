@@ -101,13 +101,11 @@ static inline __attribute__((always_inline)) void look_up_values(const uint* tab
   }
 }
 
-NOINLINE static void look_up_many(const uint* table, uint8 mask, const int8* keys, uint8* values) {
-  for (int k = 0; k < 8; ++k) {
-    uint lane[8];
-    store_uints(as_uint8(keys[k]) & mask, lane);
-    for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
-    values[k] = vload8(0, lane);
-  }
+NOINLINE static uint8 look_up_one_by_one(const uint* table, uint8 rank) {
+  uint lane[8];
+  store_uints(rank, lane);
+  for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
+  return vload8(0, lane);
 }
 
 // The parts of a place's key that its column and its row give, for the pixels of a box whose centre is the corner of
@@ -169,7 +167,10 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
           case 6: look_up_values(places->values, 6, mask, keys, found); break;                                     \
           case 7:                                                                                                  \
           case 8: look_up_values(places->values, 8, mask, keys, found); break;                                     \
-          default: look_up_many(places->values, mask, keys, found);                                                \
+          default:                                                                                                 \
+            _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                        \
+              found[k] = look_up_one_by_one(places->values, as_uint8(keys[k]) & mask);                              \
+            }                                                                                                      \
         }                                                                                                          \
         _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                            \
           const int y = top + part + (SIDE == 16 ? k / 2 : k), x = SIDE == 16 ? k % 2 * 8 : 0;                     \

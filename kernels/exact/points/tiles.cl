@@ -7,7 +7,7 @@
 
 #include "exact/points/keys.cl"
 
-#define FEW_PLACES 8    // of which more are not dropped by corners
+#define FEW_PLACES 16   // of which more are dropped by those nearest to the corners, too
 #define MOST_OF_BOX 48  // a box of 16 pixels with more is labelled in quarters
 #define FEW_OF_TILE 40  // a tile of fewer is labelled from one list
 
@@ -224,7 +224,7 @@ static inline bool find_near(const scene_t* scene, box_t box, span_t limits_x, s
                              int2* place) {
   const int bits = scene->bins.bits;
   rival_t rival = no_rival();
-  for (int rings = box.side > 1 << bits ? 0 : 1;; rings = 2 * rings + 1) {
+  for (int rings = 0;; rings = 2 * rings + 1) {
     const span_t x = clamped(with_bins_around(columns_of(box), rings, bits), limits_x);
     const span_t y = clamped(with_bins_around(rows_of(box), rings, bits), limits_y);
     walk_t walk = walk_over(scene, x, y);
