@@ -101,7 +101,7 @@ static inline __attribute__((always_inline)) void look_up_values(const uint* tab
   }
 }
 
-NOINLINE static uint8 look_up_one_by_one(const uint* table, uint8 rank) {
+static inline uint8 look_up_one_by_one(const uint* table, uint8 rank) {
   uint lane[8];
   store_uints(rank, lane);
   for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
