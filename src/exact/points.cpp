@@ -20,11 +20,11 @@ struct PointsWorkspace {
 
 std::size_t along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
 
-/// Bins with some three places each, so that neither bins nor places that are too far are what a walk meets
+/// Bins with some four places each, so that neither bins nor places that are too far are what a walk meets
 /// most.
 int bits_of_bins(const PixelGrid& grid, std::size_t places) {
   constexpr int least = 1, most = 12;
-  constexpr std::size_t places_of_bin = 3;
+  constexpr std::size_t places_of_bin = 8;
   int bits = least;
   while (bits < most && (places << 2 * (bits + 1)) <= places_of_bin * grid.pixels()) ++bits;
   return bits;

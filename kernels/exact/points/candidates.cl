@@ -17,10 +17,14 @@
 #define MOST_IN_LIST 1000  // places of a list
 #endif
 #define LIST_ROOM (MOST_IN_LIST + 3 * LANES_OF_POINTS)
+#define NUMBERS 1024  // of the places of a list
 #define NOINLINE __attribute__((noinline))
 
 #if MOST_IN_LIST < 2 * 8
 #error "A list must hold eight places besides those that it is gathered by"
+#endif
+#if LIST_ROOM > NUMBERS
+#error "The numbers of a list's places must fit beside their distances"
 #endif
 
 // In units from the centre of a box; and where the place stands in the index.
@@ -32,7 +36,7 @@ typedef struct {
 // A place that drops others of a box.
 typedef struct {
   float x, y;
-  float w, margin;  // see the margins in docs/exact.md
+  float w, limit;  // with the margins of docs/exact.md
 } rival_t;
 
 // The lanes of a mask, packed to the front: 4 bits each.
@@ -71,6 +75,16 @@ constant uint packed_lanes[256] = {
   0x00076543, 0x00765430, 0x00765431, 0x07654310, 0x00765432, 0x07654320, 0x07654321, 0x76543210,
 };
 
+// Stores eight values in one piece: PoCL's vstore8() makes two, and its compiler then makes the values lane by lane.
+typedef struct __attribute__((packed)) {
+  int8 values;
+} ints_t;
+typedef struct __attribute__((packed)) {
+  uint8 values;
+} uints_t;
+static inline void store_ints(int8 values, int* to) { ((ints_t*)to)->values = values; }
+static inline void store_uints(uint8 values, uint* to) { ((uints_t*)to)->values = values; }
+
 static inline uint8 permuted(uint8 values, uint8 lanes) {
   return (uint8)(values[lanes.s0], values[lanes.s1], values[lanes.s2], values[lanes.s3], values[lanes.s4],
                  values[lanes.s5], values[lanes.s6], values[lanes.s7]);
@@ -91,9 +105,9 @@ static inline int least_of(int8 values) {
 static inline int keep(list_t* list, int kept, int8 stays, int8 x, int8 y, uint8 at) {
   const uint mask = mask_of(stays);
   const uint8 lanes = ((uint8)packed_lanes[mask] >> (uint8)(0, 4, 8, 12, 16, 20, 24, 28)) & 7u;
-  vstore8(as_int8(permuted(as_uint8(x), lanes)), 0, list->x + kept);
-  vstore8(as_int8(permuted(as_uint8(y), lanes)), 0, list->y + kept);
-  vstore8(permuted(at, lanes), 0, list->at + kept);
+  store_ints(as_int8(permuted(as_uint8(x), lanes)), list->x + kept);
+  store_ints(as_int8(permuted(as_uint8(y), lanes)), list->y + kept);
+  store_uints(permuted(at, lanes), list->at + kept);
   return kept + (int)popcount(mask);
 }
 
@@ -110,52 +124,38 @@ static inline float8 away_from(float8 x, float8 y) {
 static inline rival_t rival_at(int2 place, int side) {
   const float x = (float)place.x, y = (float)place.y, w = (float)((side - 1) * ONE_PIXEL);
 #ifdef VOROCL_EUCLIDEAN
-  const float most = 3 * (fabs(x) + fabs(y)) + 4 * w;
-  const rival_t rival = {x, y, w + most * 0x1p-21f, most > 0x1p24f ? most * most * 0x1p-21f : 0};
+  const rival_t rival = {x, y, w * (1 + 0x1p-20f), fma(x, x, y * y) * (1 + 0x1p-20f) + w * w * 0x1p-22f};
 #else
   const rival_t rival = {x, y, w / 2, (fabs(x) + fabs(y)) * 0x1p-19f + 8};
 #endif
   return rival;
 }
 
+// One that drops nothing.
+static inline rival_t no_rival(void) {
+  const rival_t rival = {0, 0, 0, INFINITY};
+  return rival;
+}
+
 // Whether a rival may not drop places.
 static inline int8 may_win(float8 x, float8 y, rival_t rival) {
 #ifdef VOROCL_EUCLIDEAN
-  const float8 way_x = x - rival.x, way_y = y - rival.y;
-  const float8 farther = fma(way_x, x + rival.x, way_y * (y + rival.y));
-  return farther <= fma(fabs(way_x) + fabs(way_y), (float8)rival.w, (float8)rival.margin);
+  return fma(fabs(x - rival.x) + fabs(y - rival.y), (float8)-rival.w, away_from(x, y)) <= rival.limit;
 #else
   const float w = rival.w;
   const float8 west = fabs(x + w) - fabs(rival.x + w), east = fabs(x - w) - fabs(rival.x - w);
   const float8 north = fabs(y + w) - fabs(rival.y + w), south = fabs(y - w) - fabs(rival.y - w);
-  return fmin(west, east) + fmin(north, south) <= fma(fabs(x) + fabs(y), (float8)0x1p-19f, (float8)rival.margin);
+  return fmin(west, east) + fmin(north, south) <= fma(fabs(x) + fabs(y), (float8)0x1p-19f, (float8)rival.limit);
 #endif
 }
 
-// The nearest so far of each lane, and its number.
-typedef struct {
-  float8 away;
-  int8 number;
-} nearest_t;
-
-static inline nearest_t nearest_none(void) {
-  const nearest_t none = {(float8)INFINITY, (int8)0};
-  return none;
+// A number that is least for the nearest of a list's places, or for one that is farther by some parts in 2^13, and
+// names it.
+static inline int8 nearness_of(float8 away, int first, int count) {
+  const int8 number = EIGHT + first;
+  return select((int8)INT_MAX, (as_int8(away) & ~(NUMBERS - 1)) | number, number < count);
 }
-
-// Looks at eight places, of which those behind `count` are none.
-static inline void look_for_nearest(nearest_t* nearest, float8 x, float8 y, int first, int count) {
-  const float8 away = away_from(x, y);
-  const int8 number = EIGHT + first, is_nearer = (away < nearest->away) & (number < count);
-  nearest->away = select(nearest->away, away, is_nearer);
-  nearest->number = select(nearest->number, number, is_nearer);
-}
-
-// The number of the nearest, or of one that is farther by a float's error.
-static inline int number_of(const nearest_t* nearest) {
-  const int8 order = as_int8(nearest->away);  // not below 0: floats and their bits are in one order
-  return least_of(select((int8)INT_MAX, nearest->number, order == least_of(order)));
-}
+static inline int number_of(int8 nearness) { return least_of(nearness) & (NUMBERS - 1); }
 
 static inline void load_floats(const list_t* list, int k, float8* x, float8* y) {
   *x = convert_float8(vload8(0, list->x + k));
@@ -164,13 +164,13 @@ static inline void load_floats(const list_t* list, int k, float8* x, float8* y) 
 
 // The number of a place that is nearest to a point, or nearly so.
 static inline int nearest_of(const list_t* list, int count, int2 point) {
-  nearest_t nearest = nearest_none();
+  int8 nearest = INT_MAX;
   for (int k = 0; k < count; k += 8) {
     float8 x, y;
     load_floats(list, k, &x, &y);
-    look_for_nearest(&nearest, x - (float)point.x, y - (float)point.y, k, count);
+    nearest = min(nearest, nearness_of(away_from(x - (float)point.x, y - (float)point.y), k, count));
   }
-  return number_of(&nearest);
+  return number_of(nearest);
 }
 
 // Copies the places that stay, relative to the centre of a box; so is the rival.
@@ -187,21 +187,19 @@ static inline int drop_by(const list_t* from, int count, list_t* to, int2 centre
 // The same in place, by the places that are nearest to the four corners.
 static inline int drop_by_corners(list_t* list, int count, int side) {
   const float corner = (float)((side - 1) * HALF_PIXEL);
-  nearest_t nearest[4];
-#pragma unroll
-  for (int i = 0; i < 4; ++i) nearest[i] = nearest_none();
+  int8 nearest[4] = {INT_MAX, INT_MAX, INT_MAX, INT_MAX};
   for (int k = 0; k < count; k += 8) {
     float8 x, y;
     load_floats(list, k, &x, &y);
-    look_for_nearest(&nearest[0], x + corner, y + corner, k, count);
-    look_for_nearest(&nearest[1], x - corner, y + corner, k, count);
-    look_for_nearest(&nearest[2], x + corner, y - corner, k, count);
-    look_for_nearest(&nearest[3], x - corner, y - corner, k, count);
+    nearest[0] = min(nearest[0], nearness_of(away_from(x + corner, y + corner), k, count));
+    nearest[1] = min(nearest[1], nearness_of(away_from(x - corner, y + corner), k, count));
+    nearest[2] = min(nearest[2], nearness_of(away_from(x + corner, y - corner), k, count));
+    nearest[3] = min(nearest[3], nearness_of(away_from(x - corner, y - corner), k, count));
   }
   rival_t rivals[4];
 #pragma unroll
   for (int i = 0; i < 4; ++i) {
-    const int number = number_of(&nearest[i]);
+    const int number = number_of(nearest[i]);
     rivals[i] = rival_at((int2)(list->x[number], list->y[number]), side);
   }
   int kept = 0;

@@ -13,6 +13,8 @@ typedef struct {
   global const int2* list;
   global const uint* ids;
   global const int2* seeds;  // by id, if places may be images of them; else null
+  global uint* labels;       // written
+  int4 region;               // the pixels that get labels: left, top, right, bottom, both ends included
 } scene_t;
 
 // The position of a place's seed in the grid.
@@ -73,16 +75,18 @@ static inline span_t of_image(span_t span, int image, int size, int periodic) {
 typedef struct {
   span_t x, y;
   int image_x, image_y, last_image_x, last_image_y;
-  int row, last_row, first_column, last_column;
+  global const uint* first;  // of the next row's bins
+  int rows, columns;         // rows that are left
 } walk_t;
 
 static inline void enter_image(const scene_t* scene, walk_t* walk) {
   const span_t x = of_image(walk->x, walk->image_x, scene->width, PERIODIC_X);
   const span_t y = of_image(walk->y, walk->image_y, scene->height, PERIODIC_Y);
-  walk->first_column = column_of(&scene->bins, x.from);
-  walk->last_column = column_of(&scene->bins, x.to);
-  walk->row = row_of(&scene->bins, y.from) - 1;
-  walk->last_row = row_of(&scene->bins, y.to);
+  const bins_t* const bins = &scene->bins;
+  const int column = column_of(bins, x.from), row = row_of(bins, y.from);
+  walk->first = scene->starts + start_of(bins, column, row);
+  walk->columns = column_of(bins, x.to) + 1 - column;
+  walk->rows = row_of(bins, y.to) + 1 - row;
 }
 
 static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y) {
@@ -99,7 +103,7 @@ static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y) {
 
 // The next range; false at the end.
 static inline bool next_range(const scene_t* scene, walk_t* walk, uint2* range) {
-  while (++walk->row > walk->last_row) {
+  while (walk->rows <= 0) {
     if (!(PERIODIC_X || PERIODIC_Y)) return false;
     if (walk->image_x < walk->last_image_x) {
       ++walk->image_x;
@@ -111,8 +115,10 @@ static inline bool next_range(const scene_t* scene, walk_t* walk, uint2* range) 
     }
     enter_image(scene, walk);
   }
-  range->s0 = scene->starts[start_of(&scene->bins, walk->first_column, walk->row)];
-  range->s1 = scene->starts[start_of(&scene->bins, walk->last_column, walk->row) + 1];
+  --walk->rows;
+  range->s0 = walk->first[0];
+  range->s1 = walk->first[walk->columns];
+  walk->first += scene->bins.columns + 1;
   return true;
 }
 
@@ -131,56 +137,27 @@ static inline void load_places(const scene_t* scene, uint from, int2 origin, int
   *y = (int8)(first.odd, second.odd) - origin.y;
 }
 
-// Gathers the places of the bins of a rectangle around a box, relative to its centre, and returns how many; more than
-// MOST_IN_LIST if so many are there that the list does not hold them. `nearest` is one near the centre.
-NOINLINE static int gather(const scene_t* scene, list_t* list, span_t x, span_t y, int2 centre, int2* nearest) {
-  nearest_t found = nearest_none();
-  int count = 0;
-  bool is_held = true;
-  walk_t walk = walk_over(scene, x, y);
-  uint2 range;
-  while (next_range(scene, &walk, &range)) {
-    const int2 origin = origin_of(scene, &walk, centre);
-    for (uint at = range.s0; at < range.s1; at += 8) {
-      if (count > MOST_IN_LIST - 8) {  // goes on with the nearest so far
-        is_held = false;
-        const int first = number_of(&found);
-        list->x[0] = list->x[first];
-        list->y[0] = list->y[first];
-        count = 1;
-        found = nearest_none();
-        look_for_nearest(&found, convert_float8((int8)list->x[0]), convert_float8((int8)list->y[0]), 0, count);
-      }
-      int8 px, py;
-      load_places(scene, at, origin, &px, &py);
-      vstore8(px, 0, list->x + count);
-      vstore8(py, 0, list->y + count);
-      vstore8(at + as_uint8(EIGHT), 0, list->at + count);
-      const int end = count + (int)min(range.s1 - at, 8u);
-      look_for_nearest(&found, convert_float8(px), convert_float8(py), count, end);
-      count = end;
-    }
-  }
-  if (count == 0) return 0;
-  const int first = number_of(&found);
-  *nearest = (int2)(list->x[first], list->y[first]);
-  return is_held ? count : MOST_IN_LIST + 1;
-}
+static inline bool is_full(int count) { return count > MOST_IN_LIST - 8; }
 
 // Gathers what a rival does not drop until the list is full, and returns how many; the walk goes on from there.
-NOINLINE static int gather_part(const scene_t* scene, walk_t* walk, uint2* range, list_t* list, int2 centre,
-                                rival_t rival) {
-  for (int count = 0;; range->s0 += 8) {
-    while (range->s0 >= range->s1) {
-      if (!next_range(scene, walk, range)) return count;
+NOINLINE static int gather(const scene_t* scene, walk_t* walk, uint2* range, list_t* list, int2 centre, rival_t rival) {
+  int count = 0;
+  do {
+    const int2 origin = origin_of(scene, walk, centre);
+    const uint end = range->s1;
+    for (uint at = range->s0; at < end; at += 8) {
+      if (is_full(count)) {
+        range->s0 = at;
+        return count;
+      }
+      int8 x, y;
+      load_places(scene, at, origin, &x, &y);
+      const int8 stays = may_win(convert_float8(x), convert_float8(y), rival) & (EIGHT < (int)(end - at));
+      count = keep(list, count, stays, x, y, at + as_uint8(EIGHT));
     }
-    if (count > MOST_IN_LIST - 8) return count;
-    int8 x, y;
-    load_places(scene, range->s0, origin_of(scene, walk, centre), &x, &y);
-    const int8 stays = may_win(convert_float8(x), convert_float8(y), rival) &
-                       (EIGHT < (int)min(range->s1 - range->s0, 8u));
-    if (any(stays)) count = keep(list, count, stays, x, y, range->s0 + as_uint8(EIGHT));
-  }
+    range->s0 = end;
+  } while (next_range(scene, walk, range));
+  return count;
 }
 
 // How far the discs reach, in pixels beyond a box, that go through a place and have their centres at the box's pixels:
@@ -206,8 +183,11 @@ static inline reach_t reach_of(int2 place, int side) {
   return reach;
 }
 
-static inline float longest(reach_t reach) {
-  return fmax(fmax(reach.west, reach.east), fmax(reach.north, reach.south));
+// How far from any pixel of a box a place can be that is not dropped by another one: at some corner it is no farther
+// than that one, which is at most so far from the corners.
+static inline float reach_over(int2 place, int side) {
+  const float corner = (float)(side - 1) / 2;
+  return radius_of(corner + fabs((float)place.x) / ONE_PIXEL, corner + fabs((float)place.y) / ONE_PIXEL) + (float)side;
 }
 
 // The pixels of an axis that a box of pixels needs to know. A reach can be longer than the numbers of pixels.

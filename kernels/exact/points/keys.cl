@@ -28,21 +28,17 @@
 typedef struct {
   int x[RANK_ROOM], y[RANK_ROOM];
   uint high[RANK_ROOM];  // Euclidean: |c|^2 >> LOW_BITS
-  int low[RANK_ROOM];    // Euclidean: its low bits; Manhattan: 0
+  int low[RANK_ROOM];    // Euclidean: its low bits, in order; Manhattan: 0
   uint rank[RANK_ROOM];
   uint values[RANK_ROOM];  // by rank: what is written for a place
 } places_t;
 
-// Ranks where the order by low bits and near rows leaves ties. Images of one seed stand in the order of the list.
-NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
-  int x[RANK_ROOM], y[RANK_ROOM];
+// Ranks where the order by low bits and near rows leaves ties, by places of which `x` and `y` have the order. Images of
+// one seed stand in the order of the list.
+NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, const int* x, const int* y, places_t* places,
+                                     int count) {
   uint id[RANK_ROOM];
-  for (int i = 0; i < count; ++i) {
-    const int2 own = own_position(scene, at[i]);
-    x[i] = own.x;
-    y[i] = own.y;
-    id[i] = scene->ids[at[i]];
-  }
+  for (int i = 0; i < count; ++i) id[i] = scene->ids[at[i]];
   for (int k = 0; k < count; k += 8) {
     const int8 own_low = vload8(0, places->low + k), own_y = vload8(0, y + k), own_x = vload8(0, x + k);
     const uint8 own_id = vload8(0, id + k);
@@ -54,30 +50,40 @@ NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, place
       const int8 comes_before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
       rank = select(rank, rank + 1, comes_before);  // not less a comparison, of whose bits Oclgrind makes other numbers
     }
-    vstore8(as_uint8(rank), 0, places->rank + k);
+    store_uints(as_uint8(rank), places->rank + k);
   }
 }
 
-// Ranks the places, and says which labels the ranks have. Two places of one seed, which are images, have two ranks.
+// Ranks the places. Two places of one seed, which are images, have two ranks.
 static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {
+  int own_x[RANK_ROOM], own_y[RANK_ROOM];
+  const int *x = places->x, *y = places->y;
+  if (PERIODIC_X || PERIODIC_Y || scene->seeds) {  // images, whose seeds' positions decide
+    for (int i = 0; i < count; ++i) {
+      const int2 own = own_position(scene, at[i]);
+      own_x[i] = own.x;
+      own_y[i] = own.y;
+    }
+    x = own_x;
+    y = own_y;
+  }
+  const int most = 1 << (Y_BITS - 1), first_y = y[0];
   int order[RANK_ROOM];
-  const int first_y = own_position(scene, at[0]).y;
-  const int most = 1 << (Y_BITS - 1);
-  for (int i = 0; i < count; ++i) {
-    const int way = clamp(sub_sat(own_position(scene, at[i]).y, first_y), -most, most - 1);
-    order[i] = (int)(((uint)places->low[i] << Y_BITS) + (uint)(way + most)) ^ INT_MIN;
+  for (int k = 0; k < count; k += 8) {
+    const int8 way = clamp(sub_sat(vload8(0, y + k), (int8)first_y), -most, most - 1) + most;
+    store_ints((vload8(0, places->low + k) << Y_BITS) + way, order + k);
   }
   int8 sum = 0;
   for (int k = 0; k < count; k += 8) {
     const int8 own = vload8(0, order + k);
     int8 rank = 0;
     for (int i = 0; i < count; ++i) rank = select(rank, rank + 1, order[i] < own);
-    vstore8(as_uint8(rank), 0, places->rank + k);
+    store_uints(as_uint8(rank), places->rank + k);
     sum += select((int8)0, rank, EIGHT + k < count);
   }
   const int4 half_sums = sum.lo + sum.hi;
   const bool has_ties = half_sums.x + half_sums.y + half_sums.z + half_sums.w != count * (count - 1) / 2;
-  if (has_ties) rank_to_the_end(scene, at, places, count);
+  if (has_ties) rank_to_the_end(scene, at, x, y, places, count);
 }
 
 // A table of up to 8 x `vectors` values at vectors of ranks.
@@ -95,13 +101,11 @@ static inline __attribute__((always_inline)) void look_up_values(const uint* tab
   }
 }
 
-NOINLINE static void look_up_many(const uint* table, uint8 mask, const int8* keys, uint8* values) {
-  for (int k = 0; k < 8; ++k) {
-    uint lane[8];
-    vstore8(as_uint8(keys[k]) & mask, 0, lane);
-    for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
-    values[k] = vload8(0, lane);
-  }
+static inline uint8 look_up_one_by_one(const uint* table, uint8 rank) {
+  uint lane[8];
+  store_uints(rank, lane);
+  for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
+  return vload8(0, lane);
 }
 
 // The parts of a place's key that its column and its row give, for the pixels of a box whose centre is the corner of
@@ -123,17 +127,17 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
 
 // Writes the values of the nearest places of a box of SIDE x SIDE pixels.
 #define DEFINE_FIND_BY_KEYS(name, SIDE)                                                                           \
-  NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* out, int stride) {       \
+  NOINLINE static void name(const places_t* places, int count, int bits, uint base, uint* out) {                   \
     uint8 columns[MOST_OF_KEYS * (SIDE / 8)];                                                                       \
     uint rows[MOST_OF_KEYS * 8];                                                                                    \
     const uint8 mask = (1u << bits) - 1;                                                                           \
     for (int i = 0; i < count; ++i) {                                                                              \
-      for (int q = 0; q < SIDE / 8; ++q) {                                                                         \
+      _Pragma("unroll") for (int q = 0; q < SIDE / 8; ++q) {                                                       \
         columns[i * (SIDE / 8) + q] = key_of_columns(places, i, 8 * q - SIDE / 2, bits, base);                     \
       }                                                                                                            \
     }                                                                                                              \
     for (int top = 0; top < SIDE; top += 8) {                                                                      \
-      for (int i = 0; i < count; ++i) vstore8(key_of_rows(places, i, top - SIDE / 2, bits), 0, rows + 8 * i);      \
+      for (int i = 0; i < count; ++i) store_uints(key_of_rows(places, i, top - SIDE / 2, bits), rows + 8 * i);      \
       for (int part = 0; part < 8; part += 64 / SIDE) {                                                            \
         int8 a = INT_MAX, b = a, c = a, d = a, e = a, f = a, g = a, h = a;                                         \
         for (int i = 0; i < count; ++i) {                                                                          \
@@ -159,11 +163,18 @@ static inline uint8 key_of_rows(const places_t* places, int i, int first, int bi
           case 2: look_up_values(places->values, 2, mask, keys, found); break;                                     \
           case 3: look_up_values(places->values, 3, mask, keys, found); break;                                     \
           case 4: look_up_values(places->values, 4, mask, keys, found); break;                                     \
-          default: look_up_many(places->values, mask, keys, found);                                                \
+          case 5:                                                                                                  \
+          case 6: look_up_values(places->values, 6, mask, keys, found); break;                                     \
+          case 7:                                                                                                  \
+          case 8: look_up_values(places->values, 8, mask, keys, found); break;                                     \
+          default:                                                                                                 \
+            _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                        \
+              found[k] = look_up_one_by_one(places->values, as_uint8(keys[k]) & mask);                              \
+            }                                                                                                      \
         }                                                                                                          \
         _Pragma("unroll") for (int k = 0; k < 8; ++k) {                                                            \
           const int y = top + part + (SIDE == 16 ? k / 2 : k), x = SIDE == 16 ? k % 2 * 8 : 0;                     \
-          vstore8(found[k], 0, out + y * stride + x);                                                              \
+          store_uints(found[k], out + y * SIDE + x);                                                                \
         }                                                                                                          \
       }                                                                                                            \
     }                                                                                                              \
@@ -210,36 +221,28 @@ typedef enum { IDS, PLACES } values_t;
 // Finds the nearest at each pixel of a box of 8 or 16 pixels a side, of `count` places of a list relative to its
 // centre, from the number `from` on; false if keys do not hold them.
 NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int from, int count, int side, float reach,
-                                  values_t values, uint* out, int stride) {
+                                  values_t values, uint* out) {
   const uint* const at = list->at + from;
-  if (count == 1) {
-    const uint8 value = values == IDS ? scene->ids[at[0]] : at[0];
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; x += 8) vstore8(value, 0, out + y * stride + x);
-    }
-    return true;
-  }
   if (count > MOST_OF_KEYS) return false;
-  const int bits = 32 - (int)clz((uint)count - 1);
+  const int bits = 32 - (int)clz((uint)max(count - 1, 1));
   bool is_relative;
   if (!keys_hold(list, from, count, side, reach, bits, &is_relative)) return false;
 
   places_t places;
   for (int k = 0; k < count; k += 8) {
     const int8 x = vload8(0, list->x + from + k) - HALF_PIXEL, y = vload8(0, list->y + from + k) - HALF_PIXEL;
-    vstore8(x, 0, places.x + k);
-    vstore8(y, 0, places.y + k);
+    store_ints(x, places.x + k);
+    store_ints(y, places.y + k);
 #ifdef VOROCL_EUCLIDEAN
     // |c|^2 without 64 bits: c is whole * 2^F + rest along each axis.
     const uint8 whole_x = as_uint8(x >> FRACTION_BITS), whole_y = as_uint8(y >> FRACTION_BITS);
     const uint8 rest_x = as_uint8(x) & (ONE_PIXEL - 1u), rest_y = as_uint8(y) & (ONE_PIXEL - 1u);
     const uint8 rests = rest_x * rest_x + rest_y * rest_y;
-    vstore8(((whole_x * whole_x + whole_y * whole_y) << (FRACTION_BITS - 1)) + whole_x * rest_x + whole_y * rest_y +
-                (rests >> LOW_BITS),
-            0, places.high + k);
-    vstore8(as_int8(rests & ((1u << LOW_BITS) - 1)), 0, places.low + k);
+    store_uints(((whole_x * whole_x + whole_y * whole_y) << (FRACTION_BITS - 1)) + whole_x * rest_x + whole_y * rest_y +
+                (rests >> LOW_BITS), places.high + k);
+    store_ints(as_int8(rests & ((1u << LOW_BITS) - 1)) - (1 << (LOW_BITS - 1)), places.low + k);
 #else
-    vstore8((int8)0, 0, places.low + k);
+    store_ints((int8)0, places.low + k);
 #endif
   }
   rank_places(scene, at, &places, count);
@@ -250,17 +253,17 @@ NOINLINE static bool find_by_keys(const scene_t* scene, const list_t* list, int 
     const int first_x = places.x[0], first_y = places.y[0];
     subtracted = places.high[0];
     for (int k = 0; k < count; k += 8) {
-      vstore8(vload8(0, places.x + k) - first_x, 0, places.x + k);
-      vstore8(vload8(0, places.y + k) - first_y, 0, places.y + k);
+      store_ints(vload8(0, places.x + k) - first_x, places.x + k);
+      store_ints(vload8(0, places.y + k) - first_y, places.y + k);
     }
   }
 #else
   subtracted = abs(places.x[0]) + abs(places.y[0]);
 #endif
   if (side == 8) {
-    find_8_by_keys(&places, count, bits, subtracted, out, stride);
+    find_8_by_keys(&places, count, bits, subtracted, out);
   } else {
-    find_16_by_keys(&places, count, bits, subtracted, out, stride);
+    find_16_by_keys(&places, count, bits, subtracted, out);
   }
   return true;
 }

@@ -64,7 +64,8 @@ kernel void label_pixels(global const uint* restrict starts, global const int2* 
                          int width, int height, int4 region, global uint* restrict out) {
   const int item = (int)get_global_id(0), column = item % width, row = item / width;
   if (row >= height) return;
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0};
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0,
+                         out, region};
   const bool has_label = column >= region.s0 && column <= region.s2 && row >= region.s1 && row <= region.s3;
   out[item] = has_label ? label_of(&scene, column, row) : NO_LABEL;
 }

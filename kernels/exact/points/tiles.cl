@@ -7,11 +7,84 @@
 
 #include "exact/points/keys.cl"
 
-#define FEW_PLACES 8    // of which more are not dropped by corners
+#define FEW_PLACES 16   // of which more are dropped by those nearest to the corners, too
 #define MOST_OF_BOX 48  // a box of 16 pixels with more is labelled in quarters
-#define FEW_OF_TILE 24  // a tile of fewer is labelled from one list
+#define FEW_OF_TILE 40  // a tile of fewer is labelled from one list
 
-// --- boxes with more places than keys hold: pixels have the places that won so far, in 64 bits ---
+// A square of pixels, and how far a place can be that wins there, in pixels along an axis.
+typedef struct {
+  int left, top, side;
+  float reach;
+} box_t;
+
+static inline box_t box_of(int left, int top, int side) {
+  const box_t box = {left, top, side, INFINITY};
+  return box;
+}
+
+// A box in a box, by columns and rows of such boxes.
+static inline box_t box_in(box_t outer, int side, int u, int v) {
+  const box_t box = {outer.left + u * side, outer.top + v * side, side, outer.reach};
+  return box;
+}
+
+static inline int2 centre_of(box_t box) { return (int2)(box.left + box.side / 2, box.top + box.side / 2) * ONE_PIXEL; }
+static inline span_t columns_of(box_t box) { return span_of(box.left, box.left + box.side - 1); }
+static inline span_t rows_of(box_t box) { return span_of(box.top, box.top + box.side - 1); }
+
+// --- labels, which pixels outside the region do not get ---
+
+static inline bool is_in_grid(const scene_t* scene, box_t box) {
+  return box.left < scene->width && box.top < scene->height;
+}
+
+static inline bool is_in_region(const scene_t* scene, box_t box) {
+  const int4 region = scene->region;
+  return box.left >= region.s0 && box.top >= region.s1 && box.left + box.side - 1 <= region.s2 &&
+         box.top + box.side - 1 <= region.s3;
+}
+
+typedef struct __attribute__((packed)) {
+  uint8 labels;
+} labels_t;
+
+NOINLINE static void show_some(const scene_t* scene, int x, int y, uint8 labels) {
+  const int4 region = scene->region;
+  uint lane[8];
+  store_uints(labels, lane);
+  for (int i = 0; i < 8 && x + i < scene->width && y < scene->height; ++i) {
+    const bool has_label = x + i >= region.s0 && x + i <= region.s2 && y >= region.s1 && y <= region.s3;
+    scene->labels[(size_t)y * (size_t)scene->width + (size_t)(x + i)] = has_label ? lane[i] : NO_LABEL;
+  }
+}
+
+// Shows the labels of eight pixels, in one piece if they are known to be in the region.
+static inline void show_eight(const scene_t* scene, bool is_inside, int x, int y, uint8 labels) {
+  if (is_inside) {
+    ((global labels_t*)(scene->labels + (size_t)y * (size_t)scene->width + (size_t)x))->labels = labels;
+  } else {
+    show_some(scene, x, y, labels);
+  }
+}
+
+// Shows the labels of a box, whose rows are `stride` values apart.
+static inline void show(const scene_t* scene, box_t box, const uint* labels, int stride) {
+  const bool is_inside = is_in_region(scene, box);
+  for (int y = 0; y < box.side; ++y) {
+    for (int x = 0; x < box.side; x += 8) {
+      show_eight(scene, is_inside, box.left + x, box.top + y, vload8(0, labels + y * stride + x));
+    }
+  }
+}
+
+NOINLINE static void show_one(const scene_t* scene, box_t box, uint label) {
+  const bool is_inside = is_in_region(scene, box);
+  for (int y = 0; y < box.side; ++y) {
+    for (int x = 0; x < box.side; x += 8) show_eight(scene, is_inside, box.left + x, box.top + y, (uint8)label);
+  }
+}
+
+// --- boxes with more places than keys hold: pixels of a tile have the places that won so far, in 64 bits ---
 
 static inline int to_nearest_image(int way, int size, int periodic) {
   const int period = size * ONE_PIXEL;
@@ -32,190 +105,181 @@ static inline bool wins(const scene_t* scene, int2 pixel, uint at, uint so_far) 
   return distance < least || (distance == least && comes_first(scene, at, so_far));
 }
 
+// The part of a tile's pixels that a box has.
+static inline uint* of_box(uint* of_tile, box_t box) {
+  return of_tile + box.top % POINTS_TILE * POINTS_TILE + box.left % POINTS_TILE;
+}
+
+static inline void start_winners(box_t box, uint* of_tile) {
+  uint* const so_far = of_box(of_tile, box);
+  for (int y = 0; y < box.side; ++y) {
+    for (int x = 0; x < box.side; x += 8) store_uints((uint8)NO_LABEL, so_far + y * POINTS_TILE + x);
+  }
+}
+
+static inline void show_winners(const scene_t* scene, box_t box, uint* of_tile) {
+  uint* const so_far = of_box(of_tile, box);
+  for (int y = 0; y < box.side; ++y) {
+    for (int x = 0; x < box.side; ++x) so_far[y * POINTS_TILE + x] = scene->ids[so_far[y * POINTS_TILE + x]];
+  }
+  show(scene, box, so_far, POINTS_TILE);
+}
+
 // Lets the places of a list stand against those that won so far in a box of 8 or 16 pixels a side, in parts that keys
 // hold.
-NOINLINE static void label_in_parts(const scene_t* scene, const list_t* list, int count, int2 centre, int side,
-                                    uint* so_far) {
+NOINLINE static void compare_in_parts(const scene_t* scene, const list_t* list, int count, box_t box, uint* of_tile) {
+  uint* const so_far = of_box(of_tile, box);
   uint winners[16 * 16];
   for (int from = 0, some; from < count; from += some) {
     some = min(count - from, MOST_OF_KEYS);
-    const bool is_first = so_far[0] == NO_LABEL;
-    uint* const out = is_first ? so_far : winners;
-    const int stride = is_first ? POINTS_TILE : side;
-    while (!find_by_keys(scene, list, from, some, side, INFINITY, PLACES, out, stride)) some /= 2;
-    if (is_first) continue;
-    for (int y = 0; y < side; ++y) {
-      for (int x = 0; x < side; ++x) {
-        const int2 pixel = centre + (int2)(x - side / 2, y - side / 2) * ONE_PIXEL + HALF_PIXEL;
-        const uint winner = winners[y * side + x];
-        if (wins(scene, pixel, winner, so_far[y * POINTS_TILE + x])) so_far[y * POINTS_TILE + x] = winner;
+    while (!find_by_keys(scene, list, from, some, box.side, INFINITY, PLACES, winners)) some /= 2;
+    for (int y = 0; y < box.side; ++y) {
+      for (int x = 0; x < box.side; ++x) {
+        const int2 pixel = (int2)(box.left + x, box.top + y) * ONE_PIXEL + HALF_PIXEL;
+        const uint winner = winners[y * box.side + x];
+        uint* const best = so_far + y * POINTS_TILE + x;
+        if (*best == NO_LABEL || wins(scene, pixel, winner, *best)) *best = winner;
       }
     }
-  }
-}
-
-static inline void label_all(int side, uint label, uint* labels) {
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; x += 8) vstore8((uint8)label, 0, labels + y * POINTS_TILE + x);
-  }
-}
-
-static inline void show_ids(const scene_t* scene, int side, uint* labels) {
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) labels[y * POINTS_TILE + x] = scene->ids[labels[y * POINTS_TILE + x]];
   }
 }
 
 // --- lists handed down: what may win in a box is in the list of a greater one ---
 
-// A box of pixels: where its labels are, and how far a place can be that wins, in pixels along an axis.
-typedef struct {
-  int2 centre;  // in units
-  int side;
-  uint* labels;
-  float reach;
-} box_t;
-
-// A box in a box, by columns and rows of such boxes.
-static inline box_t box_in(box_t outer, int side, int u, int v) {
-  const int2 way = (int2)(u * side, v * side) + (side - outer.side) / 2;
-  uint* const labels = outer.labels + v * side * POINTS_TILE + u * side;
-  const box_t box = {outer.centre + way * ONE_PIXEL, side, labels, outer.reach};
-  return box;
-}
-
 // Copies to `list` what may win in a box, and returns how many. If the list is a part, the box has places that won so
-// far, and that of a pixel in its middle drops places, too.
-static inline int narrow(const scene_t* scene, const list_t* from, int count, int2 centre, box_t* box, list_t* list,
-                         bool is_part) {
-  const int2 way = box->centre - centre;
+// far, and that of a pixel in its middle drops places, too: `of_tile` is not null.
+NOINLINE static int narrow(const scene_t* scene, const list_t* from, int count, box_t outer, box_t* box, list_t* list,
+                         uint* of_tile) {
+  const int2 way = centre_of(*box) - centre_of(outer);
   const int number = nearest_of(from, count, way);
   int2 nearest = (int2)(from->x[number], from->y[number]) - way;
-  if (is_part) {
-    const uint so_far = box->labels[box->side / 2 * (POINTS_TILE + 1)];
+  if (of_tile) {
+    const uint so_far = of_box(of_tile, *box)[box->side / 2 * (POINTS_TILE + 1)];
     if (so_far != NO_LABEL) {
-      const int2 place = way_to(scene, box->centre, so_far);
+      const int2 place = way_to(scene, centre_of(*box), so_far);
       if (length_of(place) < length_of(nearest)) nearest = place;
     }
   }
-  box->reach = fmin(box->reach, longest(reach_of(nearest, box->side)) + (float)box->side);
+  box->reach = fmin(box->reach, reach_over(nearest, box->side));
   count = drop_by(from, count, list, way, rival_at(nearest, box->side));
   return count > FEW_PLACES ? drop_by_corners(list, count, box->side) : count;
 }
 
-static inline void label_8_by_list(const scene_t* scene, const list_t* list, int count, box_t box) {
-  if (find_by_keys(scene, list, 0, count, 8, box.reach, IDS, box.labels, POINTS_TILE)) return;
-  label_all(8, NO_LABEL, box.labels);
-  label_in_parts(scene, list, count, box.centre, 8, box.labels);
-  show_ids(scene, 8, box.labels);
+NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int count, box_t box) {
+  if (count == 1) {
+    show_one(scene, box, scene->ids[list->at[0]]);
+    return true;
+  }
+  uint labels[16 * 16];
+  if (!find_by_keys(scene, list, 0, count, box.side, box.reach, IDS, labels)) return false;
+  show(scene, box, labels, box.side);
+  return true;
 }
 
-NOINLINE static void label_quarters(const scene_t* scene, const list_t* from, int count, box_t box, list_t* list) {
+NOINLINE static void label_8_by_list(const scene_t* scene, const list_t* list, int count, box_t box) {
+  if (label_by_keys(scene, list, count, box)) return;
+  uint of_tile[POINTS_TILE * POINTS_TILE];
+  start_winners(box, of_tile);
+  compare_in_parts(scene, list, count, box, of_tile);
+  show_winners(scene, box, of_tile);
+}
+
+// A box of 16 x 16 pixels with many places is labelled in quarters; their lists go to `parts`.
+static inline void label_16_by_list(const scene_t* scene, const list_t* list, int count, box_t box, list_t* parts) {
+  if (count <= MOST_OF_BOX && label_by_keys(scene, list, count, box)) return;
   for (int i = 0; i < 4; ++i) {
     box_t quarter = box_in(box, 8, i % 2, i / 2);
-    const int some = narrow(scene, from, count, box.centre, &quarter, list, false);
-    label_8_by_list(scene, list, some, quarter);
+    if (!is_in_grid(scene, quarter)) continue;
+    const int some = narrow(scene, list, count, box, &quarter, parts, 0);
+    label_8_by_list(scene, parts, some, quarter);
   }
 }
 
-// A box of 16 x 16 pixels with many places is labelled in quarters; their lists go to `list`.
-static inline void label_16_by_list(const scene_t* scene, const list_t* from, int count, box_t box, list_t* list) {
-  if (count <= MOST_OF_BOX && find_by_keys(scene, from, 0, count, 16, box.reach, IDS, box.labels, POINTS_TILE)) return;
-  label_quarters(scene, from, count, box, list);
-}
 typedef struct {
   list_t a, b, c;
 } lists_t;
-
-static inline bool is_shown(const scene_t* scene, int x, int y) { return x < scene->width && y < scene->height; }
 
 // Labels a box of which no list holds the places, part by part: `count` of them are in list b, and the walk goes on.
 NOINLINE static void label_crowd(const scene_t* scene, walk_t* walk, uint2* range, box_t box, rival_t rival, int count,
                                  lists_t* lists) {
   const int side = min(box.side, 16), boxes = box.side / side;
-  label_all(box.side, NO_LABEL, box.labels);
-  for (; count > 0; count = gather_part(scene, walk, range, &lists->b, box.centre, rival)) {
+  uint of_tile[POINTS_TILE * POINTS_TILE];
+  start_winners(box, of_tile);
+  for (; count > 0; count = gather(scene, walk, range, &lists->b, centre_of(box), rival)) {
     count = drop_by_corners(&lists->b, count, box.side);
     for (int i = 0; i < boxes * boxes; ++i) {
       box_t small = box_in(box, side, i % boxes, i / boxes);
-      const int some = narrow(scene, &lists->b, count, box.centre, &small, &lists->a, true);
-      label_in_parts(scene, &lists->a, some, small.centre, side, small.labels);
+      const int some = narrow(scene, &lists->b, count, box, &small, &lists->a, of_tile);
+      compare_in_parts(scene, &lists->a, some, small, of_tile);
     }
   }
-  show_ids(scene, box.side, box.labels);
+  show_winners(scene, box, of_tile);
+}
+
+// --- boxes, by the places around them ---
+
+// Finds the place nearest to the centre of a box, or one that is nearly so, of the bins around it; false if there are
+// none at all.
+static inline bool find_near(const scene_t* scene, box_t box, span_t limits_x, span_t limits_y, list_t* list,
+                             int2* place) {
+  const int bits = scene->bins.bits;
+  rival_t rival = no_rival();
+  for (int rings = 0;; rings = 2 * rings + 1) {
+    const span_t x = clamped(with_bins_around(columns_of(box), rings, bits), limits_x);
+    const span_t y = clamped(with_bins_around(rows_of(box), rings, bits), limits_y);
+    walk_t walk = walk_over(scene, x, y);
+    uint2 range = (uint2)(0, 0);
+    int count;
+    do {
+      count = gather(scene, &walk, &range, list, centre_of(box), rival);
+      if (count == 0) break;
+      const int number = nearest_of(list, count, (int2)(0, 0));
+      const int2 found = (int2)(list->x[number], list->y[number]);
+      if (rival.limit == INFINITY || length_of(found) < length_of(*place)) *place = found;
+      rival = rival_at(*place, box.side);
+    } while (is_full(count));
+    if (rival.limit != INFINITY) return true;
+    if (holds(x, limits_x) && holds(y, limits_y)) return false;
+  }
 }
 
 // Labels a box of 64, 16 or 8 pixels a side by the places around it; false if one of 16 has a crowd.
-static inline __attribute__((always_inline)) bool label_box(const scene_t* scene, int left, int top, int side,
-                                                            lists_t* lists, uint* labels) {
-  const span_t own_x = span_of(left, left + side - 1), own_y = span_of(top, top + side - 1);
-  const span_t limits_x = limits_of(own_x, scene->width, PERIODIC_X);
-  const span_t limits_y = limits_of(own_y, scene->height, PERIODIC_Y);
-  const int2 centre = (int2)(left + side / 2, top + side / 2) * ONE_PIXEL;
-  const int bits = scene->bins.bits;
-  int rings = 1, count;
+NOINLINE static bool label_box(const scene_t* scene, box_t box, lists_t* lists) {
+  const span_t limits_x = limits_of(columns_of(box), scene->width, PERIODIC_X);
+  const span_t limits_y = limits_of(rows_of(box), scene->height, PERIODIC_Y);
   int2 nearest;
-  reach_t reach;
-  span_t x = clamped(with_bins_around(own_x, rings, bits), limits_x);
-  span_t y = clamped(with_bins_around(own_y, rings, bits), limits_y);
-  while (true) {
-    count = gather(scene, &lists->a, x, y, centre, &nearest);
-    if (count == 0) {
-      if (holds(x, limits_x) && holds(y, limits_y)) {
-        label_all(side, NO_LABEL, labels);
-        return true;
-      }
-      rings *= 2;
-      x = clamped(with_bins_around(own_x, rings, bits), limits_x);
-      y = clamped(with_bins_around(own_y, rings, bits), limits_y);
-      continue;
-    }
-    reach = reach_of(nearest, side);
-    const span_t needed_x = clamped(span_of_reach(own_x, reach.west, reach.east), limits_x);
-    const span_t needed_y = clamped(span_of_reach(own_y, reach.north, reach.south), limits_y);
-    if (holds(x, needed_x) && holds(y, needed_y)) break;
-    x = joined(x, needed_x);
-    y = joined(y, needed_y);
+  if (!find_near(scene, box, limits_x, limits_y, &lists->a, &nearest)) {
+    show_one(scene, box, NO_LABEL);
+    return true;
   }
-  const box_t box = {centre, side, labels, longest(reach) + (float)side};
-  const rival_t rival = rival_at(nearest, side);
-  if (count <= MOST_IN_LIST) {
-    count = drop_by(&lists->a, count, &lists->b, (int2)(0, 0), rival);
-  } else if (side == 16) {
-    return false;
+  const reach_t reach = reach_of(nearest, box.side);
+  box.reach = reach_over(nearest, box.side);
+  const rival_t rival = rival_at(nearest, box.side);
+  walk_t walk = walk_over(scene, clamped(span_of_reach(columns_of(box), reach.west, reach.east), limits_x),
+                          clamped(span_of_reach(rows_of(box), reach.north, reach.south), limits_y));
+  uint2 range = (uint2)(0, 0);
+  int count = gather(scene, &walk, &range, &lists->b, centre_of(box), rival);
+  if (is_full(count)) {
+    if (box.side == 16) return false;
+    label_crowd(scene, &walk, &range, box, rival, count, lists);
+    return true;
+  }
+  if (count > FEW_PLACES) count = drop_by_corners(&lists->b, count, box.side);
+  if (count == 1) {
+    show_one(scene, box, scene->ids[lists->b.at[0]]);
+  } else if (box.side == 8) {
+    label_8_by_list(scene, &lists->b, count, box);
+  } else if (box.side == 16) {
+    label_16_by_list(scene, &lists->b, count, box, &lists->a);
   } else {
-    walk_t walk = walk_over(scene, x, y);
-    uint2 range = (uint2)(0, 0);
-    count = gather_part(scene, &walk, &range, &lists->b, centre, rival);
-    if (count > MOST_IN_LIST - 8) {
-      label_crowd(scene, &walk, &range, box, rival, count, lists);
-      return true;
+    for (int i = 0; i < 16; ++i) {
+      box_t small = box_in(box, 16, i % 4, i / 4);
+      if (!is_in_grid(scene, small)) continue;
+      const int some = narrow(scene, &lists->b, count, box, &small, &lists->a, 0);
+      label_16_by_list(scene, &lists->a, some, small, &lists->c);
     }
-  }
-  if (count > FEW_PLACES) count = drop_by_corners(&lists->b, count, side);
-  if (side == 8) label_8_by_list(scene, &lists->b, count, box);
-  if (side == 16) label_16_by_list(scene, &lists->b, count, box, &lists->a);
-  for (int i = 0; side == 64 && i < 16; ++i) {
-    box_t small = box_in(box, 16, i % 4, i / 4);
-    if (!is_shown(scene, left + i % 4 * 16, top + i / 4 * 16)) continue;
-    const int some = narrow(scene, &lists->b, count, centre, &small, &lists->a, false);
-    label_16_by_list(scene, &lists->a, some, small, &lists->c);
   }
   return true;
-}
-
-NOINLINE static void label_64(const scene_t* scene, int left, int top, lists_t* lists, uint* labels) {
-  label_box(scene, left, top, 64, lists, labels);
-}
-NOINLINE static void label_8(const scene_t* scene, int left, int top, lists_t* lists, uint* labels) {
-  label_box(scene, left, top, 8, lists, labels);
-}
-NOINLINE static void label_16(const scene_t* scene, int left, int top, lists_t* lists, uint* labels) {
-  if (label_box(scene, left, top, 16, lists, labels)) return;
-  for (int i = 0; i < 4; ++i) {
-    const int x = i % 2 * 8, y = i / 2 * 8;
-    label_8(scene, left + x, top + y, lists, labels + y * POINTS_TILE + x);
-  }
 }
 
 // The places in the bins of a tile.
@@ -229,41 +293,27 @@ static inline uint places_of_tile(const scene_t* scene, int left, int top) {
   return count;
 }
 
-static inline void label_tile(const scene_t* scene, int left, int top, uint* labels) {
-  lists_t lists;
-  if (places_of_tile(scene, left, top) < FEW_OF_TILE) {
-    label_64(scene, left, top, &lists, labels);
-    return;
-  }
-  for (int i = 0; i < 16; ++i) {
-    const int x = i % 4 * 16, y = i / 4 * 16;
-    if (is_shown(scene, left + x, top + y)) label_16(scene, left + x, top + y, &lists, labels + y * POINTS_TILE + x);
-  }
-}
-
-// Labels all tiles. Pixels outside the region (left, top, right, bottom, both ends included) get no label.
+// Labels all tiles.
 kernel void label_tiles(global const uint* restrict starts, global const int2* restrict list,
                         global const uint* restrict ids, global const int2* restrict seeds, int has_images, int bits,
-                        int width, int height, int4 region, global uint* restrict out) {
+                        int width, int height, int4 region, global uint* restrict labels) {
   const int across = ((width - 1) >> POINTS_TILE_BITS) + 1, item = (int)get_global_id(0);
   const int left = item % across * POINTS_TILE, top = item / across * POINTS_TILE;
   if (top >= height) return;
-  uint labels[POINTS_TILE * POINTS_TILE];
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0};
-  label_tile(&scene, left, top, labels);
-  const int end = min(POINTS_TILE, width - left), bottom = min(POINTS_TILE, height - top);
-  const bool is_inside = left >= region.s0 && top >= region.s1 && left + end - 1 <= region.s2 &&
-                         top + bottom - 1 <= region.s3;
-  for (int y = 0; y < bottom; ++y) {
-    global uint* const row = out + (size_t)(top + y) * (size_t)width + (size_t)left;
-    if (is_inside && end == POINTS_TILE) {
-      for (int x = 0; x < POINTS_TILE; x += 8) vstore8(vload8(0, labels + y * POINTS_TILE + x), 0, row + x);
-      continue;
-    }
-    for (int x = 0; x < end; ++x) {
-      const bool has_label = left + x >= region.s0 && left + x <= region.s2 && top + y >= region.s1 &&
-                             top + y <= region.s3;
-      row[x] = has_label ? labels[y * POINTS_TILE + x] : NO_LABEL;
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0,
+                         labels, region};
+  lists_t lists;
+  const box_t tile = box_of(left, top, POINTS_TILE);
+  if (places_of_tile(&scene, left, top) < FEW_OF_TILE) {
+    label_box(&scene, tile, &lists);
+    return;
+  }
+  for (int i = 0; i < 16; ++i) {
+    const box_t box = box_in(tile, 16, i % 4, i / 4);
+    if (!is_in_grid(&scene, box) || label_box(&scene, box, &lists)) continue;
+    for (int k = 0; k < 4; ++k) {
+      const box_t quarter = box_in(box, 8, k % 2, k / 2);
+      if (is_in_grid(&scene, quarter)) label_box(&scene, quarter, &lists);
     }
   }
 }
