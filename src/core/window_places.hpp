@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -63,16 +64,13 @@ struct Images {
       if (v.length() < u.length()) std::swap(u, v);
       // The whole number of times that u is taken off, so that what stays along its longer axis is least.
       const bool along_x = std::abs(u.x) >= std::abs(u.y);
-      const std::int64_t times = rounded_quotient(along_x ? v.x : v.y, along_x ? u.x : u.y);
+      const auto over = static_cast<double>(along_x ? v.x : v.y),
+                 under = static_cast<double>(along_x ? u.x : u.y);
+      const std::int64_t times = std::llround(over / under);  // any whole number keeps the lattice
       const Vector rest = {v.x - times * u.x, v.y - times * u.y};
       if (rest.length() >= v.length()) return (u.length() + v.length()) / 2;
       v = rest;
     }
-  }
-
-  static std::int64_t rounded_quotient(std::int64_t a, std::int64_t b) {
-    if (b < 0) a = -a, b = -b;
-    return a >= 0 ? (a + b / 2) / b : -((-a + b / 2) / b);
   }
 };
 
