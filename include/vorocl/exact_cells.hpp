@@ -123,10 +123,9 @@ class VOROCL_API ExactCellsResult {
 ///
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
-/// and Levy
-/// ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in about 0.1 us
-/// each; the device takes about 2 us per cell and core. Memory: 115 bytes per seed, and 120 more where
-/// polygons are asked for.
+/// and Levy ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in
+/// about 0.1 us each; the device takes about 2 us per cell and core. Memory: 115 bytes per seed, and 116 more
+/// where polygons are asked for.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws BadPoint if one was bad;
 /// Error if the device has no doubles (cl_khr_fp64) or too little memory, or the rectangle has no extent

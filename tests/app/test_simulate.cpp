@@ -301,6 +301,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, djfa + "--every 0", usage, {"--every"});
   refuses(folder, djfa + "--fps 25", usage, {"-o"});
   refuses(folder, djfa + "-o a.mp4 --fps 0", usage, {"--fps"});
+  refuses(folder, djfa + "-o a.mp4 --fps nan", usage, {"--fps"});
   refuses(folder, djfa + "--bounds 0,0,1,1", usage, {"--bounds", "--trajectory"});
   refuses(folder, djfa + "-o missing/deep/%d.png", failure, {"missing/deep", "does not exist"});
   refuses(folder, djfa + "-o missing/a.mp4", failure, {"missing", "does not exist"});

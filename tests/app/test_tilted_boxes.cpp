@@ -166,6 +166,8 @@ BOOST_AUTO_TEST_CASE(what_knows_no_tilt_is_refused_by_name) {
   }
   refuses(folder, "simulate --trajectory t.lammpstrj --size 100x80 --compare-with jfa", failure,
           {"t.lammpstrj", "frame 1", "tilted", "flooding cannot take"});
+  refuses(folder, "render --trajectory t.lammpstrj --frame 1 --size 100x80 --labels t.npy --periodic y",
+          failure, {"t.lammpstrj", "frame 1", "tilted", "straight along y", "--periodic xy or x"});
   // The rectangle alone has no tilt, and a box without one none either.
   const Result flooded =
       run(folder,

@@ -29,10 +29,11 @@ class ImageModule {
 class FilmEncoder {
  public:
   virtual ~FilmEncoder() = default;
-  virtual void add(const cv::Mat& picture) = 0;
+  /// Whether nothing is known to have gone wrong so far.
+  virtual bool add(const cv::Mat& picture) = 0;
 };
 
-/// What film_module.cpp does. No function throws or prints.
+/// What the modules of films do. No function throws or prints.
 class FilmModule {
  public:
   /// An H.264 film of pictures of this size; null if this machine cannot make it.

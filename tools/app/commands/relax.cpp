@@ -127,8 +127,17 @@ Relaxation run_rounds(const RelaxCommand& options, const Input& input, Seeds& se
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
     return !interruption.came();
   };
-  const Relaxation relaxation = relax(seeds, diagram, engine, options.rounds, observer, how);
-  if (writer != nullptr) writer->wait();
+  const auto wait = [&] {
+    if (writer != nullptr) writer->wait();  // it reads `buffers`
+  };
+  Relaxation relaxation;
+  try {
+    relaxation = relax(seeds, diagram, engine, options.rounds, observer, how);
+  } catch (...) {
+    wait();
+    throw;
+  }
+  wait();
   return relaxation;
 }
 

@@ -217,6 +217,8 @@ class Run {
       add(place.x);
       add(place.y);
     }
+    add(view.window.grid().tilt());
+    add(static_cast<double>(view.window.grid().periodic()));
     for (const std::uint32_t id : source_.ids()) course_.seeds.add(id);
     for (const double value : source_.values()) add(value);
     course_.seeds.add(static_cast<std::uint64_t>(source_.timestep().value_or(0)));

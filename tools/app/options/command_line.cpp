@@ -1,10 +1,14 @@
 #include "app/options/command_line.hpp"
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -50,7 +54,11 @@ Option& Option::in_range(std::size_t low, std::size_t high) {
 }
 
 Option& Option::in_range(double low, double high) {
-  option_->check(CLI::Range(low, high));
+  const auto not_a_number = [low, high](const std::string& text) {
+    const bool is_none = std::isnan(std::strtod(text.c_str(), nullptr));  // which CLI::Range() lets pass
+    return is_none ? fmt::format("Value {} not in range [{} - {}]", text, low, high) : std::string();
+  };
+  option_->check(CLI::Range(low, high))->check(not_a_number);
   return *this;
 }
 

@@ -193,6 +193,9 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
     mapping.domain = bounds_of(frame_);
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
     if (mapping.periodic == Periodic::xy) mapping.tilt = box->tilt;
+    if (box->tilt != 0 && mapping.periodic == Periodic::y) {
+      throw Error("the box is tilted, so it does not repeat straight along y; give --periodic xy or x");
+    }
     if (mapping.tilt != 0 && !keeps_inside_.empty()) {
       throw Error("the box is tilted, which " + keeps_inside_ +
                   "; with --periodic x cells end at its border in y instead");

@@ -45,9 +45,10 @@ class Encoder : public FilmEncoder {
 
   bool is_open() const { return !fails_; }
 
-  void add(const cv::Mat& picture) override {
+  bool add(const cv::Mat& picture) override {
     fails_ = fails_ || !convert(picture) || !encode(frame_.get());
     ++frame_->pts;
+    return !fails_;
   }
 
  private:

@@ -81,18 +81,22 @@ void Film::add(const cv::Mat& picture) {
                     "write numbered pictures, such as frames/%05d.png",
                     file_.path(), picture.cols, picture.rows));
   }
-  behind_.add([this, added = padded(picture)] { encoder_->add(added); });
+  behind_.add([this, added = padded(picture)] {
+    if (!encoder_->add(added)) throw failed();
+  });
   ++pictures_;
 }
+
+Error Film::failed() const { return Error("writing " + file_.path() + " failed: is the disk full?"); }
 
 void Film::finish() {
   if (pictures_ == 0) return;
   behind_.wait();
   encoder_.reset();
-  // The encoder does not say what went wrong.
+  // Not every encoder says what went wrong.
   const std::string path = file_.temporary_path();
   if (!has_whole_boxes(path) || film_module().count_pictures(path) != pictures_) {
-    throw Error("writing " + file_.path() + " failed: is the disk full?");
+    throw failed();
   }
   file_.finish();
 }

@@ -8,6 +8,7 @@
 #include "formats/modules.hpp"
 #include "formats/output_file.hpp"
 #include "formats/workers.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -25,7 +26,7 @@ class Film {
 
   /// Appends a picture, which must not change afterwards; all have one size. Its last row or column is
   /// repeated where film_size() is larger. Waits for the picture before. Throws Error if this machine cannot
-  /// make the film.
+  /// make the film, or a picture before could not be written.
   void add(const cv::Mat& picture);
 
   /// How many pictures were added.
@@ -36,6 +37,8 @@ class Film {
   void finish();
 
  private:
+  Error failed() const;
+
   GrowingFile file_;
   double frames_per_second_;
   std::unique_ptr<FilmEncoder> encoder_;

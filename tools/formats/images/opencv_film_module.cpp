@@ -16,7 +16,10 @@ class Encoder : public FilmEncoder {
     writer_.open(path, cv::CAP_FFMPEG, h264, frames_per_second, size);
   }
   bool is_open() const { return writer_.isOpened(); }
-  void add(const cv::Mat& picture) override { writer_.write(picture); }
+  bool add(const cv::Mat& picture) override {
+    writer_.write(picture);
+    return true;
+  }
 
  private:
   cv::VideoWriter writer_;
