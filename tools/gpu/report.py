@@ -16,12 +16,23 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LABELS = pathlib.Path(__file__).with_name("labels.json")
 started = time.monotonic()
 
+
+def whole_numbers(text):
+    try:
+        numbers = [int(part) for part in text.split(",")]
+    except ValueError:
+        numbers = []
+    if not numbers or min(numbers) < 1:
+        raise argparse.ArgumentTypeError(f"\"{text}\" is no list of whole numbers above 0, with commas between")
+    return numbers
+
+
 parser = argparse.ArgumentParser(prog="gpu_report.sh", description=__doc__)
 parser.add_argument("--piece", default=",".join(PIECES), help="some of them, with commas between; default: all")
 parser.add_argument("--out", default="output/gpu.json", help="what was found; the tables go beside it, to a .md file")
 parser.add_argument("--build", help="a build's folder that is used as it is; default: build-gpu, which is built")
-parser.add_argument("--sizes", default="2048,8192,10000", help="sides in pixels; the sets made to hurt are of the first one")
-parser.add_argument("--densities", default=",".join(map(str, PIXELS_PER_SEED)), help="pixels per seed")
+parser.add_argument("--sizes", type=whole_numbers, default="2048,8192,10000", help="sides in pixels; the sets made to hurt are of the first one")
+parser.add_argument("--densities", type=whole_numbers, default=PIXELS_PER_SEED, help="pixels per seed")
 parser.add_argument("--frames", default=30, type=int, help="of moving seeds, after the first one; default: 30")
 parser.add_argument("--milliseconds", default=300, type=float, help="that each method is measured for; 0: labels alone")
 parser.add_argument("--tests", default="", help="of the core's tests those whose names hold this; default: all")
@@ -102,7 +113,7 @@ def edt(side, seeds):
 
 def random_cases(sides):
     for side in sides:
-        for share in map(int, options.densities.split(",")):
+        for share in options.densities:
             if side * side >= share:
                 yield side, side * side // share
 
@@ -284,10 +295,12 @@ pieces = options.piece.split(",")
 for piece in pieces:
     if piece not in PIECES:
         parser.error(f"there is no piece {piece}, but {', '.join(PIECES)}")
-sides = list(map(int, options.sizes.split(",")))
+sides = options.sizes
 out = pathlib.Path(options.out)
 out.parent.mkdir(parents=True, exist_ok=True)
 build = pathlib.Path(options.build or ROOT / "build-gpu").resolve()
+if options.build and not (build / "tools" / "measure").exists():
+    parser.error(f"--build {options.build}: there is no tools/measure; leave --build out to have it built")
 right_labels = json.loads(LABELS.read_text())
 results = json.loads(out.read_text()) if out.exists() else {}
 find_driver()
