@@ -110,8 +110,11 @@ BOOST_AUTO_TEST_CASE(a_second_signal_ends_at_once_and_leaves_nothing_temporary) 
     for (int i = 0; i < 600 && files_of(folder).size() < 2; ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    // Both wait while it is stopped, so it cannot end by the first before the second is sent.
+    kill(process, SIGSTOP);
     kill(process, SIGINT);  // two of one kind might come as one
     kill(process, SIGHUP);
+    kill(process, SIGCONT);
     BOOST_TEST(ended_by_signal(process, {SIGINT, SIGHUP}));  // of two that wait, the system chooses the first
     for (const std::string& file : files_of(folder)) BOOST_TEST(!is_temporary(file), file);
   }
