@@ -36,6 +36,7 @@ struct Row {
   Point seed;
   const ExactCell& cell;
   Ring polygon;  // empty unless a column needs it
+  bool y_up;
 
   Value extreme(double Point::*along, bool greatest) const {
     Value found;
@@ -69,9 +70,9 @@ Column column_of(const std::string& name) {
       {"centroid_x", {[](const Row& of) { return of.if_full(of.cell.centroid.x); }}},
       {"centroid_y", {[](const Row& of) { return of.if_full(of.cell.centroid.y); }}},
       {"left", {[](const Row& of) { return of.extreme(&Point::x, false); }, true}},
-      {"top", {[](const Row& of) { return of.extreme(&Point::y, true); }, true}},
+      {"top", {[](const Row& of) { return of.extreme(&Point::y, of.y_up); }, true}},
       {"right", {[](const Row& of) { return of.extreme(&Point::x, true); }, true}},
-      {"bottom", {[](const Row& of) { return of.extreme(&Point::y, false); }, true}},
+      {"bottom", {[](const Row& of) { return of.extreme(&Point::y, !of.y_up); }, true}},
       {"perimeter", {[](const Row& of) { return Value(of.cell.perimeter); }}},
       {"neighbours", {[](const Row& of) { return Value(of.cell.neighbours); }}},
       {"largest_distance", {[](const Row& of) { return of.largest_distance(); }, true}},
@@ -82,8 +83,8 @@ Column column_of(const std::string& name) {
 }  // namespace
 
 ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
-                             std::vector<std::uint32_t> ids)
-    : result_(result), ids_(std::move(ids)), points_(seeds.read()), cells_(result.read()) {
+                             std::vector<std::uint32_t> ids, bool y_up)
+    : result_(result), ids_(std::move(ids)), y_up_(y_up), points_(seeds.read()), cells_(result.read()) {
   const Grid& grid = seeds.grid();
   for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
     const std::optional<Point>& point = points_[seed];
@@ -120,7 +121,7 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
   const ExactPolygons* const polygons = need_polygons ? &this->polygons() : nullptr;
   add_rows(table, order_, [&](fmt::memory_buffer& text, std::size_t seed) {
     const Ring ring = polygons != nullptr ? ring_of(*polygons, seed) : Ring();
-    const Row row = {id_of(seed), *points_[seed], cells_[seed], ring};
+    const Row row = {id_of(seed), *points_[seed], cells_[seed], ring, y_up_};
     text.append(std::string_view(first));
     bool is_first = true;
     for (const Column& column : columns) {

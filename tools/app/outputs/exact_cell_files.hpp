@@ -15,9 +15,10 @@ namespace vorocl::command {
 /// Exact cells by the ids that files have. What is asked for is read once, when it is first asked for.
 class ExactCellRows {
  public:
-  /// `ids` says what files call each seed; empty: their indices. Keeps a reference to the result. Waits;
-  /// throws as the library, as do its functions.
-  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids);
+  /// `ids` says what files call each seed; empty: their indices. `y_up`: the top of a cell has its greatest
+  /// y. Keeps a reference to the result. Waits; throws as the library, as do its functions.
+  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids,
+                bool y_up);
 
   /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
   /// have one only if their cells reach into it. A field is empty where an empty cell has no value. `first`
@@ -45,6 +46,7 @@ class ExactCellRows {
 
   const ExactCellsResult& result_;
   std::vector<std::uint32_t> ids_;
+  bool y_up_;
   std::vector<std::optional<Point>> points_;
   std::vector<ExactCell> cells_;
   std::optional<std::vector<ExactPair>> pairs_;
