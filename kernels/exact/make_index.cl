@@ -33,43 +33,54 @@ kernel void set_bits(global const uint* restrict positions, uint count, global u
 // The pixel of a word's bit, as an offset from the word's first pixel.
 static inline uint pixel_of_bit(uint bit) { return pack((int)(bit % BIN), (int)(bit / BIN)); }
 
-// Level 0 of the pyramid: the first seed of each bin. And how many seeds the bin has.
+// The first seed of a bin, and how many it has.
+static inline uint representative_of_bin(global const uint* bits, int x, int y, int columns, uint* count) {
+  global const uint* const words = bits + (y * columns + x) * WORDS;
+  uint representative = EMPTY, any = 0;
+  *count = 0;
+  for (int word = 0; word < WORDS; ++word) any |= words[word];
+  if (any != 0) {
+    for (int word = WORDS - 1; word >= 0; --word) {
+      const uint first_pixel = pack(x * BIN, y * BIN + word * ROWS_OF_WORD);
+      representative = words[word] == 0 ? representative : first_pixel + pixel_of_bit(lowest_bit(words[word]));
+      *count += popcount(words[word]);
+    }
+    representative |= *count > 1 ? MORE : 0;
+  }
+  return representative;
+}
+
+// Level 0 of the pyramid, and the number of seeds of each bin.
 kernel void find_representatives(global const uint* restrict bits, global uint* restrict pyramid,
                                  global uint* restrict starts, int width, int height) {
   const int bin = (int)get_global_id(0), columns = columns_of(width, 0);
   if (bin >= columns * rows_of(height, 0)) return;
   const int x = bin % columns, y = bin / columns;
-  uint representative = EMPTY, count = 0, any = 0;
-  for (int word = 0; word < WORDS; ++word) any |= bits[bin * WORDS + word];
-  if (any != 0) {
-    for (int word = WORDS - 1; word >= 0; --word) {
-      const uint seeds = bits[bin * WORDS + word];
-      const uint first_pixel = pack(x * BIN, y * BIN + word * ROWS_OF_WORD);
-      representative = seeds == 0 ? representative : first_pixel + pixel_of_bit(lowest_bit(seeds));
-      count += popcount(seeds);
-    }
-    representative |= count > 1 ? MORE : 0;
-  }
-  pyramid[bin] = representative;
+  uint count;
+  pyramid[bin] = representative_of_bin(bits, x, y, columns, &count);
   starts[start_of(x, y, columns)] = count;
 }
 
+// The representative of two parts.
+static inline uint joined(uint a, uint b) { return min(a, b) | (a != EMPTY && b != EMPTY ? MORE : 0); }
+
 // A level above 0: one of the representatives of a bin's FAN x FAN parts.
+static inline uint representative_above(global const uint* pyramid, int x, int y, int width, int height, int level) {
+  const int parts_across = columns_of(width, level - 1), parts_down = rows_of(height, level - 1);
+  const int below = level_start(width, height, level - 1);
+  uint representative = EMPTY;
+  for (int part_y = y * FAN; part_y < min((y + 1) * FAN, parts_down); ++part_y) {
+    for (int part_x = x * FAN; part_x < min((x + 1) * FAN, parts_across); ++part_x) {
+      representative = joined(representative, pyramid[below + part_y * parts_across + part_x]);
+    }
+  }
+  return representative;
+}
 kernel void find_representatives_above(global uint* pyramid, int width, int height, int level) {
   const int bin = (int)get_global_id(0), columns = columns_of(width, level);
   if (bin >= columns * rows_of(height, level)) return;
-  const int x = bin % columns, y = bin / columns, start = level_start(width, height, level);
-  const int parts_across = columns_of(width, level - 1), parts_down = rows_of(height, level - 1);
-  const int below = level_start(width, height, level - 1);
-  uint representative = EMPTY, more = 0;
-  for (int part_y = y * FAN; part_y < min((y + 1) * FAN, parts_down); ++part_y) {
-    for (int part_x = x * FAN; part_x < min((x + 1) * FAN, parts_across); ++part_x) {
-      const uint of_part = pyramid[below + part_y * parts_across + part_x];
-      more |= representative != EMPTY && of_part != EMPTY ? MORE : 0;
-      representative = min(representative, of_part);
-    }
-  }
-  pyramid[start + bin] = representative | more;
+  pyramid[level_start(width, height, level) + bin] =
+      representative_above(pyramid, bin % columns, bin / columns, width, height, level);
 }
 
 // Gives each row of bins its part of the list, in the order in which the rows come, and each bin its start.
@@ -89,18 +100,19 @@ kernel void share_out_list(global uint* restrict bits, global uint* restrict sta
   row[columns] = start;
 }
 
-// Says where the seeds of each word of a bin begin in the list.
+// Says where the seeds of each word of a bin begin in the list, given where the first of them is.
+static inline void start_words_of_bin(global const uint* bits, global uint* word_starts, int bin, uint start) {
+  for (int word = 0; word < WORDS; ++word) {
+    word_starts[bin * WORDS + word] = start;
+    start += popcount(bits[bin * WORDS + word]);
+  }
+}
 kernel void start_words(global const uint* restrict bits, global const uint* restrict starts,
                         global uint* restrict word_starts, int width, int height) {
   const int bin = (int)get_global_id(0), columns = columns_of(width, 0);
   if (bin >= columns * rows_of(height, 0)) return;
   const int start = start_of(bin % columns, bin / columns, columns);
-  uint at = starts[start];
-  if (at == starts[start + 1]) return;
-  for (int word = 0; word < WORDS; ++word) {
-    word_starts[bin * WORDS + word] = at;
-    at += popcount(bits[bin * WORDS + word]);
-  }
+  if (starts[start] != starts[start + 1]) start_words_of_bin(bits, word_starts, bin, starts[start]);
 }
 
 // Lists the seeds and their ids, but not the duplicates ...

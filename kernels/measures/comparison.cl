@@ -1,23 +1,52 @@
 // The labels of two diagrams, pixel by pixel: where they differ, where their seeds are not equally far away within a
-// tolerance, and how much farther one diagram's seeds are than those of the exact one. Each work-item compares a chunk
-// of pixels, so that few of them meet.
+// tolerance, and how much farther one diagram's seeds are than those of the exact one. All counts and sums are of
+// integers, so they are the same whatever work-item compares a pixel.
 
+#include "measures/comparison_sizes.cl"
 #include "measures/seed_place.cl"
 
-// Counts the pixels whose labels differ.
-VECTOR_KERNEL void count_differences(global const uint* restrict a, global const uint* restrict b, uint pixels,
-                                     uint chunk, global uint* restrict differences) {
-  const uint begin = (uint)get_global_id(0) * chunk;
-  if (begin >= pixels) return;
-  const uint end = min(begin + chunk, pixels);
-  uint_v per_lane = (uint_v)0;
-  uint i = begin;
-  for (; i + VOROCL_WIDTH <= end; i += VOROCL_WIDTH) {
-    per_lane += select((uint_v)0, (uint_v)1, LOAD_VECTOR(a + i) != LOAD_VECTOR(b + i));
+// THE WALK of a work-item goes through vectors: the first one is at its number times walk.s0, each one walk.s1 pixels
+// behind the last one, and all are within walk.s2 pixels. On a CPU an item has neighbouring vectors, on a GPU
+// neighbouring items have. The vector at the end of the diagram may be a part of one.
+#define FOR_EACH_VECTOR(first, end, walk, pixels)                                                                  \
+  const uint begin = (uint)get_global_id(0) * walk.s0, walk_end = min(begin + walk.s2, pixels);                    \
+  for (uint first = begin, end; end = min(first + VOROCL_WIDTH, walk_end), first < walk_end; first += walk.s1)
+
+// Adds what the items of a group have found, at `found`, in the first place. In each round the lower half takes what
+// the upper half has.
+#define JOIN_IN_GROUP(take)                                                                     \
+  barrier(CLK_LOCAL_MEM_FENCE);                                                                 \
+  for (int left = (int)get_local_size(0); left > 1; left = (left + 1) / 2) {                    \
+    const int to = (int)get_local_id(0), from = to + (left + 1) / 2;                            \
+    if (from < left) { take; }                                                                  \
+    barrier(CLK_LOCAL_MEM_FENCE);                                                               \
   }
-  uint found = lane_sum(per_lane);
-  for (; i < end; ++i) found += a[i] != b[i];
-  if (found > 0) atomic_add(differences, found);
+
+static inline void add_in_group(uint own, local uint* found, global uint* sum) {
+  found[get_local_id(0)] = own;
+  JOIN_IN_GROUP(found[to] += found[from])
+  if (get_local_id(0) == 0 && found[0] > 0) atomic_add(sum, found[0]);
+}
+
+// Whether some labels from `first` to `end` differ. (The last pixels of all count as if they did.)
+static inline bool may_differ(global const uint* a, global const uint* b, uint first, uint end) {
+  return end - first < VOROCL_WIDTH || ANY(LOAD_VECTOR(a + first) != LOAD_VECTOR(b + first));
+}
+
+// Counts the pixels whose labels differ.
+VECTOR_KERNEL void count_differences(global const uint* restrict a, global const uint* restrict b, uint4 walk,
+                                     uint pixels, global uint* restrict differences) {
+  local uint found[MOST_COMPARING];
+  uint_v per_lane = (uint_v)0;
+  uint of_part = 0;
+  FOR_EACH_VECTOR(first, end, walk, pixels) {
+    if (end - first == VOROCL_WIDTH) {
+      per_lane += select((uint_v)0, (uint_v)1, LOAD_VECTOR(a + first) != LOAD_VECTOR(b + first));
+    } else {
+      for (uint i = first; i < end; ++i) of_part += a[i] != b[i];
+    }
+  }
+  add_in_group(lane_sum(per_lane) + of_part, found, differences);
 }
 
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
@@ -29,22 +58,22 @@ static inline float excess(LENGTH distance, LENGTH least) {
 #endif
 }
 
-// Judges labels by the exact ones: how many are wrong, and how many of those have no seed; the sum and the
-// greatest of the others' excess distances. Where labels are equal, nothing is looked up.
-VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact,
-                                SEED_PARAMETERS, uint chunk, global uint2* restrict wrong,
-                                global float2* restrict excesses) {
+// Judges labels by the exact ones: how many are wrong, and how many of those have no seed; the sum of the others'
+// excess distances, in parts of a pixel, and the greatest one, of each group. Where labels are equal, nothing is looked
+// up.
+VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const uint* restrict exact, uint4 walk,
+                                SEED_PARAMETERS, global uint2* restrict wrong, global long* restrict sums,
+                                global float* restrict greatest) {
+  local uint2 wrong_of[MOST_COMPARING];
+  local long sum_of[MOST_COMPARING];
+  local float greatest_of[MOST_COMPARING];
   const window_t window = window_of(width, height, periods);
-  const uint item = (uint)get_global_id(0), pixels = (uint)(width * height);
-  if (item >= (pixels + chunk - 1) / chunk) return;
-  const uint end = min((item + 1) * chunk, pixels);
   uint2 found = (uint2)0;
-  float2 sum_and_greatest = (float2)0;
-  for (uint first = item * chunk; first < end; first += VOROCL_WIDTH) {
-    const uint vector_end = min(first + VOROCL_WIDTH, end);
-    const bool whole = vector_end == first + VOROCL_WIDTH;
-    if (whole && !ANY(LOAD_VECTOR(labels + first) != LOAD_VECTOR(exact + first))) continue;
-    for (uint i = first; i < vector_end; ++i) {
+  long sum = 0;
+  float most = 0;
+  FOR_EACH_VECTOR(first, end, walk, (uint)(width * height)) {
+    if (!may_differ(labels, exact, first, end)) continue;
+    for (uint i = first; i < end; ++i) {
       const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
       const LENGTH distance = distance_to(seeds[min(labels[i], count)], x, y, window);
       const LENGTH least = distance_to(seeds[min(exact[i], count)], x, y, window);
@@ -52,29 +81,40 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
       found += (uint2)(1, distance == NO_SEED);
       if (distance == NO_SEED) continue;
       const float by = excess(distance, least);
-      sum_and_greatest = (float2)(sum_and_greatest.s0 + by, fmax(sum_and_greatest.s1, by));
+      sum += (long)(by * PARTS_OF_EXCESS + 0.5f);
+      most = fmax(most, by);
     }
   }
-  wrong[item] = found;
-  excesses[item] = sum_and_greatest;
+  const int item = (int)get_local_id(0);
+  wrong_of[item] = found;
+  sum_of[item] = sum;
+  greatest_of[item] = most;
+  JOIN_IN_GROUP(wrong_of[to] += wrong_of[from]; sum_of[to] += sum_of[from];
+                greatest_of[to] = fmax(greatest_of[to], greatest_of[from]))
+  if (get_local_id(0) == 0) {
+    wrong[get_group_id(0)] = wrong_of[0];
+    sums[get_group_id(0)] = sum_of[0];
+    greatest[get_group_id(0)] = greatest_of[0];
+  }
 }
 
 // Adds the pixels whose two labels name seeds that are not equally far away, within a tolerance in pixels.
-VECTOR_KERNEL void count_distant(global const uint* restrict a, global const uint* restrict b, SEED_PARAMETERS,
-                                 uint chunk, float tolerance, global uint* restrict differences) {
+VECTOR_KERNEL void count_distant(global const uint* restrict a, global const uint* restrict b, uint4 walk,
+                                 SEED_PARAMETERS, float tolerance, global uint* restrict differences) {
+  local uint of_items[MOST_COMPARING];
   const window_t window = window_of(width, height, periods);
-  const uint item = (uint)get_global_id(0), pixels = (uint)(width * height);
-  if (item >= (pixels + chunk - 1) / chunk) return;
-  const uint end = min((item + 1) * chunk, pixels);
   uint found = 0;
-  for (uint i = item * chunk; i < end; ++i) {
-    if (a[i] == b[i]) continue;
-    const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
-    const LENGTH of_a = distance_to(seeds[min(a[i], count)], x, y, window);
-    const LENGTH of_b = distance_to(seeds[min(b[i], count)], x, y, window);
-    if (of_a == of_b) continue;
-    const LENGTH longer = max(of_a, of_b);
-    found += longer == NO_SEED || excess(longer, min(of_a, of_b)) > tolerance;
+  FOR_EACH_VECTOR(first, end, walk, (uint)(width * height)) {
+    if (!may_differ(a, b, first, end)) continue;
+    for (uint i = first; i < end; ++i) {
+      if (a[i] == b[i]) continue;
+      const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
+      const LENGTH of_a = distance_to(seeds[min(a[i], count)], x, y, window);
+      const LENGTH of_b = distance_to(seeds[min(b[i], count)], x, y, window);
+      if (of_a == of_b) continue;
+      const LENGTH longer = max(of_a, of_b);
+      found += longer == NO_SEED || excess(longer, min(of_a, of_b)) > tolerance;
+    }
   }
-  if (found > 0) atomic_add(differences, found);
+  add_in_group(found, of_items, differences);
 }

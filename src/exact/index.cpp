@@ -88,18 +88,25 @@ cl::Event make_index(Filling& filling, DiagramState& state, const Device& device
   cl::Event first = fill(device, bits, cl_uint{0}, bit_words + COUNTERS);
   kernel("set_bits")
       .over_items(count, positions, count, bits, bit_of_seed, duplicates, counters, width, height);
-  kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
-  for (int level = 1; level <= top_level(frame); ++level) {
-    kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
-  }
+  const int top = top_level(frame);
   if (shape == Shape::group) {
-    kernel("share_out_list_in_groups")
-        .in_groups_of(tuning.patch_items)
-        .over_items(down * tuning.patch_items, bits, starts, counters, width);
+    const std::size_t items = tuning.patch_items;
+    kernel("index_bins")
+        .in_groups_of(items)
+        .over_items(down * items, bits, pyramid, starts, word_starts, counters, width);
+    for (int level = 1; level <= top; level += 2) {
+      kernel("find_representatives_in_groups")
+          .in_groups_of(items)
+          .over_items(bins(frame, level + 1) * items, pyramid, width, height, level, top);
+    }
   } else {
+    kernel("find_representatives").over_items(bins(frame, 0), bits, pyramid, starts, width, height);
+    for (int level = 1; level <= top; ++level) {
+      kernel("find_representatives_above").over_items(bins(frame, level), pyramid, width, height, level);
+    }
     kernel("share_out_list").over_items(down, bits, starts, counters, width, height);
+    kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
   }
-  kernel("start_words").over_items(bins(frame, 0), bits, starts, word_starts, width, height);
   kernel("list_seeds")
       .over_items(count, positions, bit_of_seed, count, bits, word_starts, list, ids, width, height);
   kernel("keep_lowest_ids")

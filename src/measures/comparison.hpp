@@ -5,10 +5,19 @@
 
 namespace vorocl {
 
-/// The pixels that a work-item compares, and the work-items of a grid.
-constexpr std::size_t pixels_per_item = 1024;
-inline std::size_t comparing_items(const PixelGrid& grid) {
-  return (grid.pixels() + pixels_per_item - 1) / pixels_per_item;
+/// How the work-items of a kernel share out a diagram's pixels.
+struct Walk {
+  std::size_t groups, items_of_group;
+  cl_uint4 steps;  // see comparison.cl
+};
+Walk walk_through(const MeasuredDiagram& of, const Kernel& kernel);
+
+/// Enqueues a kernel over the labels of two diagrams by such a walk, with these arguments behind.
+template <typename... Arguments>
+cl::Event compare(Kernel& kernel, const Walk& walk, const Diagram& a, const Diagram& b,
+                  const Arguments&... arguments) {
+  return kernel.in_groups_of(walk.items_of_group)
+      .over_items(walk.groups * walk.items_of_group, a.labels(), b.labels(), walk.steps, arguments...);
 }
 
 /// What a result of two diagrams holds: what it is of, and the other one's seeds.

@@ -5,10 +5,33 @@
 
 #include "measures/comparison.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/opencl_info.hpp"
+// Last: it defines macros.
+#include "measures/comparison_sizes.cl"
 
 namespace vorocl {
 
 // --- two diagrams ---
+
+Walk walk_through(const MeasuredDiagram& of, const Kernel& kernel) {
+  const auto divided_up = [](std::size_t number, std::size_t by) { return (number + by - 1) / by; };
+  const Tuning& tuning = of.device.tuning();
+  const std::size_t pixels = of.grid.pixels(), width = kernel.vector_width();
+  const std::size_t items = std::min<std::size_t>(tuning.group_width * tuning.group_height, MOST_COMPARING);
+  const std::size_t fewest = divided_up(pixels, MOST_OF_GROUP);
+  if (tuning.shape == Shape::vector) {
+    const auto chunk = static_cast<cl_uint>(divided_up(MOST_OF_GROUP, items));
+    return {fewest, items, {{chunk, static_cast<cl_uint>(width), chunk}}};
+  }
+  // As many as a device runs at a time.
+  const std::size_t at_a_time =
+      8 * device_info<cl_uint>(of.device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+  const std::size_t groups = std::max(std::min(divided_up(pixels, items * width), at_a_time), fewest);
+  return {groups,
+          items,
+          {{static_cast<cl_uint>(width), static_cast<cl_uint>(groups * items * width),
+            static_cast<cl_uint>(pixels)}}};
+}
 
 void check_labels_fit(const Diagram& a, const Diagram& b) {
   if (!a.device().same_as(b.device())) throw Error("the diagrams belong to different devices");
@@ -32,7 +55,8 @@ MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
 // --- errors ---
 
 struct DistanceErrorsState : Compared {
-  cl::Buffer wrong, excesses;  // of each work-item: see comparison.cl
+  std::size_t groups = 0;
+  cl::Buffer wrong, sums, greatest;  // of each work-group: see comparison.cl
 };
 
 DistanceErrorsResult::DistanceErrorsResult() = default;
@@ -44,14 +68,16 @@ Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErr
   Measuring<DistanceErrorsState> measuring(result);
   DistanceErrorsState& found = measuring.state();
   MeasuredDiagram of = cells_of_both(diagram, exact);
-  const std::size_t items = comparing_items(of.grid);
-  make_room(found.wrong, of.device, items * sizeof(cl_uint2));
-  make_room(found.excesses, of.device, items * sizeof(cl_float2));
+  Kernel& kernel =
+      found.kernels.get(of.device, "measures/comparison.cl", "judge_labels", of.grid, of.options());
+  const Walk walk = walk_through(of, kernel);
+  found.groups = walk.groups;
+  make_room(found.wrong, of.device, walk.groups * sizeof(cl_uint2));
+  make_room(found.sums, of.device, walk.groups * sizeof(cl_long));
+  make_room(found.greatest, of.device, walk.groups * sizeof(cl_float));
   const cl::Event judged =
-      found.kernels.get(of.device, "measures/comparison.cl", "judge_labels", of.grid, of.options())
-          .over_items(items, diagram.labels(), exact.labels(), of.positions(), of.count(), of.periods(),
-                      of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item), found.wrong,
-                      found.excesses);
+      compare(kernel, walk, diagram, exact, of.positions(), of.count(), of.periods(), of.grid.width(),
+              of.grid.height(), found.wrong, found.sums, found.greatest);
   found.other = labels_of(exact).seeds;
   return measuring.commit(std::move(of), judged, judged);
 }
@@ -61,18 +87,18 @@ DistanceErrors DistanceErrorsResult::read() const {
   if (!state_ || state_->empty()) return errors;
   state_->check();
   const MeasuredDiagram& of = *state_->of;
-  const std::size_t items = comparing_items(of.grid);
+  const std::size_t groups = state_->groups;
   errors.pixels = of.grid.pixels();
-  for (const cl_uint2& some : download<cl_uint2>(of.device, state_->wrong, items)) {
+  for (const cl_uint2& some : download<cl_uint2>(of.device, state_->wrong, groups)) {
     errors.wrong_pixels += some.s[0];
     errors.unlabelled_pixels += some.s[1];
   }
-  double sum = 0;
-  for (const cl_float2& some : download<cl_float2>(of.device, state_->excesses, items)) {
-    sum += some.s[0];
-    errors.largest_excess = std::max(errors.largest_excess, static_cast<double>(some.s[1]));
-  }
-  errors.mean_excess = sum / static_cast<double>(errors.pixels);
+  double parts = 0;
+  for (const cl_long some : download<cl_long>(of.device, state_->sums, groups))
+    parts += static_cast<double>(some);
+  for (const cl_float some : download<cl_float>(of.device, state_->greatest, groups))
+    errors.largest_excess = std::max(errors.largest_excess, static_cast<double>(some));
+  errors.mean_excess = parts / PARTS_OF_EXCESS / static_cast<double>(errors.pixels);
   return errors;
 }
 

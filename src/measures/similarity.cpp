@@ -26,17 +26,16 @@ double percentage(std::size_t differences, std::size_t pixels) {
   return 100.0 * static_cast<double>(pixels - differences) / static_cast<double>(pixels);
 }
 
-/// Counts differences by a kernel, which gets the labels, these arguments, and the counter.
+/// Counts differences by a kernel, which gets the labels, the walk, these arguments, and the counter.
 template <typename... Arguments>
 Report count(Measuring<SimilarityState>& measuring, const MeasuredDiagram& of, const Diagram& a,
-             const Diagram& b, const char* kernel, const KernelOptions& options,
+             const Diagram& b, const char* name, const KernelOptions& options,
              const Arguments&... arguments) {
   SimilarityState& found = measuring.state();
   make_room(found.differences, of.device, sizeof(cl_uint));
   const cl::Event first = fill(of.device, found.differences, cl_uint{0}, 1);
-  const cl::Event last =
-      found.kernels.get(of.device, "measures/comparison.cl", kernel, of.grid, options)
-          .over_items(comparing_items(of.grid), a.labels(), b.labels(), arguments..., found.differences);
+  Kernel& kernel = found.kernels.get(of.device, "measures/comparison.cl", name, of.grid, options);
+  const cl::Event last = compare(kernel, walk_through(of, kernel), a, b, arguments..., found.differences);
   found.other = labels_of(b).seeds;
   return measuring.commit(MeasuredDiagram(of), first, last);
 }
@@ -58,7 +57,7 @@ Report similarity(const Diagram& a, const Diagram& b, SimilarityResult& result) 
   check_labels_fit(a, b);
   const MeasuredDiagram of = labels_of(a);
   const auto pixels = static_cast<cl_uint>(of.grid.pixels());
-  return count(measuring, of, a, b, "count_differences", {}, pixels, static_cast<cl_uint>(pixels_per_item));
+  return count(measuring, of, a, b, "count_differences", {}, pixels);
 }
 
 Report similarity(const Diagram& a, const Diagram& b, double tolerance, SimilarityResult& result) {
@@ -68,8 +67,7 @@ Report similarity(const Diagram& a, const Diagram& b, double tolerance, Similari
   }
   const MeasuredDiagram of = cells_of_both(a, b);
   return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.periods(),
-               of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item),
-               static_cast<cl_float>(tolerance));
+               of.grid.width(), of.grid.height(), static_cast<cl_float>(tolerance));
 }
 
 std::size_t SimilarityResult::read_differences() const {

@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
     Snap snap;
     std::size_t commands, commands_if_periodic;
   };
-  for (const Case& c : {Case{Shape::group, Snap::to_pixels, 12, 13},
+  for (const Case& c : {Case{Shape::group, Snap::to_pixels, 9, 10},
                         {Shape::vector, Snap::to_pixels, 13, 14},
                         {Shape::group, Snap::none, 6, 6},
                         {Shape::vector, Snap::none, 6, 6}}) {

@@ -1,6 +1,7 @@
 // Errors of diagrams against straight host code.
 #define BOOST_TEST_MODULE distance_errors
 #include <cmath>
+#include <optional>
 
 #include "measured_cases.hpp"
 #include "read_measures.hpp"
@@ -64,6 +65,44 @@ BOOST_AUTO_TEST_CASE(errors_are_those_of_the_host) {
       for (const Device& device : shapes()) {
         check("random labels", device, example, metric, random_labels(example.grid, cells, 4), ground_truth);
         check("exact labels", device, example, metric, ground_truth, ground_truth);
+      }
+    }
+  }
+}
+
+// Whichever work-item compares a pixel, and however its group adds: the same bits.
+BOOST_AUTO_TEST_CASE(comparisons_are_the_same_in_every_shape_and_group) {
+  const std::vector<Tuning> tunings = {{16, 64, 1, Shape::vector},
+                                       {4, 5, 3, Shape::vector},
+                                       {4, 32, 8, Shape::group},
+                                       {1, 5, 3, Shape::group},
+                                       {1, 64, 8, Shape::group}};
+  for (const Grid& grid : {Grid(700, 300), Grid(1, 1), Grid(17, 1)}) {
+    const std::vector<Pixel> pixels = random_pixels(grid, 50, 6);
+    const Labels labels = random_labels(grid, 50, 4);
+    const Labels truth = brute_force(grid, pixels, Metric::euclidean);
+    const DistanceErrors host = on_the_host(grid, pixels, Metric::euclidean, labels, truth);
+    std::optional<DistanceErrors> first;
+    for (const Tuning& tuning : tunings) {
+      const Device device = test_device().with_tuning(tuning);
+      const Seeds seeds(device, grid, centres(pixels));
+      Diagram exact(device, grid), diagram(device, grid);
+      exact.write(truth, seeds, Metric::euclidean);
+      diagram.write(labels, seeds, Metric::euclidean);
+      const DistanceErrors errors = errors_of(diagram, exact);
+      if (!first) first = errors;
+      SimilarityResult different, distant;
+      similarity(diagram, exact, different);
+      similarity(diagram, exact, 0, distant);
+      BOOST_TEST_CONTEXT(grid.width() << " pixels, shape " << static_cast<int>(tuning.shape) << ", "
+                                      << tuning.group_width << " x " << tuning.group_height) {
+        BOOST_TEST(errors.wrong_pixels == host.wrong_pixels);
+        BOOST_TEST(errors.unlabelled_pixels == host.unlabelled_pixels);
+        BOOST_TEST(errors.mean_excess == first->mean_excess);
+        BOOST_TEST(errors.largest_excess == first->largest_excess);
+        BOOST_TEST(errors.mean_excess == host.mean_excess, boost::test_tools::tolerance(1e-5));
+        BOOST_TEST(different.read() == similarity(labels, truth));
+        BOOST_TEST(distant.read_differences() == host.wrong_pixels);
       }
     }
   }

@@ -2,8 +2,7 @@
 // together.
 
 #define INDEX_OF_GROUPS
-#include "exact/make_index.cl"
-#include "exact/group/share_out.cl"
+#include "exact/group/index.cl"
 #include "exact/group/dense.cl"
 #include "exact/group/near.cl"
 #include "exact/group/search.cl"
