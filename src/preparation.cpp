@@ -100,22 +100,20 @@ void prepare_at(const Scale& scale, const Device& device, const Specialisation& 
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
   for (const Method& each : methods()) prepare(each, device, grid, scale.seeds, options);
-  Seeds seeds = Seeds::random(device, grid, scale.seeds, 1);
-  random_step(seeds, 1, Border::reflect, 1, 1);
+  Seeds random = Seeds::random(device, grid, scale.seeds, 1);
+  random_step(random, 1, Border::reflect, 1, 1);
   Diagram diagram(device, grid), other(device, grid);
   const Method& exact = method("exact");
   RelaxOptions by_weight;
   by_weight.density.assign(grid.pixels(), 1.0F);
-  relax(seeds, diagram, engine(exact, options), 1);
-  relax(seeds, diagram, engine(exact, options), 1, {}, by_weight);
-  exact.run(seeds, other, options);
-  measure(diagram, other, Snap::to_pixels);
-
-  const Seeds within(device, grid, spread_points(scale.seeds, scale.width, scale.height), Outside::count,
-                     Snap::none);
-  exact.run(within, diagram, options);
-  exact.run(within, other, options);
-  measure(diagram, other, Snap::none);
+  const std::vector<Point> points = spread_points(scale.seeds, scale.width, scale.height);
+  for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+    Seeds seeds(device, grid, points, Outside::count, snap);
+    exact.run(seeds, other, options);
+    relax(seeds, diagram, engine(exact, options), 1);
+    relax(seeds, diagram, engine(exact, options), 1, {}, by_weight);
+    measure(diagram, other, snap);
+  }
 }
 
 /// A window with seeds around it, and then far away.

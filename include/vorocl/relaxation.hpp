@@ -26,9 +26,8 @@ struct Relaxation {
 };
 
 struct RelaxOptions {
-  /// In pixels along an axis: a round that would move all seeds by less ends the relaxation. Seeds that are
-  /// whole pixels move by whole pixels, so that for every tolerance of at most 1 they end where no seed would
-  /// move.
+  /// In pixels along an axis: a round that would move all seeds by less ends the relaxation. Snapped seeds
+  /// move by whole pixels, so that for every tolerance of at most 1 they end where no seed would move.
   double tolerance = 1.0 / 64;
 
   /// How dense the seeds shall be: a value of at least 0 for each pixel, row-major as the labels; empty: all
@@ -54,20 +53,22 @@ VOROCL_API double energy(const Diagram& diagram);
 
 /// Lloyd's algorithm on pixels (Lloyd 1982; Du, Faber & Gunzburger 1999, "Centroidal Voronoi tessellations").
 /// A round moves every seed to its cell's centroid and lets the engine fill the diagram again; seeds with
-/// empty cells stay. With Snap::none a seed goes to the position nearest to the centroid that is a whole
-/// number of 1/4096 pixel; the host moves it. Else it goes to the pixel nearest to it (if two are, and the
-/// seed is on one of them, it stays). Ends after so many rounds, when no seed would move by the tolerance, or
-/// when the observer says so. In the end the diagram is that of the seeds.
+/// empty cells stay. A seed goes to the position nearest to the centroid that is a whole number of 1/4096
+/// pixel; seeds of Seeds::random() and Seeds::from_mask() begin at the centres of their pixels. Seeds of
+/// points with Snap::to_pixels go to the pixel nearest to the centroid (if two are, and the seed is on one of
+/// them, it stays): they soon stay where their cells are far from even (docs/relaxation.md). Ends after so
+/// many rounds, when no seed would move by the tolerance, or when the observer says so. In the end the
+/// diagram is that of the seeds.
 ///
 /// The diagram may hold anything at the start.
 ///
-/// With an exact Euclidean engine and whole pixels the energy falls with every round, so the end is sure to
-/// come; an approximate engine may make it rise now and then. Seeds that come to share a pixel leave the
-/// higher id without a cell. Waits in every round. Throws Error if `rounds` is negative, the tolerance is not
-/// above 0, the density has another size than the diagram, a value that is negative or not finite, or nothing
-/// but zeros, seeds lie outside the grid, or the diagram's window is not the whole grid, with periods of at
-/// most 32,000 pixels; and as the engine does. Cost of a density: 2 bytes of device memory per pixel and 72
-/// per seed.
+/// With an exact Euclidean engine and snapped seeds the energy falls with every round, so the end is sure to
+/// come; an approximate engine may make it rise now and then. Where seeds are snapped, those that come to
+/// share a pixel leave the higher id without a cell. Waits in every round. Throws Error if `rounds` is
+/// negative, the tolerance is not above 0, the density has another size than the diagram, a value that is
+/// negative or not finite, or nothing but zeros, seeds lie outside the grid, or the diagram's window is not
+/// the whole grid, with periods of at most 32,000 pixels; and as the engine does. Cost of a density: 2 bytes
+/// of device memory per pixel and 72 per seed.
 VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
                             const RelaxationObserver& observer = {}, const RelaxOptions& options = {});
 

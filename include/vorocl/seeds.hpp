@@ -36,8 +36,8 @@ enum class Snap {
 ///
 /// With Snap::none an exact diagram is exact for the points themselves, each rounded to 1/4096 of a pixel of
 /// the grid, once and never out of its pixel: several of one pixel may own pixels then, and measures take the
-/// same positions. Flooding methods, and what is made by the device alone (random(), from_mask(),
-/// random_step()), know whole pixels.
+/// same positions. Flooding methods know whole pixels, and random(), from_mask() and random_step() make them;
+/// points that seeds of random() and from_mask() move to later are taken as with Snap::none.
 ///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the

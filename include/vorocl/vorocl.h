@@ -422,11 +422,12 @@ VOROCL_API vorocl_status vorocl_prepare(const char* method, const vorocl_device*
 /// As vorocl::Relaxation.
 typedef struct vorocl_relaxation {
   int rounds;     ///< that were run
-  int converged;  ///< 1 if no seed would move any more, else 0
+  int converged;  ///< 1 if no seed would move by 1/64 of a pixel or more, else 0
 } vorocl_relaxation;
 
-/// Moves seeds to the centroids of their cells, for at most so many rounds: see vorocl::relax(). In the end
-/// the diagram is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
+/// Moves seeds to the centroids of their cells, for at most so many rounds, to 1/4096 of a pixel, or from
+/// pixel to pixel if they were made with VOROCL_SNAP_TO_PIXELS: see vorocl::relax(). In the end the diagram
+/// is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
 /// vorocl::RelaxOptions::density; NULL: all pixels weigh alike. `energies` has room for `rounds` + 1 values,
 /// at the start and after each round; `moved`, the seeds that each round moved, for `rounds`; each of the
 /// three may be NULL. Waits.

@@ -76,7 +76,7 @@ VECTOR_KERNEL void list_candidates(SEED_INDEX_PARAMETERS, int level, global cons
     return;
   }
   const int region = list_number(&index, REGION, x / FAN, y / FAN);  // of a tile
-  Search search;
+  BoxSearch search;
   if (level == TILE && counts[region] != TOO_MANY) {
     search.count = take_candidates(lists + (size_t)region * MOST_CANDIDATES, (int)counts[region], box,
                                    &search.dominators, search.seeds);
@@ -117,7 +117,7 @@ static inline void store_ids(uint_v seeds, const SeedIndex* index, global uint* 
 }
 
 // Labels the bin that is a search's box by any number of candidates, list after list in any order.
-static inline void label_by_search(Search* search, const SeedIndex* index, global uint* labels) {
+static inline void label_by_search(BoxSearch* search, const SeedIndex* index, global uint* labels) {
   const Box box = search->box;
   uint_v least[BIN * BIN / VOROCL_WIDTH], nearest[BIN * BIN / VOROCL_WIDTH];
   for (int i = 0; i < BIN * BIN / VOROCL_WIDTH; ++i) least[i] = nearest[i] = (uint_v)0xffffffffu;
@@ -164,7 +164,7 @@ VECTOR_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict 
     return;
   }
   for (int bin_y = first; bin_y < end; ++bin_y) {
-    Search search;
+    BoxSearch search;
     begin_search(&search, box_of(&index, x * BIN, bin_y * BIN, BIN, BIN), &index, pyramid, top_level);
     label_by_search(&search, &index, labels);
   }

@@ -42,7 +42,7 @@ typedef struct {
   int next_part;  // of the parts of level 0 of all bins, the first one not collected yet
   int count;      // candidates found and not yet taken: a full list, the seeds of one bin more, and padding
   uint seeds[MOST_CANDIDATES + BIN * BIN + VOROCL_WIDTH];
-} Search;
+} BoxSearch;
 
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
 static inline int_v along_to_interval(int from, int_v first, int_v last) {
@@ -51,7 +51,7 @@ static inline int_v along_to_interval(int from, int_v first, int_v last) {
 
 // Drops the bins that are dominated by one of the dominators from `begin` to `end`. A bin's first pixel stands for its
 // seeds in the tie rule, for none of them comes before it.
-static inline void drop_dominated_bins(Search* search, const SeedIndex* index, int begin, int end) {
+static inline void drop_dominated_bins(BoxSearch* search, const SeedIndex* index, int begin, int end) {
   const Box box = search->box;
   const int size = 1 << bin_bits(search->level);
   int kept = 0;
@@ -115,7 +115,7 @@ static inline Bins bins_that_matter(int box_first, int box_last, int shift, int 
 }
 
 // Adds those bins of a square of the search's level, of one image, that are not empty and may matter.
-static inline void add_bins(Search* search, const SeedIndex* index, global const uint* pyramid, uint image, int x,
+static inline void add_bins(BoxSearch* search, const SeedIndex* index, global const uint* pyramid, uint image, int x,
                             int y, int size) {
   const Box box = search->box;
   const int bits = bin_bits(search->level), columns = columns_of(index->width, search->level);
@@ -137,7 +137,7 @@ static inline void add_bins(Search* search, const SeedIndex* index, global const
 }
 
 // Adds all bins of the search's level, with all their images.
-static inline void add_all_bins(Search* search, const SeedIndex* index, global const uint* pyramid) {
+static inline void add_all_bins(BoxSearch* search, const SeedIndex* index, global const uint* pyramid) {
 #ifdef VOROCL_PERIODIC
   for (uint image_y = PERIODIC_Y ? 0 : 1; image_y <= (PERIODIC_Y ? 2 : 1); ++image_y) {
     for (uint image_x = PERIODIC_X ? 0 : 1; image_x <= (PERIODIC_X ? 2 : 1); ++image_x) {
@@ -151,7 +151,7 @@ static inline void add_all_bins(Search* search, const SeedIndex* index, global c
 
 // Takes the seeds that are their bins' only ones as candidates, as long as there is room, so that these bins need not
 // be refined.
-static inline void take_only_seeds(Search* search) {
+static inline void take_only_seeds(BoxSearch* search) {
   int kept = 0;
   for (int i = 0; i < search->bin_count; ++i) {
     if (search->bins[i] & MORE || search->count >= MOST_CANDIDATES) {
@@ -164,7 +164,7 @@ static inline void take_only_seeds(Search* search) {
 }
 
 // Finds the bins that may hold candidates of the box, as fine as they can be listed, and candidates on the way.
-static inline void begin_search(Search* search, Box box, const SeedIndex* index, global const uint* pyramid,
+static inline void begin_search(BoxSearch* search, Box box, const SeedIndex* index, global const uint* pyramid,
                                 int top_level) {
   uint parents[MOST_PARENTS];
   search->box = box;
@@ -196,7 +196,7 @@ static inline void begin_search(Search* search, Box box, const SeedIndex* index,
 }
 
 // Adds the seeds of an image of a bin of level 0 that can be candidates.
-static inline void collect_bin(Search* search, const SeedIndex* index, int x, int y, uint image) {
+static inline void collect_bin(BoxSearch* search, const SeedIndex* index, int x, int y, uint image) {
   const int first = search->count;
   search->count = add_seeds(index, x, x, y, search->seeds, search->count);
 #ifdef VOROCL_PERIODIC
@@ -222,7 +222,7 @@ static inline void collect_bin(Search* search, const SeedIndex* index, int x, in
 
 // Collects candidates behind those that the search has already; false if there are more of them than fit, so that the
 // caller takes these and comes again.
-static inline bool find_candidates(Search* search, const SeedIndex* index) {
+static inline bool find_candidates(BoxSearch* search, const SeedIndex* index) {
   const int side_bits = FAN_BITS * search->level, side = 1 << side_bits;  // parts of a bin along an axis
   const int parts = search->bin_count << 2 * side_bits;
   while (search->next_part < parts) {

@@ -36,17 +36,17 @@ static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, i
 
 // Labels so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No
 // pixel of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is
-// within that reach of some pixel.
+// no farther from some pixel.
 static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
   Near near;
   near.box = box_of(index, x * BIN, y * BIN, BIN, bins * BIN);
   no_dominators(&near.dominators, near.box);
   if (!take_near(&near, index, x, y, bins, 1) || near.count == 0) return false;
   improve_dominator(&near.dominators, 0, near.seeds, near.count);
-  int reach = 0;
-  for (int corner = 0; corner < CORNERS; ++corner) reach = max(reach, (int)near.dominators.distance[0][corner]);
-  if (reach > ALONG(MOST_AWAY * BIN)) return false;
-  if (reach > ALONG(BIN) && !take_near(&near, index, x, y, bins, MOST_AWAY)) return false;
+  int farthest = 0;
+  for (int corner = 0; corner < CORNERS; ++corner) farthest = max(farthest, (int)near.dominators.distance[0][corner]);
+  if (farthest > ALONG(MOST_AWAY * BIN)) return false;
+  if (farthest > ALONG(BIN) && !take_near(&near, index, x, y, bins, MOST_AWAY)) return false;
   near.count = drop_dominated(&near.dominators, near.seeds, near.count);
   if (near.count > MOST_KEYS) return false;
   label_by_list(index, &near.dominators, near.seeds, near.count, near.box, labels);

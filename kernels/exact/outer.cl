@@ -111,34 +111,34 @@ static inline length4 to_corners(const Sides* sides) {
 typedef struct {
   int4 x, y;
   length4 distance;  // from each to its corner
-} Winners;
+} CornerDominators;
 
-// Whether a winner is nearer at all four corners. The greatest lag along one axis and that along the other meet at one
-// corner.
+// Whether a dominator is nearer at all four corners. The greatest lag along one axis and that along the other meet at
+// one corner.
 static inline bool is_nearer(int x, int y, int4 box, const Sides* sides) {
   const LENGTH lag_x = max(along((LENGTH)x - box.LEFT) - sides->left, along((LENGTH)x - box.RIGHT) - sides->right);
   const LENGTH lag_y = max(along((LENGTH)y - box.TOP) - sides->top, along((LENGTH)y - box.BOTTOM) - sides->bottom);
   return lag_x + lag_y < 0;
 }
 
-// Turns the winners until the first one is nearer, if one is: what ruled out the last seed often rules out the next.
+// Turns the dominators until the first one is nearer, if one is: what ruled out the last seed often rules out the next.
 // (Unrolled, this takes more registers than a GPU has.)
-static inline bool is_dominated(Winners* winners, int4 box, const Sides* sides) {
+static inline bool is_dominated(CornerDominators* dominators, int4 box, const Sides* sides) {
 #pragma unroll 1
   for (int turns = 0; turns < 4; ++turns) {
-    if (is_nearer(winners->x.s0, winners->y.s0, box, sides)) return true;
-    winners->x = winners->x.s1230;
-    winners->y = winners->y.s1230;
+    if (is_nearer(dominators->x.s0, dominators->y.s0, box, sides)) return true;
+    dominators->x = dominators->x.s1230;
+    dominators->y = dominators->y.s1230;
   }
   return false;
 }
 
-static inline void take_winners(Winners* winners, int4 box, int2 place) {
+static inline void take_dominators(CornerDominators* dominators, int4 box, int2 place) {
   const Sides sides = sides_to_place(box, place);
   const length4 distance = to_corners(&sides);
-  winners->x = select((int4)place.x, winners->x, convert_int4(distance >= winners->distance));
-  winners->y = select((int4)place.y, winners->y, convert_int4(distance >= winners->distance));
-  winners->distance = min(winners->distance, distance);
+  dominators->x = select((int4)place.x, dominators->x, convert_int4(distance >= dominators->distance));
+  dominators->y = select((int4)place.y, dominators->y, convert_int4(distance >= dominators->distance));
+  dominators->distance = min(dominators->distance, distance);
 }
 
 // --- the kernels ---
@@ -164,8 +164,8 @@ kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels
   counts[item] = count_and_rest;
   if (box.RIGHT < box.LEFT || box.BOTTOM < box.TOP) return;
 
-  Winners winners;
-  winners.distance = (length4)MOST_LENGTH;
+  CornerDominators dominators;
+  dominators.distance = (length4)MOST_LENGTH;
   const uint label = labels[(box.TOP + box.BOTTOM) / 2 * width + (box.LEFT + box.RIGHT) / 2];
   if (label != NO_LABEL) {
     const Sides sides = sides_to_place(box, seeds[label]);
@@ -173,24 +173,24 @@ kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels
                             min(box.TOP - home.TOP, home.BOTTOM - box.BOTTOM));
     // All outer seeds are farther from the box than this seed is from any of its pixels.
     if (gap > 0 && along(gap) > max(sides.left, sides.right) + max(sides.top, sides.bottom)) return;
-    take_winners(&winners, box, seeds[labels[box.TOP * width + box.LEFT]]);
-    take_winners(&winners, box, seeds[labels[box.TOP * width + box.RIGHT]]);
-    take_winners(&winners, box, seeds[labels[box.BOTTOM * width + box.LEFT]]);
-    take_winners(&winners, box, seeds[labels[box.BOTTOM * width + box.RIGHT]]);
+    take_dominators(&dominators, box, seeds[labels[box.TOP * width + box.LEFT]]);
+    take_dominators(&dominators, box, seeds[labels[box.TOP * width + box.RIGHT]]);
+    take_dominators(&dominators, box, seeds[labels[box.BOTTOM * width + box.LEFT]]);
+    take_dominators(&dominators, box, seeds[labels[box.BOTTOM * width + box.RIGHT]]);
   } else {
-    take_winners(&winners, box, places[0]);
+    take_dominators(&dominators, box, places[0]);
   }
 
   Walk walk = walk_from_top(&tree);
   while (goes_on(&tree, &walk)) {
     const Sides sides = sides_to_node(box, node_of(&tree, &walk));
-    if (!any(to_corners(&sides) < winners.distance)) {
+    if (!any(to_corners(&sides) < dominators.distance)) {
       pass(&tree, &walk);
     } else if (walk.level > 0) {
       enter(&tree, &walk);
     } else {
       const uint end = end_of_leaf(&tree, walk.index);
-      for (uint i = first_of_leaf(walk.index); i < end; ++i) take_winners(&winners, box, places[i]);
+      for (uint i = first_of_leaf(walk.index); i < end; ++i) take_dominators(&dominators, box, places[i]);
       pass(&tree, &walk);
     }
   }
@@ -199,7 +199,7 @@ kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels
   global uint* const list = lists + (size_t)item * OUTER_LIST;
   while (goes_on(&tree, &walk)) {
     const Sides sides = sides_to_node(box, node_of(&tree, &walk));
-    if (is_dominated(&winners, box, &sides)) {
+    if (is_dominated(&dominators, box, &sides)) {
       pass(&tree, &walk);
     } else if (walk.level > 0) {
       enter(&tree, &walk);
@@ -210,7 +210,7 @@ kernel void list_outer_seeds(TREE_PARAMETERS, global const uint* restrict labels
       const uint end = end_of_leaf(&tree, walk.index);
       for (uint i = first_of_leaf(walk.index); i < end; ++i) {
         const Sides of_seed = sides_to_place(box, places[i]);
-        if (!is_dominated(&winners, box, &of_seed)) list[count_and_rest.s0++] = i;
+        if (!is_dominated(&dominators, box, &of_seed)) list[count_and_rest.s0++] = i;
       }
       pass(&tree, &walk);
     }

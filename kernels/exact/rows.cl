@@ -20,10 +20,10 @@
 
 // A pixel's ROW KEY of a row: the distance to the row's nearest seed, and in the lowest bits the row's number, so that
 // of rows at equal distances the one with the least number has the least key.
-#define ROW_BITS 6
+#define NUMBER_BITS 6
 // What stands for the part along x where a row has no seed near: a distance beyond the reach.
 #define NO_SEED_NEAR ((REACH + 1) * (REACH + 1))
-#if ROWS_IN_REACH > 1 << ROW_BITS || (NO_SEED_NEAR + REACH * REACH + 1) << ROW_BITS > 0xffff
+#if ROWS_IN_REACH > 1 << NUMBER_BITS || (NO_SEED_NEAR + REACH * REACH + 1) << NUMBER_BITS > 0xffff
 #error "A row key does not fit in a ushort"
 #endif
 
@@ -119,7 +119,7 @@ static inline void find_row(NearestInRows* rows, int row) {
   const SeedIndex* const index = rows->index;
   const int y = rows->top + row, number = number_of_row(rows, row);
   if (y < 0 || y >= frame_height(index->height)) {
-    rows->along_x[row] = (ushort16)(ushort)(NO_SEED_NEAR << ROW_BITS | number);
+    rows->along_x[row] = (ushort16)(ushort)(NO_SEED_NEAR << NUMBER_BITS | number);
     return;
   }
   const int word = ((y >> BIN_BITS) * index->columns + rows->bin_x) * WORDS + y % BIN / ROWS_OF_WORD;
@@ -144,7 +144,7 @@ static inline void find_row(NearestInRows* rows, int row) {
 #endif
   const short16 offset = select(left, right, nearer) - BIN_LANES;
   rows->along_x[row] =
-      as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)ROW_BITS | (ushort)number;
+      as_ushort16(min(ALONG(offset), (short16)NO_SEED_NEAR)) << (ushort)NUMBER_BITS | (ushort)number;
 
   const ulong2 counts = (ulong2)(count_up(own.bits), count_up(own.bits >> 8) + popcount(own.bits & 0xffu) * ONES);
   const short16 up_to = convert_short16(as_uchar16(counts));
@@ -180,11 +180,11 @@ static inline bool find_least_row_keys(NearestInRows* rows, int first, int count
     least[y] = rows->along_x[first + y];
     worst = max(worst, least[y]);
   }
-  for (int offset = 1; any_from(worst, (ushort)(ALONG(offset) << ROW_BITS)); ++offset) {
+  for (int offset = 1; any_from(worst, (ushort)(ALONG(offset) << NUMBER_BITS)); ++offset) {
     if (offset > REACH) return false;
     need_row(rows, first - offset);
     need_row(rows, first + count - 1 + offset);
-    const ushort along_y = (ushort)(ALONG(offset) << ROW_BITS);
+    const ushort along_y = (ushort)(ALONG(offset) << NUMBER_BITS);
     worst = (ushort16)0;
     for (int y = 0; y < count; ++y) {
       least[y] = min(least[y], min(rows->along_x[first + y - offset], rows->along_x[first + y + offset]) + along_y);
@@ -202,7 +202,7 @@ static inline bool label_by_rows(NearestInRows* rows, int bin_y, global uint* la
   const int count = min(BIN, index->y0 + index->height - top);
   ushort16 least[BIN];
   if (!find_least_row_keys(rows, top - rows->top, count, least)) return false;
-  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << ROW_BITS) - 1)) * (ushort)BIN;
+  for (int y = 0; y < count; ++y) least[y] = (least[y] & (ushort)((1 << NUMBER_BITS) - 1)) * (ushort)BIN;
   // Gathered first and stored in vectors then, the labels fit in a CPU's store buffer, and it need not wait for memory.
   uint label[BIN * BIN];
   for (int y = 0; y < count; ++y) {

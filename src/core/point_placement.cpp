@@ -1,21 +1,24 @@
 #include "core/point_placement.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "core/placement.hpp"
 #include "core/window_places.hpp"
 #include "runtime/buffer.hpp"
 #include "vorocl/error.hpp"
+// Last: it defines macros.
+#include "exact/points/sizes.cl"
 
 namespace vorocl {
 
 namespace {
 
-/// Positions are int32, and so are their differences from all pixels of a window; and there is room behind
-/// them for what is nowhere (kernels/exact/points/index.cl).
-constexpr std::int64_t most_pixels_away = std::int64_t{1} << 18;
+constexpr std::int64_t most_pixels_away = std::int64_t{1} << AWAY_BITS;
+static_assert(Window::max_side <= 1 << SIDE_BITS);
 
 std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
 std::int64_t centre_of(std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; }
@@ -32,6 +35,33 @@ bool fits(const Place& place) {
 cl_int2 as_int2(const Place& place) { return {{static_cast<cl_int>(place.x), static_cast<cl_int>(place.y)}}; }
 
 constexpr cl_int2 absent_point = {{absent_coordinate, 0}};
+
+/// The place itself if it is near, else that of its images which is nearest to the window's first pixel.
+Place near_image(const Place& place, const Images& images) {
+  if (fits(place)) return place;
+  const auto along = [](std::int64_t at, std::int64_t period) {
+    return period == 0 ? at
+                       : at - period * std::llround(static_cast<double>(at) / static_cast<double>(period));
+  };
+  return {along(place.x, images.x), along(place.y, images.y)};
+}
+
+/// By id: numbers in the order of where seeds lie themselves, of those that own places.
+template <typename PlaceOf>
+std::vector<cl_int2> order_of(std::vector<cl_uint> ids, std::size_t count, PlaceOf place_of) {
+  const auto position = [&](cl_uint id) {
+    const Place place = place_of(id);
+    return std::make_pair(place.y, place.x);
+  };
+  std::sort(ids.begin(), ids.end(), [&](cl_uint a, cl_uint b) { return position(a) < position(b); });
+  std::vector<cl_int2> order(count, absent_point);
+  cl_int number = 0;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (i > 0 && position(ids[i - 1]) < position(ids[i])) ++number;
+    order[ids[i]] = {{number, number}};
+  }
+  return order;
+}
 
 }  // namespace
 
@@ -52,20 +82,23 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
     return Place{in_fractions(pixels[id].s[0] - window.x()) + fractions[id].x,
                  in_fractions(pixels[id].s[1] - window.y()) + fractions[id].y};
   };
+  const Images images(grid, fractions_of_pixel);
   std::vector<cl_int2> seeds;
   seeds.reserve(count + 1);
-  bool all_inside = true;
+  bool all_inside = true, all_near = true;
   for (std::size_t id = 0; id < count; ++id) {
     const bool there = !is_absent(pixels[id]);
-    const Place place = there ? place_of(id) : Place{};
-    seeds.push_back(there && fits(place) ? as_int2(place) : absent_point);
+    const Place place = there ? place_of(id) : Place{}, near = near_image(place, images);
+    seeds.push_back(there && fits(near) ? as_int2(near) : absent_point);
+    all_near = all_near && fits(place);
     all_inside =
         all_inside && (!there || is_inside(shown, {{static_cast<cl_int>(pixels[id].s[0] - window.x()),
                                                     static_cast<cl_int>(pixels[id].s[1] - window.y())}}));
   }
   seeds.push_back(absent_point);
 
-  PointPlacement placed{shown, allocate_with(device, seeds, "the seeds"), {}, {}};
+  PointPlacement placed{shown, allocate_with(device, seeds, "the seeds"), {}, {}, {}};
+  placed.order = placed.seeds;
   const Region home = home_region(window), region = labelled_region(window, home);
   const Periods periods(grid);
   placed.region = {{static_cast<cl_int>(region.left), static_cast<cl_int>(region.top),
@@ -83,7 +116,6 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   std::vector<cl_uint> ids;
   if (!region.empty()) {
     const Region centres = centres_of(region);
-    const Images images(grid, fractions_of_pixel);
     const auto each = [&](auto use) {
       for (std::size_t id = 0; id < count; ++id) {
         if (is_absent(pixels[id])) continue;
@@ -108,6 +140,8 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
   if (!places.empty()) {
     placed.places = allocate_with(device, places, "the seeds of a window");
     placed.ids = allocate_with(device, ids, "the seeds of a window");
+    if (!all_near)
+      placed.order = allocate_with(device, order_of(ids, count, place_of), "the order of the seeds");
   }
   return std::make_shared<const PointPlacement>(std::move(placed));
 }

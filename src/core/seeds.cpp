@@ -43,7 +43,7 @@ Seeds::Seeds(Seeds&& other) noexcept = default;
 Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
 
 Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
-  return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count));
+  return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count, Snap::none));
 }
 
 SeedsState& Seeds::state() const {

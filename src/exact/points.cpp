@@ -67,7 +67,7 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
   const std::size_t tiles = along(width, POINTS_TILE_BITS) * along(height, POINTS_TILE_BITS);
   const cl::Event last =
       (in_tiles ? kernel("label_tiles", 8) : kernel("label_pixels", group))
-          .over_items(in_tiles ? tiles : grid.pixels(), memory.starts, memory.list, memory.ids, points.seeds,
+          .over_items(in_tiles ? tiles : grid.pixels(), memory.starts, memory.list, memory.ids, points.order,
                       cl_int{has_ids}, bits, width, height, points.region, state.labels);
   return filling.commit(0, first, last);
 }

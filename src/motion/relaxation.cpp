@@ -60,8 +60,15 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
   const SeedsFrame& frame = *state.frame();
   const std::vector<CellWeight> cells = weights_of(rounds, state.size());
-  const auto pixels = std::make_shared<std::vector<PlanePosition>>(*frame.pixels);
-  const auto fractions = std::make_shared<std::vector<Fraction>>(*frame.fractions);
+  const auto pixels = state.list_of_pixels();
+  const auto fractions = state.list_of_fractions();
+  if (frame.fractions) {
+    *pixels = *frame.pixels;
+    *fractions = *frame.fractions;
+  } else {
+    *pixels = frame.read_pixels();
+    fractions->assign(pixels->size(), centre_of_pixel);
+  }
   const auto go = [](const Axis& axis, std::int64_t to, cl_int& pixel, std::uint16_t& fraction) {
     const std::int64_t parts = fractions_of_pixel, period = axis.pixels() * parts;
     std::int64_t way = to - (pixel * parts + fraction);
@@ -94,7 +101,7 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 
 Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
-  if (state.frame()->fractions) return move_points_to_centroids(seeds, rounds, tolerance);
+  if (state.snap == Snap::none) return move_points_to_centroids(seeds, rounds, tolerance);
   const std::shared_ptr<cl::Buffer> positions = state.copy_to_move("Lloyd relaxation");
   const Device& device = state.device;
   const PixelGrid grid{Window(state.grid())};

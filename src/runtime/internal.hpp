@@ -26,7 +26,7 @@ struct Internal {
     return {waves, first, last, host_milliseconds, start, std::move(first_launches), process_number()};
   }
 
-  /// Seeds of which there are none yet: see SeedsState::place().
+  /// Seeds of which there are none yet, and which are not snapped: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);
 
   /// What a result holds; made at its first use.

@@ -3,6 +3,7 @@
 #include "measured_cases.hpp"
 #include "read_measures.hpp"
 #include "vorocl/cells.hpp"
+#include "vorocl/motion.hpp"
 #include "vorocl/relaxation.hpp"
 
 using namespace vorocl;
@@ -93,6 +94,30 @@ BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
       }
     }
   }
+}
+
+BOOST_AUTO_TEST_CASE(seeds_of_whole_pixels_relax_as_the_points_at_their_centres) {
+  const Grid grid(200, 140);
+  std::vector<std::uint8_t> mask(grid.pixels(), 0);
+  for (std::size_t i = 0; i < mask.size(); i += 271) mask[i] = 1;
+  Seeds walked = Seeds::random(test_device(), grid, 90, 4);
+  random_step(walked, 3, Border::reflect, 1, 1);
+  Seeds random = Seeds::random(test_device(), grid, 90, 4);
+  Seeds masked = Seeds::from_mask(test_device(), grid, mask);
+  for (Seeds* const seeds : {&random, &walked, &masked}) {
+    Seeds points(test_device(), grid, points_of(*seeds), Outside::count, Snap::none);
+    Diagram diagram(test_device(), grid), of_points(test_device(), grid);
+    const Relaxation one = relax(*seeds, diagram, exactly, 40), other = relax(points, of_points, exactly, 40);
+    BOOST_TEST(!one.converged);  // whole pixels end earlier
+    BOOST_TEST(one.energies == other.energies, boost::test_tools::per_element());
+    BOOST_TEST(one.moved == other.moved, boost::test_tools::per_element());
+    const std::vector<Point> found = points_of(*seeds), expected = points_of(points);
+    for (std::size_t id = 0; id < found.size(); ++id)
+      BOOST_TEST((found[id].x == expected[id].x && found[id].y == expected[id].y));
+  }
+  Seeds snapped(test_device(), grid, points_of(Seeds::random(test_device(), grid, 90, 4)));
+  Diagram diagram(test_device(), grid);
+  BOOST_TEST(relax(snapped, diagram, exactly, 40).converged);
 }
 
 // --- densities ---

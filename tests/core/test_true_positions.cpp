@@ -8,6 +8,7 @@
 #include <random>
 
 #include "brute_force.hpp"
+#include "vorocl/fields.hpp"
 #include "window_cases.hpp"
 
 using namespace vorocl;
@@ -276,6 +277,49 @@ BOOST_AUTO_TEST_CASE(what_is_too_far_is_refused_by_name) {
   exact_diagram(both, diagram);
   const Labels labels = diagram.read();
   BOOST_TEST(std::count(labels.begin(), labels.end(), 1u) == 600);
+}
+
+BOOST_AUTO_TEST_CASE(seeds_are_near_across_the_ends_of_periods_of_any_length) {
+  std::mt19937_64 rng(6);
+  const auto below = [&](std::int64_t end) {
+    return static_cast<double>(rng() % static_cast<std::uint64_t>(end));
+  };
+  for (const std::int64_t period : {262144, 262145, 300000, 700000, 1 << 21, 1 << 30}) {
+    for (const bool along_x : {true, false}) {
+      const Grid grid = along_x ? Grid(period, 24, Periodic::x) : Grid(24, period, Periodic::xy);
+      std::vector<std::optional<Point>> points;
+      for (int i = 0; i < 40; ++i) {
+        // On both sides of the ends, half of them on a lattice, whose pixels are as far from several.
+        const double way = i % 2 == 0 ? below(12) * 4 : below(48 * parts) / parts;
+        const double across = i % 2 == 0 ? below(6) * 4 : below(24 * parts) / parts;
+        const double at = i % 4 < 2 ? way : static_cast<double>(period) - 48 + way;
+        points.emplace_back(along_x ? Point{at, across} : Point{across, at});
+      }
+      for (const std::int64_t begin : {std::int64_t{0}, period - 40, period - 20}) {
+        const Window window = along_x ? Window(grid, begin, 0, 40, 24) : Window(grid, 0, begin, 24, 40);
+        const auto positions = positions_of(grid, points);
+        const Labels expected = labels_by_definition(window, positions, Metric::euclidean);
+        for (const Engine& engine : engines()) {
+          Diagram diagram(engine.device, window);
+          exact_diagram(Seeds(engine.device, grid, points, Outside::count, Snap::none), diagram);
+          Field<float> distances;
+          distance_field(diagram, distances);
+          const std::vector<float> found = distances.read();
+          std::size_t wrong = 0;
+          for (std::size_t i = 0; i < found.size(); ++i) {
+            const auto column = static_cast<std::int64_t>(i) % window.width() + window.x(),
+                       row = static_cast<std::int64_t>(i) / window.width() + window.y();
+            const Wide squared = wide_distance(grid, *positions[expected[i]], column, row, Metric::euclidean);
+            const double distance = std::sqrt(static_cast<double>(squared)) / parts;
+            wrong += std::abs(static_cast<double>(found[i]) - distance) > 1e-6 * (1 + distance) ? 1 : 0;
+          }
+          BOOST_TEST(count_differences(diagram.read(), expected) == 0u, text_of(window, points.size())
+                                                                            << ", " << engine.name);
+          BOOST_TEST(wrong == 0u, text_of(window, points.size()) << ", " << engine.name << ": distances");
+        }
+      }
+    }
+  }
 }
 
 BOOST_AUTO_TEST_CASE(a_frame_that_moves_and_floods_takes_pixels) {

@@ -9,14 +9,14 @@
 
 #define SYNC() barrier(CLK_LOCAL_MEM_FENCE)
 
-// WINNERS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the four
-// corners. What one of them wins against at all corners is no candidate (dominance.cl).
+// DOMINATORS: the nearest seeds known to the centre of a patch and to its four corners, and their distances from the
+// four corners. What one of them wins against at all corners is no candidate (dominance.cl).
 typedef struct {
   uint place[DOMINATORS];              // the centre and the corners, packed
   uint seed[DOMINATORS];
   uint least[DOMINATORS];              // from each seed to its place
   uint distance[DOMINATORS][CORNERS];  // from each seed to each corner
-} Winners;
+} PatchDominators;
 
 static inline uint distance_to(uint place, uint seed) {
   return distance_of_offset(packed_x(seed) - packed_x(place), packed_y(seed) - packed_y(place));
@@ -29,16 +29,16 @@ static inline uint place_of(Box box, int number) {
 }
 
 // Begins with the only seed known.
-static inline void begin_winners(local Winners* winners, Box box, uint seed) {
+static inline void begin_dominators(local PatchDominators* dominators, Box box, uint seed) {
   const int item = (int)get_local_id(0);
   if (item < DOMINATORS) {
     const uint place = place_of(box, item), distance = distance_to(place, seed);
-    winners->place[item] = place;
-    winners->seed[item] = seed;
-    winners->least[item] = distance;
+    dominators->place[item] = place;
+    dominators->seed[item] = seed;
+    dominators->least[item] = distance;
     if (item > 0) {
 #pragma unroll
-      for (int i = 0; i < DOMINATORS; ++i) winners->distance[i][item - 1] = distance;
+      for (int i = 0; i < DOMINATORS; ++i) dominators->distance[i][item - 1] = distance;
     }
   }
   SYNC();
@@ -46,26 +46,27 @@ static inline void begin_winners(local Winners* winners, Box box, uint seed) {
 
 // Takes the seeds of a list that win at a place. The items share out the pairs of a seed and a place, as there may be a
 // few seeds only.
-static inline void improve_winners(local Winners* winners, local const uint* seeds, int count) {
+static inline void improve_dominators(local PatchDominators* dominators, local const uint* seeds, int count) {
   const int item = (int)get_local_id(0);
   for (int i = item; i < count * DOMINATORS; i += (int)get_local_size(0)) {
     const int place = i % DOMINATORS;
-    atomic_min(winners->least + place, distance_to(winners->place[place], seeds[i / DOMINATORS]));
+    atomic_min(dominators->least + place, distance_to(dominators->place[place], seeds[i / DOMINATORS]));
   }
   SYNC();
-  if (item < DOMINATORS && winners->least[item] < distance_to(winners->place[item], winners->seed[item])) {
-    winners->seed[item] = EMPTY;
+  if (item < DOMINATORS && dominators->least[item] < distance_to(dominators->place[item], dominators->seed[item])) {
+    dominators->seed[item] = EMPTY;
   }
   SYNC();
   for (int i = (int)get_local_id(0); i < count * DOMINATORS; i += (int)get_local_size(0)) {
     const int place = i % DOMINATORS;
     const uint seed = seeds[i / DOMINATORS];
-    if (distance_to(winners->place[place], seed) == winners->least[place]) atomic_min(winners->seed + place, seed);
+    if (distance_to(dominators->place[place], seed) == dominators->least[place])
+      atomic_min(dominators->seed + place, seed);
   }
   SYNC();
   for (int i = (int)get_local_id(0); i < DOMINATORS * CORNERS; i += (int)get_local_size(0)) {
-    winners->distance[i / CORNERS][i % CORNERS] =
-        distance_to(winners->place[1 + i % CORNERS], winners->seed[i / CORNERS]);
+    dominators->distance[i / CORNERS][i % CORNERS] =
+        distance_to(dominators->place[1 + i % CORNERS], dominators->seed[i / CORNERS]);
   }
   SYNC();
 }
@@ -73,10 +74,10 @@ static inline void improve_winners(local Winners* winners, local const uint* see
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
 static inline int along_to(int from, int first, int last) { return ALONG(max(max(first - from, from - last), 0)); }
 
-// Whether one of the first `count` winners dominates all seeds in a box, of which the first pixel stands for them in
+// Whether one of the first `count` dominators dominates all seeds in a box, of which the first pixel stands for them in
 // the tie rule: a bin, a row of it or a single seed. Where there are images, whose seeds' order is another one, it is
 // left open who wins a tie. A distance of seeds is at most 0x7fffffff, so differences fit in an int.
-static inline bool is_dominated(local const Winners* winners, int count, Box patch, Box seeds) {
+static inline bool is_dominated(local const PatchDominators* dominators, int count, Box patch, Box seeds) {
   const int to_left = along_to(patch.left, seeds.left, seeds.right);
   const int to_right = along_to(patch.right, seeds.left, seeds.right);
   const int to_top = along_to(patch.top, seeds.top, seeds.bottom);
@@ -87,13 +88,13 @@ static inline bool is_dominated(local const Winners* winners, int count, Box pat
   bool dominated = false;
 #pragma unroll 1  // unrolled, it takes too many registers
   for (int i = 0; i < count; ++i) {
-    local const uint* const distance = winners->distance[i];
+    local const uint* const distance = dominators->distance[i];
     const int lag = min(min(to_left + to_top - (int)distance[0], to_right + to_top - (int)distance[1]),
                         min(to_left + to_bottom - (int)distance[2], to_right + to_bottom - (int)distance[3]));
 #ifdef VOROCL_PERIODIC
     dominated |= lag >= 1;
 #else
-    dominated |= lag >= (COMES_FIRST(winners->seed[i], first_pixel) ? 0 : 1);
+    dominated |= lag >= (COMES_FIRST(dominators->seed[i], first_pixel) ? 0 : 1);
 #endif
   }
   return dominated;
@@ -104,11 +105,12 @@ static inline Box box_of_pixel(uint pixel) {
   return box;
 }
 
-// Copies those seeds of a list that no winner dominates; counts all of them, and copies as many as there is room for.
-static inline void keep_candidates(local uint* kept, local uint* kept_count, int room, local const Winners* winners,
-                                   Box patch, local const uint* seeds, int count) {
+// Copies those seeds of a list that nothing dominates; counts all of them, and copies as many as there is room for.
+static inline void keep_candidates(local uint* kept, local uint* kept_count, int room,
+                                   local const PatchDominators* dominators, Box patch, local const uint* seeds,
+                                   int count) {
   for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) {
-    if (!is_dominated(winners, DOMINATORS, patch, box_of_pixel(seeds[i]))) {
+    if (!is_dominated(dominators, DOMINATORS, patch, box_of_pixel(seeds[i]))) {
       const uint at = atomic_inc(kept_count);
       if (at < (uint)room) kept[at] = seeds[i];
     }
@@ -199,7 +201,7 @@ static inline bool is_ranked_first(local const Ranked* ranked, local const uint*
 }
 #endif
 
-// Ranks the candidates of a list. The base is the winner at the centre.
+// Ranks the candidates of a list. The base is the dominator of the centre.
 static inline void rank_candidates(local Ranked* ranked, const SeedIndex* index, Box patch, uint base,
                                    local const uint* seeds, int count) {
   find_seeds_of_images(ranked, index, seeds, count);

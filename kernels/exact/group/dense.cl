@@ -13,12 +13,12 @@
 // one at its right, and the same bits in reverse; and for each bin where its seeds of the row begin in the list of
 // seeds, less the number of seeds in the row before them.
 #define BINS_OF_ROW 4
-#define ROW_BITS 6  // of a bit's number
+#define COLUMN_BITS 6  // of the number of a bit in its row
 typedef struct {
   ulong mask[PATCH_ROWS], reversed[PATCH_ROWS];
   uint start[PATCH_ROWS * BINS_OF_ROW];
 } Rows;
-#if BINS_OF_ROW << BIN_BITS != 1 << ROW_BITS
+#if BINS_OF_ROW << BIN_BITS != 1 << COLUMN_BITS
 #error "A row is not a ulong"
 #endif
 
@@ -26,7 +26,7 @@ typedef struct {
 // distances the one with the least number has the least key, and the number of the seed's bit. A row without a seed
 // near has a key that is too great for a label.
 #define NUMBER_BITS 6
-#define KEY_BITS (NUMBER_BITS + ROW_BITS)  // below the distance
+#define KEY_BITS (NUMBER_BITS + COLUMN_BITS)  // below the distance
 #if (1 << PATCH_BITS) + 2 * REACH > 1 << NUMBER_BITS
 #error "A row does not fit in the bits of a row key"
 #endif
@@ -87,11 +87,11 @@ static inline void read_row(local Rows* rows, int number, const SeedIndex* index
 // of a pixel, and what is to the right, are taken as words whose highest bit is the pixel's. Of two seeds as near the
 // left one is the nearest, unless a border lies in between: so says the tie rule.
 #define QUADS_OF_ROW (PATCH / 4)
-#if REACH + 3 > 31 || BIN + PATCH + REACH > 1 << ROW_BITS
+#if REACH + 3 > 31 || BIN + PATCH + REACH > 1 << COLUMN_BITS
 #error "A quad's seeds do not fit in their words"
 #endif
 static inline int4 keys_along_x(local const Rows* rows, Border border, int number, int column) {
-  const int first = BIN + column, row_start = number << ROW_BITS;
+  const int first = BIN + column, row_start = number << COLUMN_BITS;
   const uint4 left = (uint4)(uint)(rows->mask[number] << (60 - first) >> 32) << (uint4)(3, 2, 1, 0);
   const uint4 right = (uint4)(uint)(rows->reversed[number] << first >> 32) << (uint4)(0, 1, 2, 3);
   const int4 way = as_int4(clz(left | right)), pixel = row_start + first + (int4)(0, 1, 2, 3);
@@ -106,8 +106,8 @@ static inline int4 keys_along_x(local const Rows* rows, Border border, int numbe
 
 // The id of the seed of a row key.
 static inline uint id_of_key(local const Rows* rows, int key, const SeedIndex* index) {
-  const uint place = (uint)key & ((1 << KEY_BITS) - 1), bit = place & ((1 << ROW_BITS) - 1);
-  const uint before = (uint)popcount(rows->mask[place >> ROW_BITS] & ((1ul << bit) - 1));
+  const uint place = (uint)key & ((1 << KEY_BITS) - 1), bit = place & ((1 << COLUMN_BITS) - 1);
+  const uint before = (uint)popcount(rows->mask[place >> COLUMN_BITS] & ((1ul << bit) - 1));
   return index->ids[rows->start[place >> BIN_BITS] + before];
 }
 

@@ -87,16 +87,16 @@ static inline uint seeds_in(const SeedIndex* index, Box bins) {
   return seeds;
 }
 
-// Gathers the seeds of some bins that the first winner does not dominate; counts more than there is room for.
-static inline void gather(local uint* seeds, local uint* count, const SeedIndex* index, local const Winners* winners,
-                          Box patch, Box bins) {
+// Gathers the seeds of some bins that the first dominator does not drop; counts more than there is room for.
+static inline void gather(local uint* seeds, local uint* count, const SeedIndex* index,
+                          local const PatchDominators* dominators, Box patch, Box bins) {
   const int item = (int)get_local_id(0), items = (int)get_local_size(0);
   for (int y = bins.top + item / ITEMS_OF_ROW; y <= bins.bottom; y += items / ITEMS_OF_ROW) {
     const uint end = index->starts[start_of(bins.right + 1, y, index->columns)];
     for (uint i = index->starts[start_of(bins.left, y, index->columns)] + (uint)(item % ITEMS_OF_ROW); i < end;
          i += ITEMS_OF_ROW) {
       const uint seed = index->list[i];
-      if (!is_dominated(winners, 1, patch, box_of_pixel(seed))) {
+      if (!is_dominated(dominators, 1, patch, box_of_pixel(seed))) {
         const uint at = atomic_inc(count);
         if (at < MOST_GATHERED) seeds[at] = seed;
       }
@@ -109,7 +109,7 @@ static inline void gather(local uint* seeds, local uint* count, const SeedIndex*
 kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyramid, int top_level,
                           global const uint* restrict pending, global uint* restrict labels,
                           global uint* restrict queue) {
-  local Winners winners;
+  local PatchDominators dominators;
   local Ranked ranked;
   local uint gathered[MOST_GATHERED], candidates[MOST_RANKED];
   local Descent descent;
@@ -120,27 +120,27 @@ kernel void label_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyr
   const Box box = box_of_patch(&index, patch);
   if (item == 0) *scanned = *gathered_count = *candidate_count = 0;
   const uint near = find_seed_near(&descent, &index, pyramid, top_level, box);
-  begin_winners(&winners, box, near);
+  begin_dominators(&dominators, box, near);
 
   // No pixel's nearest seed is farther than this one is from the farthest corner.
-  const uint reach = max(max(winners.distance[0][0], winners.distance[0][1]),
-                         max(winners.distance[0][2], winners.distance[0][3]));
-  Box bins = bins_around(&index, box, most_along(reach), 0);
+  const uint farthest = max(max(dominators.distance[0][0], dominators.distance[0][1]),
+                            max(dominators.distance[0][2], dominators.distance[0][3]));
+  Box bins = bins_around(&index, box, most_along(farthest), 0);
   const uint own = seeds_in(&index, bins);
   if (own != 0) atomic_add(scanned, own);
   SYNC();
   if (*scanned > MOST_SCANNED) bins.bottom = -1;  // gathers nothing
-  gather(gathered, gathered_count, &index, &winners, box, bins);
+  gather(gathered, gathered_count, &index, &dominators, box, bins);
 
   if (near == EMPTY || *gathered_count == 1) {
     fill_patch(&index, box, near == EMPTY ? NO_LABEL : id_of(&index, near), labels);
   } else {
     // From here on lists that are too long count as empty.
     const int seeds = *gathered_count <= MOST_GATHERED ? (int)*gathered_count : 0;
-    improve_winners(&winners, gathered, seeds);
-    keep_candidates(candidates, candidate_count, MOST_RANKED, &winners, box, gathered, seeds);
+    improve_dominators(&dominators, gathered, seeds);
+    keep_candidates(candidates, candidate_count, MOST_RANKED, &dominators, box, gathered, seeds);
     const int count = *candidate_count <= MOST_RANKED ? (int)*candidate_count : 0;
-    rank_candidates(&ranked, &index, box, winners.seed[0], candidates, count);
+    rank_candidates(&ranked, &index, box, dominators.seed[0], candidates, count);
     for (int i = item; i < count; i += items) ranked.value[i] = id_of(&index, ranked.value[i]);
     SYNC();
     const uint mask = (1u << bits_of_rank(count)) - 1;

@@ -39,7 +39,7 @@ typedef struct {
   uint stack_count;
   uint seeds[MOST_LISTED], kept[MOST_LISTED];
   uint count, kept_count;
-} Search;
+} PatchSearch;
 
 // How many entries are opened at once: of each level below so many parts less one stay on the stack, and one entry can
 // always be opened.
@@ -127,8 +127,9 @@ static inline void part_of(Part* part, const SeedIndex* index, global const uint
 }
 
 // Puts a part of an entry on the stack, or takes its only seed, unless it is empty or dominated.
-static inline void take_part(local Search* search, local const Winners* winners, Box patch, const Part* part) {
-  if (!part->empty && !is_dominated(winners, DOMINATORS, patch, part->box)) {
+static inline void take_part(local PatchSearch* search, local const PatchDominators* dominators, Box patch,
+                             const Part* part) {
+  if (!part->empty && !is_dominated(dominators, DOMINATORS, patch, part->box)) {
     if (part->seed == EMPTY) {
       search->stack[atomic_inc(&search->stack_count)] = part->entry;
     } else {
@@ -138,8 +139,8 @@ static inline void take_part(local Search* search, local const Winners* winners,
 }
 
 // Takes entries off the stack and opens them. Begins and ends with what the whole group knows.
-static inline void open_entries(local Search* search, local const Winners* winners, const SeedIndex* index,
-                                global const uint* pyramid, Box patch) {
+static inline void open_entries(local PatchSearch* search, local const PatchDominators* dominators,
+                                const SeedIndex* index, global const uint* pyramid, Box patch) {
   const int item = (int)get_local_id(0), slot = item / PARTS, stack_count = (int)search->stack_count;
   const int open = entries_to_open(stack_count, (int)get_local_size(0));
   const uint entry = slot < open ? search->stack[stack_count - 1 - slot] : NO_ENTRY;
@@ -149,7 +150,7 @@ static inline void open_entries(local Search* search, local const Winners* winne
   if (entry != NO_ENTRY) {
     Part part;
     part_of(&part, index, pyramid, patch, entry, item % PARTS);
-    take_part(search, winners, patch, &part);
+    take_part(search, dominators, patch, &part);
   }
   SYNC();
 }
@@ -189,22 +190,22 @@ static inline void take_best(local const uint* seeds, int seed_count, local Rank
 }
 
 // Begins with the best seeds of a bin: where seeds are dense, one alone leaves too much in question.
-static inline void begin_with_bin_of(local Search* search, local Winners* winners, const SeedIndex* index, Box patch,
-                                     uint seed) {
-  begin_winners(winners, patch, seed);
+static inline void begin_with_bin_of(local PatchSearch* search, local PatchDominators* dominators,
+                                     const SeedIndex* index, Box patch, uint seed) {
+  begin_dominators(dominators, patch, seed);
   const int bin = start_of(packed_x(seed) >> BIN_BITS, packed_y(seed) >> BIN_BITS, index->columns);
   const int start = (int)index->starts[bin], count = (int)index->starts[bin + 1] - start;
   for (int i = (int)get_local_id(0); i < count; i += (int)get_local_size(0)) search->seeds[i] = index->list[start + i];
   SYNC();
-  improve_winners(winners, search->seeds, count);
+  improve_dominators(dominators, search->seeds, count);
 }
 
 // Labels a patch of the queue, given a seed near it.
-static inline void search_patch(local Search* search, local Winners* winners, local Ranked* ranked,
+static inline void search_patch(local PatchSearch* search, local PatchDominators* dominators, local Ranked* ranked,
                                 const SeedIndex* index, global const uint* pyramid, int top_level, Box patch, uint near,
                                 global uint* labels) {
   const int item = (int)get_local_id(0), column = item_column();
-  begin_with_bin_of(search, winners, index, patch, near);
+  begin_with_bin_of(search, dominators, index, patch, near);
   fill_patch(index, patch, near, labels);
   SYNC_LABELS();
 
@@ -218,15 +219,15 @@ static inline void search_patch(local Search* search, local Winners* winners, lo
   }
   SYNC();
   while (search->stack_count > 0) {
-    open_entries(search, winners, index, pyramid, patch);
+    open_entries(search, dominators, index, pyramid, patch);
     const int left = (int)search->stack_count, count = (int)search->count;
     SYNC();
     if (left == 0 || count > MOST_GATHERED) {
-      improve_winners(winners, search->seeds, count);
+      improve_dominators(dominators, search->seeds, count);
       if (item == 0) search->count = search->kept_count = 0;
       SYNC();
-      keep_candidates(search->kept, &search->kept_count, MOST_LISTED, winners, patch, search->seeds, count);
-      take_best(search->kept, (int)search->kept_count, ranked, index, winners->seed[0], patch, labels);
+      keep_candidates(search->kept, &search->kept_count, MOST_LISTED, dominators, patch, search->seeds, count);
+      take_best(search->kept, (int)search->kept_count, ranked, index, dominators->seed[0], patch, labels);
     }
     SYNC();
   }
@@ -240,15 +241,15 @@ static inline void search_patch(local Search* search, local Winners* winners, lo
 // Labels the patches of the queue: how many, and each with a seed near it. They are shared out among the work-groups.
 kernel void search_patches(SEED_INDEX_PARAMETERS, global const uint* restrict pyramid, int top_level,
                            global const uint* restrict queue, global uint* labels) {
-  local Search search;
-  local Winners winners;
+  local PatchSearch search;
+  local PatchDominators dominators;
   local Ranked ranked;
   if (get_group_id(0) >= queue[0]) return;
   const SeedIndex index = SEED_INDEX_OF_PARAMETERS;
   const uint end = 1 + 2 * queue[0];
   for (uint at = 1 + 2 * (uint)get_group_id(0); at < end; at += 2 * (uint)get_num_groups(0)) {
     const Box patch = box_of_patch(&index, (int)queue[at]);
-    search_patch(&search, &winners, &ranked, &index, pyramid, top_level, patch, queue[at + 1], labels);
+    search_patch(&search, &dominators, &ranked, &index, pyramid, top_level, patch, queue[at + 1], labels);
     SYNC();
   }
 }

@@ -12,14 +12,14 @@ typedef struct {
   global const uint* starts;
   global const int2* list;
   global const uint* ids;
-  global const int2* seeds;  // by id, if places may be images of them; else null
+  global const int2* order;  // by id, if places may be images of seeds: what orders these; else null
   global uint* labels;       // written
   int4 region;               // the pixels that get labels: left, top, right, bottom, both ends included
 } scene_t;
 
-// The position of a place's seed in the grid.
+// What orders a place's seed by its own position in the grid.
 static inline int2 own_position(const scene_t* scene, uint at) {
-  return scene->seeds ? scene->seeds[scene->ids[at]] : scene->list[at];
+  return scene->order ? scene->order[scene->ids[at]] : scene->list[at];
 }
 
 static inline bool comes_first(const scene_t* scene, uint at, uint other) {

@@ -80,7 +80,13 @@ kernel void list_points(global const int2* restrict places, global const uint* r
 // moved so far away that they are never nearest.
 
 #define MANY_IN_BIN 64
-#define NOWHERE (INT_MAX - (1 << 28))
+#define NOWHERE (0x7fffffff - (1 << 28))
+#if NOWHERE + (1 << (SIDE_BITS + FRACTION_BITS)) > 0x7fffffff
+#error "The way from a pixel to what is nowhere does not fit in an int"
+#endif
+#if NOWHERE - (1 << (SIDE_BITS + FRACTION_BITS)) <= ((1 << AWAY_BITS) + (1 << SIDE_BITS)) << FRACTION_BITS
+#error "A place that is taken may be farther than what is nowhere"
+#endif
 
 static inline bool stands_before(int2 a, uint id_of_a, int2 b, uint id_of_b) {
   if (a.y != b.y) return a.y < b.y;

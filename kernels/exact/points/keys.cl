@@ -58,7 +58,7 @@ NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, const
 static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {
   int own_x[RANK_ROOM], own_y[RANK_ROOM];
   const int *x = places->x, *y = places->y;
-  if (PERIODIC_X || PERIODIC_Y || scene->seeds) {  // images, whose seeds' positions decide
+  if (PERIODIC_X || PERIODIC_Y || scene->order) {  // images, whose seeds' positions decide
     for (int i = 0; i < count; ++i) {
       const int2 own = own_position(scene, at[i]);
       own_x[i] = own.x;

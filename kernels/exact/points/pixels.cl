@@ -60,11 +60,11 @@ static inline uint label_of(const scene_t* scene, int column, int row) {
 
 // Labels all pixels; those outside the region (left, top, right, bottom, both ends included) get no label.
 kernel void label_pixels(global const uint* restrict starts, global const int2* restrict list,
-                         global const uint* restrict ids, global const int2* restrict seeds, int has_images, int bits,
+                         global const uint* restrict ids, global const int2* restrict order, int has_images, int bits,
                          int width, int height, int4 region, global uint* restrict out) {
   const int item = (int)get_global_id(0), column = item % width, row = item / width;
   if (row >= height) return;
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0,
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0,
                          out, region};
   const bool has_label = column >= region.s0 && column <= region.s2 && row >= region.s1 && row <= region.s3;
   out[item] = has_label ? label_of(&scene, column, row) : NO_LABEL;

@@ -10,6 +10,9 @@
 #define FEW_PLACES 16   // of which more are dropped by those nearest to the corners, too
 #define MOST_OF_BOX 48  // a box of 16 pixels with more is labelled in quarters
 #define FEW_OF_TILE 40  // a tile of fewer is labelled from one list
+#if POINTS_TILE != 4 * 16
+#error "A tile is not 4 x 4 boxes of 16 pixels a side"
+#endif
 
 // A square of pixels, and how far a place can be that wins there, in pixels along an axis.
 typedef struct {
@@ -295,12 +298,12 @@ static inline uint places_of_tile(const scene_t* scene, int left, int top) {
 
 // Labels all tiles.
 kernel void label_tiles(global const uint* restrict starts, global const int2* restrict list,
-                        global const uint* restrict ids, global const int2* restrict seeds, int has_images, int bits,
+                        global const uint* restrict ids, global const int2* restrict order, int has_images, int bits,
                         int width, int height, int4 region, global uint* restrict labels) {
   const int across = ((width - 1) >> POINTS_TILE_BITS) + 1, item = (int)get_global_id(0);
   const int left = item % across * POINTS_TILE, top = item / across * POINTS_TILE;
   if (top >= height) return;
-  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? seeds : 0,
+  const scene_t scene = {bins_of(bits, width, height), width, height, starts, list, ids, has_images ? order : 0,
                          labels, region};
   lists_t lists;
   const box_t tile = box_of(left, top, POINTS_TILE);

@@ -171,7 +171,8 @@ void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxat
   }
   print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
         seeds.grid().height(), counted(relaxation.rounds(), "round"),
-        relaxation.converged ? "settled: no seed moves any more" : "not settled yet", seeds.device().name());
+        relaxation.converged ? "settled: no seed moves by 1/64 of a pixel" : "not settled yet",
+        seeds.device().name());
   print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(),
         relaxation.energies.back());
   print_written(requested_files(options));
@@ -213,7 +214,7 @@ void add_relax(CommandLine& line) {
   add_units_option(command, options->seeds);
   command
       .add("--rounds", options->rounds,
-           "Greatest number of rounds; the relaxation ends sooner when no seed moves")
+           "Greatest number of rounds; the relaxation ends sooner when no seed moves by 1/64 of a pixel")
       .value_name("K")
       .in_range(0, 1000000000)
       .required();
@@ -245,6 +246,7 @@ void add_relax(CommandLine& line) {
     if (options->pictures.picture_path.empty()) refuse_picture_options(command, "-o");
     options->seeds.value_column = options->pictures.picture.color.column;
     options->seeds.keeps_inside = "relax cannot take";
+    options->seeds.of_pixels = Snap::none;
     run(*options);
   });
 }

@@ -92,7 +92,7 @@ Input input_at_random(const SeedOptions& options) {
             for (std::size_t id = 0; id < options.random; ++id) {
               pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
             }
-            return Seeds(device, grid, pixels, Outside::count, Snap::to_pixels);
+            return Seeds(device, grid, pixels, Outside::count, options.snapping());
           },
           {},
           {}};

@@ -33,15 +33,16 @@ struct SeedOptions {
   std::optional<Periodic> periodic;  // else none, or what the trajectory says
   std::optional<Snap> snap;          // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;
+  Snap of_pixels = Snap::to_pixels;   // of masks and random seeds
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
   std::string value_column;           // whose values are read with the points
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
 
-  /// What becomes of points and particles; masks and random seeds are whole pixels.
+  /// What becomes of seeds within their pixels.
   Snap snapping() const {
-    return points.empty() && trajectory.empty() ? Snap::to_pixels : snap.value_or(usual_snap);
+    return points.empty() && trajectory.empty() ? of_pixels : snap.value_or(usual_snap);
   }
 };
 
