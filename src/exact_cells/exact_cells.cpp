@@ -135,6 +135,7 @@ void ExactCellsState::settle() {
   constexpr std::size_t most_scratch = std::size_t{1} << 26;
   const std::size_t most = 9 * std::size_t{site_count} + 16;  // edges of a cell, with all images of the sites
   std::size_t left = download<cl_uint>(*device, counters, 2).back();
+  is_made = false;  // if anything fails from here on: the queue and its length are written over
   for (std::size_t room = 1024; left > 0; room *= 16) {
     room = std::min(room, most / 8 * 8);
     const std::size_t batch = std::clamp<std::size_t>(most_scratch / bytes_of_polygon(room), 1, left);
@@ -151,7 +152,7 @@ void ExactCellsState::settle() {
     }
     left = download<cl_uint>(*device, counters, 2).back();
   }
-  is_settled = true;
+  is_settled = is_made = true;
 }
 
 void ExactCellsState::list() {
