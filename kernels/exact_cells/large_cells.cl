@@ -9,5 +9,8 @@ kernel __attribute__((vec_type_hint(float8))) void cut_large_cells(SITE_PARAMETE
   const uint i = (uint)get_global_id(0);
   if (i >= to - from) return;
   const tree_t tree = SITE_ARGUMENTS;
-  measure_cell(&tree, MEASURE_ARGUMENTS, large[from + i], memory + (size_t)i * (size_t)POLYGON_MEMORY(room), room);
+  const uint site = large[from + i];
+  near_t near;
+  find_near(&near, &tree, site >> FAN_BITS);
+  measure_cell(&tree, &near, MEASURE_ARGUMENTS, site, memory + (size_t)i * (size_t)POLYGON_MEMORY(room), room);
 }

@@ -32,12 +32,12 @@ static inline int first_edge(const polygon_t* polygon) {
 }
 
 // Sums are taken in half steps from the site, where they lose least.
-static inline void measure_cell(const tree_t* tree, MEASURE_PARAMETERS, uint site, POLYGON_SPACE double* memory,
-                                int room) {
+static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_PARAMETERS, uint site,
+                                POLYGON_SPACE double* memory, int room) {
   const int2 at = site_at(tree, site);
   polygon_t polygon = polygon_in(memory, room);
   begin_polygon(&polygon, tree, at, site);
-  cut_by_all(&polygon, tree, site, at);
+  cut_by_all(&polygon, tree, near, site, at);
   if (polygon.is_full) {
     queue[atomic_inc(counters + 1)] = site;
     return;

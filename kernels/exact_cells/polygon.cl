@@ -109,23 +109,37 @@ static inline double2 crossing(line_t p, line_t q) {
   return (double2)(difference(p.c, q.b, q.c, p.b) / d, difference(q.c, p.a, p.c, q.a) / d);
 }
 
+// Where a line crosses the one before it (s01) and the one behind it (s23): the same bits, computed at once.
+static inline double4 crossings(line_t before, line_t line, line_t after) {
+  const ulong most = 1UL << 53;
+  if (abs(before.c) > most || abs(line.c) > most || abs(after.c) > most)
+    return (double4)(crossing(before, line), crossing(line, after));
+  const double4 c = convert_double4((long4)(before.c, line.c, line.c, after.c)), other_c = c.s1032;
+  const double4 across = convert_double4((int4)(line.b, before.a, after.b, line.a));
+  const double4 other_across = convert_double4((int4)(before.b, line.a, line.b, after.a));
+  const double4 rounded = other_c * other_across;
+  const double2 d = convert_double2((long2)(cross_of(before, line), cross_of(line, after)));
+  return (fma(c, across, -rounded) + fma(-other_c, other_across, rounded)) / d.s0011;
+}
+
 #define ROUGH_MARGIN 1.00001f  // floats make an error of less than a millionth in a squared distance
 
-static inline void set_vertex(polygon_t* polygon, int k, double2 vertex) {
+// Returns its squared distance, with the margin.
+static inline float set_vertex(polygon_t* polygon, int k, double2 vertex) {
   const float rough_x = convert_float(vertex.s0) * 0.5f, rough_y = convert_float(vertex.s1) * 0.5f;
   polygon->x[k] = vertex.s0;
   polygon->y[k] = vertex.s1;
   polygon->rough_x[k] = rough_x;
   polygon->rough_y[k] = rough_y;
-  polygon->reaches[k] = (rough_x * rough_x + rough_y * rough_y) * ROUGH_MARGIN;
+  const float reach = (rough_x * rough_x + rough_y * rough_y) * ROUGH_MARGIN;
+  polygon->reaches[k] = reach;
+  return reach;
 }
 
-static inline void find_reach(polygon_t* polygon) {
-  float8 reach = 0;
-  for (int k = 0; k < polygon->size; k += LANES) reach = max(reach, vload8(0, polygon->reaches + k));
-  const float4 of_four = max(reach.lo, reach.hi);
+static inline float greatest_of(float8 numbers) {
+  const float4 of_four = max(numbers.lo, numbers.hi);
   const float2 of_two = max(of_four.lo, of_four.hi);
-  polygon->reach = max(of_two.s0, of_two.s1);
+  return max(of_two.s0, of_two.s1);
 }
 
 // On which side of a line a vertex is, in whole numbers: 1 is beyond it, 0 on it.
@@ -135,9 +149,11 @@ static inline int exact_side(const polygon_t* polygon, int k, line_t line) {
                       product(line.c, cross_of(p, q))));
 }
 
-// A bit for each lane that holds.
+// A bit for each lane that holds, and back.
+#define LANE_BITS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))
+static inline int8 lanes_of(int bits) { return (bits & LANE_BITS) != 0; }
 static inline int bits_of_ints(int8 lanes) {
-  const int8 bits = lanes & (int8)(1, 2, 4, 8, 16, 32, 64, 128);
+  const int8 bits = lanes & LANE_BITS;
   const int4 of_four = bits.lo | bits.hi;
   const int2 of_two = of_four.lo | of_four.hi;
   return of_two.s0 | of_two.s1;
@@ -186,18 +202,18 @@ static inline void move_edges(polygon_t* polygon, int from, int to, int count) {
   }
 }
 
-// Makes the places of edges that are gone such as those behind the last one.
-static inline void clear_edges(polygon_t* polygon, int from, int to) {
-  for (int k = from; k < to; k += LANES) {
-    vstore8((double8)0, 0, polygon->x + k);
-    vstore8((double8)0, 0, polygon->y + k);
-    vstore8((float8)0, 0, polygon->reaches + k);
-  }
+// Sets how many edges there are. Behind the last one come vertices that are the site itself, as far as vectors reach.
+static inline void end_edges(polygon_t* polygon, int size) {
+  polygon->size = size;
+  vstore8((double8)0, 0, polygon->x + size);
+  vstore8((double8)0, 0, polygon->y + size);
+  vstore8((float8)0, 0, polygon->reaches + size);
 }
 
 // Cuts off what lies beyond a line.
 static inline void cut(polygon_t* polygon, line_t line) {
   const int size = polygon->size;
+  float8 reaches = 0;  // of the vertices that are kept
   int is_cut = 0, first_gone = size, last_gone = -1, first_kept = size, last_kept = -1;
   for (int k = 0; k < size; k += LANES) {
     const int2 sides = beyond(polygon, k, line);
@@ -207,6 +223,7 @@ static inline void cut(polygon_t* polygon, line_t line) {
     last_gone = gone != 0 ? k + highest_bit(gone) : last_gone;
     first_kept = kept != 0 ? min(first_kept, k + lowest_bit(kept)) : first_kept;
     last_kept = kept != 0 ? k + highest_bit(kept) : last_kept;
+    reaches = max(reaches, select(vload8(0, polygon->reaches + k), (float8)0, lanes_of(gone)));
   }
   if (is_cut == 0) return;
   if (last_kept < 0) {
@@ -227,20 +244,18 @@ static inline void cut(polygon_t* polygon, line_t line) {
     return;
   }
   const line_t before_line = line_of(polygon, first), after_line = line_of(polygon, after);
-  const double2 begin = crossing(before_line, line), end = crossing(line, after_line);
+  const double4 ends = crossings(before_line, line, after_line);
   const int at = is_split ? kept : first;
   if (is_split) {
     move_edges(polygon, first_kept, 0, kept);
     set_line(polygon, at, before_line);
-  } else {
+  } else if (last + 1 != first + 2) {
     move_edges(polygon, last + 1, first + 2, size - (last + 1));
   }
-  polygon->size = new_size;
+  end_edges(polygon, new_size);
   set_line(polygon, at + 1, line);
-  set_vertex(polygon, at, begin);
-  set_vertex(polygon, at + 1, end);
-  clear_edges(polygon, new_size, size);
-  find_reach(polygon);
+  const float begin_reach = set_vertex(polygon, at, ends.lo), end_reach = set_vertex(polygon, at + 1, ends.hi);
+  polygon->reach = max(greatest_of(reaches), max(begin_reach, end_reach));
 }
 
 static inline long square_of(int2 vector) { return (long)vector.s0 * vector.s0 + (long)vector.s1 * vector.s1; }

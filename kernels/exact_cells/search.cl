@@ -64,15 +64,16 @@ static inline line_t first_line_of(const tree_t* tree, int k, int2 at, uint site
 }
 
 static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at, uint site) {
-  polygon->size = 4;
   polygon->is_full = false;
-  clear_edges(polygon, 0, polygon->room + 1);
-  for (int k = 0; k < 4; ++k) {
-    const line_t line = first_line_of(tree, k, at, site);
-    set_line(polygon, k, line);
-    set_vertex(polygon, k, crossing(line, first_line_of(tree, (k + 1) & 3, at, site)));
+  polygon->reach = 0;
+  end_edges(polygon, 4);
+  for (int k = 0; k < 4; ++k) set_line(polygon, k, first_line_of(tree, k, at, site));
+  for (int k = 0; k < 4; k += 2) {
+    const int before = (k + 3) & 3;
+    const double4 ends = crossings(line_of(polygon, before), line_of(polygon, k), line_of(polygon, k + 1));
+    const float begin_reach = set_vertex(polygon, before, ends.lo), end_reach = set_vertex(polygon, k, ends.hi);
+    polygon->reach = max(polygon->reach, max(begin_reach, end_reach));
   }
-  find_reach(polygon);
 }
 
 // --- boxes and sites, eight at a time ---
@@ -119,19 +120,30 @@ static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf
   }
 }
 
-// Which boxes of a group may hold sites that cut. `own` is left out.
-static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own,
-                                   int2 from) {
+typedef struct {
+  int8 left, right, lower, upper;
+} boxes_t;
+
+static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group) {
   const size_t at = 4 * (size_t)(tree->levels[level] + group);
-  const float8 left = convert_float8(vload8(at, tree->boxes) - from.s0),
-               right = convert_float8(vload8(at + 1, tree->boxes) - from.s0),
-               lower = convert_float8(vload8(at + 2, tree->boxes) - from.s1),
-               upper = convert_float8(vload8(at + 3, tree->boxes) - from.s1);
+  const boxes_t boxes = {vload8(at, tree->boxes), vload8(at + 1, tree->boxes), vload8(at + 2, tree->boxes),
+                         vload8(at + 3, tree->boxes)};
+  return boxes;
+}
+
+// Those of a group that are there: its last ones may not be.
+static inline int8 are_there(const tree_t* tree, int level, uint group) {
+  const uint nodes = (tree->count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level);
+  return first_of(nodes - group * FAN);
+}
+
+// Which of eight boxes, of those that count, may hold sites that cut.
+static inline uint8 order_of_boxes(const polygon_t* polygon, boxes_t boxes, int8 that_count, int2 from) {
+  const float8 left = convert_float8(boxes.left - from.s0), right = convert_float8(boxes.right - from.s0),
+               lower = convert_float8(boxes.lower - from.s1), upper = convert_float8(boxes.upper - from.s1);
   const float8 away_x = max(max(left, -right), 0.0f), away_y = max(max(lower, -upper), 0.0f);
   const float8 distances = away_x * away_x + away_y * away_y;
-  const uint nodes = (tree->count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level), first = group * FAN;
-  const int8 is_near = (distances < 4 * polygon->reach) & first_of(nodes - first) &
-                       ((int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - first));
+  const int8 is_near = (distances < 4 * polygon->reach) & that_count;
   if (bits_of_ints(is_near) == 0) return FAR;
   int8 may_cut = 0;
   for (int k = 0; k < polygon->size; ++k) {
@@ -140,6 +152,13 @@ static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree,
     may_cut |= dx * dx + dy * dy < polygon->reaches[k];
   }
   return order_of(distances, may_cut & is_near);
+}
+
+// The boxes of a group without `own`.
+static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own,
+                                   int2 from) {
+  const int8 is_other = (int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - group * FAN);
+  return order_of_boxes(polygon, boxes_of_group(tree, level, group), are_there(tree, level, group) & is_other, from);
 }
 
 // Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
@@ -173,14 +192,101 @@ static inline void cut_by_image(polygon_t* polygon, const tree_t* tree, int2 at,
   cut_by_group(polygon, tree, tree->top, 0, FAR, seen_from(tree, at, image), image);
 }
 
+// --- what the cells of a leaf share ---
+
+#define MOST_NEAR 24  // of uniform points there are some 15
+
+// The leaves whose boxes are nearer to a leaf's own than that is long. Most of its cells need to look into no others.
+typedef struct {
+  int left[MOST_NEAR], right[MOST_NEAR], lower[MOST_NEAR], upper[MOST_NEAR];
+  uint leaves[MOST_NEAR];
+  uint count;
+  float distance;  // squared, within which there are no others; 0 if there are too many
+} near_t;
+
+// Which boxes of a group, as bits, are within a squared distance of a box, of which the left, right, lower and upper
+// sides are given.
+static inline int boxes_within(const tree_t* tree, int level, uint group, int4 box, float distance) {
+  const boxes_t boxes = boxes_of_group(tree, level, group);
+  const float8 away_x = max(convert_float8(max(boxes.left - box.s1, box.s0 - boxes.right)), 0.0f);
+  const float8 away_y = max(convert_float8(max(boxes.lower - box.s3, box.s2 - boxes.upper)), 0.0f);
+  return bits_of_ints((away_x * away_x + away_y * away_y < distance) & are_there(tree, level, group));
+}
+
+static inline int4 box_of_leaf(const tree_t* tree, uint leaf) {
+  const size_t at = 4 * FAN * (size_t)(tree->levels[1] + (leaf >> FAN_BITS)) + (leaf & (FAN - 1));
+  return (int4)(tree->boxes[at], tree->boxes[at + FAN], tree->boxes[at + 2 * FAN], tree->boxes[at + 3 * FAN]);
+}
+
+static inline void find_near(near_t* near, const tree_t* tree, uint own) {
+  const int4 box = box_of_leaf(tree, own);
+  const float length = convert_float(max(box.s1 - box.s0, box.s3 - box.s2));
+  near->count = 0;
+  near->distance = length * length;
+  int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
+  uint firsts[MOST_LEVELS + 1];
+  int level = tree->top;
+  firsts[level] = 0;
+  within[level] = boxes_within(tree, level, 0, box, near->distance);
+  while (level <= tree->top) {
+    if (within[level] == 0) {
+      ++level;
+      continue;
+    }
+    const uint node = firsts[level] + (uint)lowest_bit(within[level]);
+    within[level] &= within[level] - 1;
+    if (level > 1) {
+      --level;
+      firsts[level] = node * FAN;
+      within[level] = boxes_within(tree, level, node, box, near->distance);
+    } else if (node != own && near->count < MOST_NEAR) {
+      const uint k = near->count++;
+      const int4 found = box_of_leaf(tree, node);
+      near->left[k] = found.s0;
+      near->right[k] = found.s1;
+      near->lower[k] = found.s2;
+      near->upper[k] = found.s3;
+      near->leaves[k] = node;
+    } else if (node != own) {
+      near->distance = 0;
+      return;
+    }
+  }
+}
+
+// Cuts a cell by the sites of these leaves, the nearest leaf first.
+static inline void cut_by_near(polygon_t* polygon, const tree_t* tree, const near_t* near, int2 at) {
+  uint8 orders[MOST_NEAR / FAN];
+  for (uint first = 0; first < near->count; first += FAN) {
+    const boxes_t boxes = {vload8(0, near->left + first), vload8(0, near->right + first),
+                           vload8(0, near->lower + first), vload8(0, near->upper + first)};
+    orders[first / FAN] = order_of_boxes(polygon, boxes, first_of(near->count - first), at);
+  }
+  while (true) {
+    uint next = FAR, first = 0;
+    for (uint k = 0; k < near->count; k += FAN) {
+      const uint least = least_of(orders[k / FAN]);
+      first = least < next ? k : first;
+      next = min(next, least);
+    }
+    if (next >= end_of(polygon)) return;
+    orders[first / FAN] = without(orders[first / FAN], next);
+    cut_by_leaf(polygon, tree, near->leaves[first + (next & (FAN - 1))], at, ITSELF);
+  }
+}
+
+// --- all sites ---
+
 // How far a coordinate is outside a stretch.
 static inline float outside(long at, int from, int to) { return convert_float(max(max(from - at, at - to), 0L)); }
 
-// Cuts a cell by all sites, and their images across the ends of periods: first by those that are next to its own in
-// the tree. No row of images can cut that is more than a period away, but where the box is tilted.
-static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, uint site, int2 at) {
+// Cuts a cell by all sites, and their images across the ends of periods: first by those of its own leaf and of the
+// leaves near it, then, if it reaches farther, by those that are next to its own in the tree. No row of images can cut
+// that is more than a period away, but where the box is tilted.
+static inline void cut_by_all(polygon_t* polygon, const tree_t* tree, const near_t* near, uint site, int2 at) {
   cut_by_leaf(polygon, tree, site >> FAN_BITS, at, ITSELF);
-  for (int level = 1; level <= tree->top; ++level) {
+  cut_by_near(polygon, tree, near, at);
+  for (int level = 1; level <= tree->top && 4 * polygon->reach > near->distance; ++level) {
     const uint own = site >> (FAN_BITS * level);
     cut_by_group(polygon, tree, level, own >> FAN_BITS, own, at, ITSELF);
   }

@@ -18,6 +18,8 @@ constexpr const char* cells_file = "exact_cells/cells.cl";
 constexpr const char* large_cells_file = "exact_cells/large_cells.cl";
 constexpr cl_uchar touches_border = 1, certified = 2;  // of measure.cl
 
+constexpr std::size_t sites_of_leaf = 8;  // FAN of search.cl
+
 /// Of the lists of a polygon with room for so many edges: POLYGON_MEMORY of polygon.cl.
 std::size_t bytes_of_polygon(std::size_t room) { return 7 * (room + 8) * sizeof(cl_double); }
 
@@ -122,7 +124,9 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&&
   const cl::Event cleared = kernel(cells_file, "clear_cells")
                                 .over_items(cells, static_cast<cl_uint>(cells), areas, centroids, perimeters,
                                             offsets, neighbours, flags);
-  const cl::Event last = measure(cells_file, "cut_cells", site_count);
+  const std::size_t of_item = device->tuning().shape == Shape::vector ? sites_of_leaf : 1;
+  const cl::Event last =
+      measure(cells_file, "cut_cells", (site_count + of_item - 1) / of_item, static_cast<cl_uint>(of_item));
   return {first, site_count > 0 ? last : cells > 0 ? cleared : first};
 }
 
@@ -131,6 +135,7 @@ void ExactCellsState::settle() {
   constexpr std::size_t most_scratch = std::size_t{1} << 26;
   const std::size_t most = 9 * std::size_t{site_count} + 16;  // edges of a cell, with all images of the sites
   std::size_t left = download<cl_uint>(*device, counters, 2).back();
+  is_made = false;  // if anything fails from here on: the queue and its length are written over
   for (std::size_t room = 1024; left > 0; room *= 16) {
     room = std::min(room, most / 8 * 8);
     const std::size_t batch = std::clamp<std::size_t>(most_scratch / bytes_of_polygon(room), 1, left);
@@ -147,7 +152,7 @@ void ExactCellsState::settle() {
     }
     left = download<cl_uint>(*device, counters, 2).back();
   }
-  is_settled = true;
+  is_settled = is_made = true;
 }
 
 void ExactCellsState::list() {

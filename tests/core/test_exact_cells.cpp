@@ -594,6 +594,7 @@ BOOST_AUTO_TEST_CASE(buffers_hold_what_is_read_and_work_groups_change_no_bit) {
   tuning.group_width = 3;
   tuning.group_height = 1;
   tuning.vector_width = 1;
+  tuning.shape = Shape::group;
   const Seeds seeds(test_device(), grid_of(set, Periodic::x), points_of(set.positions));
   const Seeds others(test_device().with_tuning(tuning), grid_of(set, Periodic::x), points_of(set.positions));
   ExactCellsResult result, other;

@@ -3,6 +3,7 @@
 #define BOOST_TEST_MODULE faults
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <thread>
@@ -295,6 +296,14 @@ BOOST_AUTO_TEST_CASE(measures_that_fail_are_empty) {
   const std::vector<double> lengths = exact.read_polygons().lengths;
   fail_each_call([&] { exact_cells(seeds, exact); }, [&] { exact.edges(); },
                  [&] { BOOST_TEST((exact.size() == 0 || exact.read_polygons().lengths == lengths)); });
+  // A cell with more edges than the first kernel has room for is cut when it is asked for.
+  std::vector<Point> star = {{20, 15}};
+  for (int i = 0; i < 40; ++i) star.push_back({20 + 10 * std::cos(0.15 * i), 15 + 10 * std::sin(0.15 * i)});
+  const Seeds around(test_device(), grid, star);
+  exact_cells(around, exact);
+  const double area = exact.read().front().area;
+  fail_each_call([&] { exact_cells(around, exact); }, [&] { exact.areas(); },
+                 [&] { BOOST_TEST((exact.size() == 0 || exact.read().front().area == area)); });
 }
 
 // While an event holds the queue back, a thread that makes one frame after the other stops.
