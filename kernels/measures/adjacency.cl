@@ -5,6 +5,7 @@
 
 #define EMPTY_SLOT 0xffffffffu
 #define MOST_PROBES 64
+#define SLOTS_OF_CELL 8u  // slots_per_seed of the host
 
 // A pixel edge: the pixel above or left of it, and whether it lies below that pixel or right of it. A slot of the
 // table holds one of the edges that its two cells share, so that one 32-bit atomic takes it: the cells' ids
@@ -33,12 +34,16 @@ static inline uint hash_of(uint2 pair) {
   return hash ^ hash >> 13;
 }
 
-// Adds to the length of the border that an edge belongs to. The table has 2^bits slots, of which most stay free.
+// Adds to the length of the border that an edge belongs to. The table has 2^bits slots, of which most stay free. The
+// pairs of one cell are side by side first, for the edges of a cell are found one soon after the other; where these
+// slots are taken the others are everywhere.
 static inline void add_border(labels_t labels, uint edge, uint length, uint mask, global uint* slots,
                               global uint* lengths, global uint* overflow) {
   const uint2 pair = pair_at(labels, edge);
-  uint at = hash_of(pair) & mask;
-  for (int probe = 0; probe < MOST_PROBES; ++probe, at = (at + 1) & mask) {
+  const uint hash = hash_of(pair);
+  for (uint probe = 0; probe < MOST_PROBES; ++probe) {
+    const uint beside = pair.s0 * SLOTS_OF_CELL + (hash + probe) % SLOTS_OF_CELL;
+    const uint at = (probe < SLOTS_OF_CELL ? beside : hash + probe) & mask;
     const uint holder = atomic_cmpxchg(slots + at, EMPTY_SLOT, edge);
     if (holder == EMPTY_SLOT || all(pair_at(labels, holder) == pair)) {
       atomic_add(lengths + at, length);

@@ -11,7 +11,7 @@ namespace {
 
 /// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. Cells
 /// in many pieces may have more neighbours; then it grows.
-constexpr std::size_t slots_per_seed = 8;
+constexpr std::size_t slots_per_seed = 8;  // SLOTS_OF_CELL of adjacency.cl
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
 constexpr std::size_t words_per_pair = 3;

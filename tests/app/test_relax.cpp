@@ -274,6 +274,17 @@ BOOST_AUTO_TEST_CASE(dark_pixels_of_a_picture_and_great_numbers_are_dense) {
     return content_of(folder / "p.csv");
   };
   const std::string points = relaxed("n.npy", " --size 60x40");
+  const auto write_npy = [&](const std::string& name, const std::string& type, const std::string& weight) {
+    std::string npy = "\x93NUMPY\x01",
+                header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (40, 60), }\n";
+    npy += std::string(1, '\0') + static_cast<char>(header.size()) + '\0' + header;
+    for (int i = 0; i < 60 * 40; ++i) npy += i % 60 < 30 ? std::string(weight.size(), '\0') : weight;
+    folder.file(name, npy);
+  };
+  write_npy("half.npy", "<f2", {'\x60', '\x5a'});  // (1024 + 608) * 2^(22 - 25) = 204
+  write_npy("bool.npy", "|b1", "\x01");
+  BOOST_TEST(relaxed("half.npy", " --size 60x40") == points);
+  BOOST_TEST(relaxed("bool.npy", " --size 60x40") == points);
   BOOST_TEST(relaxed("grey.png", "") == points);
   BOOST_TEST(relaxed("deep.png", "") == points);
   BOOST_TEST(relaxed("colour.png", "") == points);
@@ -294,8 +305,8 @@ BOOST_AUTO_TEST_CASE(densities_that_cannot_be_are_refused) {
   cv::imwrite(folder / "white.png", cv::Mat(20, 10, CV_8UC1, cv::Scalar(255)));
   folder.file("points.npy", "1,2");
   const std::string relax = "relax --random 5 --rounds 3 --labels l.npy --density ";
-  refuses(folder, relax + "negative.npy", failure, {"pixel (3, 7)", "-2", "at least 0"});
-  refuses(folder, relax + "nan.npy", failure, {"pixel (3, 7)", "nan"});
+  refuses(folder, relax + "negative.npy", failure, {"negative.npy", "pixel (3, 7)", "-2", "at least 0"});
+  refuses(folder, relax + "nan.npy", failure, {"nan.npy holds", "nan", "pixel (3, 7)"});
   refuses(folder, relax + "white.png", failure, {"0 everywhere"});
   refuses(folder, relax + "points.npy", failure, {"points.npy", ".npy"});
   refuses(folder, relax + "none.png", failure, {"none.png"});

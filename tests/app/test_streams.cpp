@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(escape_sequences_of_files_do_not_reach_the_terminal) {
 BOOST_AUTO_TEST_CASE(a_first_run_says_nothing_of_the_compiler) {
   const TemporaryFolder folder;
   const Result result =
-      run(folder, "simulate --random 9 --size 40x30 --frames 2 --step-length 1 --method djfa",
+      run(folder, "cells --random 9 --size 40x30 --cells c.csv",
           "XDG_CACHE_HOME='" + folder / "cache" + "' POCL_CACHE_DIR='" + folder / "pocl" + "'");
   BOOST_TEST(result.exit_code == 0);
   BOOST_TEST(result.error == "");

@@ -107,6 +107,69 @@ BOOST_AUTO_TEST_CASE(of_frames_that_do_not_fit_on_the_disk_the_whole_ones_stay,
   }
 }
 
+// Each table then has the rows of the frames that the message counts, and of no other.
+BOOST_AUTO_TEST_CASE(of_tables_that_do_not_fit_on_the_disk_the_whole_frames_stay,
+                     *boost::unit_test::precondition(may_mount)) {
+  const std::string at_random = "simulate --random 20 --size 40x30 --frames 400 --step-length 1 --method ";
+  const std::string lattice = "Lattice=\"9 0 0 0 9 0 0 0 1\" pbc=\"T T F\"\n";
+  std::string frames;
+  for (int frame = 0; frame < 90; ++frame) frames += "3\n" + lattice + "A 1 2 0\nA 7 2 0\nA 4 8 0\n";
+  struct Case {
+    std::string arguments;
+    std::vector<std::pair<std::string, int>>
+        tables;  // and their rows per frame; 0: one of each but the first
+    std::uintmax_t pages;
+  };
+  for (const Case& c :
+       {Case{at_random + "jfa --statistics s.csv", {{"s.csv", 1}}, 4},
+        Case{at_random + "jfa --cells c.csv --statistics s.csv", {{"c.csv", 20}, {"s.csv", 1}}, 40},
+        Case{at_random + "jfa --compare-with exact --similarity s.csv", {{"s.csv", 0}}, 2},
+        Case{"simulate --exact --trajectory ../t.xyz --cells c.csv --adjacency a.csv",
+             {{"c.csv", 3}, {"a.csv", 6}},
+             3}}) {
+    const TemporaryFolder folder;
+    folder.file("t.xyz", frames);
+    const Result result = run(folder, c.arguments, on_disk_of(c.pages));
+    BOOST_TEST_CONTEXT(c.arguments << "\n" << result.error) {
+      BOOST_TEST(result.exit_code == failure);
+      const std::string says = "No space left on device; frames complete before that: ";
+      const std::size_t place = result.error.find(says);
+      BOOST_TEST_REQUIRE(place != std::string::npos);
+      const int complete = std::stoi(result.error.substr(place + says.size()));
+      BOOST_TEST(complete > 10);
+      const std::size_t written = result.error.find(", written of them: ");
+      if (c.tables.size() == 1) BOOST_TEST(written == std::string::npos);
+      if (written != std::string::npos) {
+        BOOST_TEST(result.error.substr(written) == fmt::format(", written of them: {}\n", complete));
+      }
+      for (const auto& [name, rows] : c.tables) {
+        const std::string table = content_of(folder / ("left/" + name));
+        BOOST_TEST_REQUIRE(!table.empty(), name);
+        BOOST_TEST(table.back() == '\n');
+        const auto lines = std::count(table.begin(), table.end(), '\n');
+        BOOST_TEST(lines == 1 + (rows == 0 ? complete - 1 : rows * complete), name);
+      }
+      BOOST_TEST(std::distance(std::filesystem::directory_iterator(folder / "left"), {}) ==
+                 static_cast<std::ptrdiff_t>(c.tables.size()));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_film_that_does_not_fit_on_the_disk_says_so,
+                     *boost::unit_test::precondition(may_mount)) {
+  const TemporaryFolder folder;
+  const Result result = run(
+      folder, "simulate --random 200 --size 256x256 --frames 3 --step-length 1 --statistics s.csv -o a.mp4",
+      on_disk_of(4));
+  BOOST_TEST(result.exit_code == failure);
+  BOOST_TEST(result.error.find("writing a.mp4 failed: is the disk full? Nothing stays of the film") !=
+                 std::string::npos,
+             result.error);
+  BOOST_TEST(!std::filesystem::exists(folder / "left/a.mp4"));
+  refuses(folder, "simulate --random 5 --size 16386x4 --frames 1 --step-length 1 -o long.mp4", failure,
+          {"long.mp4: a film of 16386 x 4", "16384"});
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_is_replaced_keeps_its_mode) {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.npy", "f.mp4"}) {

@@ -1,6 +1,7 @@
 #include "formats/npy.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <map>
@@ -37,12 +38,23 @@ Type type_of() {
           }};
 }
 
+/// A float of 16 bits (IEEE 754): a sign, 5 bits of an exponent, 10 of a fraction.
+double read_half(const char* bytes) {
+  std::uint16_t bits = 0;
+  std::memcpy(&bits, bytes, sizeof bits);
+  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
+  const double size = exponent == 31  ? (fraction == 0 ? HUGE_VAL : NAN)
+                      : exponent == 0 ? std::ldexp(fraction, -24)
+                                      : std::ldexp(1024 + fraction, exponent - 25);
+  return (bits >> 15) != 0 ? -size : size;
+}
+
 const std::map<std::string, Type>& types() {
   static const std::map<std::string, Type> all = {
-      {"|i1", type_of<std::int8_t>()},   {"|u1", type_of<std::uint8_t>()},  {"<i2", type_of<std::int16_t>()},
-      {"<u2", type_of<std::uint16_t>()}, {"<i4", type_of<std::int32_t>()},  {"<u4", type_of<std::uint32_t>()},
-      {"<i8", type_of<std::int64_t>()},  {"<u8", type_of<std::uint64_t>()}, {"<f4", type_of<float>()},
-      {"<f8", type_of<double>()}};
+      {"|b1", type_of<std::uint8_t>()},  {"<f2", {2, read_half}},           {"|i1", type_of<std::int8_t>()},
+      {"|u1", type_of<std::uint8_t>()},  {"<i2", type_of<std::int16_t>()},  {"<u2", type_of<std::uint16_t>()},
+      {"<i4", type_of<std::int32_t>()},  {"<u4", type_of<std::uint32_t>()}, {"<i8", type_of<std::int64_t>()},
+      {"<u8", type_of<std::uint64_t>()}, {"<f4", type_of<float>()},         {"<f8", type_of<double>()}};
   return all;
 }
 
@@ -106,8 +118,9 @@ Header read_header(std::ifstream& file, const std::string& path) {
   Header header{type[0] == '\'' ? type.substr(1, type.find('\'', 1) - 1) : "record",
                 parse_shape(header_value(text, "shape", path), path)};
   if (types().count(header.type) == 0) {
-    throw Error(path + " holds values of type " + header.type +
-                "; little-endian integers and floating-point numbers of 1 to 8 bytes can be read");
+    throw Error(
+        path + " holds values of type " + header.type +
+        "; booleans, and little-endian integers and floating-point numbers of at most 8 bytes, can be read");
   }
   if (header_value(text, "fortran_order", path).compare(0, 5, "False") != 0) {
     throw Error(path + " is in Fortran order; save it with numpy.ascontiguousarray()");
@@ -216,8 +229,15 @@ DensityImage read_npy_density(const std::string& path) {
   image.values.reserve(image.size.pixels());
   for (int y = 0; y < image.size.height(); ++y) {
     read_bytes(file, row.data(), row.size(), path);
-    for (std::size_t at = 0; at < row.size(); at += type.size)
-      image.values.push_back(static_cast<float>(type.read(&row[at])));
+    for (std::size_t at = 0; at < row.size(); at += type.size) {
+      const auto value = static_cast<float>(type.read(&row[at]));
+      if (!(value >= 0 && std::isfinite(value))) {
+        throw Error(path + " holds " + std::to_string(value) + " at pixel (" +
+                    std::to_string(at / type.size) + ", " + std::to_string(y) +
+                    "); a density has finite numbers of at least 0");
+      }
+      image.values.push_back(value);
+    }
   }
   return image;
 }

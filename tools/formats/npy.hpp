@@ -12,8 +12,8 @@
 
 namespace vorocl::command {
 
-/// A file that holds an array of points: of shape (N, 2) and any integer or floating-point type of 1 to 8
-/// bytes. The points are read when they are asked for.
+/// A file that holds an array of points: of shape (N, 2), and booleans or any integer or floating-point type
+/// of at most 8 bytes. The points are read when they are asked for.
 class NpyPoints {
  public:
   /// Throws Error if the file is something else, ends early or holds no points or more than `most`.
@@ -37,8 +37,8 @@ std::vector<Point> read_npy_points(const std::string& path);
 /// Labels: uint32, shape (height, width). Throws Error if the file is something else.
 LabelImage read_npy_labels(const std::string& path);
 
-/// Numbers of any integer or floating-point type, as NpyPoints, of shape (height, width). Throws Error if the
-/// file is something else.
+/// Numbers of any type that NpyPoints takes, of shape (height, width). Throws Error if the file is something
+/// else, or a number is negative or not finite.
 DensityImage read_npy_density(const std::string& path);
 
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws

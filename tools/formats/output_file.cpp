@@ -209,6 +209,10 @@ std::size_t GrowingFile::sync() {
 
 void GrowingFile::finish() {
   const std::string name = name_ ? name_->path() : part_;
+  if (marked_ >= 0) {
+    buffer_.clear();
+    if (ftruncate(descriptor_, marked_) != 0) throw failed_to_write(path_);
+  }
   // What a disk or a server refuses late, it refuses here: before the file has its name.
   name.empty() ? flush() : static_cast<void>(sync());
   if (close(std::exchange(descriptor_, -1)) != 0) throw failed_to_write(path_);
@@ -216,6 +220,8 @@ void GrowingFile::finish() {
   if (rename(name.c_str(), target_.c_str()) != 0) throw cannot_write(path_, reason(errno));
   name_.reset();
 }
+
+void GrowingFile::mark() { marked_ = lseek(descriptor_, 0, SEEK_CUR); }
 
 void GrowingFile::flush() {
   write_now(buffer_.data(), buffer_.size());

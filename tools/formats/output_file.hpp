@@ -2,6 +2,8 @@
 // run can remove.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -93,6 +95,13 @@ class GrowingFile {
     return *this;
   }
 
+  /// Hands all that was written to the system. Throws Error if that fails.
+  void flush();
+
+  /// After flush(): what was written is of use without what may follow, as the rows of whole frames are.
+  /// finish() cuts off what did follow.
+  void mark();
+
   /// Makes the disk have all that was written, and returns how many bytes these are. Throws Error if that
   /// fails.
   std::size_t sync();
@@ -102,12 +111,11 @@ class GrowingFile {
   std::string temporary_path() const { return name_ ? name_->path() : path_; }
 
   /// Gives the file its name, with the access rights of the file that it replaces. Throws Error if it was not
-  /// written whole.
+  /// written whole, or up to the last mark if there is one.
   void finish();
 
  private:
   bool open_beside(const std::string& target);
-  void flush();
   void write_now(const char* bytes, std::size_t count);
 
   std::string path_;
@@ -117,6 +125,7 @@ class GrowingFile {
   bool is_finished_ = false;
   int descriptor_ = -1;
   std::vector<char> buffer_;
+  off_t marked_ = -1;  // bytes; negative: there is no mark, or the file cannot be cut
 };
 
 /// ".vorocl-0123456789abcdef.mp4" beside the target: a name that nobody can foresee, short, so that it is

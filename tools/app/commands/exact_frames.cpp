@@ -45,6 +45,9 @@ class ExactTables {
     if (files_ && wants_files) kind_.write(files_->file(frame), rows);
   }
 
+  /// The table; null: none, or one of each frame.
+  GrowingFile* table() const { return table_.get(); }
+
   void finish() {
     if (table_) table_->finish();
   }
@@ -72,11 +75,13 @@ class ExactRun {
     cells_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
     pairs_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
     if (polygons_ && wants_files) rows.write_polygons(polygons_->file(frames_));
+    mark_tables();
     uncertified_ += rows.uncertified();
     milliseconds_.add(report.milliseconds());
     ++frames_;
   }
 
+  /// Gives the tables, with the rows of complete frames, their names.
   void finish() {
     cells_.finish();
     pairs_.finish();
@@ -99,6 +104,15 @@ class ExactRun {
   }
 
  private:
+  /// Both have the rows of this frame, or none has.
+  void mark_tables() {
+    for (const auto step : {&GrowingFile::flush, &GrowingFile::mark}) {
+      for (GrowingFile* const table : {cells_.table(), pairs_.table()}) {
+        if (table != nullptr) (table->*step)();
+      }
+    }
+  }
+
   const ExactFramesOptions& options_;
   ExactTables cells_, pairs_;
   std::optional<NumberedFiles> polygons_;
@@ -134,7 +148,11 @@ void run_exact_frames(const ExactFramesOptions& options) {
   } catch (const std::exception& error) {
     trouble = message_of(error);
   }
-  if (run.frames() > 0) run.finish();
+  try {
+    if (run.frames() > 0) run.finish();
+  } catch (const Error&) {
+    if (trouble.empty()) throw;
+  }
   if (!trouble.empty())
     throw Error(fmt::format("{}; frames complete before that: {}", trouble, run.frames()));
   run.print_result(device);

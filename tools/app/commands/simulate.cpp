@@ -256,11 +256,12 @@ void run(const SimulateOptions& options) {
         fmt::format("{}; frames complete before that: {}; the same command goes on behind them, with {}",
                     course.trouble, course.frames, journal->path()));
   }
-  if (course.frames > 0) writer.finish();
-  if (!course.trouble.empty()) {
-    throw Error(fmt::format("{}; frames complete before that: {}, written of them: {}", course.trouble,
-                            course.frames, writer.frames()));
+  try {
+    if (course.frames > 0) writer.finish();
+  } catch (const Error&) {
+    if (course.trouble.empty()) throw;
   }
+  if (!course.trouble.empty()) throw Error(course.trouble + writer.progress());
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
 

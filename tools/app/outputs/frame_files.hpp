@@ -37,6 +37,9 @@ class FrameFiles {
   /// As add(), of a frame whose file is there.
   void go_on_from(int frame, std::int64_t time);
 
+  /// The table; null where there are numbered files.
+  GrowingFile* table() const { return table_.get(); }
+
   /// Where the file of a frame is; empty where there is a table.
   std::string path(int frame) const { return files_ ? files_->path(frame) : std::string(); }
 
@@ -66,6 +69,8 @@ class FrameStatistics {
 
   /// Goes on behind a frame that is in the table.
   void go_on_from(Measures& measures);
+
+  GrowingFile* table() const { return file_.get(); }
 
   void finish() { file_->finish(); }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
@@ -98,6 +99,11 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, co
         journal_.get());
   }
   if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path, journal_.get());
+  for (const auto& files : files_) {
+    if (files->table() != nullptr) tables_.push_back(files->table());
+  }
+  if (similarities_) tables_.push_back(similarities_.get());
+  if (statistics_) tables_.push_back(statistics_->table());
 }
 
 void FrameWriter::open_files() {
@@ -148,8 +154,16 @@ void FrameWriter::write(const FrameFacts& facts, Measures* measures) {
   if (facts.similarity && similarities_) write_similarity(facts.frame, *facts.similarity);
   if (wants_images(facts.frame)) write_images(facts, *measures);
   if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, *measures);
-  if (journal_) journal_->complete(facts.frame, facts.seeds);
+  journal_ ? journal_->complete(facts.frame, facts.seeds) : mark_tables();
   ++complete_;
+  if (wants_images(facts.frame)) ++frames_;
+}
+
+/// All have the rows of this frame, or none has.
+void FrameWriter::mark_tables() {
+  for (const auto step : {&GrowingFile::flush, &GrowingFile::mark}) {
+    for (GrowingFile* const table : tables_) (table->*step)();
+  }
 }
 
 bool FrameWriter::needs_diagram(int frame) const {
@@ -180,7 +194,6 @@ void FrameWriter::write_images(const FrameFacts& facts, Measures& measures) {
     }
     if (pictures_) write_picture(pictures_->file(facts.frame), picture);
   }
-  ++frames_;
 }
 
 void FrameWriter::write_similarity(int frame, const FrameSimilarity& similarity) {
@@ -192,13 +205,27 @@ void FrameWriter::write_similarity(int frame, const FrameSimilarity& similarity)
   *similarities_ << "\n";
 }
 
+std::string FrameWriter::progress() const {
+  std::string text = fmt::format("; frames complete before that: {}", complete_);
+  if (film_ || pictures_ || !files_.empty()) text += fmt::format(", written of them: {}", frames_);
+  return text;
+}
+
 void FrameWriter::finish() {
   if (journal_) journal_->finish();
-  // The film last: should it fail, the others are whole nevertheless.
-  for (const auto& files : files_) files->finish();
-  if (similarities_) similarities_->finish();
-  if (statistics_) statistics_->finish();
-  if (film_) film_->finish();
+  std::exception_ptr first;
+  const auto finish = [&first](auto& output) {
+    try {
+      output.finish();
+    } catch (...) {
+      if (!first) first = std::current_exception();
+    }
+  };
+  for (const auto& files : files_) finish(*files);
+  if (similarities_) finish(*similarities_);
+  if (statistics_) finish(*statistics_);
+  if (film_) finish(*film_);
+  if (first) std::rethrow_exception(first);
   if (journal_) journal_->remove();
 }
 

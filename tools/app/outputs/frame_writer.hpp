@@ -83,13 +83,15 @@ class FrameWriter {
   /// As add(), of a frame that is complete: writes nothing. `measures` are null if it needs none.
   void go_on_from(const FrameFacts& facts, Measures* measures);
 
-  /// The frames that are complete, and those whose images are written: once wait() has ended, also where it
-  /// threw.
+  /// The frames that are complete, once wait() has ended, also where it threw.
   int complete() const { return complete_; }
-  int frames() const { return frames_; }
 
-  /// After wait(), also where that threw: gives the film and the tables their names, and lists the numbered
-  /// files. Throws Error if one was not written whole.
+  /// "; frames complete before that: 3, written of them: 2", for the error that ended a run.
+  std::string progress() const;
+
+  /// After wait(), also where that threw: gives the film and the tables, with the rows of complete frames,
+  /// their names, and lists the numbered files. Throws Error if one could not be written whole; the others
+  /// are.
   void finish();
 
  private:
@@ -100,6 +102,7 @@ class FrameWriter {
   void write(const FrameFacts& facts, Measures* measures);
   void write_images(const FrameFacts& facts, Measures& measures);
   void write_similarity(int frame, const FrameSimilarity& similarity);
+  void mark_tables();
 
   FrameWriterOptions options_;
   Painter painter_;
@@ -109,6 +112,7 @@ class FrameWriter {
   std::vector<std::unique_ptr<FrameFiles>> files_;
   std::unique_ptr<GrowingFile> similarities_;
   std::optional<FrameStatistics> statistics_;
+  std::vector<GrowingFile*> tables_;  // of all these
   int complete_ = 0, frames_ = 0;
   Workers behind_{1};  // the last member: its thread ends before what it writes goes
 };

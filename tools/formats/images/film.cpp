@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
@@ -13,6 +14,9 @@
 namespace vorocl::command {
 
 namespace {
+
+/// What x264 takes.
+constexpr int longest_side = 16384;
 
 cv::Mat padded(const cv::Mat& picture) {
   const cv::Size size = film_size(picture.size());
@@ -71,9 +75,16 @@ Film::Film(const std::string& path, double frames_per_second)
     : file_(to_be_film(path)), frames_per_second_(frames_per_second) {}
 
 void Film::add(const cv::Mat& picture) {
+  const cv::Size size = film_size(picture.size());
+  if (std::max(size.width, size.height) > longest_side) {
+    throw Error(fmt::format(
+        "{}: a film of {} x {} cannot be made, because the sides of H.264 have at most {} pixels; "
+        "write numbered pictures, such as frames/%05d.png",
+        file_.path(), picture.cols, picture.rows, longest_side));
+  }
   if (!encoder_) {
     make_unset_memory_the_same();
-    encoder_ = film_module().open(file_.temporary_path(), frames_per_second_, film_size(picture.size()));
+    encoder_ = film_module().open(file_.temporary_path(), frames_per_second_, size);
   }
   if (!encoder_) {
     throw Error(
@@ -87,7 +98,9 @@ void Film::add(const cv::Mat& picture) {
   ++pictures_;
 }
 
-Error Film::failed() const { return Error("writing " + file_.path() + " failed: is the disk full?"); }
+Error Film::failed() const {
+  return Error("writing " + file_.path() + " failed: is the disk full? Nothing stays of the film");
+}
 
 void Film::finish() {
   if (pictures_ == 0) return;
