@@ -24,8 +24,8 @@ Walk walk_through(const MeasuredDiagram& of, const Kernel& kernel) {
     return {fewest, items, {{chunk, static_cast<cl_uint>(width), chunk}}};
   }
   // As many as a device runs at a time.
-  const std::size_t at_a_time =
-      8 * device_info<cl_uint>(of.device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+  const std::size_t units = device_info<cl_uint>(of.device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+  const std::size_t at_a_time = 8 * units;
   const std::size_t groups = std::max(std::min(divided_up(pixels, items * width), at_a_time), fewest);
   return {groups,
           items,
