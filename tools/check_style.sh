@@ -18,7 +18,7 @@ lint)
   [ $# -gt 0 ] || set -- src tools tests
   # As Clang compiles it: it cannot read the precompiled headers of another compiler.
   CC=clang CXX=clang++ cmake --preset dev -B build-lint -DVOROCL_MPI=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
-  find "$@" -name '*.cpp' -not -path 'tests/package/*' -not -path 'tools/simulated_warps/*' |
+  find "$@" -name '*.cpp' -not -path 'tests/package/*' -not -path 'tests/benchmarks/*' -not -path 'tools/simulated_warps/*' |
     xargs --max-procs "$(nproc)" --max-args 1 clang-tidy --quiet -p build-lint
   ;;
 *)
