@@ -61,9 +61,21 @@ const std::string three =
 /// What to do where it cannot go on.
 const std::string start_again = "remove l%d.npy.journal and the .part files of its outputs to start again\n";
 
+/// The same in a periodic box, of which the tilt grows from frame to frame by `step`.
+std::string sheared(const std::string& third, int step) {
+  std::string text;
+  int tilt = 0;
+  for (const char* const x : {"1", "2", third.c_str()}) {
+    text += "3\nLattice=\"9 0 0 " + std::to_string(tilt) + " 9 0 0 0 1\" pbc=\"T T F\"\nA " + std::string(x) +
+            " 1 0\nA 7 2 0\nA 4 8 0\n";
+    tilt += step;
+  }
+  return text;
+}
+
 /// A run that stops before frame 2, which is bad.
-void begin_three(const TemporaryFolder& folder) {
-  folder.file("t.xyz", trajectory("nothing"));
+void begin_three(const TemporaryFolder& folder, const std::string& bad = trajectory("nothing")) {
+  folder.file("t.xyz", bad);
   const Result result = run(folder, three);
   BOOST_TEST(result.exit_code == failure);
   BOOST_TEST(
@@ -143,6 +155,25 @@ BOOST_AUTO_TEST_CASE(a_trajectory_that_has_grown_whole_is_gone_on_with) {
   folder.file("t.xyz", trajectory("3"));
   BOOST_TEST(run(folder, three).exit_code == 0);
   check_same(folder, whole, without_times);
+}
+
+BOOST_AUTO_TEST_CASE(a_box_goes_on_with_the_tilts_that_it_had) {
+  const TemporaryFolder whole, folder;
+  whole.file("t.xyz", sheared("3", 2));
+  run(whole, three);
+  begin_three(folder, sheared("nothing", 2));
+  folder.file("t.xyz", sheared("3", 1));  // the particles are where they were
+  refuses(folder, three, failure,
+          {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of", start_again});
+  folder.file("t.xyz", sheared("3", 2));
+  BOOST_TEST(run(folder, three).exit_code == 0);
+  check_same(folder, whole, without_times);
+  // The tilt is seen.
+  folder.file("t.xyz", sheared("3", 1));
+  for (const char* const name : {"l0.npy", "l1.npy", "l2.npy"}) std::filesystem::remove(folder / name);
+  BOOST_TEST(run(folder, three).exit_code == 0);
+  BOOST_TEST(content_of(folder / "l0.npy") == content_of(whole / "l0.npy"));
+  BOOST_TEST(content_of(folder / "l1.npy") != content_of(whole / "l1.npy"));
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_fit_is_refused) {
