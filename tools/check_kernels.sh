@@ -22,9 +22,13 @@ compile() { # KERNEL OPTION...
 }
 
 # What programs are built for, one set of options per line: every vector width, and of the scalar and of the widest
-# kernels all metrics, neighbourhoods, axes and windows.
+# kernels all metrics, neighbourhoods, axes and windows. What a program includes is compiled with it, and once alone.
 builds_of() { # KERNEL
-  local kernel=$1 width metric axes reach
+  local kernel=$1 width metric axes
+  if grep -qF "#include \"${kernel#kernels/}\"" $(kernel_files); then
+    echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
+    return
+  fi
   for width in 1 2 4 8 16; do
     echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
     echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"

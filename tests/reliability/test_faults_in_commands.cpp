@@ -1,9 +1,11 @@
 // The command while calls of OpenCL, of the file system and of memory fail: it ends with an error and leaves
-// whole files alone, or it makes the right ones. Of each kind of call that a subcommand makes, one fails;
-// with VOROCL_LONG_TESTS, 100.
+// whole files alone, or it makes the right ones. Of each kind of call of files and memory that a subcommand
+// makes, one fails, and of each kind of call of OpenCL one in a third of the subcommands; with
+// VOROCL_LONG_TESTS, 100 of each in all.
 #define BOOST_TEST_MODULE faults_in_commands
 #include <boost/test/data/test_case.hpp>
 #include <random>
+#include <set>
 
 #include "left_files.hpp"
 
@@ -39,8 +41,19 @@ std::string preloaded(const std::string& settings) {
   return "VOROCL_BINARY_CACHE=0 LD_PRELOAD='" VOROCL_FAULTS "' " + settings;
 }
 
-/// Some calls of every kind that a run of the subcommand makes, to fail once or from then on.
-std::vector<Fault> faults_of(const std::string& subcommand, std::size_t of_each_kind, std::mt19937& random) {
+/// Whether a call of OpenCL fails in this subcommand: in the first that makes it, and in every third one.
+bool is_turn_of(const std::string& subcommand, const std::string& kind) {
+  static std::set<std::string> known;
+  const bool is_new = known.insert(kind).second;
+  const auto number = static_cast<std::size_t>(
+      std::find(std::begin(subcommands), std::end(subcommands), subcommand) - std::begin(subcommands));
+  return is_new || (number + kind.size()) % 3 == 0;
+}
+
+/// Some calls of the kinds that a run of the subcommand makes, to fail once or from then on.
+std::vector<Fault> faults_of(const std::string& subcommand, std::mt19937& random) {
+  const bool is_long = std::getenv("VOROCL_LONG_TESTS") != nullptr;
+  const std::size_t of_each_kind = is_long ? 100 : 1;
   const TemporaryFolder folder;
   const Result result = run(folder, subcommand, preloaded("VOROCL_FAULT_COUNTS=counts"));
   BOOST_TEST(result.exit_code == 0, subcommand << "\n" << result.error);
@@ -48,6 +61,7 @@ std::vector<Fault> faults_of(const std::string& subcommand, std::size_t of_each_
   std::ifstream counts(folder / "counts");
   std::string kind;
   for (int calls = 0; counts >> kind >> calls;) {
+    if (!is_long && kind.rfind("cl", 0) == 0 && !is_turn_of(subcommand, kind)) continue;
     std::vector<std::string> of_kind;
     for (int number = 1; number <= calls; ++number) {
       for (const char* mode : {"", " on"}) of_kind.push_back(kind + " " + std::to_string(number) + mode);
@@ -56,7 +70,7 @@ std::vector<Fault> faults_of(const std::string& subcommand, std::size_t of_each_
     of_kind.resize(std::min(of_kind.size(), of_each_kind));
     for (const std::string& request : of_kind) faults.push_back({subcommand, request});
   }
-  BOOST_TEST(faults.size() >= 8);
+  BOOST_TEST(faults.size() >= 4);
   return faults;
 }
 
@@ -88,10 +102,9 @@ void check_with(const Fault& fault, const TemporaryFolder& whole) {
 BOOST_DATA_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files, data::make(subcommands),
                      subcommand) {
   std::mt19937 random(1);
-  const std::size_t of_each_kind = std::getenv("VOROCL_LONG_TESTS") != nullptr ? 100 : 1;
   const TemporaryFolder whole;
   run(whole, subcommand);
-  const std::vector<Fault> faults = faults_of(subcommand, of_each_kind, random);
+  const std::vector<Fault> faults = faults_of(subcommand, random);
   for (const Fault& fault : faults) check_with(fault, whole);
   BOOST_TEST_MESSAGE(faults.size() << " calls failed");
 }
@@ -101,7 +114,7 @@ BOOST_AUTO_TEST_CASE(what_the_device_still_reads_is_kept_where_waiting_for_it_fa
   const std::string& ablation = subcommands[9];
   const TemporaryFolder whole;
   run(whole, ablation);
-  for (int number = 30; number < 40; ++number)
+  for (int number = 30; number < 40; number += 3)
     check_with({ablation, "clWaitForEvents " + std::to_string(number) + " on"}, whole);
 }
 
