@@ -17,8 +17,8 @@ void check_labels_fit(const Diagram& a, const Diagram& b) {
 
 MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
   check_labels_fit(a, b);
-  MeasuredDiagram one = cells_of(a);
-  MeasuredDiagram other = cells_of(b);
+  MeasuredDiagram one = cells_of(a, Volumes::taken);
+  MeasuredDiagram other = cells_of(b, Volumes::taken);
   if (one.metric != other.metric)
     throw Error("diagrams of different metrics cannot be compared by distances");
   // Clones of seeds have frames of their own, but share where they lie.
@@ -47,12 +47,21 @@ Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErr
   const std::size_t items = comparing_items(of.grid);
   make_room(found.wrong, of.device, items * sizeof(cl_uint2));
   make_room(found.excesses, of.device, items * sizeof(cl_float2));
+  const int width = of.grid.width(), height = of.grid.height();
+  constexpr auto chunk = static_cast<cl_uint>(pixels_per_item);
+  const auto kernel = [&](const char* file) -> Kernel& {
+    return found.kernels.get(of.device, file, "judge_labels", of.grid, of.options());
+  };
   const cl::Event judged =
-      found.kernels.get(of.device, "measures/comparison.cl", "judge_labels", of.grid, of.options())
-          .over_items(items, diagram.labels(), exact.labels(), of.positions(), of.count(), of.periods(),
-                      of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item), found.wrong,
-                      found.excesses);
-  found.other = labels_of(exact).seeds;
+      of.grid.is_volume()
+          ? kernel("volumes/measures.cl")
+                .over_items(items, diagram.labels(), exact.labels(), of.positions(), of.count(), width,
+                            height, static_cast<cl_uint>(of.grid.pixels()), chunk, found.wrong,
+                            found.excesses)
+          : kernel("measures/comparison.cl")
+                .over_items(items, diagram.labels(), exact.labels(), of.positions(), of.count(), of.periods(),
+                            width, height, chunk, found.wrong, found.excesses);
+  found.other = labels_of(exact, Volumes::taken).seeds;
   return measuring.commit(std::move(of), judged, judged);
 }
 

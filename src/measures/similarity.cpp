@@ -37,7 +37,7 @@ Report count(Measuring<SimilarityState>& measuring, const MeasuredDiagram& of, c
   const cl::Event last =
       found.kernels.get(of.device, "measures/comparison.cl", kernel, of.grid, options)
           .over_items(comparing_items(of.grid), a.labels(), b.labels(), arguments..., found.differences);
-  found.other = labels_of(b).seeds;
+  found.other = labels_of(b, Volumes::taken).seeds;
   return measuring.commit(MeasuredDiagram(of), first, last);
 }
 
@@ -56,7 +56,7 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
 Report similarity(const Diagram& a, const Diagram& b, SimilarityResult& result) {
   Measuring<SimilarityState> measuring(result);
   check_labels_fit(a, b);
-  const MeasuredDiagram of = labels_of(a);
+  const MeasuredDiagram of = labels_of(a, Volumes::taken);
   const auto pixels = static_cast<cl_uint>(of.grid.pixels());
   return count(measuring, of, a, b, "count_differences", {}, pixels, static_cast<cl_uint>(pixels_per_item));
 }
@@ -66,6 +66,7 @@ Report similarity(const Diagram& a, const Diagram& b, double tolerance, Similari
   if (!(tolerance >= 0 && std::isfinite(tolerance))) {
     throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
   }
+  refuse_volume(a.window().grid(), "similarity with a tolerance");
   const MeasuredDiagram of = cells_of_both(a, b);
   return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.periods(),
                of.grid.width(), of.grid.height(), static_cast<cl_uint>(pixels_per_item),
