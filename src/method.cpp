@@ -80,21 +80,21 @@ Plan plan_dynamic_jump_flooding(const Window& window, int, const MethodOptions& 
 
 template <JumpFloodingVariant variant>
 Method of_jump_flooding(const char* name) {
-  return {name, false, false, false, run_jump_flooding<variant>, plan_jump_flooding<variant>};
+  return {name, false, false, false, true, run_jump_flooding<variant>, plan_jump_flooding<variant>};
 }
 
 }  // namespace
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> all = {
-      {"standard-flooding", false, false, false, run_standard_flooding, plan_standard_flooding},
+      {"standard-flooding", false, false, false, false, run_standard_flooding, plan_standard_flooding},
       of_jump_flooding<JumpFloodingVariant::jfa>("jfa"),
       of_jump_flooding<JumpFloodingVariant::jfa_plus_1>("jfa+1"),
       of_jump_flooding<JumpFloodingVariant::jfa_plus_2>("jfa+2"),
       of_jump_flooding<JumpFloodingVariant::one_plus_jfa>("1+jfa"),
-      {"djfa", false, true, false, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
-      {"low-resolution", false, false, false, run_low_resolution, nullptr},
-      {"exact", true, false, true, run_exact, nullptr},
+      {"djfa", false, true, false, false, run_dynamic_jump_flooding, plan_dynamic_jump_flooding},
+      {"low-resolution", false, false, false, false, run_low_resolution, nullptr},
+      {"exact", true, false, true, true, run_exact, nullptr},
   };
   return all;
 }
@@ -122,9 +122,9 @@ Simulation::Engine engine(const Method& method, const MethodOptions& options) {
 void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
              const MethodOptions& options, Snap snap) {
   const Grid& grid = window.grid();
-  const Grid pixels(fits_in_a_diagram(grid) ? grid
-                                            : Grid(window.width(), window.height(), window.periodic()));
-  Diagram diagram(device, fits_in_a_diagram(grid) ? window : Window(pixels));
+  const bool fits = grid.is_volume() || fits_in_a_diagram(grid);
+  const Grid pixels(fits ? grid : Grid(window.width(), window.height(), window.periodic()));
+  Diagram diagram(device, fits ? window : Window(pixels));
   const Seeds random = Seeds::random(device, pixels, seeds, 1);
   method.run(snap == Snap::none ? Seeds(device, pixels, random.read(), Outside::count, snap) : random.clone(),
              diagram, options);

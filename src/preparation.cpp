@@ -96,6 +96,30 @@ void prepare_exact_cells(const Device& device) {
   device.finish();
 }
 
+/// Volumes with few rows and with many.
+void prepare_volumes(const Device& device) {
+  for (const Grid& grid : {Grid(40, 40, 40), Grid(16, 300, 300)}) {
+    const Seeds seeds = Seeds::random(device, grid, 1000, 1);
+    Diagram diagram(device, grid), other(device, grid);
+    for (const Method& each : methods()) {
+      const bool takes_them = each.volumes && !(each.exact && device.tuning().shape == Shape::group);
+      if (takes_them) each.run(seeds, diagram, {});
+    }
+    method("jfa").run(seeds, other, {});
+    Field<std::int32_t> squares;
+    Field<float> distances;
+    Field<std::uint32_t> expanded;
+    SimilarityResult labels;
+    DistanceErrorsResult wrong;
+    distance_field(diagram, squares);
+    distance_field(diagram, distances);
+    expand_labels(diagram, 5, expanded);
+    similarity(diagram, other, labels);
+    distance_errors(other, diagram, wrong);
+    diagram.wait();
+  }
+}
+
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
@@ -141,7 +165,10 @@ std::size_t prepare_programs(const Device& device, const PreparationPart& part) 
   for (std::size_t i = part.index; i < std::size(specialisations); i += part.count) {
     for (const Scale& scale : scales) prepare_at(scale, device, specialisations[i]);
     prepare_windows(device, specialisations[i]);
-    if (i == 0) prepare_exact_cells(device);
+    if (i == 0) {
+      prepare_volumes(device);
+      prepare_exact_cells(device);
+    }
   }
   return keep_programs(device);
 }

@@ -19,12 +19,13 @@ command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit
 [ -d "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
 [[ " $* " != *" nvidia "* ]] || command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
 
-# A GPU gets all programs but those of the vector shape of exact diagrams.
+# A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes.
 kernel_files() {
   grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
   echo kernels/exact/points/pixels.cl
+  printf 'kernels/volumes/%s.cl\n' jump_flooding measures seeds
 }
 
 work=$(mktemp -d)
@@ -35,7 +36,7 @@ compile() { # TARGET LIBRARY FILE OPTION...
   "$CLANG" -S -x cl -cl-std=CL1.2 -target "$1" -Xclang -finclude-default-header -O3 \
     -mllvm -inline-threshold=1000000 -mllvm -inlinehint-threshold=1000000 \
     -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC/$2" -Wno-linker-warnings -Ikernels \
-    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 "${@:4}" "$3" -o "$work/kernel.s"
+    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 -DVOROCL_BITS_Z=10 "${@:4}" "$3" -o "$work/kernel.s"
 }
 
 # What programs are built for besides a plain grid: seeds outside it, and periodic axes.

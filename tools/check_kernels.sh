@@ -18,7 +18,8 @@ compile() { # KERNEL OPTION...
   local kernel=$1
   shift
   clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -fsyntax-only -Ikernels -Wall -Wextra -Wconversion -Werror \
-    -Wno-unused-function -Wno-unused-const-variable -DVOROCL_GUARD=16 "$@" "$kernel"
+    -Wno-unused-function -Wno-unused-const-variable -DVOROCL_GUARD=16 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 \
+    -DVOROCL_BITS_Z=10 "$@" "$kernel"
 }
 
 # What programs are built for, one set of options per line: every vector width, and of the scalar and of the widest
@@ -37,7 +38,7 @@ builds_of() { # KERNEL
     echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9"
     for metric in EUCLIDEAN MANHATTAN; do
       echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS"
-      [[ $kernel != kernels/flooding/* ]] || echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=5"
+      [[ $kernel != kernels/*/*flooding.cl ]] || echo "$width -DVOROCL_$metric -DVOROCL_NEIGHBOURS=5"
     done
     echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"
     for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do

@@ -39,6 +39,10 @@ struct ExactOptions {
 /// pixels, and the host places their images whenever they have moved. In a flat box it looks at more of them:
 /// as many as rows of images may reach the window. Throws Error if such a grid has a side of more than
 /// 131,072 pixels.
+///
+/// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4.2
+/// bytes of device memory per voxel, the labels included, and 20 per seed. Throws Error for the Manhattan
+/// metric, and with Shape::group, as on a GPU. docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -18,6 +18,13 @@ struct Point {
   double y = 0;
 };
 
+/// A position in a volume, likewise.
+struct Point3 {
+  double x = 0;
+  double y = 0;
+  double z = 0;
+};
+
 /// How far apart two pixel centres are, computed in integers on every device.
 enum class Metric {
   euclidean,  ///< L2 (compared as dx * dx + dy * dy)
@@ -26,8 +33,8 @@ enum class Metric {
 
 /// Which pixels a wave looks at besides the pixel itself.
 enum class Neighbourhood {
-  moore,        ///< the 8 neighbours at the step
-  von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it
+  moore,        ///< the 8 neighbours at the step; in a volume 26
+  von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it; in a volume 6
 };
 
 /// Which axes of a grid are periodic.
@@ -136,12 +143,20 @@ class VOROCL_API Axis {
 
 /// The pixels that there are: two axes, x to the right and y down, pixel (0, 0) at the top left. It may be
 /// far larger than what a diagram can hold, which covers a Window of it.
+///
+/// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
+/// diagrams, exact_diagram(), jump_flooding() and flood(), distance_errors(), similarity(), distance_field()
+/// and expand_labels() take volumes; the others throw Error. No axis of a volume may be periodic yet.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
+  Grid(const Axis& x, const Axis& y, const Axis& z) : x_(x), y_(y), z_(z) {}
 
   /// A grid whose unit is the pixel. Throws as Axis.
   Grid(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
+
+  /// A volume whose unit is the voxel; of a depth of 1 it is a plane.
+  Grid(std::int64_t width, std::int64_t height, std::int64_t depth);
 
   /// The same grid as that of a box which is tilted in its plane: a parallelogram with the edges (width, 0)
   /// and (tilt, height), in the units of the data. What repeats at the same x without a tilt does so `tilt`
@@ -155,11 +170,15 @@ class VOROCL_API Grid {
 
   const Axis& x() const { return x_; }
   const Axis& y() const { return y_; }
+  const Axis& z() const { return z_; }
   std::int64_t width() const { return x_.pixels(); }
   std::int64_t height() const { return y_.pixels(); }
+  std::int64_t depth() const { return z_.pixels(); }
+  bool is_volume() const { return depth() > 1; }
   Periodic periodic() const { return periodic_along(x_.is_periodic(), y_.is_periodic()); }
   std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height());
+    return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()) *
+           static_cast<std::uint64_t>(depth());
   }
 
   /// The tilt, brought to at most half a period of x; 0 without one.
@@ -180,12 +199,12 @@ class VOROCL_API Grid {
   Point point(const Point& position) const { return {x_.coordinate(position.x), y_.coordinate(position.y)}; }
 
   friend bool operator==(const Grid& a, const Grid& b) {
-    return a.x_ == b.x_ && a.y_ == b.y_ && a.tilt_ == b.tilt_;
+    return a.x_ == b.x_ && a.y_ == b.y_ && a.z_ == b.z_ && a.tilt_ == b.tilt_;
   }
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
-  Axis x_, y_;
+  Axis x_, y_, z_ = Axis(1);
   double tilt_ = 0;
 };
 
@@ -193,18 +212,23 @@ class VOROCL_API Grid {
 ///
 /// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
 /// than the period shows each pixel at most once, where the grid has it, and no labels beside. Of a tilted
-/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid.
+/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid. Of a
+/// volume a window shows all.
 class VOROCL_API Window {
  public:
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
   static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
+  /// Of a volume: its sides, and the bits of the whole numbers below each of them, added up.
+  static constexpr std::int64_t max_side_of_volume = 16384;
+  static constexpr int max_bits_of_volume = 31;  ///< such as 2048 x 1024 x 1024 voxels
+
   /// All pixels of a grid.
   Window(const Grid& grid);
 
-  /// The pixels from column x and row y of a grid on. Throws Error unless the sides are from 1 to
-  /// Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere, but along
-  /// y in a tilted grid it must begin less than a period from the grid's first row).
+  /// The pixels from column x and row y of a grid on, which is no volume. Throws Error unless the sides are
+  /// from 1 to Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere,
+  /// but along y in a tilted grid it must begin less than a period from the grid's first row).
   Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height);
 
   const Grid& grid() const { return grid_; }
@@ -216,9 +240,14 @@ class VOROCL_API Window {
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
-  std::int64_t longest_side() const { return width_ > height_ ? width_ : height_; }
+  std::int64_t depth() const { return grid_.depth(); }
+  std::int64_t longest_side() const {
+    const std::int64_t of_a_slice = width_ > height_ ? width_ : height_;
+    return of_a_slice > depth() ? of_a_slice : depth();
+  }
   std::uint64_t pixels() const {
-    return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_);
+    return static_cast<std::uint64_t>(width_) * static_cast<std::uint64_t>(height_) *
+           static_cast<std::uint64_t>(depth());
   }
 
   /// Whether it is all of its grid.

@@ -19,7 +19,8 @@ struct JumpFloodingOptions {
 ///
 /// Approximate: with Moore waves every pixel gets a seed, nearly always its nearest; von Neumann waves alone
 /// give wrong regions (the paper's Fig. 5) and may leave pixels without a label. Cost: log2(N) waves,
-/// whatever the number of seeds; 13 bytes of device memory per pixel, the labels included. Throws Error if
+/// whatever the number of seeds; 13 bytes of device memory per pixel, the labels included, 12 per voxel of a
+/// volume. Throws Error if
 /// seeds and diagram do not fit together, the diagram's window is a part of its grid or seeds lie outside it
 /// (exact diagrams take both) or the device has too little memory.
 VOROCL_API Report jump_flooding(const Seeds& seeds, Diagram& diagram,

@@ -34,6 +34,7 @@ struct Method {
   bool exact;        ///< every pixel gets its nearest seed: other methods are judged by it
   bool continues;    ///< it goes on from the labels that the diagram holds, so frames must come in order
   bool windows;      ///< it takes any window of a grid and seeds outside it: others refuse them
+  bool volumes;      ///< it takes volumes: others refuse them
 
   /// Fills the diagram.
   Report (*run)(const Seeds& seeds, Diagram& diagram, const MethodOptions& options);

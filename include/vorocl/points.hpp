@@ -15,7 +15,7 @@
 namespace vorocl {
 
 /// A view of points on the host, in the units of the data: nothing is copied until seeds are made of them.
-/// A point may be absent: then its seed has an id and no cell.
+/// A point may be absent: then its seed has an id and no cell. Points of a volume have a z, others have none.
 ///
 /// Lifetime: what it views must live until the call that takes it returns.
 class VOROCL_API Points {
@@ -31,6 +31,12 @@ class VOROCL_API Points {
   /// From memory where the coordinates of one point lie `stride` bytes behind those of the one before:
   /// columns of a table, or members of a struct. The stride may be negative.
   Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride = sizeof(double));
+
+  /// Points of a volume.
+  Points(const std::vector<Point3>& points) : Points(points.data(), points.size()) {}
+  Points(const Point3* points, std::size_t count);
+  Points(const double* x, const double* y, const double* z, std::size_t count,
+         std::ptrdiff_t stride = sizeof(double));
 
   /// The same points, of which those are absent whose byte is 0; the others count as present. `present` has
   /// size() bytes.
@@ -49,6 +55,10 @@ class VOROCL_API Points {
     return {coordinate(first_, offset), coordinate(y_, offset)};
   }
 
+  /// Whether they are points of a volume, and the z of one of those that is present.
+  bool have_z() const { return z_ != nullptr; }
+  double z(std::size_t i) const { return coordinate(z_, static_cast<std::ptrdiff_t>(i) * stride_); }
+
  private:
   enum class Kind { strided, optional };
 
@@ -58,6 +68,7 @@ class VOROCL_API Points {
 
   const void* first_;  // the first x, or the first optional point
   const void* y_ = nullptr;
+  const void* z_ = nullptr;
   std::size_t size_;
   std::ptrdiff_t stride_ = sizeof(Point);
   Kind kind_;

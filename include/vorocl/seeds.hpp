@@ -43,6 +43,9 @@ enum class Snap {
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
 /// whole grid, which is not tilted, and holds all seeds, and periods of at most 32,000 pixels.
 ///
+/// In a volume all seeds lie at the centres of their voxels and in the volume: points outside it are absent
+/// or refused.
+///
 /// Memory: on the device 4 bytes per seed and frame that is remembered, 12 in a loop over frames, and where a
 /// diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that may own a
 /// pixel, which the host finds and sorts. On the host about 50 bytes per seed whose point came from there.
@@ -58,7 +61,9 @@ class VOROCL_API Seeds {
  public:
   /// From points on the host. `outside` and `snap` hold for all frames. Throws BadPoint naming the first
   /// point that is NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid
-  /// along an axis, before any device work. No points at all are allowed.
+  /// along an axis, before any device work. No points at all are allowed. Throws Error if the points are
+  /// those of a volume and the grid is not one, or the other way round, and for Snap::none in a volume; there
+  /// Outside::count refuses points outside.
   Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count,
         Snap snap = Snap::to_pixels);
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
@@ -76,7 +81,8 @@ class VOROCL_API Seeds {
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse,
         Snap snap = Snap::to_pixels);
 
-  /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order.
+  /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order. That
+  /// of a volume is slice after slice.
   /// Throws Error if the size is another or the grid is larger than a diagram can be.
   static Seeds from_mask(const Device& device, const Grid& grid, const std::vector<std::uint8_t>& mask);
 
@@ -127,6 +133,9 @@ class VOROCL_API Seeds {
   /// The seeds' positions in pixels from the grid's first one, as diagrams take them: the centres of their
   /// pixels, or whole numbers of 1/4096 with Snap::none. As read().
   std::vector<std::optional<Point>> read_pixels() const;
+
+  /// The same of seeds in a volume, which the two above throw Error for: the centres of their voxels.
+  std::vector<std::optional<Point3>> read_voxels() const;
 
   /// Throws BadPoint if a point of the caller's buffer was bad. Waits for it.
   void check() const;

@@ -2,25 +2,8 @@
 // tolerance, and how much farther one diagram's seeds are than those of the exact one. All counts and sums are of
 // integers, so they are the same whatever work-item compares a pixel.
 
-#include "measures/comparison_sizes.cl"
 #include "measures/seed_place.cl"
-
-// THE WALK of a work-item goes through vectors: the first one is at its number times walk.s0, each one walk.s1 pixels
-// behind the last one, and all are within walk.s2 pixels. On a CPU an item has neighbouring vectors, on a GPU
-// neighbouring items have. The vector at the end of the diagram may be a part of one.
-#define FOR_EACH_VECTOR(first, end, walk, pixels)                                                                  \
-  const uint begin = (uint)get_global_id(0) * walk.s0, walk_end = min(begin + walk.s2, pixels);                    \
-  for (uint first = begin, end; end = min(first + VOROCL_WIDTH, walk_end), first < walk_end; first += walk.s1)
-
-// Adds what the items of a group have found, at `found`, in the first place. In each round the lower half takes what
-// the upper half has.
-#define JOIN_IN_GROUP(take)                                                                     \
-  barrier(CLK_LOCAL_MEM_FENCE);                                                                 \
-  for (int left = (int)get_local_size(0); left > 1; left = (left + 1) / 2) {                    \
-    const int to = (int)get_local_id(0), from = to + (left + 1) / 2;                            \
-    if (from < left) { take; }                                                                  \
-    barrier(CLK_LOCAL_MEM_FENCE);                                                               \
-  }
+#include "measures/walk.cl"
 
 static inline void add_in_group(uint own, local uint* found, global uint* sum) {
   found[get_local_id(0)] = own;
@@ -68,9 +51,7 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
   local long sum_of[MOST_COMPARING];
   local float greatest_of[MOST_COMPARING];
   const window_t window = window_of(width, height, periods);
-  uint2 found = (uint2)0;
-  long sum = 0;
-  float most = 0;
+  errors_t errors = NO_ERRORS;
   FOR_EACH_VECTOR(first, end, walk, (uint)(width * height)) {
     if (!may_differ(labels, exact, first, end)) continue;
     for (uint i = first; i < end; ++i) {
@@ -78,24 +59,14 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
       const LENGTH distance = distance_to(seeds[min(labels[i], count)], x, y, window);
       const LENGTH least = distance_to(seeds[min(exact[i], count)], x, y, window);
       if (distance <= least) continue;
-      found += (uint2)(1, distance == NO_SEED);
-      if (distance == NO_SEED) continue;
-      const float by = excess(distance, least);
-      sum += (long)(by * PARTS_OF_EXCESS + 0.5f);
-      most = fmax(most, by);
+      if (distance == NO_SEED) {
+        errors.wrong += (uint2)(1, 1);
+      } else {
+        add_excess(&errors, excess(distance, least));
+      }
     }
   }
-  const int item = (int)get_local_id(0);
-  wrong_of[item] = found;
-  sum_of[item] = sum;
-  greatest_of[item] = most;
-  JOIN_IN_GROUP(wrong_of[to] += wrong_of[from]; sum_of[to] += sum_of[from];
-                greatest_of[to] = fmax(greatest_of[to], greatest_of[from]))
-  if (get_local_id(0) == 0) {
-    wrong[get_group_id(0)] = wrong_of[0];
-    sums[get_group_id(0)] = sum_of[0];
-    greatest[get_group_id(0)] = greatest_of[0];
-  }
+  join_errors(errors, wrong_of, sum_of, greatest_of, wrong, sums, greatest);
 }
 
 // Adds the pixels whose two labels name seeds that are not equally far away, within a tolerance in pixels.

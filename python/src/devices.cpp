@@ -18,8 +18,8 @@ Device adopt(std::uintptr_t context, std::uintptr_t queue) {
 using Bounds = std::tuple<double, double, double, double>;
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it.
-Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool periodic_y, double tilt,
-               const std::optional<Bounds>& bounds, bool y_up, bool closed) {
+Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool periodic_x, bool periodic_y,
+               double tilt, const std::optional<Bounds>& bounds, bool y_up, bool closed) {
   Axis x(width), y(height);
   if (bounds) {
     const auto [x0, y0, x1, y1] = *bounds;
@@ -30,6 +30,7 @@ Grid make_grid(std::int64_t width, std::int64_t height, bool periodic_x, bool pe
   if (periodic_x) x = x.periodic();
   if (periodic_y) y = y.periodic();
   if (y_up) y = y.reversed();
+  if (depth > 1) return {x, y, Axis(depth)};  // the library says how large volumes may be
   const Grid grid = Grid(x, y).tilted(tilt);
   if (width > Window::max_side || height > Window::max_side || grid.pixels() > Window::max_pixels) {
     throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +
@@ -79,11 +80,12 @@ void bind_devices(nb::module_& module) {
       nb::arg("device"), nb::arg("index"), nb::arg("count"), without_gil());
 
   nb::class_<Grid>(module, "Grid")
-      .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("periodic_x"),
+      .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),
            nb::arg("periodic_y"), nb::arg("tilt"), nb::arg("bounds").none(), nb::arg("y_up"),
            nb::arg("closed"))
       .def_prop_ro("width", &Grid::width)
       .def_prop_ro("height", &Grid::height)
+      .def_prop_ro("depth", &Grid::depth)
       .def_prop_ro("periodic_x", [](const Grid& grid) { return grid.x().is_periodic(); })
       .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); })
       .def_prop_ro("tilt", &Grid::tilt);

@@ -48,8 +48,8 @@ std::uintptr_t buffer(DiagramObject& diagram) {
 /// keeps its buffer. What does not fit in another way is left to the library, which says so.
 void show(Diagram& diagram, const Grid& grid) {
   const Grid& own = diagram.window().grid();
-  const bool fits =
-      own.width() == grid.width() && own.height() == grid.height() && own.periodic() == grid.periodic();
+  const bool fits = own.width() == grid.width() && own.height() == grid.height() &&
+                    own.depth() == grid.depth() && own.periodic() == grid.periodic();
   if (fits && own != grid) diagram = Diagram(diagram.device(), grid, diagram.labels());
 }
 
@@ -79,25 +79,32 @@ Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
 }
 
 template <typename T>
-T* pixels_of(const Diagram& diagram, const Array<T, nb::ndim<2>>& image) {
+T* pixels_of(const Diagram& diagram, const Array<T>& image) {
   const Window& window = diagram.window();
-  if (image.shape(0) != static_cast<std::size_t>(window.height()) ||
-      image.shape(1) != static_cast<std::size_t>(window.width())) {
-    throw Error("the image has " + std::to_string(image.shape(0)) + " x " + std::to_string(image.shape(1)) +
-                " rows x columns, the diagram " + std::to_string(window.height()) + " x " +
-                std::to_string(window.width()));
+  std::vector<std::int64_t> sides = {window.height(), window.width()};
+  if (window.grid().is_volume()) sides.insert(sides.begin(), window.depth());
+  bool fits = image.ndim() == sides.size();
+  for (std::size_t axis = 0; fits && axis < sides.size(); ++axis) {
+    fits = image.shape(axis) == static_cast<std::size_t>(sides[axis]);
   }
-  return image.data();
+  if (fits) return image.data();
+  std::string text = "the shape of the image is not that of the diagram, ";
+  const char* before = "(";
+  for (const std::int64_t side : sides) {
+    text += before + std::to_string(side);
+    before = ", ";
+  }
+  throw Error(text + ")");
 }
 
-void read(DiagramObject& diagram, const Array<std::uint32_t, nb::ndim<2>>& labels) {
+void read(DiagramObject& diagram, const Array<std::uint32_t>& labels) {
   const Turn turn(diagram.mutex);
   diagram.diagram.read(pixels_of(diagram.diagram, labels));
 }
 
 /// As fill() and read(), where the labels are made in the array, if the device can.
 void fill_into(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
-               const Array<std::uint32_t, nb::ndim<2>>& labels) {
+               const Array<std::uint32_t>& labels) {
   const Turns turns(diagram.mutex, seeds.mutex);
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
@@ -113,7 +120,7 @@ void fill_into(DiagramObject& diagram, SeedsObject& seeds, const std::string& na
   diagram.diagram.read(place);
 }
 
-void write(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& image) {
+void write(DiagramObject& diagram, const Array<const std::uint32_t>& image) {
   const Turn turn(diagram.mutex);
   const std::uint32_t* const first = pixels_of(diagram.diagram, image);
   diagram.seeds.reset();
@@ -121,8 +128,8 @@ void write(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>
 }
 
 /// Labels that name these seeds.
-void write_of(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<2>>& image,
-              SeedsObject& seeds, const std::string& metric) {
+void write_of(DiagramObject& diagram, const Array<const std::uint32_t>& image, SeedsObject& seeds,
+              const std::string& metric) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const std::uint32_t* const first = pixels_of(diagram.diagram, image);
   diagram.seeds.reset();
@@ -133,15 +140,24 @@ void write_of(DiagramObject& diagram, const Array<const std::uint32_t, nb::ndim<
 
 // --- measures ---
 
-void distances(DiagramObject& diagram, const Array<float, nb::ndim<2>>& values) {
+void distances(DiagramObject& diagram, const Array<float>& values) {
   const Turn turn(diagram.mutex);
   float* const first = pixels_of(diagram.diagram, values);
   distance_field(diagram.diagram, diagram.distances);
   diagram.distances.read(first);
 }
 
+/// The squares of the distances of a Euclidean diagram.
+void integer_distances(DiagramObject& diagram, const Array<std::int32_t>& values) {
+  const Turn turn(diagram.mutex);
+  std::int32_t* const first = pixels_of(diagram.diagram, values);
+  Field<std::int32_t> field;
+  distance_field(diagram.diagram, field);
+  field.read(first);
+}
+
 /// The labels of the pixels that are near enough to their seeds.
-void expand(DiagramObject& diagram, double distance, const Array<std::uint32_t, nb::ndim<2>>& labels) {
+void expand(DiagramObject& diagram, double distance, const Array<std::uint32_t>& labels) {
   const Turn turn(diagram.mutex);
   std::uint32_t* const first = pixels_of(diagram.diagram, labels);
   Field<std::uint32_t> field;
@@ -260,7 +276,11 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
   const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
   const Seeds& named = seeds_of(diagram);
-  const Seeds seeds(named.device(), named.grid(), named.read(), Outside::count, snap);
+  const bool is_volume = named.grid().is_volume();
+  if (is_volume && snap == Snap::none)
+    throw Error("volumes know whole voxels alone: the truth is \"snapped\"");
+  const Seeds seeds =
+      is_volume ? named.clone() : Seeds(named.device(), named.grid(), named.read(), Outside::count, snap);
   const Metric metric = diagram.diagram.metric();
   const Device& device = diagram.diagram.device();
   Diagram exact(device, diagram.diagram.window()), judged(device, diagram.diagram.window());
@@ -329,6 +349,7 @@ void bind_diagrams(nb::module_& module) {
       .def("write", write, nb::arg("labels"), without_gil())
       .def("write_of", write_of, nb::arg("labels"), nb::arg("seeds"), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())
+      .def("integer_distances", integer_distances, nb::arg("values"), without_gil())
       .def("expand", expand, nb::arg("distance"), nb::arg("labels"), without_gil())
       .def("cells", cells)
       .def("areas", areas)

@@ -27,8 +27,8 @@ using without_gil = nb::call_guard<nb::gil_scoped_release>;
 template <typename... What>
 using Array = nb::ndarray<nb::c_contig, nb::device::cpu, What...>;
 
-/// Rows (x, y), aligned, with any strides.
-using Rows = nb::ndarray<nb::device::cpu, const double, nb::shape<-1, 2>>;
+/// Rows (x, y), or (x, y, z) of a volume, aligned, with any strides.
+using Rows = nb::ndarray<nb::device::cpu, const double, nb::ndim<2>>;
 
 /// A new array of NumPy's that owns the rows: as many numbers T in each as fit.
 template <typename T, typename Row>

@@ -22,11 +22,17 @@ Outside outside_of(const std::string& name) {
 Points view(const Rows& rows, std::vector<std::uint8_t>& present) {
   constexpr auto size = static_cast<std::int64_t>(sizeof(double));
   const double* const x = rows.data();
-  const Points points(x, x + rows.stride(1), rows.shape(0), rows.stride(0) * size);
+  const double* const y = x + rows.stride(1);
+  const std::int64_t stride = rows.stride(0) * size;
+  const bool have_z = rows.shape(1) == 3;
+  const Points points =
+      have_z ? Points(x, y, y + rows.stride(1), rows.shape(0), stride) : Points(x, y, rows.shape(0), stride);
   present.resize(points.size());
   for (std::size_t row = 0; row < points.size(); ++row) {
     const Point point = points[row];
-    present[row] = std::isnan(point.x) || std::isnan(point.y) ? 0 : 1;
+    const bool is_absent =
+        std::isnan(point.x) || std::isnan(point.y) || (have_z && std::isnan(points.z(row)));
+    present[row] = is_absent ? 0 : 1;
   }
   return points.marked(present.data());
 }
@@ -39,7 +45,7 @@ void make(SeedsObject* memory, const Device& device, const Grid& grid, const Row
 }
 
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,
-                                       const Array<const std::uint8_t, nb::ndim<2>>& mask) {
+                                       const Array<const std::uint8_t>& mask) {
   const std::vector<std::uint8_t> pixels(mask.data(), mask.data() + mask.size());
   return std::make_unique<SeedsObject>(Seeds::from_mask(device, grid, pixels));
 }
@@ -70,9 +76,24 @@ std::size_t alive(SeedsObject& seeds) {
   return seeds.seeds.alive();
 }
 
+/// The centres of the voxels, which are the unit of points in volumes.
+void read_voxels(const Seeds& seeds, const Array<double, nb::ndim<2>>& points) {
+  const std::vector<std::optional<Point3>> places = seeds.read_voxels();
+  if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  double* xyz = points.data();
+  for (const std::optional<Point3>& place : places) {
+    const Point3 point = place.value_or(Point3{none, none, none});
+    *xyz++ = point.x;
+    *xyz++ = point.y;
+    *xyz++ = point.z;
+  }
+}
+
 /// Where exact diagrams have the seeds, in pixels or in the units of their points.
-void read(SeedsObject& seeds, const Array<double, nb::shape<-1, 2>>& points, bool in_pixels) {
+void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_pixels) {
   const Turn turn(seeds.mutex);
+  if (seeds.seeds.grid().is_volume()) return read_voxels(seeds.seeds, points);
   const std::vector<std::optional<Point>> places = seeds.seeds.read_pixels();
   if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
   constexpr double none = std::numeric_limits<double>::quiet_NaN();

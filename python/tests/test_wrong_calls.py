@@ -60,7 +60,7 @@ WRONG = {
     + [np.zeros((8, 10), ">u4"), np.zeros((0, 10), np.uint32), np.zeros(321, "u1")[1:].view("u4").reshape(8, 10)]
     + [np.zeros((8, 10), np.uint32)[::-1], np.broadcast_to(np.uint32(0), (8, 10)), LABELS.tolist(), memoryview(LABELS)],
     "labels": NO_NUMBERS
-    + [1, [1, 2], np.zeros((2, 2, 2), int), np.zeros((0, 3), int), [[1], [1, 2]], np.array([["a"]])],
+    + [1, [1, 2], np.zeros((2, 2, 2, 2), int), np.zeros((0, 3), int), [[1], [1, 2]], np.array([["a"]])],
     "rounds": [-1, 2**31, 2**70, 1.5, "3", None, Hostile()],
     "density": NO_NUMBERS[1:]
     + [1, [1, 2], [[1], [1, 2]], np.zeros((10, 8)), np.zeros((8, 10)), np.full((8, 10), -1), np.full((8, 10), np.nan)]
@@ -69,6 +69,8 @@ WRONG = {
     "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
+WRONG["sampling"] = ["x", [], (1, 2), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
+WRONG["spacing"] = WRONG["sampling"]
 WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
@@ -83,7 +85,8 @@ CALLS = {
     vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
     vorocl.relax: ("points", "shape", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
-    vorocl.expand_labels: ("labels", "distance", "device"),
+    vorocl.expand_labels: ("labels", "distance", "spacing", "device"),
+    vorocl.distance_transform_edt: ("mask", "sampling", "device"),
     vorocl.similarity: ("a", "b"),
     vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "truth", "device"),
     vorocl.Seeds: ("points", "shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),

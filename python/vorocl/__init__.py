@@ -1,9 +1,9 @@
 """VoroCL: raster Voronoi diagrams of seeds that stand still or move, in OpenCL.
 
 `diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `areas`, `adjacency`, `vertices`
-and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons; `from_mask` and `expand_labels` take images; `similarity` and
-`errors` compare labels. `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs
-that use OpenCL too.
+and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons; `from_mask`,
+`expand_labels` and `distance_transform_edt` take images, also of volumes; `similarity` and `errors` compare labels.
+`Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs that use OpenCL too.
 """
 
 from ._opencl import load_opencl
@@ -29,6 +29,7 @@ from ._functions import (
     areas,
     cells,
     diagram,
+    distance_transform_edt,
     distances,
     errors,
     expand_labels,
@@ -68,6 +69,7 @@ __all__ = [
     "cells",
     "devices",
     "diagram",
+    "distance_transform_edt",
     "distances",
     "errors",
     "exact_cells",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import reprlib
 from typing import Any, Literal, Optional, Sequence, Tuple, TypeVar, Union
@@ -12,15 +13,17 @@ from numpy.typing import ArrayLike, NDArray
 from . import _vorocl
 from ._errors import BadArgument
 
-Shape = Tuple[int, int]
+Shape = Union[Tuple[int, int], Tuple[int, int, int]]
 Bounds = Tuple[float, float, float, float]
-Periodic = Union[Tuple[bool, bool], Sequence[bool]]
+Periodic = Sequence[bool]
 Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution", "exact"]
 Metric = Literal["euclidean", "manhattan"]
 Outside = Literal["count", "absent", "refuse"]
 Units = Literal["data", "pixels"]
 
 Truth = Literal["snapped", "true"]
+
+Sampling = Union[None, float, Sequence[float]]
 
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
@@ -30,18 +33,21 @@ def shown(value: object) -> str:
     return " ".join(reprlib.repr(value).split())
 
 
-def to_points(points: ArrayLike) -> NDArray[np.float64]:
-    """(N, 2) numbers, aligned, with strides of whole numbers; the masked rows of a masked array as NaN."""
+def to_points(points: ArrayLike, dimensions: int = 2) -> NDArray[np.float64]:
+    """(N, 2) or (N, 3) numbers, aligned, with strides of whole numbers; the masked rows of a masked array as NaN."""
+    row = "(x, y, z)" if dimensions == 3 else "(x, y)"
     if isinstance(points, np.ma.MaskedArray):
         points = np.ma.filled(points.astype(np.float64), np.nan)
     try:
         array = np.asarray(points)
     except ValueError as error:
-        raise BadArgument(f"points must be an array of N rows (x, y): {error}") from None
+        raise BadArgument(f"points must be an array of N rows {row}: {error}") from None
     if array.shape == (0,):
-        array = array.reshape(0, 2)
-    if array.ndim != 2 or array.shape[1] != 2:
-        raise BadArgument(f"points must have the shape (N, 2), rows (x, y); this array has the shape {array.shape}")
+        array = array.reshape(0, dimensions)
+    if array.ndim != 2 or array.shape[1] != dimensions:
+        raise BadArgument(
+            f"points must have the shape (N, {dimensions}), rows {row}; this array has the shape {array.shape}"
+        )
     if array.dtype.kind not in "biuf":
         raise BadArgument(f"points must be real numbers; this array has the dtype {array.dtype}")
     if len(array) > MOST_SEEDS:
@@ -59,28 +65,41 @@ def to_grid(
     y_up: bool = False,
     tilt: float = 0.0,
 ) -> _vorocl.Grid:
-    """The grid of a shape (H, W), of its periodic axes (x, y) and its tilt, and of what it shows of the points' plane.
+    """The grid of a shape (H, W), of its periodic axes (x, y) and its tilt, and of what it shows of the points' plane;
+    or of a shape (D, H, W), which has none of these.
 
     Points at the bounds' far ends are inside, unless what is outside them counts all round.
     """
-    try:
-        height, width = (operator.index(side) for side in shape)
-    except (TypeError, ValueError):
-        raise BadArgument(f"shape must be two whole numbers (H, W); this is {shown(shape)}") from None
-    try:
-        periodic_x, periodic_y = (_to_bool(axis) for axis in periodic)
-    except (TypeError, ValueError):
-        raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}") from None
     far = 2**31  # past every limit, of which the library tells
-    height, width = (max(-far, min(side, far)) for side in (height, width))
-    corners, upwards = to_bounds(bounds), to_flag(y_up, "y_up")
-    closed = corners is not None and (to_outside(outside) != "count" or periodic_x or periodic_y)
-    return _vorocl.Grid(width, height, periodic_x, periodic_y, to_number(tilt, "tilt"), corners, upwards, closed)
+    try:
+        sides = [max(-far, min(operator.index(side), far)) for side in shape]
+    except (TypeError, ValueError):
+        sides = []
+    if len(sides) not in (2, 3):
+        raise BadArgument(f"shape must be two whole numbers (H, W), or three (D, H, W); this is {shown(shape)}")
+    height, width = sides[-2:]
+    try:
+        axes = [_to_bool(axis) for axis in periodic]
+    except (TypeError, ValueError):
+        axes = []
+    if len(axes) not in (2, len(sides)):
+        raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}")
+    corners, upwards, tilted = to_bounds(bounds), to_flag(y_up, "y_up"), to_number(tilt, "tilt")
+    closed = corners is not None and (to_outside(outside) != "count" or any(axes))
+    if len(sides) == 3:
+        refused = {"bounds": corners is not None, "periodic": any(axes), "tilt": tilted != 0, "y_up": upwards}
+        for name, is_given in refused.items():
+            if is_given:
+                raise BadArgument(f"{name} is for planes, and the shape {tuple(sides)} is that of a volume")
+        if sides[0] == 1:
+            raise BadArgument(f"a volume of one slice is a plane: give the shape {tuple(sides[1:])}, and points (x, y)")
+    depth = sides[0] if len(sides) == 3 else 1
+    return _vorocl.Grid(width, height, depth, axes[0], axes[1], tilted, corners, upwards, closed)
 
 
-def shape_of(grid: _vorocl.Grid) -> Tuple[int, int]:
-    """(H, W) of a grid."""
-    return grid.height, grid.width
+def shape_of(grid: _vorocl.Grid) -> Shape:
+    """(H, W) of a grid, or (D, H, W) of a volume."""
+    return (grid.height, grid.width) if grid.depth == 1 else (grid.depth, grid.height, grid.width)
 
 
 def _to_bool(value: object) -> bool:
@@ -120,8 +139,12 @@ def to_outside(outside: Outside) -> Outside:
 _FLOODING = {method.name for method in _vorocl.methods() if not method.exact}
 
 
-def to_snap(snap: Optional[bool], method: str = "exact") -> bool:
-    """Whether points are moved to the centres of their pixels, which methods that flood always do."""
+def to_snap(snap: Optional[bool], shape: Shape, method: str = "exact") -> bool:
+    """Whether points are moved to the centres of their pixels, which methods that flood always do, and volumes."""
+    if len(shape) == 3:
+        if snap is not None and not to_flag(snap, "snap"):
+            raise BadArgument("volumes move points to the centres of their voxels: snap=False is for planes")
+        return True
     floods = to_text(method, "method") in _FLOODING
     if snap is None:
         return floods
@@ -153,6 +176,21 @@ def to_number(value: float, name: str) -> float:
         raise BadArgument(f"{name} must be a number; this is {shown(value)}") from None
 
 
+def to_sampling(sampling: Sampling, axes: int, name: str) -> float:
+    """The size of a pixel, which must be the same along all axes."""
+    if sampling is None:
+        return 1.0
+    try:
+        sizes = [float(size) for size in np.broadcast_to(np.asarray(sampling, np.float64), (axes,))]
+    except (TypeError, ValueError):
+        raise BadArgument(f"{name} must be a number, or {axes} of them; this is {shown(sampling)}") from None
+    if not all(math.isfinite(size) and size > 0 for size in sizes):
+        raise BadArgument(f"{name} must be above 0 and finite; this is {shown(sampling)}")
+    if min(sizes) != max(sizes):
+        raise BadArgument(f"{name} must be the same along all axes, for pixels are squares here; this is {shown(sampling)}")
+    return sizes[0]
+
+
 def to_count(value: int, name: str) -> int:
     """A whole number that C holds."""
     try:
@@ -173,19 +211,20 @@ def to_text(value: Text, name: str) -> Text:
     return value
 
 
-def to_image(image: ArrayLike, name: str) -> NDArray[Any]:
-    """An array with two axes, none of them empty."""
+def to_image(image: ArrayLike, name: str, volumes: bool = True) -> NDArray[Any]:
+    """An array with two axes, or with three, none of them empty."""
+    shapes = "(H, W) or (D, H, W)" if volumes else "(H, W)"
     try:
         array = np.asarray(image)
     except ValueError as error:
-        raise BadArgument(f"{name} must be an array of the shape (H, W): {error}") from None
-    if array.ndim != 2 or array.size == 0:
-        raise BadArgument(f"{name} must have the shape (H, W); this array has the shape {array.shape}")
+        raise BadArgument(f"{name} must be an array of the shape {shapes}: {error}") from None
+    if array.ndim not in ((2, 3) if volumes else (2,)) or array.size == 0:
+        raise BadArgument(f"{name} must have the shape {shapes}; this array has the shape {array.shape}")
     return array
 
 
 def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
-    """(H, W) labels, C-contiguous, of any integers that uint32 holds."""
+    """(H, W) or (D, H, W) labels, C-contiguous, of any integers that uint32 holds."""
     array = to_image(labels, name)
     if array.dtype.kind not in "iu":
         raise BadArgument(f"{name} must be integers; this array has the dtype {array.dtype}")
@@ -196,7 +235,7 @@ def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
 
 def to_density(density: ArrayLike, shape: Shape) -> NDArray[np.float32]:
     """(H, W) weights of pixels, C-contiguous; what they must be, the library says."""
-    array = to_image(density, "density")
+    array = to_image(density, "density", volumes=False)
     if array.dtype.kind not in "biuf":
         raise BadArgument(f"density must be real numbers; this array has the dtype {array.dtype}")
     if array.shape != tuple(shape):

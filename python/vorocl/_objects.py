@@ -107,12 +107,12 @@ class Seeds(OnDevice):
         device: Optional[Device] = None,
     ) -> None:
         grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
-        array = to_points(points)
+        array = to_points(points, len(shape))
         self._shape, self._periodic, self._outside, self._y_up = shape, periodic, outside, y_up
         self._bounds, self._tilt = bounds, tilt  # of the present frame
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap))
+        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap, shape))
 
     @property
     def device(self) -> Device:
@@ -169,7 +169,7 @@ class Seeds(OnDevice):
         tilted = self._tilt if tilt is None else tilt
         if bounds is not None or tilt is not None:
             grid = to_grid(self._shape, self._periodic, shown, self._outside, self._y_up, tilted)
-        self._seeds.move_to(to_points(points), grid)
+        self._seeds.move_to(to_points(points, len(self._shape)), grid)
         self._bounds, self._tilt = shown, tilted
         self._are_in_data = self._are_in_data or bounds is not None
         return int(self._seeds.displacement)
@@ -185,10 +185,10 @@ class Seeds(OnDevice):
         Returns
         -------
         ndarray
-            Shape (N, 2), rows (x, y); NaN for a seed that is absent.
+            Shape (N, 2), rows (x, y), in a volume (N, 3), rows (x, y, z); NaN for a seed that is absent.
         """
         in_pixels = not to_units(units, self._are_in_data)
-        points = np.empty((len(self), 2))
+        points = np.empty((len(self), len(self._shape)))
         self._seeds.read(points, in_pixels=in_pixels)
         return points
 
@@ -250,8 +250,8 @@ class Diagram(OnDevice):
         return self._device
 
     @property
-    def shape(self) -> Tuple[int, int]:
-        """(H, W) in pixels."""
+    def shape(self) -> Shape:
+        """(H, W) in pixels, or (D, H, W) in voxels."""
         return self._shape
 
     def __repr__(self) -> str:
@@ -310,7 +310,7 @@ class Diagram(OnDevice):
         Returns
         -------
         ndarray
-            uint32, shape (H, W): the row of the nearest seed, or ``vorocl.NO_LABEL`` if there are no seeds.
+            uint32 of the diagram's shape: the row of the nearest seed, or ``vorocl.NO_LABEL`` if there are no seeds.
         """
         labels = output(out, self._shape, np.uint32)
         self._diagram.read(labels)
@@ -351,6 +351,8 @@ class Diagram(OnDevice):
 
     def _scale(self) -> Tuple[float, Optional[float]]:
         """The area of a pixel in the units of the points, and the length of its side; none if it is no square."""
+        if len(self._shape) == 3:
+            return 1, 1  # volumes have voxels for units
         corners = np.array([(0.0, 0.0), self._shape[::-1]])
         self._diagram.to_data(corners)
         extent_x, extent_y = (float(extent) for extent in abs(corners[1] - corners[0]))
@@ -544,7 +546,7 @@ class Simulation(OnDevice):
             tilt=tilt,
             outside=outside,
             y_up=y_up,
-            snap=to_snap(snap, self._method),
+            snap=to_snap(snap, shape, self._method),
             device=self.diagram.device,
         )
         self.report: Optional[_vorocl.Report] = None

@@ -9,7 +9,7 @@ _TEXTS = {
     "points": """\
 points : array_like
     Shape (N, 2), rows (x, y): in pixels, x to the right, y down, or in the units of `bounds`. Pixel i covers
-    [i, i + 1). A row with a NaN is absent, and so is a row that is masked.""",
+    [i, i + 1). A row with a NaN is absent, and so is a row that is masked. In a volume (N, 3), rows (x, y, z).""",
     "snap": """\
 snap : bool, optional
     Whether points are moved to the centres of their pixels, as methods that flood always do. Without it, "exact" takes
@@ -22,7 +22,8 @@ truth : {"snapped", "true"}, optional
     "shape": """\
 shape : (int, int)
     The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
-    flood take up to 32,000.""",
+    flood take up to 32,000. Or a volume, (D, H, W) in voxels, which `diagram`, `distances`, `errors`, `Seeds` and
+    `Diagram` take: sides up to 16,384, and as many voxels as 2048 x 1024 x 1024.""",
     "method": """\
 method : str, optional
     "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",

@@ -176,8 +176,12 @@ Axis axis_of_pixels(std::int64_t pixels, bool periodic) {
 Grid::Grid(std::int64_t width, std::int64_t height, Periodic periodic)
     : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic))) {}
 
+Grid::Grid(std::int64_t width, std::int64_t height, std::int64_t depth)
+    : Grid(Axis(width), Axis(height), Axis(depth)) {}
+
 Grid Grid::tilted(double tilt) const {
   if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
+  if (tilt != 0) refuse_volume(*this, "a tilt");
   if (tilt != 0 && periodic() != Periodic::xy) throw Error("a tilted box must be periodic in x and y");
   Grid grid = *this;
   grid.tilt_ = 0;
@@ -201,7 +205,9 @@ Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t wi
       x_(checked_begin(grid.x(), "x", x, width)),
       y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted())),
       width_(width),
-      height_(height) {}
+      height_(height) {
+  refuse_volume(grid, "a window of a part");
+}
 
 // --- PixelGrid ---
 
@@ -214,23 +220,73 @@ int checked_side(std::int64_t side, const char* name) {
               " pixels: take a window of the grid, or tiles");
 }
 
+std::string voxels_text(const Grid& grid) {
+  return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " x " +
+         std::to_string(grid.depth());
+}
+
+/// The bits of the whole numbers below this one.
+int bits_below(std::int64_t side) {
+  int bits = 0;
+  while (std::int64_t{1} << bits < side) ++bits;
+  return bits;
+}
+
+bool fits_in_a_volume(const Grid& grid) {
+  constexpr std::int64_t most = Window::max_side_of_volume;
+  return grid.width() <= most && grid.height() <= most && grid.depth() <= most &&
+         bits_below(grid.width()) + bits_below(grid.height()) + bits_below(grid.depth()) <=
+             Window::max_bits_of_volume;
+}
+
+void check_volume(const Grid& grid) {
+  if (grid.periodic() != Periodic::none || grid.z().is_periodic()) {
+    throw Error("the volume has a periodic axis, which volumes cannot have yet");
+  }
+  if (fits_in_a_volume(grid)) return;
+  throw Error(
+      "a volume of " + voxels_text(grid) +
+      " voxels is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, "
+      "as in 2048 x 1024 x 1024; take fewer voxels, or cut the volume into parts that overlap");
+}
+
 }  // namespace
 
 PixelGrid::PixelGrid(const Window& window)
     : PixelGrid(checked_side(window.width(), "width"), checked_side(window.height(), "height"),
                 window.periodic()) {
-  if (window.pixels() > Window::max_pixels) {
+  if (window.grid().is_volume()) {
+    check_volume(window.grid());
+    depth_ = static_cast<int>(window.depth());
+  } else if (window.pixels() > Window::max_pixels) {
     throw Error("a diagram of " + std::to_string(width_) + " x " + std::to_string(height_) +
                 " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
   }
 }
 
+VoxelBits::VoxelBits(const PixelGrid& grid)
+    : x(bits_below(grid.width())), y(bits_below(grid.height())), z(bits_below(grid.depth())) {
+  constexpr int usual_x = 11, usual_y = 10, usual_z = 10;  // so that one program serves most volumes
+  if (x > usual_x || y > usual_y || z > usual_z) return;
+  x = usual_x;
+  y = usual_y;
+  z = usual_z;
+}
+
 bool fits_in_a_diagram(const Grid& grid) {
+  if (grid.is_volume()) return fits_in_a_volume(grid);
   return grid.width() <= Window::max_side && grid.height() <= Window::max_side &&
          grid.pixels() <= Window::max_pixels;
 }
 
-void refuse_tilted(const Grid& grid, const char* what) {
+void refuse_volume(const Grid& grid, const char* what) {
+  if (!grid.is_volume()) return;
+  throw Error("the grid is a volume of " + voxels_text(grid) + " voxels, which " + what +
+              " cannot take; exact diagrams and jump flooding do");
+}
+
+void refuse_tilted_and_volumes(const Grid& grid, const char* what) {
+  refuse_volume(grid, what);
   if (!grid.is_tilted()) return;
   throw Error("the grid is tilted, which " + std::string(what) +
               " cannot take; exact diagrams of a window of the grid do");
@@ -239,6 +295,7 @@ void refuse_tilted(const Grid& grid, const char* what) {
 std::string size_text(const PixelGrid& pixels) {
   const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
   return std::to_string(pixels.width()) + " x " + std::to_string(pixels.height()) +
+         (pixels.is_volume() ? " x " + std::to_string(pixels.depth()) : "") +
          periodic[static_cast<int>(pixels.periodic())];
 }
 

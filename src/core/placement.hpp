@@ -17,12 +17,20 @@ struct Placement {
   PixelGrid grid;
 
   /// One uint32 per seed: y << 16 | x of its pixel, or absent_position if it is absent or outside the window;
-  /// and one more such value at the end.
+  /// in a volume as VoxelBits has it, or absent_voxel. And one more such value at the end.
   std::shared_ptr<const cl::Buffer> positions;
 
   /// The seeds outside, and images across the ends of periods; null if there are none.
   std::shared_ptr<const OuterSeeds> outer;
 };
+
+/// A voxel of a volume.
+struct Voxel {
+  int x, y, z;
+};
+
+/// The position in a volume of a seed that is absent: EMPTY of kernels/volumes/position.cl.
+constexpr std::uint32_t absent_voxel = 0x80000000u;
 
 /// The position of a seed that is absent, or outside the window: EMPTY of position.cl.
 constexpr std::uint32_t absent_position = 0x80008000u;

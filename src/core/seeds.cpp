@@ -1,5 +1,6 @@
 #include "vorocl/seeds.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,25 @@ PixelGrid pixels_of(const Grid& grid, const char* what) {
   return PixelGrid{Window(grid)};
 }
 
+/// The voxels of a mask, slice after slice.
+std::vector<std::uint32_t> marked_voxels(const PixelGrid& size, const std::vector<std::uint8_t>& mask) {
+  const VoxelBits bits(size);
+  std::vector<std::uint32_t> voxels;
+  // Room for one more, which is added when they are uploaded.
+  voxels.reserve(mask.size() -
+                 static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{0})) + 1);
+  const std::uint8_t* mark = mask.data();
+  for (int z = 0; z < size.depth(); ++z) {
+    for (int y = 0; y < size.height(); ++y) {
+      const std::uint32_t row = bits.pack(0, y, z);
+      for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(size.width()); ++x) {
+        if (*mark++ != 0) voxels.push_back(row + x);
+      }
+    }
+  }
+  return voxels;
+}
+
 }  // namespace
 
 Points::Points(const Point* points, std::size_t count)
@@ -30,6 +50,13 @@ Points::Points(const Point* points, std::size_t count)
 
 Points::Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride)
     : first_(x), y_(y), size_(count), stride_(stride), kind_(Kind::strided) {}
+
+Points::Points(const double* x, const double* y, const double* z, std::size_t count, std::ptrdiff_t stride)
+    : first_(x), y_(y), z_(z), size_(count), stride_(stride), kind_(Kind::strided) {}
+
+Points::Points(const Point3* points, std::size_t count)
+    : Points(points == nullptr ? nullptr : &points->x, points == nullptr ? nullptr : &points->y,
+             points == nullptr ? nullptr : &points->z, count, sizeof(Point3)) {}
 
 Points Points::marked(const std::uint8_t* present) const {
   Points points = *this;
@@ -73,6 +100,10 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
   }
   const PixelGrid size = pixels_of(grid, "a mask");
   Seeds seeds = Internal::no_seeds(device, grid);
+  if (grid.is_volume()) {
+    seeds.state().place_in_volume(grid, marked_voxels(size, mask));
+    return seeds;
+  }
   const auto pixels = seeds.state().list_of_pixels();
   std::size_t i = 0;
   for (int y = 0; y < size.height(); ++y) {
@@ -96,6 +127,13 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   SeedsState& state = seeds.state();
   const std::shared_ptr<cl::Buffer> positions = state.room_for_positions(count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
+  if (grid.is_volume()) {
+    Kernel kernel(device, "volumes/seeds.cl", "random_voxels", pixels);
+    kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
+                      pixels.width(), pixels.height(), pixels.depth(), key);
+    state.place_on_device(count, positions);
+    return seeds;
+  }
   Kernel kernel(device, "core/seeds.cl", "random_positions", pixels);
   kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
                     pixels.width(), pixels.height(), key);
@@ -126,6 +164,16 @@ std::size_t Seeds::alive() const { return state().frame()->alive(); }
 std::size_t Seeds::outside() const { return state().frame()->outside; }
 double Seeds::displacement() const { return state().frame()->way_of_last_move(); }
 void Seeds::check() const { state().frame()->check(); }
+
+std::vector<std::optional<Point3>> Seeds::read_voxels() const {
+  if (!grid().is_volume()) throw Error("the seeds lie in a plane: read_pixels() gives their pixels");
+  const std::vector<std::optional<Voxel>> voxels = state().frame()->read_voxels();
+  std::vector<std::optional<Point3>> points(voxels.size());
+  for (std::size_t id = 0; id < voxels.size(); ++id) {
+    if (voxels[id]) points[id] = {voxels[id]->x + 0.5, voxels[id]->y + 0.5, voxels[id]->z + 0.5};
+  }
+  return points;
+}
 
 std::vector<std::optional<Point>> Seeds::read() const {
   const SeedsFrame& frame = *state().frame();

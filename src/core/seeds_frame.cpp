@@ -66,7 +66,7 @@ double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
   const cl::Buffer greatest = allocate(now.device, sizeof(cl_uint), "the way of the seeds");
   fill(now.device, greatest, cl_uint{0}, 1);
   const PixelGrid& grid = now.whole->grid;
-  Kernel(now.device, "core/seeds.cl", "find_greatest_way", grid)
+  Kernel(now.device, grid.is_volume() ? "volumes/seeds.cl" : "core/seeds.cl", "find_greatest_way", grid)
       .over_items(count, *earlier.whole->positions, *now.whole->positions, static_cast<cl_uint>(count),
                   grid.width(), grid.height(), greatest);
   return download<cl_uint>(now.device, greatest, 1).front();
@@ -145,7 +145,7 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
   const bool known = earlier.owner == owner && earlier.way.stretch == way.stretch && earlier.losses == losses;
   if (known) return way.all - earlier.way.all;
   if (earlier.grid != grid || !device.same_as(earlier.device)) {
-    return static_cast<double>(std::max(grid.width(), grid.height()));
+    return static_cast<double>(std::max({grid.width(), grid.height(), grid.depth()}));
   }
   if (pixels && earlier.pixels) return greatest_way(grid, *earlier.pixels, *pixels, true);
   if (whole && earlier.whole) return way_on_device(earlier, *this);
@@ -154,8 +154,25 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
 
 double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }
 
+std::vector<std::optional<Voxel>> SeedsFrame::read_voxels() const {
+  const VoxelBits bits(whole->grid);
+  const auto field = [](std::uint32_t position, int first, int count) {
+    return static_cast<int>(position >> first & ((std::uint32_t{1} << count) - 1));
+  };
+  std::vector<std::optional<Voxel>> voxels;
+  voxels.reserve(size);
+  for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
+    std::optional<Voxel>& voxel = voxels.emplace_back();
+    if (position == absent_voxel) continue;
+    voxel = Voxel{field(position, 0, bits.x), field(position, bits.x, bits.y),
+                  field(position, bits.x + bits.y, bits.z)};
+  }
+  return voxels;
+}
+
 std::vector<PlanePosition> SeedsFrame::read_pixels() const {
   if (pixels) return *pixels;
+  refuse_volume(grid, "read_pixels()");
   check();
   std::vector<PlanePosition> read;
   read.reserve(size);
@@ -219,7 +236,7 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
 }
 
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
-  refuse_tilted(frame.grid, what);
+  refuse_tilted_and_volumes(frame.grid, what);
   if (!placement.outer) return;
   const std::size_t outside = placement.outer->outside;
   if (outside > 0) {

@@ -120,6 +120,9 @@ struct SeedsFrame {
 
   /// The pixels, from the device where the host has none. Waits.
   std::vector<PlanePosition> read_pixels() const;
+
+  /// The voxels of seeds in a volume; none for a seed that is absent. Waits.
+  std::vector<std::optional<Voxel>> read_voxels() const;
 };
 
 std::shared_ptr<Placements> no_placements();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -29,6 +31,22 @@ void check_buffers(const Device& device, const PointBuffer& points) {
     check_foreign_buffer(device, points.present, points.count,
                          "the buffer that says which of " + number + " seeds are present", Access::read);
   }
+}
+
+bool is_finite(const Point3& point) {
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
+}
+
+/// "point 7 (12, 3) has z = 9 and is outside the volume; ..."
+BadPoint outside_the_volume(std::size_t id, const Point3& point, const Grid& grid) {
+  std::ostringstream text;
+  text << "has z = " << point.z << " and is " << (is_finite(point) ? "outside the volume" : "not finite");
+  const char* before = "; x must be in [";
+  for (const Axis* axis : {&grid.x(), &grid.y(), &grid.z()}) {
+    text << before << axis->from() << ", " << axis->to() << (axis->is_closed() ? "]" : ")");
+    before = axis == &grid.x() ? ", y in [" : " and z in [";
+  }
+  return {id, Point{point.x, point.y}, text.str()};
 }
 
 std::uint64_t next_number() {
@@ -107,8 +125,60 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
   frame_ = std::move(frame);
 }
 
+std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Points& points) const {
+  const PixelGrid size{Window(grid)};
+  const VoxelBits bits(size);
+  const auto pixel = [](const Axis& axis, double coordinate) {
+    const double at = axis.pixel(coordinate);
+    return at >= 0 && at < static_cast<double>(axis.pixels()) ? static_cast<int>(at) : -1;  // -1 for a NaN
+  };
+  std::vector<std::uint32_t> voxels;
+  voxels.reserve(points.size() + 1);  // one more is added when they are uploaded
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    voxels.push_back(absent_voxel);
+    if (!points.is_present(id)) continue;
+    const Point3 point = {points[id].x, points[id].y, points.z(id)};
+    const int x = pixel(grid.x(), point.x), y = pixel(grid.y(), point.y), z = pixel(grid.z(), point.z);
+    if (x >= 0 && y >= 0 && z >= 0) {
+      voxels.back() = bits.pack(x, y, z);
+    } else if (outside != Outside::absent || !is_finite(point)) {
+      throw outside_the_volume(id, point, grid);
+    }
+  }
+  return voxels;
+}
+
+void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels) {
+  check_count(voxels.size());
+  std::vector<bool> there(voxels.size(), true);
+  std::size_t absent = 0;
+  bool lost = there.size() < present.size();
+  for (std::size_t id = 0; id < voxels.size(); ++id) {
+    if (voxels[id] != absent_voxel) continue;
+    there[id] = false;
+    ++absent;
+    lost = lost || (id < present.size() && present[id]);
+  }
+  SeedsFrame next = next_frame(grid, voxels.size(), lost);
+  next.absent = absent;
+  way_is_unknown(next);
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(voxels.size());
+  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid)), positions, nullptr});
+  voxels.push_back(absent_voxel);
+  upload_.start(device, *positions, std::move(voxels));
+  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
+}
+
 void SeedsState::place(const Grid& grid, const Points& points) {
   check_count(points.size());
+  if (points.have_z() != grid.is_volume() && points.size() > 0) {
+    throw Error(grid.is_volume() ? "the grid is a volume, and the points have no z"
+                                 : "the points have a z, and the grid is no volume");
+  }
+  if (grid.is_volume()) {
+    if (snap == Snap::none) throw Error("volumes know whole voxels alone: take Snap::to_pixels");
+    return place_in_volume(grid, snap_to_voxels(grid, points));
+  }
   const Snapping snapping(grid, outside);
   const std::shared_ptr<std::vector<Point>> given = points_.take();
   const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
@@ -179,6 +249,7 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
 }
 
 void SeedsState::place(const PointBuffer& points) {
+  refuse_volume(grid(), "a buffer of points (x, y)");
   check_buffers(device, points);
   const Window window(grid());
   const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count &&

@@ -67,6 +67,9 @@ struct SeedsState {
              std::shared_ptr<const std::vector<Point>> given,
              std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
 
+  /// Makes the next frame of seeds in these voxels of a grid (VoxelBits), or absent_voxel.
+  void place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels);
+
   /// Empty lists, with the memory of ones that no frame remembers any more.
   std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
 
@@ -102,6 +105,9 @@ struct SeedsState {
   std::shared_ptr<PointCheck> unused_check();
 
   void place_on_the_device(const PointBuffer& points);
+
+  /// The voxels of points.
+  std::vector<std::uint32_t> snap_to_voxels(const Grid& grid, const Points& points) const;
 
   std::shared_ptr<const SeedsFrame> frame_;
   Recycled<PlanePosition> pixels_;

@@ -8,6 +8,7 @@
 #include "exact/outer.hpp"
 #include "exact/points.hpp"
 #include "runtime/buffer.hpp"
+#include "volumes/exact_diagram.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
@@ -30,6 +31,7 @@ struct ExactWorkspace {
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
+  if (state.grid.is_volume()) return exact_diagram_of_volume(filling, state);
   if (filling.seeds().fractions) return exact_diagram_of_points(filling, state);
   const Device& device = state.device;
   if (device.tuning().shape == Shape::group) return exact_diagram_in_groups(filling, state);

@@ -312,6 +312,7 @@ ExactCellsCheck ExactCellsResult::check() const {
 }
 
 Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
+  refuse_volume(seeds.grid(), "polygons of exact cells");
   const Stopwatch stopwatch;
   FirstLaunches first_launches;
   ExactCellsState& state = Internal::result(result);

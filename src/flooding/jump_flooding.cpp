@@ -3,19 +3,28 @@
 #include <string>
 
 #include "flooding/flood.hpp"
+#include "volumes/jump_flooding.hpp"
 
 namespace vorocl {
 
 namespace {
 
-Report run_plan(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric, const char* method) {
-  Flood flood(seeds, diagram, metric, method);
+void check_steps(const Plan& plan) {
   for (const Wave& wave : plan) {
-    if (wave.step < 1 || wave.step > Window::max_side) {
-      throw Error("a wave's step is " + std::to_string(wave.step) + "; it must be from 1 to " +
-                  std::to_string(Window::max_side));
-    }
+    if (wave.step >= 1 && wave.step <= Window::max_side) continue;
+    throw Error("a wave's step is " + std::to_string(wave.step) + "; it must be from 1 to " +
+                std::to_string(Window::max_side));
   }
+}
+
+Report run_plan(const Seeds& seeds, Diagram& diagram, const Plan& plan, Metric metric, const char* method) {
+  if (diagram.window().grid().is_volume()) {
+    Filling filling(seeds, diagram, metric, method);
+    check_steps(plan);
+    return flood_volume(filling, Internal::state(diagram), plan);
+  }
+  Flood flood(seeds, diagram, metric, method);
+  check_steps(plan);
   flood.run(plan);
   return flood.commit(plan.size());
 }

@@ -1,4 +1,4 @@
-// Two diagrams that are compared pixel by pixel: see comparison.cl.
+// Two diagrams that are compared pixel by pixel: see walk.cl.
 #pragma once
 
 #include "measures/measurement.hpp"
@@ -8,7 +8,7 @@ namespace vorocl {
 /// How the work-items of a kernel share out a diagram's pixels.
 struct Walk {
   std::size_t groups, items_of_group;
-  cl_uint4 steps;  // see comparison.cl
+  cl_uint4 steps;  // see walk.cl
 };
 Walk walk_through(const MeasuredDiagram& of, const Kernel& kernel);
 

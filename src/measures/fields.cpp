@@ -50,7 +50,7 @@ template class Field<std::uint32_t>;
 Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   Measuring<FieldState<std::int32_t>> measuring(field);
   FieldState<std::int32_t>& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   if (of.points) {
     throw Error(
         "distances to points within their pixels, and in tilted grids, are no whole numbers; ask for a field "
@@ -58,6 +58,10 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
         "floats, or snap the seeds to pixels of a grid that is not tilted");
   }
   state.make_room_for(of);
+  if (of.grid.is_volume()) {
+    const cl::Event event = state.fill_volume(of, "integer_distances", diagram.labels());
+    return measuring.commit(std::move(of), event, event);
+  }
   make_room(state.too_long, of.device, sizeof(cl_uint));
   if (of.is_far()) fill(of.device, state.too_long, cl_uint{0}, 1);
   const cl::Event event = state.kernel(of, "integer_distances", of.options())
@@ -69,8 +73,12 @@ Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
 Report distance_field(const Diagram& diagram, Field<float>& field) {
   Measuring<FieldState<float>> measuring(field);
   FieldState<float>& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   state.make_room_for(of);
+  if (of.grid.is_volume()) {
+    const cl::Event event = state.fill_volume(of, "float_distances", diagram.labels());
+    return measuring.commit(std::move(of), event, event);
+  }
   const cl::Event event = state.kernel(of, "float_distances", of.options())
                               .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
                                          of.grid.width(), of.grid.height(), state.values);

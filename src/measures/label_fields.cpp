@@ -1,4 +1,5 @@
 // Fields of labels: looked up in a table, and near their seeds.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -70,13 +71,19 @@ Report map_labels(const Diagram& diagram, const std::vector<std::uint32_t>& tabl
 Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_t>& field) {
   Measuring<LabelState> measuring(field);
   LabelState& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   // Written so that a NaN fails.
   if (!(distance >= 0)) {
     throw Error("labels cannot expand to a distance of " + std::to_string(distance) +
                 " pixels; 0 is the least");
   }
   state.make_room_for(of);
+  if (of.grid.is_volume()) {
+    constexpr cl_long longest = 0x7ffffffe;  // of distances in volumes
+    const auto most = static_cast<cl_uint>(std::min(greatest_compared(of, distance), longest));
+    const cl::Event event = state.fill_volume(of, "expand_labels", diagram.labels(), most);
+    return measuring.commit(std::move(of), event, event);
+  }
   const cl::Event event =
       state.kernel(of, "expand_labels", of.options())
           .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.grid.width(),

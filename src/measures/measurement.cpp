@@ -65,8 +65,9 @@ const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& l
   return room;
 }
 
-MeasuredDiagram labels_of(const Diagram& diagram) {
+MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
   const DiagramState& state = Internal::state(diagram);
+  if (volumes == Volumes::refused) refuse_volume(state.window.grid(), "this measure");
   MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
   if (!state.contents) return measured;
   measured.seeds = state.contents->seeds;
@@ -76,8 +77,8 @@ MeasuredDiagram labels_of(const Diagram& diagram) {
   return measured;
 }
 
-MeasuredDiagram cells_of(const Diagram& diagram) {
-  MeasuredDiagram measured = labels_of(diagram);
+MeasuredDiagram cells_of(const Diagram& diagram, Volumes volumes) {
+  MeasuredDiagram measured = labels_of(diagram, volumes);
   if (measured.seeds) return measured;
   throw Error(
       "the diagram knows no seeds to measure it by; run a method, or write labels with their seeds and "

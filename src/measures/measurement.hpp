@@ -74,11 +74,14 @@ struct MeasuredDiagram {
 /// in a tilted grid is copied to `room` as it lies there.
 const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
 
-/// A diagram for a measure that looks at labels alone.
-MeasuredDiagram labels_of(const Diagram& diagram);
+/// Whether a measure takes volumes.
+enum class Volumes { refused, taken };
 
-/// A diagram for a measure that needs its seeds. Throws Error if it knows none.
-MeasuredDiagram cells_of(const Diagram& diagram);
+/// A diagram for a measure that looks at labels alone. Throws Error if it is a volume, and those are refused.
+MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes = Volumes::refused);
+
+/// A diagram for a measure that needs its seeds. Throws Error too if it knows none.
+MeasuredDiagram cells_of(const Diagram& diagram, Volumes volumes = Volumes::refused);
 
 /// What every result holds. It is empty before the first measurement and while one is being made: a
 /// measurement that failed leaves it so.

@@ -23,6 +23,13 @@ bool has_short_period(const PixelGrid& grid) {
          (grid.periodic_y() && grid.height() < surroundings);
 }
 
+std::string bits_of_volume(const PixelGrid& grid) {
+  if (!grid.is_volume()) return "";
+  const VoxelBits bits(grid);
+  return " -DVOROCL_BITS_X=" + std::to_string(bits.x) + " -DVOROCL_BITS_Y=" + std::to_string(bits.y) +
+         " -DVOROCL_BITS_Z=" + std::to_string(bits.z);
+}
+
 std::string build_options(int vector_width, const PixelGrid& grid, const KernelOptions& options) {
   return "-cl-std=CL1.2 -DVOROCL_WIDTH=" + std::to_string(vector_width) +
          " -DVOROCL_GUARD=" + std::to_string(guard) + build_option(options.metric) +
@@ -33,7 +40,7 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
-         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "");
+         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid);
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {
@@ -81,9 +88,8 @@ cl::Event Kernel::enqueue_over_grid() {
   const Tuning& tuning = device_.tuning();
   const auto width = static_cast<std::size_t>(vector_width_);
   const std::size_t vectors = (static_cast<std::size_t>(grid_.width()) + width - 1) / width;
-  const auto rows = static_cast<std::size_t>(grid_.height());
   const std::size_t local[] = {tuning.group_width, tuning.group_height};
-  const std::size_t global[] = {round_up(vectors, local[0]), round_up(rows, local[1])};
+  const std::size_t global[] = {round_up(vectors, local[0]), round_up(grid_.rows(), local[1])};
   return enqueue(2, global, local);
 }
 

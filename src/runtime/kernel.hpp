@@ -59,8 +59,8 @@ class Kernel {
     return *this;
   }
 
-  /// Enqueues one work-item per vector of every row, with these arguments. Work-items outside the grid must
-  /// return.
+  /// Enqueues one work-item per vector of every row, of a volume of those of all slices, with these
+  /// arguments. Work-items outside the grid must return.
   template <typename... Arguments>
   cl::Event over_grid(const Arguments&... arguments) {
     set_arguments(0, arguments...);

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
 
-/// Rows of pixels, and along which axes their ends meet. Kernels are built for the periodic axes, and for
-/// vectors no longer than a row.
+/// Rows of pixels, and along which axes their ends meet; in a volume slices of rows. Kernels are built for
+/// the periodic axes, for vectors no longer than a row, and in a volume for its VoxelBits.
 class PixelGrid {
  public:
   PixelGrid(int width, int height, Periodic periodic = Periodic::none)
@@ -24,27 +25,47 @@ class PixelGrid {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  int depth() const { return depth_; }
+  bool is_volume() const { return depth_ > 1; }
   Periodic periodic() const { return periodic_; }
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
-  int longest_side() const { return std::max(width_, height_); }
-  std::size_t pixels() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_); }
+  int longest_side() const { return std::max({width_, height_, depth_}); }
+  std::size_t rows() const { return static_cast<std::size_t>(height_) * static_cast<std::size_t>(depth_); }
+  std::size_t pixels() const { return static_cast<std::size_t>(width_) * rows(); }
 
   friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
-    return a.width_ == b.width_ && a.height_ == b.height_ && a.periodic_ == b.periodic_;
+    return a.width_ == b.width_ && a.height_ == b.height_ && a.depth_ == b.depth_ &&
+           a.periodic_ == b.periodic_;
   }
   friend bool operator!=(const PixelGrid& a, const PixelGrid& b) { return !(a == b); }
 
  private:
-  int width_, height_;
+  int width_, height_, depth_ = 1;
   Periodic periodic_;
+};
+
+/// How a voxel's coordinates lie in its position: x in the lowest bits, then y, then z, so that positions are
+/// in the order of the tie rule. In kernels VOROCL_BITS_X, VOROCL_BITS_Y and VOROCL_BITS_Z.
+struct VoxelBits {
+  explicit VoxelBits(const PixelGrid& grid);
+
+  std::uint32_t pack(int at_x, int at_y, int at_z) const {
+    return static_cast<std::uint32_t>(at_z) << (x + y) | static_cast<std::uint32_t>(at_y) << x |
+           static_cast<std::uint32_t>(at_x);
+  }
+
+  int x, y, z;
 };
 
 /// Whether a diagram can show all of a grid.
 bool fits_in_a_diagram(const Grid& grid);
 
-/// Throws Error if a grid is tilted, for something ("flooding") that does not know how such grids repeat.
-void refuse_tilted(const Grid& grid, const char* what);
+/// Throws Error if a grid is a volume, for something ("a window") that knows planes alone.
+void refuse_volume(const Grid& grid, const char* what);
+
+/// Throws Error if a grid is tilted or a volume, for something ("flooding") that knows neither.
+void refuse_tilted_and_volumes(const Grid& grid, const char* what);
 
 /// "640 x 480, periodic in x".
 std::string size_text(const PixelGrid& pixels);

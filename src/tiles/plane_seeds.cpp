@@ -19,7 +19,7 @@ SeedSource::~SeedSource() = default;
 
 PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside, Snap snap)
     : state_(std::make_unique<PlaneSeedsState>(grid, outside, snap)) {
-  refuse_tilted(grid, "a plane of tiles");
+  refuse_tilted_and_volumes(grid, "a plane of tiles");
 }
 PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside, Snap snap)
     : PlaneSeeds(grid, outside, snap) {

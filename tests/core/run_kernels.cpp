@@ -44,7 +44,7 @@ std::set<std::string> kernels_in_the_sources(const Device& device) {
     const cl::Program program =
         program_for(device, file,
                     "-cl-std=CL1.2 -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 -DVOROCL_EUCLIDEAN "
-                    "-DVOROCL_NEIGHBOURS=9");
+                    "-DVOROCL_NEIGHBOURS=9 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 -DVOROCL_BITS_Z=10");
     std::istringstream names(info<std::string>(clGetProgramInfo, program(), CL_PROGRAM_KERNEL_NAMES));
     for (std::string name; std::getline(names, name, ';');) kernels.insert(name);
   }
@@ -144,6 +144,34 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
   }
 }
 
+/// Volumes of few seeds, and of many in a part of them.
+void make_volumes(const Device& device) {
+  const Grid grid(20, 12, 9);
+  for (const std::size_t count : {9u, 600u}) {
+    const Seeds seeds = Seeds::random(device, Grid(10, 12, 9), count, 1);
+    std::vector<Point3> points;
+    for (const auto& voxel : seeds.read_voxels()) points.push_back(*voxel);
+    Seeds in_a_part(device, grid, points);
+    Diagram flooded(device, grid), exact(device, grid),
+        by_short_lists(with_lists(device, ListLength::two_entries), grid);
+    jump_flooding(in_a_part, flooded, {Metric::euclidean, Neighbourhood::von_neumann});
+    jump_flooding(in_a_part, flooded);
+    exact_diagram(in_a_part, by_short_lists);
+    exact_diagram(in_a_part, exact);
+    DistanceErrorsResult errors;
+    Field<std::int32_t> squares;
+    Field<float> distances;
+    Field<std::uint32_t> near_ones;
+    distance_errors(flooded, exact, errors);
+    distance_field(flooded, squares);
+    distance_field(flooded, distances);
+    expand_labels(flooded, 2, near_ones);
+    in_a_part.move_to(std::vector<Point3>{{1, 2, 3}});
+    if (in_a_part.displacement() == 0) throw Error("the seeds' way is wrong");
+    device.finish();
+  }
+}
+
 /// In buffers: good points, good ones that have moved, and a bad one.
 void make_seeds(const Device& device, const Grid& grid) {
   Seeds::random(device, grid, 5, 1).read();
@@ -231,6 +259,7 @@ int main() {
     }
   }
   measure_many_cells(device, Grid(13, 9));
+  make_volumes(device.with_tuning({4, 4, 2, Shape::vector, 32}));
   cut_exact_cells(device);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;

@@ -252,6 +252,12 @@ template void write_npy(const OutputFile&, const Size&, const std::vector<std::u
 template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
 template void write_npy(const OutputFile&, const Size&, const std::vector<float>&);
 
+void write_npy_volume(const OutputFile& file, const VolumeSize& size,
+                      const std::vector<std::uint32_t>& labels) {
+  const auto side = [](std::int64_t voxels) { return static_cast<std::size_t>(voxels); };
+  write_array(file, {side(size.depth), side(size.height), side(size.width)}, labels);
+}
+
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape) {
   std::string header = std::string("{'descr': '") + type_name<T> +

@@ -46,6 +46,10 @@ DensityImage read_npy_density(const std::string& path);
 template <typename T>
 void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values);
 
+/// Labels of a volume, slice after slice, to an array of shape (depth, height, width). Throws as above.
+void write_npy_volume(const OutputFile& file, const VolumeSize& size,
+                      const std::vector<std::uint32_t>& labels);
+
 /// What stands before the values (uint8, uint32, float or double) of an array of this shape.
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape);

@@ -40,6 +40,13 @@ class Size {
   int width_, height_;
 };
 
+/// The sides of a volume in voxels.
+struct VolumeSize {
+  std::int64_t width, height, depth;
+
+  Grid grid() const { return {width, height, depth}; }
+};
+
 /// A rectangle in data units.
 struct Bounds {
   double x0 = 0;

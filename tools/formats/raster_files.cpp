@@ -17,6 +17,17 @@ const std::vector<std::string>& label_extensions() {
   return all;
 }
 
+const std::vector<std::string>& volume_extensions() {
+  static const std::vector<std::string> all = {".npy", ".vti"};
+  return all;
+}
+
+void write_volume(const OutputFile& file, const VolumeSize& size, const std::vector<std::uint32_t>& labels) {
+  check_extension(file.path(), volume_extensions());
+  extension_of(file.path()) == ".npy" ? write_npy_volume(file, size, labels)
+                                      : write_vti_volume(file, size, labels);
+}
+
 LabelImage read_labels(const std::string& path) {
   check_extension(path, readable_label_extensions());
   return extension_of(path) == ".npy" ? read_npy_labels(path) : read_tiff_labels(path);

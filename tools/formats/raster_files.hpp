@@ -19,6 +19,13 @@ const std::vector<std::string>& label_extensions();
 /// Throws Error if the file cannot be read or holds something else, or its name ends in no such extension.
 LabelImage read_labels(const std::string& path);
 
+/// The extensions of files that labels of a volume can be written to.
+const std::vector<std::string>& volume_extensions();
+
+/// Labels of a volume, slice after slice. Throws Error if the name ends in no such extension, or the file
+/// cannot be written.
+void write_volume(const OutputFile& file, const VolumeSize& size, const std::vector<std::uint32_t>& labels);
+
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
 
@@ -52,6 +59,11 @@ void write_tiff(const OutputFile& file, const Size& size, const std::vector<T>& 
 template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
+
+/// Labels of a volume, as above, with the cell data "label" and the origin in its first voxel's corner: what
+/// is at (x, y, z) in voxels is there, for here no row is on top.
+void write_vti_volume(const OutputFile& file, const VolumeSize& size,
+                      const std::vector<std::uint32_t>& labels);
 
 /// A file of a collection and the time that it shows.
 struct TimedFile {

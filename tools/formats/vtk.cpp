@@ -42,14 +42,11 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
-}  // namespace
-
+/// What stands before the bytes of an image of values: where its cells lie.
 template <typename T>
-void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
-               const std::vector<T>& values) {
-  const Size& size = raster.size;
-  const std::string extent = fmt::format("0 {} 0 {} 0 0", size.width(), size.height());
-  const std::string start = fmt::format(
+std::string start_of_image(const std::string& name, const std::string& extent, const Point& corner,
+                           const Point& cell) {
+  return fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
   <ImageData WholeExtent="{1}" Origin="{4} {5} 0" Spacing="{6} {7} 1">
@@ -61,18 +58,40 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   </ImageData>
   <AppendedData encoding="raw">
     _)",
-      byte_order(), extent, name, type_name<T>, raster.corner.x, raster.corner.y, raster.pixel.x,
-      raster.pixel.y);
+      byte_order(), extent, name, type_name<T>, corner.x, corner.y, cell.x, cell.y);
+}
+
+constexpr const char* end_of_image = "\n  </AppendedData>\n</VTKFile>\n";
+
+}  // namespace
+
+template <typename T>
+void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
+               const std::vector<T>& values) {
+  const Size& size = raster.size;
   const std::uint64_t bytes = values.size() * sizeof(T);
   const std::size_t row_bytes = static_cast<std::size_t>(size.width()) * sizeof(T);
   GrowingFile image(file);
-  image << start;
+  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()), raster.corner,
+                             raster.pixel);
   image.write(&bytes, sizeof bytes);
   for (int row = size.height() - 1; row >= 0; --row) {
     const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * size.width();
     image.write(first, row_bytes);
   }
-  image << "\n  </AppendedData>\n</VTKFile>\n";
+  image << end_of_image;
+  image.finish();
+}
+
+void write_vti_volume(const OutputFile& file, const VolumeSize& size,
+                      const std::vector<std::uint32_t>& labels) {
+  const std::uint64_t bytes = labels.size() * sizeof labels[0];
+  GrowingFile image(file);
+  image << start_of_image<std::uint32_t>(
+      "label", fmt::format("0 {} 0 {} 0 {}", size.width, size.height, size.depth), {0, 0}, {1, 1});
+  image.write(&bytes, sizeof bytes);
+  image.write(labels.data(), bytes);
+  image << end_of_image;
   image.finish();
 }
 

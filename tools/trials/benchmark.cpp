@@ -114,7 +114,7 @@ double milliseconds_of(const Contender& contender) {
 }  // namespace
 
 const Method& opencv_method() {
-  static const Method method = {"opencv", false, false, false, nullptr, nullptr};
+  static const Method method = {"opencv", false, false, false, false, nullptr, nullptr};
   return method;
 }
 

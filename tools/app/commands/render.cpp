@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/render_volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/terminal/console.hpp"
@@ -28,6 +29,7 @@ struct RenderOptions {
   std::string waves_pattern;
   FileRequest labels = {labels_kind(), ""};
   PictureOptions picture;
+  std::optional<VolumeSlice> slice;
   bool json = false;
 
   bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
@@ -128,10 +130,24 @@ void run(const RenderOptions& options) {
 
 }  // namespace
 
+namespace {
+
+/// The options that a volume has. Throws UsageError for the others.
+VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
+  for (const char* const name : {"--waves", "--periodic", "--snap", "--no-snap", "--frame", "--units"}) {
+    if (command.has(name))
+      throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
+  }
+  return {options.seeds,       options.method,  options.method_options, options.device, options.picture_path,
+          options.labels.path, options.picture, options.slice,          options.json};
+}
+
+}  // namespace
+
 void add_render(CommandLine& line) {
   const auto options = std::make_shared<RenderOptions>();
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
-  add_seed_options(command, options->seeds);
+  add_seed_options(command, options->seeds, 1, false, true);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
@@ -146,11 +162,17 @@ void add_render(CommandLine& line) {
            "Pictures to write of the diagram before the first wave and after every wave, such as "
            "waves/%02d.png; for djfa, the waves of the JFA that makes frame 0")
       .value_name("PICTURES");
+  command
+      .add_parsed("--slice", options->slice, parse_slice,
+                  "Of a volume, the slice that the picture shows, from 0: z=K, or along x or y")
+      .value_name("z=K");
   add_picture_options(command, options->picture);
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
+    if (options->seeds.depth > 1) return render_volume(volume_of(command, *options));
+    if (options->slice) throw UsageError("--slice is for volumes: give --size WxHxD");
     snap_for(options->method, options->seeds);
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");

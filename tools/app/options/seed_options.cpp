@@ -95,6 +95,17 @@ std::pair<std::int64_t, std::int64_t> parse_sides(const std::string& text) {
   return {*width, *height};
 }
 
+/// "WxH", or "WxHxD" of a volume, whose depth is set apart.
+Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
+  const auto x = text.find('x'), second = x == std::string::npos ? x : text.find('x', x + 1);
+  depth = 1;
+  if (second == std::string::npos) return parse_size(text);
+  const auto slices = parse_number<std::int64_t>(text.substr(second + 1));
+  if (!slices) throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
+  depth = Axis(*slices).pixels();
+  return parse_size(text.substr(0, second));
+}
+
 Size size_of_sides(std::int64_t width, std::int64_t height) {
   if (std::max(width, height) <= Size::max_side) return {width, height};
   throw Error(
@@ -123,7 +134,7 @@ std::optional<Grid> parse_plane(const std::string& text) {
 
 }  // namespace
 
-void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move) {
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, bool volumes) {
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
   if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
   constexpr std::size_t most_seeds = Window::max_pixels;
@@ -138,11 +149,17 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   Option rng_seed = add_rng_seed_option(command, options);
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
   add_columns_option(command, options).needs(points);
-  const Option size =
-      command
-          .add_parsed("--size", options.size, parse_size,
-                      "Width and height of the grid in pixels; with --mask those of the image")
-          .value_name("WxH");
+  const std::string about_size =
+      std::string("Width and height of the grid in pixels; with --mask those of the image") +
+      (volumes ? "; with a depth, a volume of random voxels" : "");
+  const Option size = command
+                          .add(
+                              "--size",
+                              [&options](const std::string& text) {
+                                options.size = parse_size_and_depth(text, options.depth);
+                              },
+                              about_size)
+                          .value_name(volumes ? "WxH[xD]" : "WxH");
   command
       .add_parsed(
           "--width", options.width, parse_width,

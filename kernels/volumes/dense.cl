@@ -1,0 +1,223 @@
+// Exact labels where seeds are dense: three passes of minima with 16-bit lanes, one per axis, that look `reach` voxels
+// far. A voxel's key is distance * K^3 + the place of its seed among the K^3 voxels within reach, K = 2 * reach + 1, z
+// above y above x: so the least key is the nearest seed by the tie rule, and says where it stands. A voxel is done if
+// its distance is below (reach + 1)^2: no seed out of reach is as near. For a reach of 5 that is 36 * 1331 < 65536;
+// greater distances saturate. A box with a voxel that is not done is left to boxes.cl.
+
+#ifndef VOROCL_VOLUMES_DENSE
+#define VOROCL_VOLUMES_DENSE
+
+#include "volumes/boxes.cl"
+
+typedef ushort16 near_keys;
+#define KEY_LANES ((ushort16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+// PoCL 3.1 makes vload16() and vstore16() of 16-bit lanes element by element: this is one instruction.
+typedef struct __attribute__((packed)) { near_keys v; } unaligned_keys;
+#define LOAD_KEYS(pointer) (((const unaligned_keys*)(pointer))->v)
+#define STORE_KEYS(values, pointer) (((unaligned_keys*)(pointer))->v = (values))
+
+#define NO_KEY 0xffff
+#define LONG_REACH 5
+#define SHORT_REACH 3
+#define LONG_SIDE (REGION + 2 * LONG_REACH)  // of a region with what is within reach
+#define STRIP 16                             // columns that the passes take at once
+#define STRIDE 48                            // of a row in the table of ids: 8 voxels more at both ends
+
+// Regions with so many seeds try a reach: one per 18 voxels, one per 90.
+#define DENSE_FOR_SHORT (REGION * REGION * REGION / 18)
+#define DENSE_FOR_LONG (REGION * REGION * REGION / 90)
+
+// What is known of the seeds of a region and around it.
+typedef struct {
+  uint id[LONG_SIDE * LONG_SIDE * STRIDE + STRIP];  // at the seeds' voxels; others are never looked up
+  uint words[2 * LONG_SIDE * LONG_SIDE];            // of a row, the bits of each strip and of 8 voxels at its sides
+} surroundings_t;
+
+// The six bins of a row of bins from the one before a region to the one behind it, as their numbers in the index.
+typedef struct {
+  uint bin[6];
+  uchar there[6];  // 0xff where there is one
+} bin_row_t;
+
+static inline bin_row_t bins_of_row(extent_t e, int4 at, int by, int bz) {
+  const int y = at.y / BIN + by, z = at.z / BIN + bz;
+  const bool inside = y >= 0 && y < e.ry * 4 && z >= 0 && z < e.rz * 4;
+  bin_row_t row;
+  for (int i = 0; i < 6; ++i) {
+    const int x = at.x / BIN + i - 1;
+    const bool there = inside && x >= 0 && x < e.rx * 4;
+    row.there[i] = there ? 0xff : 0;
+    row.bin[i] = there ? (uint)(((z >> 2) * e.ry + (y >> 2)) * e.rx + (x >> 2)) * BINS +
+                             (uint)((z & 3) << 4 | (y & 3) << 2 | (x & 3))
+                       : 0;
+  }
+  return row;
+}
+
+static inline void gather_ids(bin_row_t row, global const uint* starts, global const ulong* list, int4 at, int reach,
+                              surroundings_t* around) {
+  const int side = REGION + 2 * reach;
+  for (int i = 0; i < 6; ++i) {
+    if (!row.there[i]) continue;
+    const uint first = row.bin[i] / BINS * (BINS + 1) + row.bin[i] % BINS, end = starts[first + 1];
+    for (uint j = starts[first]; j < end; ++j) {
+      const uint p = (uint)list[j];
+      const int x = x_of(p) - at.x + 8, y = y_of(p) - at.y + reach, z = z_of(p) - at.z + reach;
+      if ((uint)y < (uint)side && (uint)z < (uint)side) around->id[(z * side + y) * STRIDE + x] = (uint)(list[j] >> 32);
+    }
+  }
+}
+
+__attribute__((always_inline)) static inline void gather(const int reach, extent_t e, global const uint* bits,
+                                                         global const uint* starts, global const ulong* list, int4 at,
+                                                         surroundings_t* around) {
+  const int side = REGION + 2 * reach;
+  global const uchar* const bytes = (global const uchar*)bits;  // a byte is a row of a bin
+  for (int bz = -1; bz <= 4; ++bz) {
+    for (int by = -1; by <= 4; ++by) {
+      const bin_row_t row = bins_of_row(e, at, by, bz);
+      gather_ids(row, starts, list, at, reach, around);
+      for (int z = max(bz * BIN, -reach); z < min(bz * BIN + BIN, REGION + reach); ++z) {
+        for (int y = max(by * BIN, -reach); y < min(by * BIN + BIN, REGION + reach); ++y) {
+          uint byte[6];
+#pragma unroll
+          for (int i = 0; i < 6; ++i) {
+            byte[i] = bytes[(size_t)row.bin[i] * (WORDS * 4) + (uint)((z & 7) * 8 + (y & 7))] & row.there[i];
+          }
+          uint* const word = around->words + ((z + reach) * side + y + reach) * 2;
+          word[0] = byte[0] | byte[1] << 8 | byte[2] << 16 | byte[3] << 24;
+          word[1] = byte[2] | byte[3] << 8 | byte[4] << 16 | byte[5] << 24;
+        }
+      }
+    }
+  }
+}
+
+// A slice of a strip: the least keys along x of each row, then along y.
+__attribute__((always_inline)) static inline void pass_slice(const int reach, const uint* words, near_keys* after_y) {
+  const int k = 2 * reach + 1, side = REGION + 2 * reach;
+  const uint unit = (uint)(k * k * k);
+  ushort absent[LONG_SIDE * 32];  // all ones where there is no seed
+  near_keys after_x[LONG_SIDE];
+  for (int y = 0; y < side; ++y) {
+    const uint word = words[y * 2];
+    const near_keys bit = (near_keys)1 << KEY_LANES;
+    STORE_KEYS(as_ushort16(((near_keys)(ushort)word & bit) == (near_keys)0), absent + y * 32);
+    STORE_KEYS(as_ushort16(((near_keys)(ushort)(word >> 16) & bit) == (near_keys)0), absent + y * 32 + 16);
+  }
+  for (int y = 0; y < side; ++y) {
+    near_keys least = (near_keys)NO_KEY;
+#pragma unroll
+    for (int dx = -reach; dx <= reach; ++dx) {
+      const uint part = (uint)(dx * dx) * unit + (uint)(dx + reach);
+      least = min(least, LOAD_KEYS(absent + y * 32 + 8 + dx) | (near_keys)(ushort)part);
+    }
+    after_x[y] = least;
+  }
+  for (int y = 0; y < REGION; ++y) {
+    near_keys least = (near_keys)NO_KEY;
+#pragma unroll
+    for (int dy = 0; dy < k; ++dy) {
+      const uint part = (uint)((dy - reach) * (dy - reach)) * unit + (uint)(dy * k);
+      least = min(least, add_sat(after_x[y + dy], (near_keys)(ushort)part));
+    }
+    after_y[y] = least;
+  }
+}
+
+// Stores the labels of a row of a strip whose first voxel has this id; which of them are not done.
+__attribute__((always_inline)) static inline bool store_row(const int reach, near_keys least, const int* offset,
+                                                            const uint* id, global uint* out, int columns) {
+  const int k = 2 * reach + 1;
+  const uint unit = (uint)(k * k * k);
+  const near_keys distance = mul_hi(least, (near_keys)(ushort)((65536u + unit - 1) / unit));
+  near_keys rest = least - distance * (ushort)unit;
+  const short16 over = as_short16(rest) < (short16)0;  // the reciprocal is a little too great
+  rest += select((near_keys)0, (near_keys)(ushort)unit, over);
+  const short16 far = least >= (near_keys)(ushort)((uint)((reach + 1) * (reach + 1)) * unit);
+  ushort place[STRIP];
+  STORE_KEYS(rest, place);
+  if (columns >= STRIP) {
+    uint label[STRIP];
+#pragma unroll
+    for (int i = 0; i < STRIP; ++i) label[i] = (id + i)[offset[place[i]]];
+    ((global unaligned_uv*)out)->v = vload8(0, label);
+    ((global unaligned_uv*)(out + 8))->v = vload8(1, label);
+    return any(far);
+  }
+  ushort is_far[STRIP];
+  STORE_KEYS(as_ushort16(far), is_far);
+  bool some_far = false;
+  for (int i = 0; i < columns; ++i) {
+    some_far |= is_far[i] != 0;
+    out[i] = (id + i)[offset[place[i]]];
+  }
+  return some_far;
+}
+
+// Returns a bit for each box that is left, in the order in which boxes.cl goes through them.
+__attribute__((always_inline)) static inline uint label_by_passes(const int reach, extent_t e, global const uint* bits,
+                                                                  global const uint* starts, global const ulong* list,
+                                                                  int4 at, global uint* labels) {
+  const int k = 2 * reach + 1, side = REGION + 2 * reach;
+  const uint unit = (uint)(k * k * k);
+  surroundings_t around;
+  gather(reach, e, bits, starts, list, at, &around);
+  int offset[(2 * LONG_REACH + 1) * (2 * LONG_REACH + 1) * (2 * LONG_REACH + 1)];  // in the table, of a place in reach
+  for (int i = 0; i < k * k * k; ++i) {
+    offset[i] = ((i / (k * k) - reach) * side + i / k % k - reach) * STRIDE + i % k - reach;
+  }
+  near_keys after_y[LONG_SIDE * REGION];
+  uint left = 0;
+  for (int strip = 0; strip < 2; ++strip) {
+    for (int z = 0; z < side; ++z) pass_slice(reach, around.words + z * side * 2 + strip, after_y + z * REGION);
+    // All of a strip has its keys before labels are stored.
+    const int x = at.x + strip * STRIP;
+    if (x >= e.width) break;
+    for (int z = 0; z < min(REGION, e.depth - at.z); ++z) {
+      for (int y = 0; y < min(REGION, e.height - at.y); ++y) {
+        near_keys least = (near_keys)NO_KEY;
+#pragma unroll
+        for (int dz = 0; dz < k; ++dz) {
+          const uint part = (uint)((dz - reach) * (dz - reach)) * unit + (uint)(dz * k * k);
+          least = min(least, add_sat(after_y[(z + dz) * REGION + y], (near_keys)(ushort)part));
+        }
+        const size_t row = (size_t)(at.z + z) * (size_t)e.height + (size_t)(at.y + y);
+        const uint* const id = around.id + ((z + reach) * side + y + reach) * STRIDE + strip * STRIP + 8;
+        const bool some_far = store_row(reach, least, offset, id, labels + row * (size_t)e.width + x, e.width - x);
+        const int tile = strip | y / TILE << 1 | z / TILE << 2, part = y / BOX_Y % 2 | z / BOX_Z % 2 << 1;
+        left |= some_far ? 1u << (tile * BOXES + part) : 0;
+      }
+    }
+  }
+  return left;
+}
+
+__attribute__((noinline)) static uint label_near(extent_t e, global const uint* bits, global const uint* starts,
+                                                 global const ulong* list, int4 at, global uint* labels) {
+  return label_by_passes(SHORT_REACH, e, bits, starts, list, at, labels);
+}
+__attribute__((noinline)) static uint label_less_near(extent_t e, global const uint* bits, global const uint* starts,
+                                                      global const ulong* list, int4 at, global uint* labels) {
+  return label_by_passes(LONG_REACH, e, bits, starts, list, at, labels);
+}
+
+// Labels dense regions; says which boxes of each region are left.
+kernel void label_dense(global const uint* restrict bits, global const uint* restrict starts,
+                        global const ulong* restrict list, int width, int height, int depth,
+                        global uint* restrict labels, global uint* restrict boxes_left) {
+  const extent_t e = extent_of(width, height, depth);
+  const int region = (int)get_global_id(0);
+  if (region >= regions_of(e)) return;
+  const int4 at = (int4)(region % e.rx * REGION, region / e.rx % e.ry * REGION, region / e.rx / e.ry * REGION, 0);
+  const uint first = (uint)region * (BINS + 1), seeds = starts[first + BINS] - starts[first];
+  uint left = ALL_LEFT;
+  if (seeds >= DENSE_FOR_SHORT) {
+    left = label_near(e, bits, starts, list, at, labels);
+  } else if (seeds >= DENSE_FOR_LONG) {
+    left = label_less_near(e, bits, starts, list, at, labels);
+  }
+  boxes_left[region] = left;
+}
+
+#endif

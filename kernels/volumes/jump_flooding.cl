@@ -1,0 +1,67 @@
+// Jump flooding in a volume: every voxel takes the best of its own position and its neighbours' at a step, 26 of them
+// (VOROCL_NEIGHBOURS of 9) or 6 (of 5). A wave gathers: it reads one image of positions and writes another. There is
+// a work-item for each vector of each row of all slices.
+
+#include "volumes/position.cl"
+
+// The voxels of this work-item.
+typedef struct {
+  int x, y, z, width, height, depth;
+} place_t;
+static inline place_t place_of(int width, int height, int depth) {
+  const int row = vector_y();
+  const place_t place = {vector_x(width), row % height, row / height, width, height, depth};
+  return place;
+}
+
+// Of a row's values in the vector that starts at x, those that are in the row; EMPTY in the other lanes.
+static inline uint_v load_positions(global const uint* image, place_t p, int x, int y, int z) {
+  if (y < 0 || y >= p.height || z < 0 || z >= p.depth || x <= -VOROCL_WIDTH || x >= p.width) return (uint_v)EMPTY;
+  const size_t row = ((size_t)z * (size_t)p.height + (size_t)y) * (size_t)p.width;
+  const uint_v values = LOAD_VECTOR(image + VOROCL_GUARD + row + x);
+  if (x >= 0 && x + VOROCL_WIDTH <= p.width) return values;
+  return select((uint_v)EMPTY, values, (uint)x + LANES < (uint_v)(uint)p.width);
+}
+
+// The best position of the vector's voxels after a wave. An empty position is farther than any seed.
+static inline uint_v best_position(global const uint* image, place_t p, int step) {
+  const int_v x = AS_INT_V((uint)p.x + LANES);
+  uint_v best = (uint_v)EMPTY, least = (uint_v)0xffffffffu;
+  for (int dz = -1; dz <= 1; ++dz) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        if (VOROCL_NEIGHBOURS == 5 && abs(dx) + abs(dy) + abs(dz) > 1) continue;
+        const uint_v position = load_positions(image, p, p.x + dx * step, p.y + dy * step, p.z + dz * step);
+        const int_v way_x = AS_INT_V(position & MASK_X) - x;
+        const int_v way_y = AS_INT_V(position >> VOROCL_BITS_X & MASK_Y) - p.y;
+        const int_v way_z = AS_INT_V(position >> SHIFT_Z & MASK_Z) - p.z;
+        const uint_v distance =
+            AS_UINT_V(ALONG(way_x) + ALONG(way_y) + ALONG(way_z)) | (position & EMPTY);
+        best = select(best, position, distance < least || (distance == least && position < best));
+        least = min(least, distance);
+      }
+    }
+  }
+  return best;
+}
+
+VECTOR_KERNEL void wave(global const uint* restrict in, global uint* restrict out, int width, int height, int depth,
+                        int step) {
+  if (!has_vector(width, height * depth)) return;
+  const place_t p = place_of(width, height, depth);
+  const uint_v best = best_position(in, p, step);
+  STORE_VECTOR(best, out + VOROCL_GUARD + (size_t)vector_y() * (size_t)width + p.x);
+}
+
+// Writes the ids of the positions, which it looks up in the ids at the seeds' voxels.
+VECTOR_KERNEL void write_labels(global const uint* restrict image, global const uint* restrict ids,
+                                global uint* restrict labels, int width, int height, int depth) {
+  if (!has_vector(width, height * depth)) return;
+  const size_t first = (size_t)vector_y() * (size_t)width + (size_t)vector_x(width);
+  uint position[VOROCL_WIDTH];
+  STORE_VECTOR(LOAD_VECTOR(image + VOROCL_GUARD + first), position);
+  for (int i = 0; i < VOROCL_WIDTH; ++i) {
+    labels[first + (size_t)i] =
+        ids[position[i] & EMPTY ? 0 : FIRST_ID + voxel_index(position[i], width, height)];
+  }
+}

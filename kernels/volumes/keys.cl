@@ -1,0 +1,204 @@
+// Labels of the voxels of a box whose candidates are known.
+//
+// KEYS. A candidate's key at a voxel is by how much farther it is than one of them, the base, above its rank by the tie
+// rule. It is the sum of a part for each axis: an addition and a minimum for 8 voxels and a candidate.
+
+#ifndef VOROCL_VOLUMES_KEYS
+#define VOROCL_VOLUMES_KEYS
+
+#include "volumes/search.cl"
+
+#ifndef MOST_OF_KEYS
+// Candidates: ranks of 8 bits leave 23 and a sign for differences of squared distances in a box of 16 x 8 x 8.
+#define MOST_OF_KEYS 256
+#endif
+#define BOX_X 16
+#define BOX_Y 8
+#define BOX_Z 8
+
+static inline void fill(const index_t* index, box_t b, uint label, global uint* labels) {
+  const extent_t e = index->extent;
+  const int right = min(b.x + b.hx + 1, e.width);
+  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
+      global uint* const row = labels + ((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width;
+      int x = b.x;
+      for (; x + 8 <= right; x += 8) ((global unaligned_uv*)(row + x))->v = (uv)label;
+      for (; x < right; ++x) row[x] = label;
+    }
+  }
+}
+
+// A permutation of a vector, which the compiler makes of this.
+static inline uv permuted(uv t, uv at) {
+  at &= 7u;
+  return (uv)(t[at.s0], t[at.s1], t[at.s2], t[at.s3], t[at.s4], t[at.s5], t[at.s6], t[at.s7]);
+}
+
+// The entries of so many vectors; of no known number of them: lane by lane.
+__attribute__((always_inline)) static inline uv look_up(const uint* table, int vectors, uv at) {
+  if (vectors == 0) {
+    uint a[8];
+    vstore8(at, 0, a);
+#pragma unroll
+    for (int i = 0; i < 8; ++i) a[i] = table[a[i]];
+    return vload8(0, a);
+  }
+  uv v = permuted(vload8(0, table), at);
+#pragma unroll
+  for (int i = 1; i < vectors; ++i) v = select(v, permuted(vload8((size_t)i, table), at), as_int8(at) >= i * 8);
+  return v;
+}
+
+#define ROWS 4  // of a block: 4 rows of 16 voxels have their least keys in 8 registers
+__attribute__((always_inline)) static inline void label_block(const uint* table, int vectors, uv mask, const iv* least,
+                                                              global uint* first, int stride) {
+#pragma unroll
+  for (int i = 0; i < 2 * ROWS; ++i) {
+    const uv at = as_uint8(least[i]) & mask;
+    ((global unaligned_uv*)(first + i / 2 * stride + i % 2 * 8))->v = look_up(table, vectors, at);
+  }
+}
+
+// The parts of the candidates' keys in a box.
+typedef struct {
+  int count;
+  uv rank_mask;
+  uv of_column[MOST_OF_KEYS * 2];  // 16 columns, with the ranks
+  uv of_y[MOST_OF_KEYS];
+  uint of_z[MOST_OF_KEYS * BOX_Z];
+  uint label_of[MOST_OF_KEYS + 32];  // by rank; read in whole vectors
+} keys_t;
+
+static inline void make_keys(const dominators_t* d, const ulong* list, int count, keys_t* keys) {
+  const box_t b = d->box;
+  uint seed[MOST_OF_KEYS + 8], rank[MOST_OF_KEYS + 8];
+  for (int i = 0; i < count; i += 8) vstore8(load_seeds(list + i), 0, seed + i);
+  for (int i = 0; i < count; i += 8) {
+    const uv own = vload8(0, seed + i);
+    uv r = (uv)0;
+    for (int j = 0; j < count; ++j) r -= as_uint8((uv)seed[j] < own);
+    vstore8(r, 0, rank + i);
+  }
+  for (int i = 0; i < count; ++i) keys->label_of[rank[i]] = (uint)(list[i] >> 32);
+  const uint rank_bits = 32 - clz((uint)count - 1);
+  keys->count = count;
+  keys->rank_mask = (uv)((1u << rank_bits) - 1);
+  const uint base = d->seed[0];
+  const iv x0 = LANES_8 + b.x, x1 = x0 + 8, y0 = LANES_8 + b.y, z0 = LANES_8 + b.z;
+  const iv base_x0 = ALONG(x0 - x_of(base)), base_x1 = ALONG(x1 - x_of(base));
+  const iv base_y = ALONG(y0 - y_of(base)), base_z = ALONG(z0 - z_of(base));
+  for (int i = 0; i < count; ++i) {
+    const int x = x_of(seed[i]), y = y_of(seed[i]), z = z_of(seed[i]);
+    keys->of_column[2 * i] = (as_uint8(ALONG(x0 - x) - base_x0) << rank_bits) + rank[i];
+    keys->of_column[2 * i + 1] = (as_uint8(ALONG(x1 - x) - base_x1) << rank_bits) + rank[i];
+    keys->of_y[i] = as_uint8(ALONG(y0 - y) - base_y) << rank_bits;
+    vstore8(as_uint8(ALONG(z0 - z) - base_z) << rank_bits, (size_t)i, keys->of_z);
+  }
+}
+
+// The least keys of ROWS rows of 16 voxels.
+static inline void find_least(const keys_t* keys, const uint* of_row, int first, iv* least) {
+#pragma unroll
+  for (int i = 0; i < 2 * ROWS; ++i) least[i] = (iv)INT_MAX;
+  for (int c = 0; c < keys->count; ++c) {
+    const uv left = keys->of_column[2 * c], right = keys->of_column[2 * c + 1];
+    const uint* const rows = of_row + c * BOX_Y + first;
+#pragma unroll
+    for (int i = 0; i < ROWS; ++i) {
+      least[2 * i] = min(least[2 * i], as_int8(left + rows[i]));
+      least[2 * i + 1] = min(least[2 * i + 1], as_int8(right + rows[i]));
+    }
+  }
+}
+
+__attribute__((noinline)) static void label_by_keys(const index_t* index, const dominators_t* d, const ulong* list,
+                                                    int count, global uint* labels) {
+  const box_t b = d->box;
+  const extent_t e = index->extent;
+  keys_t keys;
+  make_keys(d, list, count, &keys);
+  const int vectors = (count + 7) / 8;
+  const bool whole = b.x + BOX_X <= e.width && b.y + BOX_Y <= e.height;
+  for (int z = 0; z < min(BOX_Z, e.depth - b.z); ++z) {
+    uint of_row[MOST_OF_KEYS * BOX_Y];
+    for (int i = 0; i < count; ++i) vstore8(keys.of_y[i] + keys.of_z[i * BOX_Z + z], (size_t)i, of_row);
+    for (int first = 0; first < BOX_Y; first += ROWS) {
+      iv least[2 * ROWS];
+      find_least(&keys, of_row, first, least);
+      global uint* const out =
+          labels + ((size_t)(b.z + z) * (size_t)e.height + (size_t)(b.y + first)) * (size_t)e.width + b.x;
+      if (whole) {
+        switch (vectors) {
+          case 1: label_block(keys.label_of, 1, keys.rank_mask, least, out, e.width); break;
+          case 2: label_block(keys.label_of, 2, keys.rank_mask, least, out, e.width); break;
+          case 3: label_block(keys.label_of, 3, keys.rank_mask, least, out, e.width); break;
+          case 4: label_block(keys.label_of, 4, keys.rank_mask, least, out, e.width); break;
+          default: label_block(keys.label_of, 0, keys.rank_mask, least, out, e.width);
+        }
+        continue;
+      }
+      for (int i = 0; i < ROWS && b.y + first + i < e.height; ++i) {
+        uint at[BOX_X];
+        vstore8(as_uint8(least[2 * i]) & keys.rank_mask, 0, at);
+        vstore8(as_uint8(least[2 * i + 1]) & keys.rank_mask, 1, at);
+        global uint* const row = out + (size_t)i * (size_t)e.width;
+        for (int x = 0; x < min(BOX_X, e.width - b.x); ++x) row[x] = keys.label_of[at[x]];
+      }
+    }
+  }
+}
+
+// More candidates than there are ranks, voxel by voxel. Rare, so plain.
+static inline void label_plainly(const index_t* index, box_t b, const ulong* list, int count, global uint* labels) {
+  const extent_t e = index->extent;
+  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
+      for (int x = b.x; x < min(b.x + b.hx + 1, e.width); x += 8) {
+        iv least = (iv)INT_MAX;
+        uv best = (uv)EMPTY, label = (uv)0;
+        for (int i = 0; i < count; ++i) {
+          const uint seed = (uint)list[i];
+          const iv dx = LANES_8 + (x - x_of(seed));
+          const int dy = y - y_of(seed), dz = z - z_of(seed);
+          const iv distance = dx * dx + (dy * dy + dz * dz);
+          const iv wins = (distance < least) | ((distance == least) & as_int8(seed < best));
+          least = min(least, distance);
+          best = select(best, (uv)seed, wins);
+          label = select(label, (uv)(uint)(list[i] >> 32), wins);
+        }
+        uint l[8];
+        vstore8(label, 0, l);
+        global uint* const out = labels + ((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + x;
+        for (int i = 0; i < min(8, e.width - x); ++i) out[i] = l[i];
+      }
+    }
+  }
+}
+
+// A box whose list overflowed, voxel by voxel.
+static inline void label_by_voxels(const index_t* index, box_t b, global uint* labels) {
+  const extent_t e = index->extent;
+  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
+      for (int x = b.x; x < min(b.x + b.hx + 1, e.width); ++x) {
+        labels[((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + (size_t)x] = search_voxel(index, x, y, z);
+      }
+    }
+  }
+}
+
+static inline void label_box(const index_t* index, const dominators_t* d, const ulong* list, int count,
+                             global uint* labels) {
+  if (count == OVERFLOW) {
+    label_by_voxels(index, d->box, labels);
+  } else if (count == 1) {
+    fill(index, d->box, (uint)(list[0] >> 32), labels);
+  } else if (count <= MOST_OF_KEYS) {
+    label_by_keys(index, d, list, count, labels);
+  } else {
+    label_plainly(index, d->box, list, count, labels);
+  }
+}
+
+#endif
