@@ -176,8 +176,9 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
   const unsigned cases = long_tests ? 20000 : 400;
   for (unsigned number = 0; number < cases; ++number) {
     const RandomCase random(number);
-    const Engine& engine = engines()[number % engines().size()];
     const Metric metric = number % 7 == 0 ? Metric::manhattan : Metric::euclidean;
+    const Engine& engine =
+        long_tests ? engines()[number % engines().size()] : engine_for(*random.window, metric, number);
     Diagram diagram(engine.device, *random.window);
     exact_diagram(Seeds(engine.device, random.box.grid(), random.points, Outside::count, random.snap),
                   diagram, {metric});

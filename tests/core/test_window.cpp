@@ -15,12 +15,6 @@ namespace {
 /// Many more cases, for minutes instead of seconds.
 const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
-/// One of those whose vectors fit in the window's rows: for others kernels would be built anew.
-const Engine& engine_for(const Window& window, std::size_t number) {
-  while (engines()[number % engines().size()].device.tuning().vector_width > window.width()) ++number;
-  return engines()[number % engines().size()];
-}
-
 Labels labels_of(const Engine& engine, const Window& window, const std::vector<Pixel>& seeds, Metric metric) {
   Diagram diagram(engine.device, window);
   exact_diagram(Seeds(engine.device, window.grid(), centres(seeds)), diagram, {metric});
@@ -61,7 +55,7 @@ BOOST_AUTO_TEST_CASE(windows_are_cut_out_of_the_grid) {
         const auto row = all.begin() + (top + y) * plane.width() + left;
         cut.insert(cut.end(), row, row + window.width());
       }
-      const Engine& engine = engine_for(window, rng());
+      const Engine& engine = engine_for(window, metric, rng());
       parts += window.is_whole() ? 0 : 1;
       const std::size_t wrong = count_differences(labels_of(engine, window, seeds, metric), cut);
       BOOST_TEST(wrong == 0u, "plane " << number << ", window " << i << ": " << text_of(window, seeds.size())
@@ -98,8 +92,8 @@ BOOST_AUTO_TEST_CASE(far_seeds) {
           }
         }
         for (Pixel& seed : seeds) seed = {seed.x + window.x(), seed.y + window.y()};
-        check_against_brute_force(window, seeds, engines()[number % engines().size()],
-                                  both_metrics[number / 4 % 2]);
+        const Metric metric = both_metrics[number / 4 % 2];
+        check_against_brute_force(window, seeds, engine_for(window, metric, number), metric);
       }
     }
   }
@@ -138,7 +132,8 @@ BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
     const std::size_t count = number % 7 == 0 ? 1 : number % 5 == 0 ? 400 : 1 + rng() % 40;
     // Outside the grid too: along periodic axes they wrap.
     const auto seeds = random_pixels_between({-100, -100}, {2 * grid.width(), 2 * grid.height()}, count, rng);
-    check_against_brute_force(window, seeds, engine_for(window, number), both_metrics[number / 3 % 2]);
+    const Metric metric = both_metrics[number / 3 % 2];
+    check_against_brute_force(window, seeds, engine_for(window, metric, number), metric);
   }
   BOOST_TEST(crossing > cases / 3);
   BOOST_TEST(whole > cases / 5);

@@ -41,11 +41,15 @@ std::vector<MeasuredWindow> measured_windows() {
   return windows;
 }
 
-/// The engines for a window. Kernels of measures are built anew for the axes along which it shows one whole
-/// period: so only one.
+/// The engines for a window and a metric. Kernels of measures are built anew for the axes along which it
+/// shows one whole period: so only one.
 std::vector<Engine> engines_for(const Window& window, Metric metric) {
-  if (window.periodic() == Periodic::none) return engines();
-  return {engines()[metric == Metric::euclidean ? 0 : 2]};
+  if (window.periodic() != Periodic::none) return {engines()[metric == Metric::euclidean ? 0 : 2]};
+  std::vector<Engine> some;
+  for (const Engine& engine : engines()) {
+    if (engine.is_for(metric)) some.push_back(engine);
+  }
+  return some;
 }
 
 /// Calls a function with the exact diagram of each window, in both metrics and by each engine.

@@ -1,6 +1,7 @@
 // What the tests of windows share: the shapes of the exact engine, and seeds, and how a case is named.
 #pragma once
 
+#include <algorithm>
 #include <random>
 #include <sstream>
 #include <string>
@@ -16,6 +17,11 @@ namespace vorocl {
 struct Engine {
   std::string name;
   Device device;
+  std::vector<Metric> metrics;  // that tests of both take it for: each pair has kernels of its own to build
+
+  bool is_for(Metric metric) const {
+    return std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
+  }
 };
 
 inline Device tuned(int vector_width, Shape shape, ListLength lists = ListLength::full) {
@@ -27,13 +33,22 @@ inline Device tuned(int vector_width, Shape shape, ListLength lists = ListLength
 
 inline const std::vector<Engine>& engines() {
   static const std::vector<Engine> all = {
-      {"vector shape", tuned(16, Shape::vector)},
-      {"vectors of 4", tuned(4, Shape::vector)},
-      {"group shape", tuned(1, Shape::group)},
-      {"short lists", tuned(8, Shape::vector, ListLength::two_entries)},
-      {"group shape, short lists", tuned(1, Shape::group, ListLength::two_entries)},
+      {"vector shape", tuned(16, Shape::vector), {Metric::euclidean, Metric::manhattan}},
+      {"vectors of 4", tuned(4, Shape::vector), {Metric::euclidean}},
+      {"group shape", tuned(1, Shape::group), {Metric::euclidean, Metric::manhattan}},
+      {"short lists", tuned(8, Shape::vector, ListLength::two_entries), {Metric::euclidean}},
+      {"group shape, short lists", tuned(1, Shape::group, ListLength::two_entries), {Metric::manhattan}},
   };
   return all;
+}
+
+/// One of those for the metric whose vectors fit in the window's rows: for others kernels would be built
+/// anew.
+inline const Engine& engine_for(const Window& window, Metric metric, std::size_t number) {
+  for (;; ++number) {
+    const Engine& engine = engines()[number % engines().size()];
+    if (engine.is_for(metric) && engine.device.tuning().vector_width <= window.width()) return engine;
+  }
 }
 
 inline std::string text_of(const Window& window, std::size_t seeds) {
