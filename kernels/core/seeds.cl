@@ -78,11 +78,14 @@ kernel void mark_seeds(global const uint* restrict positions, uint count, global
 }
 
 // An image of ids at the seeds' pixels (FIRST_ID + the pixel's index), in two steps: of the seeds on one pixel the
-// lowest id stays. The other pixels are never looked up, so they keep what they held.
+// lowest id stays. The first value of all is the label of pixels without one: EMPTY, which follows the last position,
+// clears it. The other pixels are never looked up, so they keep what they held.
 kernel void clear_ids(global const uint* restrict positions, uint count, global uint* restrict ids, int width) {
   const uint id = (uint)get_global_id(0);
-  if (id >= count || positions[id] & EMPTY_BIT) return;
-  ids[FIRST_ID + packed_y(positions[id]) * width + packed_x(positions[id])] = NO_LABEL;
+  if (id > count) return;
+  const uint position = positions[id];
+  const int pixel = packed_y(position) * width + packed_x(position);
+  ids[position & EMPTY_BIT ? 0 : FIRST_ID + pixel] = NO_LABEL;
 }
 
 kernel void stamp_ids(global const uint* restrict positions, uint count, global uint* restrict ids, int width) {

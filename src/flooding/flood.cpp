@@ -33,10 +33,9 @@ cl::Event label_by_last_wave(Filling& filling, const DiagramState& diagram, cons
   const PixelGrid& grid = filling.placement().grid;
   const cl::Buffer& positions = *filling.placement().positions;
   const auto count = static_cast<cl_uint>(filling.seeds().size);
-  fill(diagram.device, ids, no_label, 1);  // the label of an empty pixel
-  for (const char* const name : {"clear_ids", "stamp_ids"}) {
-    filling.kernel("core/seeds.cl", name).over_items(count, positions, count, ids, grid.width());
-  }
+  const char* const file = "core/seeds.cl";
+  filling.kernel(file, "clear_ids").over_items(count + 1, positions, count, ids, grid.width());
+  filling.kernel(file, "stamp_ids").over_items(count, positions, count, ids, grid.width());
   return filling.kernel("flooding/jump_flooding.cl", "last_wave", wave.neighbourhood)
       .over_grid(image, ids, diagram.labels, grid.width(), grid.height(), wave.step);
 }

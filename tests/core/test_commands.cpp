@@ -114,12 +114,12 @@ BOOST_AUTO_TEST_CASE(an_exact_diagram_takes_few_commands_and_reads_nothing) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_five_more) {
+BOOST_AUTO_TEST_CASE(jump_flooding_takes_a_command_per_wave_and_four_more) {
   const Seeds seeds = random_seeds(test_device(), flat, Snap::to_pixels);
   Diagram diagram(test_device(), flat);
   int waves = 0;
   const Counts counts = counts_of([&] { waves = jump_flooding(seeds, diagram).waves(); });
-  BOOST_TEST(counts.commands == to_size(waves) + 5);
+  BOOST_TEST(counts.commands == to_size(waves) + 4);
   BOOST_TEST(counts.reads == 0u);
 }
 
@@ -133,6 +133,6 @@ BOOST_AUTO_TEST_CASE(a_frame_of_dynamic_jump_flooding_reads_once) {
     random_step(seeds, 3, Border::reflect, 1, ++frame);
     waves = dynamic_jump_flooding(seeds, diagram).waves();
   });
-  BOOST_TEST(counts.commands == to_size(waves) + 10);
+  BOOST_TEST(counts.commands == to_size(waves) + 9);
   BOOST_TEST(counts.reads == 1u);
 }
