@@ -15,12 +15,11 @@ static inline place_t place_of(int width, int height, int depth) {
 }
 
 // Of a row's values in the vector that starts at x, those that are in the row; EMPTY in the other lanes.
-static inline uint_v load_positions(global const uint* image, place_t p, int x, int y, int z) {
-  if (y < 0 || y >= p.height || z < 0 || z >= p.depth || x <= -VOROCL_WIDTH || x >= p.width) return (uint_v)EMPTY;
-  const size_t row = ((size_t)z * (size_t)p.height + (size_t)y) * (size_t)p.width;
-  const uint_v values = LOAD_VECTOR(image + VOROCL_GUARD + row + x);
-  if (x >= 0 && x + VOROCL_WIDTH <= p.width) return values;
-  return select((uint_v)EMPTY, values, (uint)x + LANES < (uint_v)(uint)p.width);
+static inline uint_v load_positions(global const uint* row, int x, int width) {
+  if (x <= -VOROCL_WIDTH || x >= width) return (uint_v)EMPTY;
+  const uint_v values = LOAD_VECTOR(row + x);
+  if (x >= 0 && x + VOROCL_WIDTH <= width) return values;
+  return select((uint_v)EMPTY, values, (uint)x + LANES < (uint_v)(uint)width);
 }
 
 // The best position of the vector's voxels after a wave. An empty position is farther than any seed.
@@ -28,10 +27,16 @@ static inline uint_v best_position(global const uint* image, place_t p, int step
   const int_v x = AS_INT_V((uint)p.x + LANES);
   uint_v best = (uint_v)EMPTY, least = (uint_v)0xffffffffu;
   for (int dz = -1; dz <= 1; ++dz) {
+    const int from_z = p.z + dz * step;
+    if (from_z < 0 || from_z >= p.depth) continue;
     for (int dy = -1; dy <= 1; ++dy) {
+      const int from_y = p.y + dy * step;
+      if (from_y < 0 || from_y >= p.height) continue;
+      const size_t first = ((size_t)from_z * (size_t)p.height + (size_t)from_y) * (size_t)p.width;
+#pragma unroll
       for (int dx = -1; dx <= 1; ++dx) {
         if (VOROCL_NEIGHBOURS == 5 && abs(dx) + abs(dy) + abs(dz) > 1) continue;
-        const uint_v position = load_positions(image, p, p.x + dx * step, p.y + dy * step, p.z + dz * step);
+        const uint_v position = load_positions(image + VOROCL_GUARD + first, p.x + dx * step, p.width);
         const int_v way_x = AS_INT_V(position & MASK_X) - x;
         const int_v way_y = AS_INT_V(position >> VOROCL_BITS_X & MASK_Y) - p.y;
         const int_v way_z = AS_INT_V(position >> SHIFT_Z & MASK_Z) - p.z;

@@ -30,7 +30,16 @@ Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool
   if (periodic_x) x = x.periodic();
   if (periodic_y) y = y.periodic();
   if (y_up) y = y.reversed();
-  if (depth > 1) return {x, y, Axis(depth)};  // the library says how large volumes may be
+  if (depth > 1) {
+    const Grid volume(x, y, Axis(depth));
+    constexpr std::uint64_t most = std::uint64_t{1} << Window::max_bits_of_volume;
+    if (width <= Window::max_side_of_volume && height <= Window::max_side_of_volume &&
+        depth <= Window::max_side_of_volume && volume.pixels() <= most) {
+      return volume;
+    }
+    throw Error("the volume has " + std::to_string(width) + " x " + std::to_string(height) + " x " +
+                std::to_string(depth) + " voxels; at most 16,384 along a side and 2^31 in all are possible");
+  }
   const Grid grid = Grid(x, y).tilted(tilt);
   if (width > Window::max_side || height > Window::max_side || grid.pixels() > Window::max_pixels) {
     throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +

@@ -199,11 +199,12 @@ nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) 
   {
     const nb::gil_scoped_release unlocked;
     const Turn turn(diagram.mutex);
-    const auto places = seeds_of(diagram).read_pixels();
+    const Seeds& seeds = seeds_of(diagram);
     const Metric metric = diagram.diagram.metric();
     cell_sums(diagram.diagram, diagram.sums);
     cell_shapes(diagram.diagram, diagram.shapes);
     adjacency(diagram.diagram, diagram.adjacency);
+    const auto places = seeds.read_pixels();
     const auto sums = diagram.sums.read();
     const auto shapes = diagram.shapes.read();
     const auto perimeters = diagram.adjacency.read_perimeters(),

@@ -697,7 +697,7 @@ def relax(
         periodic=periodic,
         outside=outside,
         y_up=y_up,
-        snap=to_snap(snap, shape, method),
+        snap=to_snap(snap, shape_of(to_grid(shape, periodic)), method),
         device=device,
     )
     made = Diagram(shape, periodic=periodic, device=device)

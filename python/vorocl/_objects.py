@@ -107,12 +107,13 @@ class Seeds(OnDevice):
         device: Optional[Device] = None,
     ) -> None:
         grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
-        array = to_points(points, len(shape))
-        self._shape, self._periodic, self._outside, self._y_up = shape, periodic, outside, y_up
+        sides = shape_of(grid)
+        array = to_points(points, len(sides))
+        self._shape, self._periodic, self._outside, self._y_up = sides, periodic, outside, y_up
         self._bounds, self._tilt = bounds, tilt  # of the present frame
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap, shape))
+        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap, sides))
 
     @property
     def device(self) -> Device:
@@ -546,7 +547,7 @@ class Simulation(OnDevice):
             tilt=tilt,
             outside=outside,
             y_up=y_up,
-            snap=to_snap(snap, shape, self._method),
+            snap=to_snap(snap, self.diagram.shape, self._method),
             device=self.diagram.device,
         )
         self.report: Optional[_vorocl.Report] = None

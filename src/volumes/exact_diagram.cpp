@@ -18,7 +18,9 @@ struct VolumeWorkspace {
   cl::Buffer boxes_left;              // of each region, once the dense ones are labelled
 };
 
-std::size_t parts_along(int size, int part) { return static_cast<std::size_t>((size - 1) / part + 1); }
+std::size_t parts_along(int size, int part) {
+  return static_cast<std::size_t>(size - 1) / static_cast<std::size_t>(part) + 1;
+}
 
 std::size_t regions_of(const PixelGrid& grid) {
   return parts_along(grid.width(), REGION) * parts_along(grid.height(), REGION) *

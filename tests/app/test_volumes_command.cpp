@@ -108,6 +108,6 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "render --random 3 --size 4096x4096x4096 --labels a.npy", failure,
           {"random seeds", "no larger"});
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv", usage, {"vorocl render alone"});
-  refuses(folder, "simulate --random 3 --size 8x8x8 --frames 2 --labels a%d.npy", usage,
+  refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"vorocl render alone"});
 }

@@ -143,7 +143,7 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
   const int w = static_cast<int>(grid.width()), h = static_cast<int>(grid.height()),
             d = static_cast<int>(grid.depth());
   Random random(3);
-  std::vector<At> plane, line, diagonal, sphere, corner, stacked, lattice, full, half, walls, slab;
+  std::vector<At> plane, line, diagonal, sphere, corner, stacked, lattice, full, half, walls, slab, fading;
   for (int i = 0; i < 3000; ++i) {
     plane.push_back({random.below(w), random.below(h), d / 3});
     corner.push_back({random.below(w / 4 + 1), random.below(h / 4 + 1), random.below(d / 4 + 1)});
@@ -163,6 +163,7 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
       for (int x = 0; x < w; ++x) {
         if (x % 8 == 0 && y % 8 == 0 && z % 8 == 0) lattice.push_back({x, y, z});
         if (x < w / 2) half.push_back({x, y, z});
+        if (random.below(1000) < 500 * std::exp(-x / 10.0)) fading.push_back({x, y, z});
         full.push_back({x, y, z});
       }
     }
@@ -182,6 +183,7 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
           {"half full", grid, half},
           {"two walls", grid, walls},
           {"slab", grid, slab},
+          {"fading", grid, fading},
           {"few", grid, random.in(grid, 9)},
           {"some", grid, random.in(grid, grid.pixels() / 500 + 1)},
           {"many", grid, random.in(grid, grid.pixels() / 60 + 1)},
