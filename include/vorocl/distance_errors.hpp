@@ -19,7 +19,7 @@ struct DistanceErrors {
   std::size_t wrong_pixels = 0;       ///< whose label is not that of a seed at the least distance
   std::size_t unlabelled_pixels = 0;  ///< of these: whose label names no seed; they have no excess distance
   double largest_excess = 0;          ///< of all pixels
-  double mean_excess = 0;             ///< over all pixels, the right ones too
+  double mean_excess = 0;  ///< over all pixels, the right ones too; each counts to 1/32768 of a pixel
 
   double wrong_percent() const {
     return 100.0 * static_cast<double>(wrong_pixels) / static_cast<double>(pixels);

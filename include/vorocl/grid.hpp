@@ -145,8 +145,9 @@ class VOROCL_API Axis {
 /// far larger than what a diagram can hold, which covers a Window of it.
 ///
 /// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
-/// diagrams, exact_diagram(), jump_flooding() and flood(), distance_errors(), similarity(), distance_field()
-/// and expand_labels() take volumes; the others throw Error. No axis of a volume may be periodic yet.
+/// diagrams, exact_diagram(), jump_flooding(), its plan and flood(), prepare(), distance_errors(),
+/// similarity(), distance_field() and expand_labels() take volumes; the others throw Error. No axis of a
+/// volume may be periodic yet.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}

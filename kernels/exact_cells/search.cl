@@ -8,8 +8,8 @@
 #define VOROCL_EXACT_CELLS_SEARCH
 
 #include "exact_cells/polygon.cl"
+#include "exact_cells/sizes.cl"
 
-#define FAN 8
 #define FAN_BITS 3
 #define MOST_LEVELS 10  // of boxes, for 2^30 sites
 

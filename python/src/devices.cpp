@@ -30,7 +30,7 @@ Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool
   if (periodic_x) x = x.periodic();
   if (periodic_y) y = y.periodic();
   if (y_up) y = y.reversed();
-  if (depth > 1) {
+  if (depth != 1) {
     const Grid volume(x, y, Axis(depth));
     constexpr std::uint64_t most = std::uint64_t{1} << Window::max_bits_of_volume;
     if (width <= Window::max_side_of_volume && height <= Window::max_side_of_volume &&

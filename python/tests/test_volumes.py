@@ -99,6 +99,8 @@ def test_sampling_scales_distances():
     mask = np.random.default_rng(4).uniform(size=(9, 20, 30)) > 0.01
     expected = ndimage.distance_transform_edt(mask, sampling=0.25)
     assert np.array_equal(vorocl.distance_transform_edt(mask, sampling=(0.25, 0.25, 0.25)), expected)
+    expected = ndimage.distance_transform_edt(mask, sampling=0.1)
+    assert np.allclose(vorocl.distance_transform_edt(mask, sampling=0.1), expected, rtol=1e-15, atol=0)
     labels = np.where(mask, 0, np.arange(mask.size).reshape(mask.shape))
     assert np.array_equal(vorocl.expand_labels(labels, 0.5, 0.25), vorocl.expand_labels(labels, 2))
 

@@ -256,7 +256,7 @@ def expand_labels(
 
     Each pixel of the background takes the label of the nearest pixel that has one, by exact Euclidean distance
     between pixel centres. Of several at the least distance the one that comes first, row by row of the image, wins;
-    scikit-image leaves it open which one does.
+    scikit-image leaves it open which one does. Volumes need a CPU.
 
     Parameters
     ----------
@@ -316,8 +316,8 @@ def distance_transform_edt(
 ) -> Any:
     """Give every non-zero pixel its distance to the nearest pixel that is zero, as SciPy's function of this name does.
 
-    ``from vorocl import distance_transform_edt`` instead of ``from scipy.ndimage import ...`` is all that changes. The
-    distances are SciPy's, to the bit. Of several zeros at the least distance SciPy leaves open which one `indices`
+    ``from vorocl import distance_transform_edt`` instead of ``from scipy.ndimage import ...`` is what changes. The
+    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Volumes need a CPU. Of several zeros at the least distance SciPy leaves open which one `indices`
     names; here it is the one that comes first, slice by slice and row by row.
 
     Parameters

@@ -205,7 +205,7 @@ class Diagram(OnDevice):
     shape, periodic, device
         Those of the seeds that it will be filled from. Their bounds and their tilt it takes from them.
     labels : pyopencl.Buffer, optional
-        Where the labels are to be: at least 4 * H * W bytes of the device's context, which kernels can read and write.
+        Where the labels are to be: at least 4 bytes per pixel, of the device's context, which kernels can read and write.
 
     Raises
     ------
@@ -342,7 +342,7 @@ class Diagram(OnDevice):
 
     @property
     def buffer(self) -> Buffer:
-        """The labels as a buffer of pyopencl's, without a copy: H * W uint32, row by row.
+        """The labels as a buffer of pyopencl's, without a copy: a uint32 per pixel, row by row.
 
         They are valid for commands that are enqueued to the device's queue after `fill`.
         """

@@ -70,7 +70,8 @@ Seeds::Seeds(Seeds&& other) noexcept = default;
 Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
 
 Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
-  return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count, Snap::none));
+  const Snap snap = grid.is_volume() ? Snap::to_pixels : Snap::none;
+  return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count, snap));
 }
 
 SeedsState& Seeds::state() const {

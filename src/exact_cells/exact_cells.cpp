@@ -9,6 +9,8 @@
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
 #include "runtime/stopwatch.hpp"
+// Last: it defines macros.
+#include "exact_cells/sizes.cl"
 
 namespace vorocl {
 
@@ -17,8 +19,6 @@ namespace {
 constexpr const char* cells_file = "exact_cells/cells.cl";
 constexpr const char* large_cells_file = "exact_cells/large_cells.cl";
 constexpr cl_uchar touches_border = 1, certified = 2;  // of measure.cl
-
-constexpr std::size_t sites_of_leaf = 8;  // FAN of search.cl
 
 /// Of the lists of a polygon with room for so many edges: POLYGON_MEMORY of polygon.cl.
 std::size_t bytes_of_polygon(std::size_t room) { return 7 * (room + 8) * sizeof(cl_double); }
@@ -124,7 +124,7 @@ std::pair<cl::Event, cl::Event> ExactCellsState::start(const Device& on, Sites&&
   const cl::Event cleared = kernel(cells_file, "clear_cells")
                                 .over_items(cells, static_cast<cl_uint>(cells), areas, centroids, perimeters,
                                             offsets, neighbours, flags);
-  const std::size_t of_item = device->tuning().shape == Shape::vector ? sites_of_leaf : 1;
+  const std::size_t of_item = device->tuning().shape == Shape::vector ? std::size_t{FAN} : 1;
   const cl::Event last =
       measure(cells_file, "cut_cells", (site_count + of_item - 1) / of_item, static_cast<cl_uint>(of_item));
   return {first, site_count > 0 ? last : cells > 0 ? cleared : first};

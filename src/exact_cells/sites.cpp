@@ -9,6 +9,8 @@
 
 #include "exact_cells/hilbert_order.hpp"
 #include "vorocl/error.hpp"
+// Last: it defines macros.
+#include "exact_cells/sizes.cl"
 
 namespace vorocl {
 
@@ -16,7 +18,7 @@ namespace {
 
 // The longer side has at most so many steps (kernels/exact_cells/polygon.cl says why).
 constexpr int step_bits = 30, step_bits_if_tilted = 29;
-constexpr std::size_t fan = 8;
+constexpr std::size_t fan = FAN;
 constexpr std::size_t sides = 4;  // of a box
 
 /// A stretch of an axis in the units of the data.

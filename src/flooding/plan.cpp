@@ -68,6 +68,7 @@ Plan jump_flooding_plan(const Window& window, JumpFloodingVariant variant, Neigh
 
 Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
                                 const DynamicPlanOptions& options, Reach reach) {
+  refuse_volume(window.grid(), "dynamic jump flooding");
   check_options(max_displacement, options);
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;

@@ -205,6 +205,40 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
   BOOST_TEST(fail_each_call(start, run, judge) >= 20);
 }
 
+BOOST_AUTO_TEST_CASE(volumes_that_fail_can_be_made_again) {
+  const Grid volume(12, 10, 8);
+  const std::vector<Point3> points = {{9, 3, 1}, {2, 5, 6}, {11, 9, 7}};
+  const Seeds whole(test_device(), volume, points);
+  Diagram fresh(test_device(), volume);
+  jump_flooding(whole, fresh);
+  const std::vector<std::uint32_t> flooded = fresh.read();
+  exact_diagram(whole, fresh);
+  const std::vector<std::uint32_t> expected = fresh.read();
+
+  std::optional<Seeds> seeds;
+  std::optional<Diagram> diagram, other;
+  DistanceErrorsResult errors;
+  const auto start = [&] {
+    seeds.emplace(test_device(), volume, std::vector<Point3>{{1, 1, 1}, {2, 2, 2}});
+    diagram.emplace(test_device(), volume);
+    other.emplace(test_device(), volume);
+    errors = DistanceErrorsResult();
+  };
+  const auto run = [&] {
+    seeds->move_to(points);
+    exact_diagram(*seeds, *diagram);
+    jump_flooding(*seeds, *other);
+    distance_errors(*other, *diagram, errors);
+  };
+  const auto judge = [&] {
+    run();
+    BOOST_TEST((diagram->read() == expected));
+    BOOST_TEST((other->read() == flooded));
+    BOOST_TEST(errors.read().pixels == volume.pixels());
+  };
+  BOOST_TEST(fail_each_call(start, run, judge) >= 20);
+}
+
 // The labels may be anything then: dJFA does not go on from them.
 BOOST_AUTO_TEST_CASE(a_diagram_whose_wait_fails_counts_as_never_filled) {
   const Seeds seeds = Seeds::random(test_device(), grid, 40, 1);

@@ -309,6 +309,9 @@ BOOST_AUTO_TEST_CASE(seeds_say_how_far_they_went) {
   BOOST_TEST(seeds.displacement() == 7);
   seeds.move_to(std::vector<Point3>{{3, 12, 3}});
   BOOST_TEST(seeds.displacement() == 11);
+  Seeds random = Seeds::random(test_device(), grid, 3, 1);
+  random.move_to(std::vector<Point3>{{1, 2, 3}});
+  BOOST_TEST(random.read_voxels()[0]->z == 3.5);
 }
 
 BOOST_AUTO_TEST_CASE(a_mask_gives_its_voxels_in_the_order_of_the_slices) {
@@ -423,7 +426,7 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
     jump_flooding(seeds, flooded, {metric, Neighbourhood::von_neumann});
     const Labels labels = flooded.read();
     std::size_t wrong = 0, unlabelled = 0, differences = 0;
-    double largest = 0;
+    double largest = 0, sum = 0;
     std::vector<std::int64_t> distances;
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const At at = {static_cast<int>(i % 50), static_cast<int>(i / 50 % 40), static_cast<int>(i / 2000)};
@@ -440,6 +443,7 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
                                            : static_cast<double>(compared);
       };
       largest = std::max(largest, in_voxels(own) - in_voxels(least));
+      sum += in_voxels(own) - in_voxels(least);
     }
     BOOST_TEST(wrong > 0u);
     DistanceErrorsResult result;
@@ -449,6 +453,8 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
     BOOST_TEST(errors.wrong_pixels == wrong);
     BOOST_TEST(errors.unlabelled_pixels == unlabelled);
     BOOST_TEST(errors.largest_excess == largest, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(errors.mean_excess * static_cast<double>(grid.pixels()) == sum,
+               boost::test_tools::tolerance(1e-4));
     SimilarityResult similar;
     similarity(flooded, exact, similar);
     BOOST_TEST(similar.read_differences() == differences);

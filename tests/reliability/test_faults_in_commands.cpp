@@ -17,6 +17,7 @@ namespace {
 const std::string subcommands[] = {
     "render --random 9 --size 40x30 --method djfa -o a.png --labels a.npy",
     "render --random 9 --size 40x30 --method standard-flooding --waves w/%d.bmp --labels a.tif",
+    "render --random 9 --size 12x10x8 --slice z=3 -o a.png --labels a.npy",
     ("simulate --random 9 --size 40x30 --frames 4 --step-length 1 --method djfa -o f.mp4 --labels l/%05d.vti "
      "--cells c%d.csv --compare-with exact --similarity s.csv"),
     ("simulate --trajectory '" VOROCL_SAMPLES

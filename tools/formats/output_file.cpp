@@ -221,7 +221,9 @@ void GrowingFile::finish() {
   name_.reset();
 }
 
-void GrowingFile::mark() { marked_ = lseek(descriptor_, 0, SEEK_CUR); }
+void GrowingFile::mark() {
+  if (name_ || !part_.empty()) marked_ = lseek(descriptor_, 0, SEEK_CUR);  // a device cannot be cut
+}
 
 void GrowingFile::flush() {
   write_now(buffer_.data(), buffer_.size());

@@ -134,7 +134,7 @@ void run_exact_frames(const ExactFramesOptions& options) {
   if (!input) throw Error(options.seeds.trajectory + ": there is no frame");
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  std::string trouble;
+  std::string trouble, late;
   try {
     const int most = options.frames ? *options.frames + 1 : std::numeric_limits<int>::max();
     for (Progress progress; input; input = run.frames() < most ? frames.next() : std::nullopt) {
@@ -150,11 +150,12 @@ void run_exact_frames(const ExactFramesOptions& options) {
   }
   try {
     if (run.frames() > 0) run.finish();
-  } catch (const Error&) {
+  } catch (const Error& error) {
     if (trouble.empty()) throw;
+    late = fmt::format("; {}", error.what());
   }
   if (!trouble.empty())
-    throw Error(fmt::format("{}; frames complete before that: {}", trouble, run.frames()));
+    throw Error(fmt::format("{}; frames complete before that: {}{}", trouble, run.frames(), late));
   run.print_result(device);
 }
 

@@ -27,6 +27,20 @@ std::int64_t side_along(const Grid& grid, char axis) {
   return axis == 'x' ? grid.width() : axis == 'y' ? grid.height() : grid.depth();
 }
 
+/// The plane of a slice: x and y of a slice across z, x and z across y, y and z across x.
+struct Plane {
+  Size size;
+  std::size_t first, along_row, along_column;  // of its pixels in the volume
+};
+
+Plane plane_of(const Grid& grid, const VolumeSlice& slice) {
+  const auto width = static_cast<std::size_t>(grid.width()), at = static_cast<std::size_t>(slice.at);
+  const std::size_t area = width * static_cast<std::size_t>(grid.height());
+  if (slice.axis == 'x') return {{grid.height(), grid.depth()}, at, width, area};
+  if (slice.axis == 'y') return {{grid.width(), grid.depth()}, at * width, 1, area};
+  return {{grid.width(), grid.height()}, at * area, 1, width};
+}
+
 void check_slice(const VolumeRendering& options, const Grid& grid) {
   if (options.picture_path.empty()) {
     if (options.slice) throw UsageError("--slice is of the picture: give -o PICTURE");
@@ -38,6 +52,7 @@ void check_slice(const VolumeRendering& options, const Grid& grid) {
     throw UsageError(fmt::format("--slice {}={}: the volume has slices from 0 to {} there",
                                  options.slice->axis, options.slice->at, side - 1));
   }
+  check_picture_size(options.picture, plane_of(grid, *options.slice).size);
 }
 
 void check_picture(const VolumeRendering& options) {
@@ -75,20 +90,6 @@ void check(const VolumeRendering& options, const Grid& grid) {
   check_outputs(requested_files(options), of_a_plane);
 }
 
-/// The plane of a slice: x and y of a slice across z, x and z across y, y and z across x.
-struct Plane {
-  Size size;
-  std::size_t first, along_row, along_column;  // of its pixels in the volume
-};
-
-Plane plane_of(const Grid& grid, const VolumeSlice& slice) {
-  const auto width = static_cast<std::size_t>(grid.width()), at = static_cast<std::size_t>(slice.at);
-  const std::size_t area = width * static_cast<std::size_t>(grid.height());
-  if (slice.axis == 'x') return {{grid.height(), grid.depth()}, at, width, area};
-  if (slice.axis == 'y') return {{grid.width(), grid.depth()}, at * width, 1, area};
-  return {{grid.width(), grid.height()}, at * area, 1, width};
-}
-
 std::vector<std::uint32_t> labels_in(const Plane& plane, const std::vector<std::uint32_t>& labels) {
   const auto columns = static_cast<std::size_t>(plane.size.width()),
              rows = static_cast<std::size_t>(plane.size.height());
@@ -121,7 +122,6 @@ std::vector<std::optional<Point>> seeds_in(const VolumeSlice& slice, const Seeds
 void draw(const OutputFile& file, const VolumeRendering& options, const Seeds& seeds, const Diagram& volume,
           const std::vector<std::uint32_t>& labels) {
   const Plane plane = plane_of(seeds.grid(), *options.slice);
-  check_picture_size(options.picture, plane.size);
   const View view = {plane.size, plane.size.grid()};
   const Seeds in_slice(seeds.device(), plane.size.grid(), seeds_in(*options.slice, seeds));
   Diagram diagram(seeds.device(), plane.size.grid());

@@ -256,12 +256,14 @@ void run(const SimulateOptions& options) {
         fmt::format("{}; frames complete before that: {}; the same command goes on behind them, with {}",
                     course.trouble, course.frames, journal->path()));
   }
+  std::string late;
   try {
     if (course.frames > 0) writer.finish();
-  } catch (const Error&) {
+  } catch (const Error& error) {
     if (course.trouble.empty()) throw;
+    late = fmt::format("; {}", error.what());
   }
-  if (!course.trouble.empty()) throw Error(course.trouble + writer.progress());
+  if (!course.trouble.empty()) throw Error(course.trouble + writer.progress() + late);
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
 
