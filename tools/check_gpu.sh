@@ -3,8 +3,8 @@
 #   nvidia (without any)   clang compiles it for PTX as the library builds it, and ptxas assembles it for an A100 (sm_80) and an
 #                          H100 (sm_90)
 #   amd                    clang compiles it for a Radeon VII (gfx906), an MI200 (gfx90a) and a Radeon RX 6000 (gfx1030)
-# No kernel may have a stack frame or spilled registers, more than 64 registers or more than 16 KB of local memory. Prints the
-# table. Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
+# No kernel may have a stack frame or spilled registers, more registers than its GPU's limit or more than 16 KB of local memory.
+# Prints the table. Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
 #   CLANG   a clang with the maker's target       LIBCLC   the folder of libclc's .bc files of the same version
 #   PTXAS   ptxas, of CUDA 11.4 or newer
 set -euo pipefail
@@ -13,7 +13,10 @@ cd "$(dirname "$0")/.."
 [ $# -gt 0 ] || set -- nvidia
 installed=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas/nvidia/cuda_nvcc/bin/ptxas
 : "${PTXAS:=$(command -v ptxas || echo "$installed")}"
-most_registers=64 most_local=16384
+most_local=16384
+# With so many registers, half of the warps that an A100 or an H100 can hold fit beside each other (32 of 64 on a multiprocessor), 4
+# of the 10 waves of a SIMD of gfx906, which has 256 registers per lane, 4 of the 8 of gfx90a, which has 512, and all 16 of gfx1030.
+most_registers='sm_80 64 sm_90 64 gfx906 64 gfx90a 128 gfx1030 64'
 
 command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
 [ -d "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
@@ -90,10 +93,13 @@ for maker in "$@"; do
 done >"$work/rows"
 
 # One line for all options with the same figures.
-awk -F '\t' -v OFS='\t' -v registers=$most_registers -v memory=$most_local '
-  BEGIN { print "file", "kernel", "GPU", "registers", "stack", "spilled", "local", "verdict" }
+awk -F '\t' -v OFS='\t' -v limits="$most_registers" -v memory=$most_local '
+  BEGIN {
+    for (i = split(limits, words, " "); i > 0; i -= 2) registers[words[i - 1]] = words[i]
+    print "file", "kernel", "GPU", "registers", "stack", "spilled", "local", "verdict"
+  }
   !seen[$1, $2, $4, $5, $6, $7, $8]++ {
-    fits = $5 <= registers && $6 == 0 && $7 == 0 && $8 <= memory
+    fits = $5 <= registers[$4] && $6 == 0 && $7 == 0 && $8 <= memory
     print $1, $2, $4, $5, $6, $7, $8, fits ? "fits" : "TOO MUCH (" $3 ")"
     if (!fits) ++failed
   }

@@ -163,8 +163,10 @@ BOOST_AUTO_TEST_CASE(a_box_goes_on_with_the_tilts_that_it_had) {
   run(whole, three);
   begin_three(folder, sheared("nothing", 2));
   folder.file("t.xyz", sheared("3", 1));  // the particles are where they were
+  const auto before = contents_of(folder);
   refuses(folder, three, failure,
           {"the seeds of frames 0 to 1 are others than those that l%d.npy.journal is of", start_again});
+  BOOST_TEST((contents_of(folder) == before));
   folder.file("t.xyz", sheared("3", 2));
   BOOST_TEST(run(folder, three).exit_code == 0);
   check_same(folder, whole, without_times);

@@ -277,6 +277,19 @@ BOOST_AUTO_TEST_CASE(no_damaged_journal_gives_wrong_files) {
   }
 }
 
+// As a run leaves its journal that is killed while it notes tiles; the next one is killed, too.
+BOOST_AUTO_TEST_CASE(tiles_that_no_sums_hold_are_made_again) {
+  const TemporaryFolder whole, folder;
+  succeeds(whole, subcommands[0]);
+  const std::string subcommand = subcommands[0] + " --resume", name = "a.npy.journal";
+  BOOST_REQUIRE(WIFSIGNALED(interrupt(folder, subcommand, name, SIGKILL)));
+  const std::string journal = content_of(folder / name);
+  folder.file(name, journal.substr(0, journal.rfind("\nsums ") + 1));
+  interrupt(folder, subcommand, name, SIGKILL);
+  BOOST_TEST(run(folder, subcommand).exit_code == 0);
+  check_same(folder, whole);
+}
+
 BOOST_AUTO_TEST_CASE(a_pipe_is_no_journal) {
   const TemporaryFolder folder;
   mkfifo((folder / "a.npy.journal").c_str(), 0600);

@@ -33,14 +33,13 @@ std::string FrameJournal::line_of(const Entry& entry) {
 }
 
 void FrameJournal::begin(const std::vector<std::string>& tables) {
-  std::vector<std::string> parts, steps;
+  std::vector<std::string> parts;
   for (const std::string& path : tables) {
     const OutputFile table(path);
     table.require_file("--resume");
     parts.push_back(table.part_path());
   }
-  if (last_) steps.push_back(line_of(*last_));
-  Journal::begin(parts, steps);
+  Journal::begin(parts, steps());
 }
 
 std::unique_ptr<GrowingFile> FrameJournal::open_table(const std::string& path) {

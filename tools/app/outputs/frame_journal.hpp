@@ -26,8 +26,8 @@ class FrameJournal : public Journal {
   /// What complete() was told of the seeds of that frame.
   std::uint64_t seeds() const { return last_ ? last_->seeds : 0; }
 
-  /// Writes the file, before any output. Throws Error if that fails, and before if one of the tables cannot
-  /// be continued or one is there that no journal tells of.
+  /// Writes the file if there is none, before any output. Throws Error if that fails, and before if one of
+  /// the tables is a pipe or a device, or is there and no journal tells of it.
   void begin(const std::vector<std::string>& tables);
 
   /// A table of the run, always in the same order. Throws as GrowingFile.

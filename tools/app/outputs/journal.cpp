@@ -124,17 +124,25 @@ void Journal::begin(const std::vector<std::string>& outputs, const std::vector<s
           "{0} is there, and no {1} that says of which run it is; remove {0} to start again", part, path_));
     }
   }
-  GrowingFile journal{OutputFile(path_)};
   hash_ = {};
-  journal << sealed_text(head_of(run_), hash_) << sealed_text(steps, hash_);
+  const std::string text = sealed_text(head_of(run_), hash_) + sealed_text(steps, hash_);
+  bytes_ = text.size();
+  if (is_there_) return;
+  GrowingFile journal{OutputFile(path_)};
+  journal << text;
   journal.finish();
   lock();
 }
 
 void Journal::append(const std::vector<std::string>& lines) {
   Hash hash = hash_;
-  append_to_file(path_, sealed_text(lines, hash));
+  const std::string text = sealed_text(lines, hash);
+  if (truncate(path_.c_str(), static_cast<off_t>(bytes_)) != 0) {
+    throw Error("writing " + path_ + " failed: " + reason(errno));
+  }
+  append_to_file(path_, text);
   hash_ = hash;
+  bytes_ += text.size();
 }
 
 void Journal::open(const std::function<void()>& output) const {

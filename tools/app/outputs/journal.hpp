@@ -1,6 +1,7 @@
 // The file beside the outputs of a run that says how far it has come, so that another run can go on.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -49,11 +50,12 @@ class Journal {
   /// The lines that were there behind those of the run.
   const std::vector<std::string>& steps() const { return steps_; }
 
-  /// Writes the file, with those of its steps that still say something. Throws Error if that fails, and
-  /// before if the outputs cannot be continued or one is there that no journal tells of.
+  /// Writes the file with these steps, if there is none. One that is there stays as it is until lines are
+  /// added, which go behind these, the first of its steps, in place of what follows them. Throws Error if
+  /// writing fails, and before if an output is there that no journal tells of.
   void begin(const std::vector<std::string>& outputs, const std::vector<std::string>& steps);
 
-  /// Adds lines, all or none. Throws Error if that fails.
+  /// Adds lines behind all that count, all or none. Throws Error if that fails.
   void append(const std::vector<std::string>& lines);
 
   [[noreturn]] void refuse_damage() const;
@@ -68,8 +70,9 @@ class Journal {
   std::string path_, run_;
   bool is_there_ = false;
   std::vector<std::string> steps_;
-  Hash hash_;      // of all lines that the file has
-  FileLock lock_;  // while the run goes on
+  std::size_t bytes_ = 0;  // of the lines that count
+  Hash hash_;              // of these lines
+  FileLock lock_;          // while the run goes on
 };
 
 /// For errors: what to remove of the run that a journal is of, which cannot go on.

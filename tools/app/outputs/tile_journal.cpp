@@ -54,11 +54,9 @@ TileJournal::TileJournal(const std::string& path, const std::string& run) : Jour
 void TileJournal::begin(const std::vector<std::string>& parts, const std::string& seeds) {
   const std::string here = seeds_word + seeds;
   if (is_there() && seeds_ != here) refuse_run('"' + seeds_ + '"', '"' + here + '"');
-  std::vector<std::string> steps = {here};
-  for (const Entry& entry : entries_) steps.push_back(line_of(entry));
-  if (!entries_.empty()) steps.push_back(line_of_sums(bytes_of_sums_));
-  if (is_last_) steps.push_back(last_line);
-  Journal::begin(parts, steps);
+  std::vector<std::string> counting = is_there() ? steps() : std::vector{here};
+  while (counting.back().rfind(tile_word, 0) == 0) counting.pop_back();  // no sums hold these
+  Journal::begin(parts, counting);
 }
 
 std::optional<KeptTiles> TileJournal::kept(std::size_t output) const {
