@@ -1,5 +1,6 @@
 // Exact labels by boxes, at any density: a work-item labels a region. It searches the index for the seeds that may win
-// in the region, hands them down to tiles of 16 x 16 x 16, and these to boxes of 16 x 8 x 8, labelled by keys.
+// in the region, hands them down to tiles of 16 x 16 x 16, and these to boxes of 16 x 8 x 8, labelled by keys, or in
+// parts of 8 x 4 x 4 where there are too many.
 // Where a list overflows, the next smaller box searches for itself.
 
 #ifndef VOROCL_VOLUMES_BOXES
@@ -28,6 +29,35 @@ static inline int take(dominators_t* d, box_t part, const ulong* list, int count
 static inline int take_or_search(const index_t* index, dominators_t* d, box_t part, const ulong* list, int count,
                                  ulong* own) {
   return count == OVERFLOW ? search(index, part, d, own) : take(d, part, list, count, own);
+}
+
+// A box with too many candidates for keys: parts of half its sides have fewer.
+__attribute__((noinline)) static void label_parts(const index_t* index, dominators_t* d, const ulong* list, int count,
+                                                  global uint* labels) {
+  const box_t b = d->box;
+  const extent_t e = index->extent;
+  ulong of_part[SEED_ROOM];
+  for (int i = 0; i < 8; ++i) {
+    const box_t part = {b.x + i % 2 * (BOX_X / 2), b.y + i / 2 % 2 * (BOX_Y / 2), b.z + i / 4 * (BOX_Z / 2),
+                        BOX_X / 2 - 1, BOX_Y / 2 - 1, BOX_Z / 2 - 1};
+    if (part.x >= e.width || part.y >= e.height || part.z >= e.depth) continue;
+    const int in_part = take_or_search(index, d, part, list, count, of_part);
+    if (in_part == OVERFLOW) {
+      label_by_voxels(index, part, labels);
+    } else {
+      label_plainly(index, part, of_part, in_part, labels);
+    }
+  }
+}
+
+static inline void label_box(const index_t* index, dominators_t* d, const ulong* list, int count, global uint* labels) {
+  if (count == 1) {
+    fill(index, d->box, (uint)(list[0] >> 32), labels);
+  } else if (count != OVERFLOW && count <= MOST_OF_KEYS) {
+    label_by_keys(index, d, list, count, labels);
+  } else {
+    label_parts(index, d, list, count, labels);
+  }
 }
 
 kernel void label_regions(global const uint* restrict starts, global const uint* restrict low,

@@ -1,4 +1,4 @@
-// Labels of the voxels of a box whose candidates are known.
+// Labels of the voxels of a box, or of a part of one, whose candidates are known.
 //
 // KEYS. A candidate's key at a voxel is by how much farther it is than one of them, the base, above its rank by the tie
 // rule. It is the sum of a part for each axis: an addition and a minimum for 8 voxels and a candidate.
@@ -149,7 +149,7 @@ __attribute__((noinline)) static void label_by_keys(const index_t* index, const 
   }
 }
 
-// More candidates than there are ranks, voxel by voxel. Rare, so plain.
+// A part of a box with more candidates than ranks, voxel by voxel. Rare, so plain.
 static inline void label_plainly(const index_t* index, box_t b, const ulong* list, int count, global uint* labels) {
   const extent_t e = index->extent;
   for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
@@ -176,7 +176,7 @@ static inline void label_plainly(const index_t* index, box_t b, const ulong* lis
   }
 }
 
-// A box whose list overflowed, voxel by voxel.
+// A part whose list overflowed, voxel by voxel.
 static inline void label_by_voxels(const index_t* index, box_t b, global uint* labels) {
   const extent_t e = index->extent;
   for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
@@ -185,19 +185,6 @@ static inline void label_by_voxels(const index_t* index, box_t b, global uint* l
         labels[((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + (size_t)x] = search_voxel(index, x, y, z);
       }
     }
-  }
-}
-
-static inline void label_box(const index_t* index, const dominators_t* d, const ulong* list, int count,
-                             global uint* labels) {
-  if (count == OVERFLOW) {
-    label_by_voxels(index, d->box, labels);
-  } else if (count == 1) {
-    fill(index, d->box, (uint)(list[0] >> 32), labels);
-  } else if (count <= MOST_OF_KEYS) {
-    label_by_keys(index, d, list, count, labels);
-  } else {
-    label_plainly(index, d->box, list, count, labels);
   }
 }
 

@@ -138,6 +138,13 @@ class Random {
   std::mt19937_64 rng_;
 };
 
+At on_a_sphere(At middle, double radius, Random& random) {
+  const double u = random.below(100000) / 5e4 - 1, angle = random.below(100000) * 6.2831853e-5;
+  const double flat = radius * std::sqrt(1 - u * u);
+  return {static_cast<int>(middle.x + flat * std::cos(angle)),
+          static_cast<int>(middle.y + flat * std::sin(angle)), static_cast<int>(middle.z + radius * u)};
+}
+
 /// Sets that starve some of the volume and flood the rest.
 std::vector<Case> hurtful_cases(const Grid& grid) {
   const int w = static_cast<int>(grid.width()), h = static_cast<int>(grid.height()),
@@ -148,11 +155,7 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
     plane.push_back({random.below(w), random.below(h), d / 3});
     corner.push_back({random.below(w / 4 + 1), random.below(h / 4 + 1), random.below(d / 4 + 1)});
     stacked.push_back({w / 2, h / 2, d / 2});
-    const double u = random.below(100000) / 5e4 - 1, angle = random.below(100000) * 6.2831853e-5;
-    const double radius = 0.45 * std::min({w, h, d}), flat = radius * std::sqrt(1 - u * u);
-    sphere.push_back({static_cast<int>(w / 2 + flat * std::cos(angle)),
-                      static_cast<int>(h / 2 + flat * std::sin(angle)),
-                      static_cast<int>(d / 2 + radius * u)});
+    sphere.push_back(on_a_sphere({w / 2, h / 2, d / 2}, 0.45 * std::min({w, h, d}), random));
     walls.push_back({i % 2 == 0 ? 0 : w - 1, random.below(h), random.below(d)});
     slab.push_back({random.below(w), random.below(h), random.below(std::min(d, 4))});
   }
@@ -194,6 +197,24 @@ void check_exact(const Case& c, const Labels& expected, const Device& device, co
   BOOST_TEST_CONTEXT(c.name << " in " << c.grid.width() << " x " << c.grid.height() << " x " << c.grid.depth()
                             << ", " << how) {
     BOOST_TEST(count_differences(exact_labels(c.grid, c.seeds, device), expected) == 0);
+  }
+}
+
+/// The labels of some voxels against every seed.
+void check_some(const Labels& labels, const Grid& grid, const std::vector<At>& seeds,
+                const std::vector<At>& voxels) {
+  const auto order = [&](std::size_t id) { return std::tie(seeds[id].z, seeds[id].y, seeds[id].x); };
+  for (const At& voxel : voxels) {
+    std::int64_t least = none;
+    std::size_t nearest = 0;
+    for (std::size_t id = 0; id < seeds.size(); ++id) {
+      const std::int64_t dx = voxel.x - seeds[id].x, dy = voxel.y - seeds[id].y, dz = voxel.z - seeds[id].z;
+      const std::int64_t distance = dx * dx + dy * dy + dz * dz;
+      if (distance > least || (distance == least && !(order(id) < order(nearest)))) continue;
+      least = distance;
+      nearest = id;
+    }
+    BOOST_TEST_REQUIRE(labels[index_of(grid, voxel.x, voxel.y, voxel.z)] == nearest);
   }
 }
 
@@ -251,25 +272,23 @@ BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
   if (!can_be_exact()) return;
   const Grid grid(256, 256, 256);
   Random random(7);
-  Diagram diagram(test_device(), grid);
   for (const std::size_t count : {100u, 4096u, 40000u, 300000u}) {
     const std::vector<At> seeds = random.in(grid, count);
-    exact_diagram(seeds_at(test_device(), grid, seeds), diagram);
-    const Labels labels = diagram.read();
-    for (int i = 0; i < (long_tests ? 5000 : 100); ++i) {
-      const At voxel = random.in(grid);
-      std::int64_t least = none;
-      std::size_t nearest = 0;
-      for (std::size_t id = 0; id < count; ++id) {
-        const std::int64_t dx = voxel.x - seeds[id].x, dy = voxel.y - seeds[id].y, dz = voxel.z - seeds[id].z;
-        const std::int64_t distance = dx * dx + dy * dy + dz * dz;
-        const auto key = [&](std::size_t of) { return std::tie(seeds[of].z, seeds[of].y, seeds[of].x); };
-        if (distance > least || (distance == least && !(key(id) < key(nearest)))) continue;
-        least = distance;
-        nearest = id;
-      }
-      BOOST_TEST_REQUIRE(labels[index_of(grid, voxel.x, voxel.y, voxel.z)] == nearest);
-    }
+    check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, long_tests ? 5000 : 100));
+  }
+}
+
+/// Nearly all seeds are candidates next to the middle of a sphere: more than a full list holds.
+BOOST_AUTO_TEST_CASE(the_middle_of_a_sphere_is_right) {
+  if (!can_be_exact()) return;
+  const Grid grid(256, 256, 256);
+  Random random(9);
+  for (const int middle : {128, 130}) {  // between parts of boxes, and within one
+    std::vector<At> seeds(32768);
+    for (At& seed : seeds) seed = on_a_sphere({middle, middle, middle}, 115, random);
+    std::vector<At> voxels = random.in(Grid(24, 24, 24), long_tests ? 5000 : 300);
+    for (At& voxel : voxels) voxel = {voxel.x + middle - 12, voxel.y + middle - 12, voxel.z + middle - 12};
+    check_some(exact_labels(grid, seeds), grid, seeds, voxels);
   }
 }
 
