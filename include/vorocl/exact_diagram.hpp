@@ -41,9 +41,8 @@ struct ExactOptions {
 /// 131,072 pixels.
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4.2
-/// bytes of device memory per voxel, the labels included, where sides are well above 32 voxels, and 20 per
-/// seed. Throws Error for the Manhattan metric, and with Shape::group, as on a GPU. docs/volumes.md says how
-/// and how fast.
+/// bytes of device memory per voxel, more where sides are short, and 20 per seed. Throws Error for the
+/// Manhattan metric, and with Shape::group, as on a GPU. docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

@@ -145,9 +145,8 @@ class VOROCL_API Axis {
 /// far larger than what a diagram can hold, which covers a Window of it.
 ///
 /// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
-/// diagrams, exact_diagram(), jump_flooding(), its plan and flood(), prepare(), distance_errors(),
-/// similarity(), distance_field() and expand_labels() take volumes; the others throw Error. No axis of a
-/// volume may be periodic yet.
+/// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), distance_errors(), similarity(),
+/// distance_field() and expand_labels() take volumes, of which no axis is periodic; others throw Error.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
