@@ -21,7 +21,8 @@ class TileJournal : public Journal {
   TileJournal(const std::string& path, const std::string& run);
 
   /// Writes the file if there is none, before any output. `parts` are the paths where outputs grow, `seeds`
-  /// tells them from others. Throws Error as Journal, and if the seeds are not those of the run that it is of.
+  /// tells them from others. Throws Error as Journal, and if the seeds are not those of the run that it is
+  /// of.
   void begin(const std::vector<std::string>& parts, const std::string& seeds);
 
   using Journal::is_there;
