@@ -242,8 +242,8 @@ BOOST_AUTO_TEST_CASE(journals_with_other_lines_are_refused) {
   const std::size_t last = journal.rfind('\n', journal.size() - 2) + 1;
   const std::size_t before = journal.rfind('\n', last - 2) + 1;
   const std::string line = journal.substr(last), other = journal.substr(before, last - before);
-  for (const std::string& damaged :
-       {journal + line, journal.substr(0, before) + line + other, journal.substr(0, before) + line}) {
+  const std::string without_other = journal.substr(0, before) + line;
+  for (const std::string& damaged : {journal + line, without_other + other, without_other}) {
     folder.file("l%d.npy.journal", damaged);
     refuses(folder, three, failure, {"l%d.npy.journal is damaged", start_again});
   }
