@@ -232,8 +232,8 @@ BOOST_AUTO_TEST_CASE(no_damaged_journal_gives_wrong_files) {
       return found;
     };
     const std::vector<std::size_t> tiles = of_kind("tile"), sums = of_kind("sums");
-    BOOST_REQUIRE(tiles.size() >= 1);
-    BOOST_REQUIRE(sums.size() >= 1);
+    BOOST_REQUIRE(!tiles.empty());
+    BOOST_REQUIRE(!sums.empty());
     const std::size_t first = tiles.front(), last = tiles.back(), sum = sums.back();
     std::map<std::string, std::string> damaged;
     const auto damage = [&](const std::string& what,

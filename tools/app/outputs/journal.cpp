@@ -125,7 +125,8 @@ void Journal::begin(const std::vector<std::string>& outputs, const std::vector<s
     }
   }
   hash_ = {};
-  const std::string text = sealed_text(head_of(run_), hash_) + sealed_text(steps, hash_);
+  std::string text = sealed_text(head_of(run_), hash_);
+  text += sealed_text(steps, hash_);
   bytes_ = text.size();
   if (is_there_) return;
   GrowingFile journal{OutputFile(path_)};

@@ -77,6 +77,7 @@ std::optional<Kept> TileJournal::kept_sums() const {
 
 void TileJournal::complete(const std::vector<Entry>& entries, std::size_t bytes_of_sums) {
   std::vector<std::string> lines;
+  lines.reserve(entries.size() + 1);
   for (const Entry& entry : entries) lines.push_back(line_of(entry));
   lines.push_back(line_of_sums(bytes_of_sums));
   append(lines);
