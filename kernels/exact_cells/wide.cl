@@ -3,6 +3,8 @@
 #ifndef VOROCL_EXACT_CELLS_WIDE
 #define VOROCL_EXACT_CELLS_WIDE
 
+#include "core/abi.cl"
+
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 

@@ -141,8 +141,9 @@ Relaxation run_rounds(const RelaxCommand& options, const Input& input, Seeds& se
   return relaxation;
 }
 
-void write_end(const Outputs& outputs, const RelaxCommand& options, const Input& input, const Seeds& seeds,
-               const Diagram& diagram, const Relaxation& relaxation) {
+/// Returns the number of seeds without a pixel.
+std::size_t write_end(const Outputs& outputs, const RelaxCommand& options, const Input& input,
+                      const Seeds& seeds, const Diagram& diagram, const Relaxation& relaxation) {
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
@@ -154,15 +155,18 @@ void write_end(const Outputs& outputs, const RelaxCommand& options, const Input&
     write_picture(*outputs.picture, picture);
   }
   if (outputs.rounds) outputs.rounds->finish();
+  return measures.cell_count().empty;
 }
 
-void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxation& relaxation) {
+void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxation& relaxation,
+                  std::size_t empty_cells) {
   if (options.json) {
     print_json({{"device", seeds.device().name()},
                 {"width", seeds.grid().width()},
                 {"height", seeds.grid().height()},
                 {"periodic", to_string(seeds.grid().periodic())},
                 {"seeds", seeds.alive()},
+                {"empty_cells", empty_cells},
                 {"rounds", relaxation.rounds()},
                 {"settled", relaxation.converged},
                 {"energy_at_start", relaxation.energies.front()},
@@ -171,8 +175,9 @@ void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxat
   }
   print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
         seeds.grid().height(), counted(relaxation.rounds(), "round"),
-        relaxation.converged ? "settled: no seed moves by 1/64 of a pixel" : "not settled yet",
+        relaxation.converged ? "settled: no seed moves by 1/64 of a pixel" : "as many as allowed",
         seeds.device().name());
+  print_empty_cells(empty_cells, seeds.alive(), seeds.alive());
   print("energy: {:.12g} at the start, {:.12g} at the end\n", relaxation.energies.front(),
         relaxation.energies.back());
   print_written(requested_files(options));
@@ -195,12 +200,12 @@ void run(RelaxCommand& options) {
   Diagram diagram(device, input.view.window);
   const Relaxation relaxation =
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get(), std::move(how));
-  write_end(outputs, options, input, seeds, diagram, relaxation);
+  const std::size_t empty_cells = write_end(outputs, options, input, seeds, diagram, relaxation);
   if (!relaxation.converged && relaxation.rounds() < options.rounds) {
     throw Error(fmt::format("interrupted after {}; the files show the last of them",
                             counted(relaxation.rounds(), "round")));
   }
-  print_result(options, seeds, relaxation);
+  print_result(options, seeds, relaxation, empty_cells);
 }
 
 }  // namespace

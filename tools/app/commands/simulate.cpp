@@ -269,9 +269,9 @@ void run(const SimulateOptions& options) {
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
 void run_exact(const Command& command, const SimulateOptions& options) {
-  const std::string others =
-      command.given({"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency",
-                     "--polygons", "--every", "--bounds", "--periodic", "--outside", "--device", "--json"});
+  const std::string others = command.given(
+      {"--exact", "--trajectory", "--frames", "--cells", "--cell-columns", "--adjacency", "--polygons",
+       "--every", "--bounds", "--y-up", "--y-down", "--periodic", "--outside", "--device", "--json"});
   if (!others.empty()) {
     throw UsageError(others.substr(0, others.find_first_of(" \n")) +
                      " is not for --exact, which cuts the cells of a trajectory's own positions and makes no "
