@@ -13,7 +13,7 @@ namespace {
 
 /// Throws Error for something ("a mask") that needs a diagram of all of the grid.
 PixelGrid pixels_of(const Grid& grid, const char* what) {
-  if (!fits_in_a_diagram(grid)) {
+  if (!grid.is_volume() && !fits_in_a_diagram(grid)) {
     throw Error(std::string(what) + " needs a grid that is no larger than a diagram, " +
                 std::to_string(Window::max_side) + " pixels along a side; this one has " +
                 std::to_string(grid.width()) + " x " + std::to_string(grid.height()));

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "render --random 3 --size 8x8x --labels a.npy", usage, {"WxHxD, such as 256x256x256"});
   refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage, {"0 pixels"});
   refuses(folder, "render --random 3 --size 4096x4096x4096 --labels a.npy", failure,
-          {"random seeds", "no larger"});
+          {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv", usage, {"vorocl render alone"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"vorocl render alone"});

@@ -102,9 +102,8 @@ Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
   if (second == std::string::npos) return parse_size(text);
   const auto slices = parse_number<std::int64_t>(text.substr(second + 1));
   if (!slices) throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
-  const Size slice = parse_size(text.substr(0, second));
-  depth = Window(Grid(Axis(slice.width()), Axis(slice.height()), Axis(*slices))).depth();
-  return slice;
+  depth = Axis(*slices).pixels();
+  return parse_size(text.substr(0, second));
 }
 
 Size size_of_sides(std::int64_t width, std::int64_t height) {
