@@ -76,8 +76,8 @@ static inline void make_keys(const dominators_t* d, const ulong* list, int count
   for (int i = 0; i < count; i += 8) vstore8(load_seeds(list + i), 0, seed + i);
   for (int i = 0; i < count; i += 8) {
     const uv own = vload8(0, seed + i);
-    uv r = (uv)0;
-    for (int j = 0; j < count; ++j) r -= as_uint8((uv)seed[j] < own);
+    uv r = (uv)0;  // counted by select(): Oclgrind takes the true of a comparison that is added for 255
+    for (int j = 0; j < count; ++j) r += select((uv)0, (uv)1, (uv)seed[j] < own);
     vstore8(r, 0, rank + i);
   }
   for (int i = 0; i < count; ++i) keys->label_of[rank[i]] = (uint)(list[i] >> 32);
