@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, "render --random -3" + square, usage, {"--random", "-3"});
   refuses(folder, "render --random few" + square, usage, {"--random", "few"});
   for (const char* size :
-       {"0x10", "10x0", "32769x10", "10", "10x", "10x10x10", "axb", "99999999999999999999x1"}) {
+       {"0x10", "10x0", "32769x10", "10", "10x", "10x10x10x10", "axb", "99999999999999999999x1"}) {
     refuses(folder, render + "--size " + size, usage, {"--size"});
   }
   refuses(folder, render, usage, {"--size"});
