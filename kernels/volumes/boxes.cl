@@ -1,7 +1,6 @@
 // Exact labels by boxes, at any density: a work-item labels a region. It searches the index for the seeds that may win
 // in the region, hands them down to tiles of 16 x 16 x 16, and these to boxes of 16 x 8 x 8, labelled by keys, or in
-// parts of 8 x 4 x 4 where there are too many.
-// Where a list overflows, the next smaller box searches for itself.
+// parts of 8 x 4 x 4 where there are too many. Where a list overflows, the next smaller box searches for itself.
 
 #ifndef VOROCL_VOLUMES_BOXES
 #define VOROCL_VOLUMES_BOXES

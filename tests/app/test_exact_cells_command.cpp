@@ -129,6 +129,10 @@ BOOST_AUTO_TEST_CASE(particles_fill_their_periodic_box) {
   const TableRow first = read_table(folder / "c.csv").rows.front();
   BOOST_TEST(*first[0] == 1);         // ids of the file
   BOOST_TEST(*first[7] > *first[9]);  // y up, as trajectories have it
+  succeeds(folder, "simulate --exact --trajectory '" VOROCL_SAMPLES
+                   "/lj-melt.lammpstrj' --frames 1 --y-down --cells d.csv --cell-columns top,bottom");
+  const TableRow down = read_table(folder / "d.csv").rows.front();  // after frame and time step
+  BOOST_TEST(*down[2] < *down[3]);
   BOOST_TEST(geojson(folder, "p.json").at("features").front().at("id") == 1);
 }
 

@@ -153,9 +153,10 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay_and_particles_keep_their_ids) {
     for (const std::uint32_t id : {7u, 8u, 9u}) BOOST_TEST(std::count(labels.begin(), labels.end(), id) > 0);
     return std::count(labels.begin(), labels.end(), 70u);
   };
-  succeeds(folder, relax + "--rounds 0");
+  BOOST_TEST(succeeds(folder, relax + "--rounds 0").find("1 of 4 seeds own no pixel") != std::string::npos);
   BOOST_TEST(pixels_of_70() == 0);  // 9 has the cell
-  succeeds(folder, relax + "--rounds 1");
+  BOOST_TEST(json::parse(succeeds(folder, relax + "--rounds 0 --json")).at("empty_cells") == 1);
+  BOOST_TEST(succeeds(folder, relax + "--rounds 1").find("own no pixel") == std::string::npos);
   BOOST_TEST(pixels_of_70() > 0);  // 9 has gone to the middle of the cell
   const Table table = read_table(folder / "p.csv");
   BOOST_TEST(table.header == "id,x,y");

@@ -219,6 +219,10 @@ BOOST_AUTO_TEST_CASE(pipes_and_devices_are_written_into) {
     BOOST_TEST((content_of(folder / "read") == content_of(folder / ("whole" + name.substr(4)))));
     BOOST_TEST(std::filesystem::is_fifo(folder / name));
   }
+  std::filesystem::create_symlink("/dev/null", folder / "null.csv");
+  const std::string frames = "simulate --trajectory '" VOROCL_SAMPLES "/lj-melt.lammpstrj' --frames 2 ";
+  for (const char* const table : {"--width 60 --statistics", "--width 60 --cells", "--exact --cells"})
+    succeeds(folder, frames + table + " null.csv");
   for (const char* name : {"full.npy", "full.png"})
     std::filesystem::create_symlink("/dev/full", folder / name);
   refuses(folder, render + "--labels full.npy", failure, {"writing full.npy failed: No space left"});

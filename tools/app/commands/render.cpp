@@ -128,10 +128,6 @@ void run(const RenderOptions& options) {
   print_result(options, seeds, report, measures);
 }
 
-}  // namespace
-
-namespace {
-
 /// The options that a volume has. Throws UsageError for the others.
 VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
   for (const char* const name : {"--waves", "--periodic", "--snap", "--no-snap", "--frame", "--units"}) {
