@@ -41,7 +41,7 @@ static inline int centre_behind_y(seed_t seed) { return CENTRE - (seed.y & (UNIT
 
 static inline int shorter_way_round(long way, long period) {
   if (period == 0) return (int)way;
-  way %= period;
+  if (abs(way) >= (ulong)period) way %= period;  // rare, and a division takes long
   if (2 * way > period) return (int)(way - period);
   return (int)(2 * way <= -period ? way + period : way);
 }

@@ -30,13 +30,15 @@ std::uint8_t srgb_byte(double linear) {
   return static_cast<std::uint8_t>(std::lround(255 * encoded));
 }
 
+double cube(double number) { return number * number * number; }
+
 /// From Oklab (Ottosson 2020), where equal steps look equally large, in polar coordinates; the hue is in
 /// turns.
 cv::Vec3b from_oklab(double lightness, double chroma, double hue) {
   const double a = chroma * std::cos(2 * CV_PI * hue), b = chroma * std::sin(2 * CV_PI * hue);
-  const double l = std::pow(lightness + 0.3963377774 * a + 0.2158037573 * b, 3);
-  const double m = std::pow(lightness - 0.1055613458 * a - 0.0638541728 * b, 3);
-  const double s = std::pow(lightness - 0.0894841775 * a - 1.2914855480 * b, 3);
+  const double l = cube(lightness + 0.3963377774 * a + 0.2158037573 * b);
+  const double m = cube(lightness - 0.1055613458 * a - 0.0638541728 * b);
+  const double s = cube(lightness - 0.0894841775 * a - 1.2914855480 * b);
   return {srgb_byte(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s),
           srgb_byte(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           srgb_byte(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s)};
@@ -50,6 +52,23 @@ cv::Vec3b color_of(std::uint32_t id) {
   const double hue = spread(0xd1b54a33u), lightness = spread(0xabc98389u), chroma = spread(0x8cb92ba7u);
   return from_oklab(0.60 + 0.28 * lightness, 0.055 + 0.065 * chroma, hue);
 }
+
+/// color_of(), which takes long, kept for ids that come again in the next row.
+class ColorsOfIds {
+ public:
+  cv::Vec3b operator()(std::uint32_t id) {
+    Entry& entry = entries_[id % entries_.size()];
+    if (entry.id != id) entry = {id, color_of(id)};
+    return entry.color;
+  }
+
+ private:
+  struct Entry {
+    std::uint32_t id = no_label;
+    cv::Vec3b color;
+  };
+  std::vector<Entry> entries_ = std::vector<Entry>(1u << 16u);
+};
 
 /// Calls on_run(begin, end) for each run of pixels with one label: cells are made of few runs.
 template <typename OnRun>
@@ -198,11 +217,8 @@ std::optional<Scale> range_of(const std::vector<float>& distances) {
 }
 
 cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window) {
-  std::unordered_map<std::uint32_t, cv::Vec3b> colors;  // making one takes long
-  return color_by_label(labels, window, [&](std::uint32_t label) {
-    const auto found = colors.find(label);
-    return found != colors.end() ? found->second : colors.emplace(label, color_of(label)).first->second;
-  });
+  ColorsOfIds colors;
+  return color_by_label(labels, window, [&](std::uint32_t label) { return colors(label); });
 }
 
 cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& window, Palette palette) {

@@ -19,6 +19,7 @@ constexpr int most_contours = 10;
 bool is_whole_or_none(double value) { return !std::isfinite(value) || value == std::round(value); }
 
 cv::Mat enlarged(const cv::Mat& image, int factor) {
+  if (factor == 1) return image;
   cv::Mat result;
   cv::resize(image, result, {}, factor, factor, cv::INTER_NEAREST);
   return result;
@@ -28,6 +29,7 @@ cv::Mat enlarged(const cv::Mat& image, int factor) {
 template <typename T>
 std::vector<T> enlarged(std::vector<T> image, const Size& size, int factor) {
   static_assert(sizeof(T) == sizeof(std::int32_t));
+  if (factor == 1) return image;
   const cv::Mat result = enlarged(cv::Mat(size.height(), size.width(), CV_32SC1, image.data()), factor);
   return {result.ptr<T>(), result.ptr<T>() + result.total()};
 }
