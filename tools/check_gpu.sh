@@ -3,24 +3,36 @@
 #   nvidia (without any)   clang compiles it for PTX as the library builds it, and ptxas assembles it for an A100 (sm_80) and an
 #                          H100 (sm_90)
 #   amd                    clang compiles it for a Radeon VII (gfx906), an MI200 (gfx90a) and a Radeon RX 6000 (gfx1030)
+#   intel                  Intel's ocloc compiles it for Gen9 (skl), Gen12 (tgllp) and an Arc (dg2), and says what scratch memory it has
 # No kernel may have a stack frame or spilled registers, more registers than its GPU's limit or more than 16 KB of local memory.
-# Prints the table. Exits with 77 where a tool is missing; tools/setup.sh check installs them, and these name others:
+# Prints the table. Exits with 77 where a tool is missing; tools/setup.sh check (for Intel: intel) installs them, and these name others:
 #   CLANG   a clang with the maker's target       LIBCLC   the folder of libclc's .bc files of the same version
-#   PTXAS   ptxas, of CUDA 11.4 or newer
+#   PTXAS   ptxas, of CUDA 11.4 or newer          OCLOC    ocloc, of Intel's compute runtime
 set -euo pipefail
 cd "$(dirname "$0")/.."
 : "${CLANG:=clang}" "${LIBCLC:=/usr/lib/clc}"
 [ $# -gt 0 ] || set -- nvidia
-installed=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas/nvidia/cuda_nvcc/bin/ptxas
-: "${PTXAS:=$(command -v ptxas || echo "$installed")}"
+cache=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl
+: "${PTXAS:=$(command -v ptxas || echo "$cache/ptxas/nvidia/cuda_nvcc/bin/ptxas")}"
+if [ -z "${OCLOC:-}" ] && ! OCLOC=$(command -v ocloc); then
+  OCLOC=$cache/ocloc/usr/bin/ocloc
+  libraries=$(printf '%s:' "$cache"/ocloc/usr/lib/{*-linux-gnu,llvm-*/lib})
+fi
 most_local=16384
 # With so many registers, half of the warps that an A100 or an H100 can hold fit beside each other (32 of 64 on a multiprocessor), 4
 # of the 10 waves of a SIMD of gfx906, which has 256 registers per lane, 4 of the 8 of gfx90a, which has 512, and all 16 of gfx1030.
 most_registers='sm_80 64 sm_90 64 gfx906 64 gfx90a 128 gfx1030 64'
 
-command -v "$CLANG" >/dev/null || { echo "clang is not installed: skipped"; exit 77; }
-[ -d "$LIBCLC" ] || { echo "libclc ($LIBCLC) is not installed: skipped"; exit 77; }
-[[ " $* " != *" nvidia "* ]] || command -v "$PTXAS" >/dev/null || { echo "ptxas is not installed: skipped"; exit 77; }
+needs() { # MAKER TOOL NAME
+  [[ " $makers " != *" $1 "* ]] || command -v "$2" >/dev/null || [ -d "$2" ] || { echo "$3 is not installed: skipped"; exit 77; }
+}
+makers=$*
+for maker in nvidia amd; do
+  needs $maker "$CLANG" clang
+  needs $maker "$LIBCLC" "libclc ($LIBCLC)"
+done
+needs nvidia "$PTXAS" ptxas
+needs intel "$OCLOC" ocloc
 
 # A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes.
 kernel_files() {
@@ -34,12 +46,13 @@ kernel_files() {
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+of_all=(-cl-std=CL1.2 -Ikernels -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 -DVOROCL_BITS_Z=10)
+
 # Drivers inline every function, as far as is known.
 compile() { # TARGET LIBRARY FILE OPTION...
-  "$CLANG" -S -x cl -cl-std=CL1.2 -target "$1" -Xclang -finclude-default-header -O3 \
+  "$CLANG" -S -x cl "${of_all[@]}" -target "$1" -Xclang -finclude-default-header -O3 \
     -mllvm -inline-threshold=1000000 -mllvm -inlinehint-threshold=1000000 \
-    -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC/$2" -Wno-linker-warnings -Ikernels \
-    -DVOROCL_WIDTH=1 -DVOROCL_GUARD=16 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 -DVOROCL_BITS_Z=10 "${@:4}" "$3" -o "$work/kernel.s"
+    -Xclang -mlink-builtin-bitcode -Xclang "$LIBCLC/$2" -Wno-linker-warnings "${@:4}" "$3" -o "$work/kernel.s"
 }
 
 # What programs are built for besides a plain grid: seeds outside it, and periodic axes.
@@ -80,8 +93,30 @@ report_amd() { # FILE OPTION...
   done
 }
 
+# ocloc tells neither registers nor local memory. A kernel's patch tokens tell what memory a thread has for its stack and what is
+# spilled: the last word of 18 scratch memory, the fourth of 38 private memory.
+report_intel() { # FILE OPTION...
+  local device
+  for device in skl tgllp dg2; do
+    rm -rf "$work/intel"
+    LD_LIBRARY_PATH=${libraries:-} "$OCLOC" compile -q -file "$1" -device $device -options "${of_all[*]} ${*:2}" -output kernel \
+      -output_no_suffix -out_dir "$work/intel" >"$work/log" 2>&1 || { cat "$work/log" >&2; return 1; }
+    LD_LIBRARY_PATH=${libraries:-} "$OCLOC" disasm -file "$work/intel/kernel" -dump "$work/intel/parts" -device $device >"$work/log" 2>&1
+    awk -v OFS='\t' -v file="${1#kernels/}" -v options="${*:2}" -v device=$device '
+      function digit(hex, at) { return index("123456789abcdef", substr(hex, at, 1)) }
+      function byte(hex) { return length(hex) == 2 ? 16 * digit(hex, 1) + digit(hex, 2) : digit(hex, 1) }
+      function word(at) { return byte($at) + 256 * (byte($(at + 1)) + 256 * (byte($(at + 2)) + 256 * byte($(at + 3)))) }
+      function tell() { if (kernel != "") print file, kernel, options, device, "-", memory, 0, "-" }
+      /KernelName / { tell(); kernel = $2; memory = 0 }
+      $2 == "Token" { token = $3 }
+      $1 == "Hex" && token == 18 { memory += word(6) }
+      $1 == "Hex" && token == 38 { memory += word(14) }
+      END { tell() }' "$work/intel/parts/PTM.txt"
+  done
+}
+
 for maker in "$@"; do
-  [[ $maker == nvidia || $maker == amd ]] || { echo "There is no maker \"$maker\", but nvidia and amd." >&2; exit 2; }
+  [[ $maker =~ ^(nvidia|amd|intel)$ ]] || { echo "There is no maker \"$maker\", but nvidia, amd and intel." >&2; exit 2; }
   for file in $(kernel_files); do
     for metric in EUCLIDEAN MANHATTAN; do
       for neighbours in 9 5; do "report_$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours; done
@@ -99,7 +134,7 @@ awk -F '\t' -v OFS='\t' -v limits="$most_registers" -v memory=$most_local '
     print "file", "kernel", "GPU", "registers", "stack", "spilled", "local", "verdict"
   }
   !seen[$1, $2, $4, $5, $6, $7, $8]++ {
-    fits = $5 <= registers[$4] && $6 == 0 && $7 == 0 && $8 <= memory
+    fits = $5 + 0 <= registers[$4] + 0 && $6 == 0 && $7 == 0 && $8 + 0 <= memory
     print $1, $2, $4, $5, $6, $7, $8, fits ? "fits" : "TOO MUCH (" $3 ")"
     if (!fits) ++failed
   }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
 # The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides),
-# drivers (what tools/check_drivers.sh runs the tests on) and warps (what tools/simulated_warps counts with). Without any:
-# build and test.
+# drivers (what tools/check_drivers.sh runs the tests on), intel (what tools/check_gpu.sh intel compiles with) and warps (what
+# tools/simulated_warps counts with). Without any: build and test.
 #   setup.sh gpu FOLDER    copies what tools/gpu_report.sh needs besides a compiler into FOLDER, some 10 MB, for a machine
 #                          without a network whose C library is at least as new as this one's
 set -euo pipefail
@@ -48,7 +48,8 @@ for group in "$@"; do
     packages+=(pocl-opencl-icd python3-pip)
     ! grep -q '^VERSION_ID="13"' /etc/os-release || packages+=(mesa-opencl-icd)
     ;;
-  *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, warps and gpu FOLDER" >&2; exit 2 ;;
+  intel) ;;
+  *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, intel, warps and gpu FOLDER" >&2; exit 2 ;;
   esac
 done
 
@@ -88,6 +89,19 @@ fi
 ptxas=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas
 if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/null; then
   python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12
+fi
+
+# Intel's compiler for GPUs, in a folder of its own: its packages would add a driver to the system.
+ocloc=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ocloc
+if [[ " $* " == *" intel "* ]] && [ ! -e "$ocloc" ] && ! command -v ocloc >/dev/null; then
+  trap 'rm -rf "$ocloc.part"' EXIT
+  mkdir -p "$ocloc.part"
+  as_root apt-get update -qq
+  (cd "$ocloc.part"
+    apt-cache depends --recurse --important intel-opencl-icd |
+      grep -E '^(intel-opencl-icd|lib(igc|igdfcl|igdgmm|opencl-clang|llvm|clang-cpp))' | sort -u | xargs apt-get download -qq -o APT::Sandbox::User=
+    for package in *.deb; do dpkg -x "$package" . && rm "$package"; done)
+  mv "$ocloc.part" "$ocloc"
 fi
 
 # Intel's runtime for CPUs, in a folder of its own where no other program sees it. Its own libOpenCL.so would take the
