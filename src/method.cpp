@@ -99,13 +99,13 @@ const std::vector<Method>& methods() {
   return all;
 }
 
-const Method& method(const std::string& name) {
+const Method& method(std::string_view name) {
   std::string names;
   for (const Method& method : methods()) {
     if (method.name == name) return method;
     names += (names.empty() ? "" : ", ") + method.name;
   }
-  throw Error("there is no method \"" + name + "\"; there are " + names);
+  throw Error("there is no method \"" + std::string(name) + "\"; there are " + names);
 }
 
 void check_options(const Method& method, const MethodOptions& options) {

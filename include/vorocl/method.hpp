@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "vorocl/diagram.hpp"
@@ -48,7 +49,7 @@ struct Method {
 VOROCL_API const std::vector<Method>& methods();
 
 /// The method of a name. Throws Error, which lists the names, if there is none.
-VOROCL_API const Method& method(const std::string& name);
+VOROCL_API const Method& method(std::string_view name);
 
 /// Throws Error if the method refuses the options, as run() would.
 VOROCL_API void check_options(const Method& method, const MethodOptions& options);
