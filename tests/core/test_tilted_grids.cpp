@@ -251,11 +251,12 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_nearest_images) {
             std::max(cell.farthest, metric == Metric::euclidean
                                         ? static_cast<double>(to.x * to.x + to.y * to.y) / parts / parts
                                         : length);
-        // In the window's columns, which may begin elsewhere in the period.
+        // In the window's columns and rows, which may begin elsewhere in the period: rows, too, where nothing is tilted.
         const std::int64_t w = box.width * parts, h = box.height * parts;
-        const std::int64_t own_x = seed.x - window.x() * parts;
+        const std::int64_t own_x = seed.x - window.x() * parts, own_y = seed.y - window.y() * parts;
         const Position at =
-            is_whole ? Position{own_x - floor_of(own_x, w) * w + to.x, seed.y + to.y} : centre_of(x, y);
+            is_whole ? Position{own_x - floor_of(own_x, w) * w + to.x, own_y - floor_of(own_y, h) * h + to.y}
+                     : centre_of(x, y);
         const std::int64_t rows = (at.y - centre_of(x, y).y) / h;
         cell.x += x + (at.x - centre_of(x, y).x - rows * box.shift) / parts;
         cell.y += y + rows * box.height;
