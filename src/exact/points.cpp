@@ -68,8 +68,7 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
   const cl::Event first = fill(state.device, memory.starts, cl_uint{0}, tables * bins + 1);
   kernel("count_points", group_of_chunks)
       .over_items(items, points.places, points.count, chunk_size, bits, width, height, memory.starts);
-  kernel("start_bins", 64)
-      .over_items(rows, memory.starts, static_cast<cl_uint>(tables), bits, width, height);
+  kernel("start_bins", 64).over_items(rows, memory.starts, static_cast<cl_uint>(tables), bits, width, height);
   kernel("list_points", group_of_chunks)
       .over_items(items, points.places, has_ids ? points.ids : points.places, cl_int{has_ids}, points.count,
                   chunk_size, bits, width, height, memory.starts, memory.list, memory.ids);

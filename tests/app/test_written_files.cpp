@@ -194,8 +194,7 @@ BOOST_AUTO_TEST_CASE(of_a_relaxation_all_that_can_be_written_stays,
 
   const TemporaryFolder folder;
   std::filesystem::create_symlink("/dev/full", folder / "l.npy");
-  const Result labels =
-      run(folder, relax + "-o a.png --labels l.npy --energy e.csv --relaxed-points p.csv");
+  const Result labels = run(folder, relax + "-o a.png --labels l.npy --energy e.csv --relaxed-points p.csv");
   BOOST_TEST(labels.exit_code == failure);
   BOOST_TEST(labels.error.find("writing l.npy failed: No space left") != std::string::npos, labels.error);
   BOOST_TEST(std::filesystem::exists(folder / "a.png"));

@@ -201,7 +201,8 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_nearest_images) {
     const Window& window = *random.window;
     if (window.width() > box.width || window.height() > box.height) continue;  // some pixels have no labels
     const bool is_whole = window.periodic() == Periodic::xy;
-    if (!is_whole && window.periodic() != Periodic::none) continue;  // of flat grids, for test_window_measures
+    if (!is_whole && window.periodic() != Periodic::none)
+      continue;  // of flat grids, for test_window_measures
     const Metric metric = number % 3 == 0 ? Metric::manhattan : Metric::euclidean;
     const Seeds seeds(test_device(), box.grid(), random.points, Outside::count, random.snap);
     Diagram diagram(test_device(), window);

@@ -124,7 +124,8 @@ std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<De
                             options.density_path, density->size.width(), density->size.height(), size.width(),
                             size.height()));
   }
-  if (*std::max_element(density->values.begin(), density->values.end()) > 0) return std::move(density->values);
+  if (*std::max_element(density->values.begin(), density->values.end()) > 0)
+    return std::move(density->values);
   throw Error(options.density_path + " is 0 everywhere; some pixel must weigh something");
 }
 
@@ -274,7 +275,8 @@ void add_relax(CommandLine& line) {
           "--density", options->density_path,
           "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
           "as "
-          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its size, and "
+          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
+          "size, and "
           "draws points by it")
       .value_name("IMAGE");
   add_device_option(command, options->device);

@@ -48,7 +48,8 @@ std::vector<Point> random_points(const Grid& grid, const std::vector<float>& den
   for (std::size_t id = 0; id < count; ++id) {
     const std::array<std::uint32_t, 4> bits = philox(static_cast<std::uint32_t>(id), rng_seed);
     // Below the sum of all, also when it is rounded.
-    const double at = std::ldexp(static_cast<double>((std::uint64_t{bits[0]} << 32 | bits[1]) >> 11), -53) * sum;
+    const double at =
+        std::ldexp(static_cast<double>((std::uint64_t{bits[0]} << 32 | bits[1]) >> 11), -53) * sum;
     const std::int64_t pixel = std::upper_bound(sums.begin(), sums.end(), at) - sums.begin();
     points.push_back({static_cast<double>(pixel % grid.width()) + std::ldexp(bits[2], -32),
                       static_cast<double>(pixel / grid.width()) + std::ldexp(bits[3], -32)});

@@ -1,5 +1,5 @@
-// Random seeds: the pixels of a plane that no device has to hold, points that are drawn by a density, and the paper's
-// model of motion.
+// Random seeds: the pixels of a plane that no device has to hold, points that are drawn by a density, and the
+// paper's model of motion.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,9 @@ namespace vorocl::command {
 /// The pixel of the seed with this id: on a grid the same as Seeds::random() gives it.
 Point random_pixel(const Grid& grid, std::uint32_t id, std::uint64_t rng_seed);
 
-/// Points as dense as the square root of a density, as which Lloyd relaxation spreads them (docs/relaxation.md),
-/// anywhere in their pixels, of which each has a density of at least 0, and some have more.
+/// Points as dense as the square root of a density, as which Lloyd relaxation spreads them
+/// (docs/relaxation.md), anywhere in their pixels, of which each has a density of at least 0, and some have
+/// more.
 std::vector<Point> random_points(const Grid& grid, const std::vector<float>& density, std::size_t count,
                                  std::uint64_t rng_seed);
 
