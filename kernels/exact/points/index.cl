@@ -38,8 +38,8 @@ static inline uint bin_of(const bins_t* bins, int2 place) {
 // --- making it ---
 //
 // Items count the places of their chunks by bins, each in a table of its own, so that they need no atomics, which take
-// a CPU as long as all else. Where many items take one place each they share a table. In it the value behind that of a
-// bin is the next place of the bin's in the list, and in the end where the bin ends, which is where the next one begins.
+// a CPU as long as all else. Where many items take one place each they share a table. The value behind that of a bin
+// is the next place of the bin's in the list, and in the end where the bin ends, which is where the next one begins.
 
 static inline uint take_one(global uint* next, uint chunk) { return chunk == 1 ? atomic_inc(next) : (*next)++; }
 
