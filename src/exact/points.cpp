@@ -32,11 +32,12 @@ int bits_of_bins(const PixelGrid& grid, std::size_t places) {
 }
 
 /// The places of a work-item that sorts them into bins: on CPUs as many as are a part for each core, and no
-/// fewer than are worth a table of all bins.
+/// fewer than are worth an item, and a table of all bins.
 std::size_t chunk_for(const Device& device, std::size_t places, std::size_t bins) {
   if (device.tuning().shape != Shape::vector) return 1;
   const std::size_t units = device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
-  return std::max(places / units, bins / 2) + 1;
+  constexpr std::size_t least = 4096;
+  return std::max({least, places / units + 1, bins / 2});
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ Report exact_diagram_of_points(Filling& filling, DiagramState& state) {
   const cl::Event first = fill(state.device, memory.starts, cl_uint{0}, tables * bins + 1);
   kernel("count_points", group_of_chunks)
       .over_items(items, points.places, points.count, chunk_size, bits, width, height, memory.starts);
-  kernel("start_bins", 64).over_items(rows, memory.starts, static_cast<cl_uint>(tables), bits, width, height);
+  kernel("start_bins", 8).over_items(rows, memory.starts, static_cast<cl_uint>(tables), bits, width, height);
   kernel("list_points", group_of_chunks)
       .over_items(items, points.places, has_ids ? points.ids : points.places, cl_int{has_ids}, points.count,
                   chunk_size, bits, width, height, memory.starts, memory.list, memory.ids);
