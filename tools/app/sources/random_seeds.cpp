@@ -51,8 +51,9 @@ std::vector<Point> random_points(const Grid& grid, const std::vector<float>& den
     const double at =
         std::ldexp(static_cast<double>((std::uint64_t{bits[0]} << 32 | bits[1]) >> 11), -53) * sum;
     const std::int64_t pixel = std::upper_bound(sums.begin(), sums.end(), at) - sums.begin();
-    points.push_back({static_cast<double>(pixel % grid.width()) + std::ldexp(bits[2], -32),
-                      static_cast<double>(pixel / grid.width()) + std::ldexp(bits[3], -32)});
+    const std::int64_t x = pixel % grid.width(), y = pixel / grid.width();
+    points.push_back({static_cast<double>(x) + std::ldexp(bits[2], -32),
+                      static_cast<double>(y) + std::ldexp(bits[3], -32)});
   }
   return points;
 }
