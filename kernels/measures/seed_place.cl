@@ -122,7 +122,8 @@ static inline int2 shortest_way_round(long x, long y, window_t window) {
   LENGTH least = distance_of_ways(shortest.x, shortest.y);
   for (long row = 1;; ++row) {
     bool is_far = true;
-    for (int side = 1; side >= -1; side -= 2) {
+    for (int turn = 0; turn < 2; ++turn) {
+      const int side = (near_y > 0) == (turn == 0) ? -1 : 1;  // the nearer row of the two first
       const long along_y = near_y + side * row * period_y;
       if (ALONG((LENGTH)along_y) >= least) continue;
       is_far = false;

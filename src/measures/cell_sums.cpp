@@ -52,7 +52,7 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
       fill(of.device, *periods, cl_int{0}, count);
     }
     // Only in a tilted grid the metric says where a pixel lies.
-    const KernelOptions of_places = of.shift() == 0 ? options : of.options();
+    const KernelOptions of_places = of.window.grid().is_tilted() ? of.options() : options;
     blocks.run(sums.kernels, file, "add_periods", of_places, diagram.labels(), of.positions(), count,
                of.periods(), width, height, wide, high, sums.periods_x, sums.periods_y);
     last = run_over_cells("unwrap_sums", count, of.periods(), width, height, sums.periods_x, sums.periods_y,

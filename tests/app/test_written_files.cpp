@@ -170,6 +170,37 @@ BOOST_AUTO_TEST_CASE(a_film_that_does_not_fit_on_the_disk_says_so,
           {"long.mp4: a film of 16386 x 4", "16384"});
 }
 
+// A round that cannot be written ends the relaxation.
+BOOST_AUTO_TEST_CASE(of_a_relaxation_all_that_can_be_written_stays,
+                     *boost::unit_test::precondition(may_mount)) {
+  const std::string relax = "relax --random 200 --size 256x256 --rounds 9 ";
+  const auto check_others = [](const TemporaryFolder& folder, int rounds) {
+    const std::string energies = content_of(folder / "e.csv"), points = content_of(folder / "p.csv");
+    BOOST_TEST(std::count(energies.begin(), energies.end(), '\n') == rounds + 2);
+    BOOST_TEST(std::count(points.begin(), points.end(), '\n') == 201);
+  };
+  for (const std::string pictures : {"a.mp4", "%d.png"}) {
+    const TemporaryFolder folder;
+    const Result result =
+        run(folder, relax + "--energy ../e.csv --relaxed-points ../p.csv -o " + pictures, on_disk_of(4));
+    BOOST_TEST(result.exit_code == failure);
+    BOOST_TEST(result.error.find("writing ") != std::string::npos, result.error);
+    BOOST_TEST(!std::filesystem::exists(folder / "left/a.mp4"));
+    // That of a film may be noticed at its end.
+    const std::size_t says = result.error.find(" after ");
+    BOOST_TEST((says != std::string::npos || pictures == "a.mp4"), result.error);
+    check_others(folder, says == std::string::npos ? 9 : std::stoi(result.error.substr(says + 7)));
+  }
+
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/full", folder / "l.npy");
+  const Result labels = run(folder, relax + "-o a.png --labels l.npy --energy e.csv --relaxed-points p.csv");
+  BOOST_TEST(labels.exit_code == failure);
+  BOOST_TEST(labels.error.find("writing l.npy failed: No space left") != std::string::npos, labels.error);
+  BOOST_TEST(std::filesystem::exists(folder / "a.png"));
+  check_others(folder, 9);
+}
+
 BOOST_AUTO_TEST_CASE(a_file_that_is_replaced_keeps_its_mode) {
   const TemporaryFolder folder;
   for (const char* name : {"a.png", "a.npy", "f.mp4"}) {

@@ -35,43 +35,68 @@ static inline uint bin_of(const bins_t* bins, int2 place) {
   return start_of(bins, column_of(bins, place.x >> FRACTION_BITS), row_of(bins, place.y >> FRACTION_BITS));
 }
 
-// Counts the places of each bin, and numbers them there.
-kernel void count_points(global const int2* restrict places, uint count, int bits, int width, int height,
-                         global uint* restrict counts, global uint* restrict numbers) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= count || places[i].x == ABSENT) return;
-  const bins_t bins = bins_of(bits, width, height);
-  numbers[i] = atomic_inc(counts + bin_of(&bins, places[i]));
+// --- making it ---
+//
+// Items count the places of their chunks by bins, each in a table of its own, so that they need no atomics, which take
+// a CPU as long as all else. Where many items take one place each they share a table. The value behind that of a bin
+// is the next place of the bin's in the list, and in the end where the bin ends, which is where the next one begins.
+
+static inline uint take_one(global uint* next, uint chunk) { return chunk == 1 ? atomic_inc(next) : (*next)++; }
+
+static inline global uint* table_of(global uint* tables, uint item, uint chunk, const bins_t* bins) {
+  return tables + (chunk == 1 ? 0 : item * start_of(bins, 0, bins->rows));
 }
 
-// Gives each row of bins its part of the list. `starts` holds the counts, and one more value: how much is given.
-kernel void start_bins(global uint* restrict starts, int bits, int width, int height) {
+// Counts the places of each bin.
+kernel void count_points(global const int2* restrict places, uint count, uint chunk, int bits, int width, int height,
+                         global uint* restrict tables) {
+  const bins_t bins = bins_of(bits, width, height);
+  const uint item = (uint)get_global_id(0);
+  if (item * chunk >= count) return;
+  global uint* const table = table_of(tables, item, chunk, &bins);
+  for (uint i = item * chunk; i < min((item + 1) * chunk, count); ++i) {
+    if (places[i].x != ABSENT) take_one(table + bin_of(&bins, places[i]) + 1, chunk);
+  }
+}
+
+// Gives each row of bins its part of the list, and each table its part of a bin's, that of the first one last: it has
+// the ends of bins when all is listed. Behind the tables stands how much is given.
+kernel void start_bins(global uint* restrict tables, uint count, int bits, int width, int height) {
   const bins_t bins = bins_of(bits, width, height);
   const int row = (int)get_global_id(0);
   if (row >= bins.rows) return;
-  global uint* const of_row = starts + start_of(&bins, 0, row);
+  const uint size = start_of(&bins, 0, bins.rows), first = start_of(&bins, 0, row);
   uint sum = 0;
-  for (int x = 0; x < bins.columns; ++x) sum += of_row[x];
-  uint at = atomic_add(starts + start_of(&bins, 0, bins.rows), sum);
-  for (int x = 0; x < bins.columns; ++x) {
-    const uint of_bin = of_row[x];
-    of_row[x] = at;
-    at += of_bin;
+  for (uint t = 0; t < count; ++t) {
+    for (uint x = 1; x <= (uint)bins.columns; ++x) sum += tables[t * size + first + x];
   }
-  of_row[bins.columns] = at;
+  uint at = atomic_add(tables + count * size, sum);
+  tables[first] = at;
+  for (uint x = 1; x <= (uint)bins.columns; ++x) {
+    for (uint t = count; t-- > 0;) {
+      global uint* const next = tables + t * size + first + x;
+      const uint some = *next;
+      *next = at;
+      at += some;
+    }
+  }
 }
 
 // Writes the list: places, and the ids of their seeds, which are the places' own numbers unless they are given.
 kernel void list_points(global const int2* restrict places, global const uint* restrict ids, int has_ids, uint count,
-                        int bits, int width, int height, global const uint* restrict starts,
-                        global const uint* restrict numbers, global int2* restrict list,
-                        global uint* restrict list_ids) {
-  const uint i = (uint)get_global_id(0);
-  if (i >= count || places[i].x == ABSENT) return;
+                        uint chunk, int bits, int width, int height, global uint* restrict tables,
+                        global int2* restrict list, global uint* restrict list_ids) {
   const bins_t bins = bins_of(bits, width, height);
-  const uint at = starts[bin_of(&bins, places[i])] + numbers[i];
-  list[at] = places[i];
-  list_ids[at] = has_ids ? ids[i] : i;
+  const uint item = (uint)get_global_id(0);
+  if (item * chunk >= count) return;
+  global uint* const table = table_of(tables, item, chunk, &bins);
+  for (uint i = item * chunk; i < min((item + 1) * chunk, count); ++i) {
+    const int2 place = places[i];
+    if (place.x == ABSENT) continue;
+    const uint at = take_one(table + bin_of(&bins, place) + 1, chunk);
+    list[at] = place;
+    list_ids[at] = has_ids ? ids[i] : i;
+  }
 }
 
 // --- seeds on one point ---

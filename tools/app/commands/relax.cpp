@@ -1,6 +1,7 @@
 // vorocl relax: Lloyd relaxation of seeds, with exact diagrams.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -8,6 +9,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/sources/random_seeds.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
@@ -85,6 +87,17 @@ std::vector<Point> positions_of(const Seeds& seeds, const View& view) {
   return points;
 }
 
+/// What an Error says that this throws; empty: it throws none.
+template <typename Work>
+std::string trouble_of(const Work& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 std::string stamp_of_round(int round) { return fmt::format("round {}", round); }
 
 void write_energies(const OutputFile& file, const Relaxation& relaxation) {
@@ -106,14 +119,25 @@ std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<De
                                    const Input& input) {
   if (!density) return {};
   const Size size(input.view.window);
-  if (density->size == size) return std::move(density->values);
-  throw Error(fmt::format("{} is {} x {} pixels and the grid {} x {}; a density has a value for each pixel",
-                          options.density_path, density->size.width(), density->size.height(), size.width(),
-                          size.height()));
+  if (density->size != size) {
+    throw Error(fmt::format("{} is {} x {} pixels and the grid {} x {}; a density has a value for each pixel",
+                            options.density_path, density->size.width(), density->size.height(), size.width(),
+                            size.height()));
+  }
+  if (*std::max_element(density->values.begin(), density->values.end()) > 0)
+    return std::move(density->values);
+  throw Error(options.density_path + " is 0 everywhere; some pixel must weigh something");
 }
 
-Relaxation run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
-                      const Interruption& interruption, FrameWriter* writer, RelaxOptions&& how) {
+struct Course {
+  Relaxation relaxation;
+  std::string trouble;  // what ended it early; empty: nothing
+};
+
+/// A round that cannot be written ends it, as a signal does.
+Course run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
+                  const Interruption& interruption, FrameWriter* writer, RelaxOptions&& how) {
+  Course course;
   Progress progress({"rounds"});
   MeasureBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled) { return exact_diagram(at, filled); };
@@ -122,39 +146,58 @@ Relaxation run_rounds(const RelaxCommand& options, const Input& input, Seeds& se
     if (writer != nullptr) {
       FrameFacts facts = {round, round, stamp_of_round(round)};
       facts.values = input.values;
-      writer->add(std::move(facts), std::make_shared<Measures>(at, filled, input.ids, input.view, buffers));
+      const auto measures = std::make_shared<Measures>(at, filled, input.ids, input.view, buffers);
+      course.trouble = trouble_of([&] { writer->add(std::move(facts), measures); });
     }
     progress.show(round, options.rounds > 0 ? static_cast<double>(round) / options.rounds : 1);
-    return !interruption.came();
+    if (course.trouble.empty() && round < options.rounds && interruption.came()) {
+      course.trouble = "interrupted";
+    }
+    return course.trouble.empty();
   };
   const auto wait = [&] {
     if (writer != nullptr) writer->wait();  // it reads `buffers`
   };
-  Relaxation relaxation;
   try {
-    relaxation = relax(seeds, diagram, engine, options.rounds, observer, how);
+    course.relaxation = relax(seeds, diagram, engine, options.rounds, observer, how);
   } catch (...) {
     wait();
     throw;
   }
-  wait();
-  return relaxation;
+  const std::string late = trouble_of(wait);
+  if (course.trouble.empty()) course.trouble = late;
+  return course;
 }
 
-/// Returns the number of seeds without a pixel.
+/// Writes all that can be written, and then returns the number of seeds without a pixel, or throws the first
+/// trouble.
 std::size_t write_end(const Outputs& outputs, const RelaxCommand& options, const Input& input,
-                      const Seeds& seeds, const Diagram& diagram, const Relaxation& relaxation) {
+                      const Seeds& seeds, const Diagram& diagram, Course& course) {
+  const Relaxation& relaxation = course.relaxation;
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
-  if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
-  if (outputs.points) write_points(*outputs.points, positions_of(seeds, input.view), input.ids);
-  if (outputs.energy) write_energies(*outputs.energy, relaxation);
-  if (outputs.picture) {
-    const cv::Mat picture =
-        Painter(options.pictures.picture).draw(measures, input.values, stamp_of_round(relaxation.rounds()));
-    write_picture(*outputs.picture, picture);
+  if (!course.trouble.empty()) {
+    course.trouble +=
+        fmt::format(" after {}; the files show the last of them", counted(relaxation.rounds(), "round"));
   }
-  if (outputs.rounds) outputs.rounds->finish();
+  const auto attempt = [&](const auto& write) {
+    const std::string trouble = trouble_of(write);
+    if (course.trouble.empty()) course.trouble = trouble;
+  };
+  if (outputs.labels) attempt([&] { options.labels.kind.write(*outputs.labels, measures); });
+  if (outputs.points) {
+    attempt([&] { write_points(*outputs.points, positions_of(seeds, input.view), input.ids); });
+  }
+  if (outputs.energy) attempt([&] { write_energies(*outputs.energy, relaxation); });
+  if (outputs.picture) {
+    attempt([&] {
+      Painter painter(options.pictures.picture);
+      write_picture(*outputs.picture,
+                    painter.draw(measures, input.values, stamp_of_round(relaxation.rounds())));
+    });
+  }
+  if (outputs.rounds) attempt([&] { outputs.rounds->finish(); });
+  if (!course.trouble.empty()) throw Error(course.trouble);
   return measures.cell_count().empty;
 }
 
@@ -189,23 +232,27 @@ void run(RelaxCommand& options) {
   std::optional<DensityImage> density;
   if (!options.density_path.empty()) density = read_density(options.density_path);
   if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size;
-  const Input input = read_input(options.seeds);
+  Input input = read_input(options.seeds);
   RelaxOptions how;
   how.density = density_of_grid(options, std::move(density), input);
+  if (options.seeds.random > 0 && !how.density.empty()) {
+    input.place = [&](const Device& device) {
+      const Grid& grid = input.view.window.grid();
+      return Seeds(device, grid,
+                   random_points(grid, how.density, options.seeds.random, options.seeds.rng_seed),
+                   Outside::count, Snap::none);
+    };
+  }
   refuse_window(input, "relax");
   check_picture_size(options.pictures.picture, input.view.picture.size);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
-  const Relaxation relaxation =
+  Course course =
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get(), std::move(how));
-  const std::size_t empty_cells = write_end(outputs, options, input, seeds, diagram, relaxation);
-  if (!relaxation.converged && relaxation.rounds() < options.rounds) {
-    throw Error(fmt::format("interrupted after {}; the files show the last of them",
-                            counted(relaxation.rounds(), "round")));
-  }
-  print_result(options, seeds, relaxation, empty_cells);
+  const std::size_t empty_cells = write_end(outputs, options, input, seeds, diagram, course);
+  print_result(options, seeds, course.relaxation, empty_cells);
 }
 
 }  // namespace
@@ -228,7 +275,9 @@ void add_relax(CommandLine& line) {
           "--density", options->density_path,
           "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
           "as "
-          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its size")
+          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
+          "size, and "
+          "draws points by it")
       .value_name("IMAGE");
   add_device_option(command, options->device);
   add_film_options(

@@ -1,6 +1,8 @@
 #include "app/sources/random_seeds.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace vorocl::command {
 
@@ -9,8 +11,8 @@ namespace {
 std::uint32_t low(std::uint64_t product) { return static_cast<std::uint32_t>(product); }
 std::uint32_t high(std::uint64_t product) { return static_cast<std::uint32_t>(product >> 32); }
 
-/// Philox-4x32-10 of a counter whose other words are 0, as in kernels/core/philox.cl: its first two words.
-std::array<std::uint32_t, 2> philox(std::uint32_t counter, std::uint64_t key) {
+/// Philox-4x32-10 of a counter whose other words are 0, as in kernels/core/philox.cl.
+std::array<std::uint32_t, 4> philox(std::uint32_t counter, std::uint64_t key) {
   std::array<std::uint32_t, 4> words = {counter, 0, 0, 0};
   std::uint32_t key_0 = low(key), key_1 = high(key);
   for (int round = 0; round < 10; ++round) {
@@ -21,7 +23,7 @@ std::array<std::uint32_t, 2> philox(std::uint32_t counter, std::uint64_t key) {
     key_0 += 0x9e3779b9u;
     key_1 += 0xbb67ae85u;
   }
-  return {words[0], words[1]};
+  return words;
 }
 
 double centre_below(std::uint32_t bits, std::int64_t count) {
@@ -31,8 +33,29 @@ double centre_below(std::uint32_t bits, std::int64_t count) {
 }  // namespace
 
 Point random_pixel(const Grid& grid, std::uint32_t id, std::uint64_t rng_seed) {
-  const std::array<std::uint32_t, 2> bits = philox(id, rng_seed);
+  const std::array<std::uint32_t, 4> bits = philox(id, rng_seed);
   return {centre_below(bits[0], grid.width()), centre_below(bits[1], grid.height())};
+}
+
+std::vector<Point> random_points(const Grid& grid, const std::vector<float>& density, std::size_t count,
+                                 std::uint64_t rng_seed) {
+  std::vector<double> sums;  // up to and with each pixel
+  sums.reserve(density.size());
+  double sum = 0;
+  for (const double of_pixel : density) sums.push_back(sum += std::sqrt(of_pixel));
+  std::vector<Point> points;
+  points.reserve(count);
+  for (std::size_t id = 0; id < count; ++id) {
+    const std::array<std::uint32_t, 4> bits = philox(static_cast<std::uint32_t>(id), rng_seed);
+    // Below the sum of all, also when it is rounded.
+    const double at =
+        std::ldexp(static_cast<double>((std::uint64_t{bits[0]} << 32 | bits[1]) >> 11), -53) * sum;
+    const std::int64_t pixel = std::upper_bound(sums.begin(), sums.end(), at) - sums.begin();
+    const std::int64_t x = pixel % grid.width(), y = pixel / grid.width();
+    points.push_back({static_cast<double>(x) + std::ldexp(bits[2], -32),
+                      static_cast<double>(y) + std::ldexp(bits[3], -32)});
+  }
+  return points;
 }
 
 void RandomMotion::operator()(Seeds& seeds, Window&, int frame) const {
