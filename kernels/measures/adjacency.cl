@@ -28,8 +28,8 @@ kernel void find_borders(global const uint* restrict labels, global const uint* 
   }
 }
 
-// Counts each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell. Seeds
-// that are absent own nothing: their pairs leave the table.
+// Counts each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell.
+// Seeds that are absent own nothing: their pairs leave the table.
 kernel void count_pairs(global const seed_t* restrict seeds, uint slot_count, global uint* restrict table,
                         global uint* restrict pairs, global uint* restrict neighbours,
                         global uint* restrict perimeters) {

@@ -27,8 +27,8 @@ static inline bool takes(global uint* word, uint id) {
 }
 
 // Adds to the border of the cells p and q. The pairs of one cell are side by side first, for its borders are found one
-// soon after the other; where these slots are taken the others are everywhere, and far apart: with many neighbours of few
-// cells those side by side are all taken.
+// soon after the other. Where these slots are taken the others are everywhere, and far apart: where few cells have many
+// neighbours, all slots beside those are taken too.
 static inline void add_border(uint p, uint q, uint size, TABLE_PARAMETERS) {
   const uint a = min(p, q), b = max(p, q), hash = hash_of(a, b), step = hash * 0x9e3779b1u | 1u;
   for (uint probe = 0; probe < MOST_PROBES; ++probe) {

@@ -77,7 +77,7 @@ kernel void join_sums(global const uint* restrict positions, uint count, int4 si
 
 // The voxels alone, in the same way.
 kernel void clear_areas(global const uint* restrict positions, uint count, int4 size, int4 bits,
-                        global uint* restrict area, global ushort* restrict home, global ushort* restrict home_area) {
+                        global uint* restrict area, global ushort* restrict home, global uint* restrict home_area) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   area[id] = 0;
@@ -86,7 +86,7 @@ kernel void clear_areas(global const uint* restrict positions, uint count, int4 
 }
 
 kernel void add_areas(global const uint* restrict labels, uint count, int4 size, int4 bits, global uint* restrict area,
-                      global const ushort* restrict home, global ushort* restrict home_area) {
+                      global const ushort* restrict home, global uint* restrict home_area) {
   cuboid_t block;
   if (!take_cuboid(size, bits, &block)) return;
   for (int z = block.first.z; z < block.end.z; ++z) {
@@ -98,7 +98,7 @@ kernel void add_areas(global const uint* restrict labels, uint count, int4 size,
         if (label >= count) continue;
         const uint length = (uint)(walk.to - walk.from);
         if (home[label] == block.index) {
-          home_area[label] += (ushort)length;
+          home_area[label] += length;
         } else {
           atomic_add(area + label, length);
         }
@@ -108,7 +108,7 @@ kernel void add_areas(global const uint* restrict labels, uint count, int4 size,
 }
 
 kernel void join_areas(global const uint* restrict positions, uint count, global uint* restrict area,
-                       global const ushort* restrict home_area) {
+                       global const uint* restrict home_area) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   area[id] = positions[id] & EMPTY ? 0 : area[id] + home_area[id];

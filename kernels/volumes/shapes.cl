@@ -16,8 +16,9 @@ kernel void clear_shapes(uint count, global int* restrict boxes, global int* res
   if (id < count) clear_shape(id, boxes, distances);
 }
 
-// As in kernels/measures/shapes.cl a run adds only what the rows beside it leave to it: those above, below, in front and
-// behind. A row that is not there is the row itself, in which no voxel decides.
+// As in kernels/measures/shapes.cl a run adds only what the rows beside it leave to it: those above, below, in front
+// and behind. A row that is not there is the row itself, in which no voxel decides. The middle of a run says best whether
+// the cell goes on in the next row: at its ends the cell's border runs in and out.
 kernel void add_shapes(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
                        int height, int rows, int wide, int high, global int* restrict boxes,
                        global int* restrict distances) {
@@ -36,10 +37,8 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
-      const int first = walk.from, last = walk.to - 1;
+      const int first = walk.from, last = walk.to - 1, middle = (first + last) / 2;
       global int* const box = boxes + SIDES * (size_t)label;
-      const bool goes_up = has_above && above[first] == label, goes_down = has_below && below[first] == label;
-      const bool goes_forth = has_front && front[first] == label, goes_back = has_back && back[first] == label;
       if (first == 0 || !(row[first - 1] == label || above[first - 1] == label || below[first - 1] == label ||
                           front[first - 1] == label || back[first - 1] == label)) {
         atomic_min(box, first);
@@ -48,23 +47,22 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
                                  front[last + 1] == label || back[last + 1] == label)) {
         atomic_max(box + 3, last);
       }
-      if (!goes_up) atomic_min(box + 1, y);
-      if (!goes_forth) atomic_min(box + 2, z);
-      if (!goes_down) atomic_max(box + 4, y);
-      if (!goes_back) atomic_max(box + 5, z);
+      if (!has_above || above[middle] != label) atomic_min(box + 1, y);
+      if (!has_front || front[middle] != label) atomic_min(box + 2, z);
+      if (!has_below || below[middle] != label) atomic_max(box + 4, y);
+      if (!has_back || back[middle] != label) atomic_max(box + 5, z);
 
       const uint seed = positions[label];
       const int way_y = y - y_of(seed), way_z = z - z_of(seed);
       const int beside = ALONG(way_y) + ALONG(way_z);
-      if (!(way_y < 0 ? goes_up : goes_down) && !(way_z < 0 ? goes_forth : goes_back)) {
-        const int way = first - x_of(seed);
-        atomic_max(distances + label, beside + ALONG(way));
-      }
       global const uint* const away_y = way_y < 0 ? above : below;
       global const uint* const away_z = way_z < 0 ? front : back;
+      const int first_way = first - x_of(seed), last_way = last - x_of(seed);
+      if ((away_y == row || away_y[first] != label) && (away_z == row || away_z[first] != label)) {
+        atomic_max(distances + label, beside + ALONG(first_way));
+      }
       if ((away_y == row || away_y[last] != label) && (away_z == row || away_z[last] != label)) {
-        const int way = last - x_of(seed);
-        atomic_max(distances + label, beside + ALONG(way));
+        atomic_max(distances + label, beside + ALONG(last_way));
       }
     }
   }

@@ -70,8 +70,7 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
     if (count > 0) fill(device, *numbers, cl_uint{0}, count);
   }
   const Blocks blocks(device, grid);
-  const auto mask = static_cast<cl_uint>(slot_count - 1),
-             of_cell = static_cast<cl_uint>(slots_of_cell(grid));
+  const auto mask = static_cast<cl_uint>(slot_count - 1), of_cell = static_cast<cl_uint>(slots_of_cell(grid));
   if (grid.is_volume()) {
     blocks.run(kernels, "volumes/adjacency.cl", "find_faces", options, labels, count, grid.width(),
                grid.height(), static_cast<cl_int>(grid.rows()), blocks.wide(), blocks.high(), mask, of_cell,
@@ -80,10 +79,9 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
     blocks.run(kernels, file, "find_borders", options, labels, row_behind(diagram, labels, behind), count,
                grid.width(), grid.height(), blocks.wide(), blocks.high(), mask, of_cell, table, overflow);
   }
-  const cl::Event ended =
-      kernels.get(device, file, "count_pairs", grid, options)
-          .over_items(slot_count, diagram.positions(), static_cast<cl_uint>(slot_count), table, pairs_of_cell,
-                      neighbours, perimeters);
+  const cl::Event ended = kernels.get(device, file, "count_pairs", grid, options)
+                              .over_items(slot_count, diagram.positions(), static_cast<cl_uint>(slot_count),
+                                          table, pairs_of_cell, neighbours, perimeters);
   return {begun, ended};
 }
 

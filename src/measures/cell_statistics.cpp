@@ -38,7 +38,7 @@ cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
   const cl_uint count = of.count();
   make_room(statistics.area, of.device, count * sizeof(cl_uint));
   make_room(statistics.home, of.device, count * sizeof(cl_ushort));
-  make_room(statistics.home_area, of.device, count * sizeof(cl_ushort));
+  make_room(statistics.home_area, of.device, count * sizeof(cl_uint));  // of planes half is used
   const char* const file = file_of(of);
   const KernelOptions options = of.options_without_metric();
   const auto run_over_cells = [&](const char* name, const auto&... arguments) {
@@ -46,9 +46,8 @@ cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
   };
   const cl::Event first = run_over_cells("clear_areas", of.positions(), count, numbers..., statistics.area,
                                          statistics.home, statistics.home_area);
-  const cl::Event added =
-      blocks.run(statistics.kernels, file, "add_areas", options, labels, count, numbers..., statistics.area,
-                 statistics.home, statistics.home_area);
+  const cl::Event added = blocks.run(statistics.kernels, file, "add_areas", options, labels, count,
+                                     numbers..., statistics.area, statistics.home, statistics.home_area);
   run_over_cells("join_areas", of.positions(), count, statistics.area, statistics.home_area);
   return count > 0 ? first : added;
 }

@@ -65,8 +65,9 @@ Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
   };
   const cl::Event first = run_over_cells("clear_sums", of.positions(), count, width, height, wide, high,
                                          sums.area, sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
-  const cl::Event added = blocks.run(sums.kernels, file, "add_sums", options, labels, count, width, height,
-                                     wide, high, sums.area, sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
+  const cl::Event added =
+      blocks.run(sums.kernels, file, "add_sums", options, labels, count, width, height, wide, high, sums.area,
+                 sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
   cl::Event last = run_over_cells("join_sums", of.positions(), count, width, wide, high, sums.area,
                                   sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
   if (of.grid.periodic() != Periodic::none && count > 0) {
@@ -76,8 +77,8 @@ Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
     }
     // Only in a tilted grid the metric says where a pixel lies.
     const KernelOptions of_places = of.shift() == 0 ? options : of.options();
-    blocks.run(sums.kernels, file, "add_periods", of_places, labels, of.positions(), count, of.periods(), width,
-               height, wide, high, sums.periods_x, sums.periods_y);
+    blocks.run(sums.kernels, file, "add_periods", of_places, labels, of.positions(), count, of.periods(),
+               width, height, wide, high, sums.periods_x, sums.periods_y);
     last = run_over_cells("unwrap_sums", count, of.periods(), width, height, sums.periods_x, sums.periods_y,
                           sums.area, sums.sum_x, sums.sum_y);
   }
@@ -95,8 +96,8 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
   make_room(sums.sum_x, of.device, count * sizeof(cl_long));
   make_room(sums.sum_y, of.device, count * sizeof(cl_long));
   make_room(sums.home, of.device, count * sizeof(cl_ushort));
-  const auto [first, last] = of.grid.is_volume() ? sum_voxels(sums, of, diagram.labels())
-                                                 : sum_pixels(sums, of, diagram.labels());
+  const auto [first, last] =
+      of.grid.is_volume() ? sum_voxels(sums, of, diagram.labels()) : sum_pixels(sums, of, diagram.labels());
   return measuring.commit(std::move(of), first, last);
 }
 

@@ -34,8 +34,7 @@ constexpr bool fits_home_sums(const BlockShape& shape) {
 }
 static_assert(fits_home_sums(on_a_cpu) && fits_home_sums(on_a_gpu));
 
-/// The blocks of a volume have fewer than 2^16 voxels, so that areas at home fit (see kernels/volumes/cells.cl).
-const cl_int4 cuboids_on_a_cpu = {{6, 5, 4, 0}}, cuboids_on_a_gpu = {{5, 2, 1, 0}};
+const cl_int4 cuboids_on_a_cpu = {{6, 6, 6, 0}}, cuboids_on_a_gpu = {{5, 2, 1, 0}};
 
 std::size_t blocks_along(std::size_t pixels, int bits) { return ((pixels - 1) >> bits) + 1; }
 
@@ -93,7 +92,8 @@ Blocks::Blocks(const Device& device, const PixelGrid& grid)
       grid_(grid),
       wide_(shape_of_blocks(device).wide),
       high_(shape_of_blocks(device).high),
-      count_(blocks_along(static_cast<std::size_t>(grid.width()), wide_) * blocks_along(grid.rows(), high_)) {}
+      count_(blocks_along(static_cast<std::size_t>(grid.width()), wide_) * blocks_along(grid.rows(), high_)) {
+}
 
 Cuboids::Cuboids(const Device& device, const PixelGrid& grid)
     : device_(with_groups_for_blocks(device)),
