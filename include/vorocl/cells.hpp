@@ -40,8 +40,8 @@ struct CellSums {
   VOROCL_API Point3 centroid3() const;
 };
 
-/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, in a volume back < front,
-/// and largest_distance -1.
+/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, in a volume back <
+/// front, and largest_distance -1.
 struct CellShape {
   int left = 0, top = 0, right = 0,
       bottom = 0;               ///< the bounding box of the pixels, where CellSums counts them
@@ -137,8 +137,8 @@ class VOROCL_API CellStatisticsResult {
 
 /// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
 /// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
-/// with few seeds as with many; 30 bytes of device memory per seed, in a volume 46. Enqueues and returns. Throws Error if the
-/// diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+/// with few seeds as with many; 30 bytes of device memory per seed, in a volume 46. Enqueues and returns.
+/// Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
 VOROCL_API Report cell_sums(const Diagram& diagram, CellSumsResult& result);
 
 /// Finds the extent of every cell: its bounding box, whether it touches the window's border, and how far its

@@ -17,8 +17,8 @@ kernel void clear_shapes(uint count, global int* restrict boxes, global int* res
 }
 
 // As in kernels/measures/shapes.cl a run adds only what the rows beside it leave to it: those above, below, in front
-// and behind. A row that is not there is the row itself, in which no voxel decides. The middle of a run says best whether
-// the cell goes on in the next row: at its ends the cell's border runs in and out.
+// and behind. A row that is not there is the row itself, in which no voxel decides. The middle of a run says best
+// whether the cell goes on in the next row: at its ends the cell's border runs in and out.
 kernel void add_shapes(global const uint* restrict labels, global const uint* restrict positions, uint count, int width,
                        int height, int rows, int wide, int high, global int* restrict boxes,
                        global int* restrict distances) {

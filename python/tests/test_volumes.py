@@ -81,7 +81,8 @@ def test_objects_take_volumes():
 def test_cells_are_those_of_scikit_image(shape):
     points = points_in(shape, 40, 5)
     points[7] = np.nan
-    diagram = vorocl.Diagram(shape).fill(vorocl.Seeds(points, shape), method="jfa")
+    diagram = vorocl.Diagram(shape)
+    diagram.fill(vorocl.Seeds(points, shape), method="jfa")
     labels, cells = diagram.read(), diagram.cells()
     assert cells.dtype == vorocl.CELL3
     assert np.isnan(cells["x"][7]) and cells["volume"][7] == 0 and np.isnan(cells["centroid_z"][7])
@@ -105,7 +106,8 @@ def test_cells_are_those_of_scikit_image(shape):
 @pytest.mark.parametrize("shape", SHAPES)
 def test_adjacent_cells_share_faces(shape):
     points = points_in(shape, 40, 6)
-    diagram = vorocl.Diagram(shape).fill(vorocl.Seeds(points, shape), method="jfa")
+    diagram = vorocl.Diagram(shape)
+    diagram.fill(vorocl.Seeds(points, shape), method="jfa")
     labels, expected = diagram.read(), {}
     for axis in range(3):
         beside = np.moveaxis(labels, axis, 0)
