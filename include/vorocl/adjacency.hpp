@@ -51,7 +51,8 @@ class VOROCL_API AdjacencyResult {
   /// uint32 per cell: the cells it shares an edge with. Waits, as the device says whether all were found.
   const cl::Buffer& neighbours() const;
 
-  /// uint32 per cell: the pixel edges it shares with them; in a volume the faces, its surface. Waits likewise.
+  /// uint32 per cell: the pixel edges it shares with them; in a volume the faces, its surface. Waits
+  /// likewise.
   const cl::Buffer& perimeters() const;
 
   std::vector<CellPair> read_pairs() const;
@@ -71,9 +72,10 @@ class VOROCL_API AdjacencyResult {
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
 /// table on the device, and sorting the pairs; about 200 bytes of device memory per seed, in a volume
-/// 350. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading the result finds
-/// them again in a larger one; it throws Error if the diagram has been filled or written since. Throws Error
-/// if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+/// 350. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading
+/// the result finds them again in a larger one; it throws Error if the diagram has been filled or written
+/// since. Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little
+/// memory.
 VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 
 /// What vertices() found, on the device; as AdjacencyResult.
