@@ -52,12 +52,22 @@ std::vector<Point> spread_points(std::size_t count, double width, double height)
   return points;
 }
 
-/// All measures of a diagram, and of how it stands to another one. Those of points have no whole distances.
-void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
+/// Measures of cells, which planes and volumes have. Returns how many cells there are.
+std::size_t measure_cells(const Diagram& diagram) {
   CellSumsResult sums;
   CellShapesResult shapes;
   CellStatisticsResult statistics;
   AdjacencyResult pairs;
+  cell_sums(diagram, sums);
+  cell_shapes(diagram, shapes);
+  cell_statistics(diagram, statistics);
+  adjacency(diagram, pairs);
+  pairs.read_pairs();  // results launch kernels of their own where they are read
+  return shapes.size();
+}
+
+/// All measures of a diagram, and of how it stands to another one. Those of points have no whole distances.
+void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   VerticesResult vertices_found;
   Field<std::int32_t> squares;
   Field<float> distances;
@@ -65,21 +75,17 @@ void measure(const Diagram& diagram, const Diagram& other, Snap snap) {
   Field<std::uint32_t> mapped, expanded;
   SimilarityResult labels, within;
   DistanceErrorsResult wrong;
-  cell_sums(diagram, sums);
-  cell_shapes(diagram, shapes);
-  cell_statistics(diagram, statistics);
-  adjacency(diagram, pairs);
+  const std::size_t cells = measure_cells(diagram);
   vertices(diagram, vertices_found);
   if (snap == Snap::to_pixels) distance_field(diagram, squares);
   distance_field(diagram, distances);
   border_mask(diagram, borders);
-  map_labels(diagram, std::vector<std::uint32_t>(shapes.size()), mapped);
+  map_labels(diagram, std::vector<std::uint32_t>(cells), mapped);
   expand_labels(diagram, 5, expanded);
   similarity(diagram, other, labels);
   similarity(diagram, other, 0.5, within);
   distance_errors(diagram, other, wrong);
   diagram.wait();
-  pairs.read_pairs();  // results launch kernels of their own where they are read
   vertices_found.read();
 }
 
@@ -116,6 +122,7 @@ void prepare_volumes(const Device& device) {
     expand_labels(diagram, 5, expanded);
     similarity(diagram, other, labels);
     distance_errors(other, diagram, wrong);
+    measure_cells(diagram);
     diagram.wait();
   }
 }

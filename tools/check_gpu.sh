@@ -40,7 +40,7 @@ kernel_files() {
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
   echo kernels/exact/points/pixels.cl
-  printf 'kernels/volumes/%s.cl\n' jump_flooding measures seeds
+  printf 'kernels/volumes/%s.cl\n' adjacency cells jump_flooding measures seeds shapes
 }
 
 work=$(mktemp -d)

@@ -55,6 +55,9 @@ KERNEL_TESTS = [
     ("core/plane.cl", ["test_window", "test_window_measures"]),
     ("measures/seed_place.cl", ["test_window_measures"] + MEASURES),
     ("core/tiles.cl", ["test_tiles"]),
+    ("volumes/adjacency.cl", ["test_volume_cells"]), ("volumes/blocks.cl", ["test_volume_cells"]),
+    ("volumes/cells.cl", ["test_volume_cells"]), ("volumes/shapes.cl", ["test_volume_cells"]),
+    ("measures/pair_table.cl", ["test_adjacency", "test_volume_cells"]),
     ("measures/adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("measures/runs.cl", MEASURES),
     ("measures/vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
 ]

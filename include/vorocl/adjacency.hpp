@@ -15,10 +15,10 @@ namespace vorocl {
 struct AdjacencyState;
 struct VerticesState;
 
-/// Two cells that share a pixel edge.
+/// Two cells that share a pixel edge, in a volume a voxel face.
 struct CellPair {
   std::uint32_t a = 0, b = 0;  ///< their ids, a < b
-  std::uint32_t length = 0;    ///< the pixel edges they share
+  std::uint32_t length = 0;    ///< the pixel edges they share; in a volume the faces, an area
 
   friend bool operator==(const CellPair& p, const CellPair& q) {
     return p.a == q.a && p.b == q.b && p.length == q.length;
@@ -51,7 +51,8 @@ class VOROCL_API AdjacencyResult {
   /// uint32 per cell: the cells it shares an edge with. Waits, as the device says whether all were found.
   const cl::Buffer& neighbours() const;
 
-  /// uint32 per cell: the pixel edges it shares with them. Waits likewise.
+  /// uint32 per cell: the pixel edges it shares with them; in a volume the faces, its surface. Waits
+  /// likewise.
   const cl::Buffer& perimeters() const;
 
   std::vector<CellPair> read_pairs() const;
@@ -66,14 +67,15 @@ class VOROCL_API AdjacencyResult {
 /// Finds the pairs of cells that share a pixel edge, and the length of their common border. Pixels without a
 /// label, or with that of an absent seed, belong to no cell, and the window's edge is no border. Where the
 /// first row of a tilted grid follows the last one, pixels lie between pixels: one there is taken to share an
-/// edge with the one that it has more in common with.
+/// edge with the one that it has more in common with. In a volume the same is said of voxels and their faces.
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
-/// table on the device, and sorting the pairs; about 200 bytes of device memory per seed. Enqueues and
-/// returns. Where cells in many pieces have more neighbours than the table holds, reading the result finds
-/// them again in a larger one; it throws Error if the diagram has been filled or written since. Throws Error
-/// if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+/// table on the device, and sorting the pairs; about 200 bytes of device memory per seed, in a volume
+/// 350. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading
+/// the result finds them again in a larger one; it throws Error if the diagram has been filled or written
+/// since. Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little
+/// memory.
 VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 
 /// What vertices() found, on the device; as AdjacencyResult.

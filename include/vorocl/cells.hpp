@@ -1,4 +1,4 @@
-// Measures of the cells of a diagram: area, centroid, extent.
+// Measures of the cells of a diagram: area, centroid, extent; of a volume their volume for area.
 #pragma once
 
 #include <cstdint>
@@ -24,22 +24,30 @@ struct CellStatisticsState;
 ///
 /// In a tilted grid a pixel lies the shortest of all ways from the seed, in the diagram's metric, and perhaps
 /// between pixels: then `sum_x` is rounded, and a bounding box has the pixels that hold the centres.
+///
+/// A measure has one name in planes and volumes: the area of a volume's cell is its volume, in voxels.
 struct CellSums {
-  std::uint32_t area = 0;  ///< pixels
-  std::int64_t sum_x = 0;  ///< of the pixels' columns, from the window's first one on ...
-  std::int64_t sum_y = 0;  ///< ... and rows
+  std::uint32_t area = 0;  ///< pixels, in a volume voxels
+  std::int64_t sum_x = 0;  ///< of the pixels' columns, from the window's first one on, ...
+  std::int64_t sum_y = 0;  ///< ... rows ...
+  std::int64_t sum_z = 0;  ///< ... and slices: 0 in a plane
 
   /// The mean of the centres of the pixels, in pixels from the window's first one; (NaN, NaN) of an empty
   /// cell.
   VOROCL_API Point centroid() const;
+
+  /// The same in a volume.
+  VOROCL_API Point3 centroid3() const;
 };
 
-/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top and largest_distance -1.
+/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, in a volume back <
+/// front, and largest_distance -1.
 struct CellShape {
   int left = 0, top = 0, right = 0,
       bottom = 0;               ///< the bounding box of the pixels, where CellSums counts them
   double largest_distance = 0;  ///< of its pixels to its seed, in pixels; squared if Euclidean
   bool touches_border = false;  ///< it has a pixel next to a border; a periodic axis has none
+  int front = 0, back = 0;      ///< of the box of a volume's cell: its first slice and its last one
 };
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
@@ -63,6 +71,7 @@ class VOROCL_API CellSumsResult {
   const cl::Buffer& area() const;   ///< uint32 per cell
   const cl::Buffer& sum_x() const;  ///< int64 per cell
   const cl::Buffer& sum_y() const;  ///< int64 per cell
+  const cl::Buffer& sum_z() const;  ///< int64 per cell; null unless a volume was measured
 
   /// Waits. Throws BadPoint if the frame of the seeds had one.
   std::vector<CellSums> read() const;
@@ -81,7 +90,9 @@ class VOROCL_API CellShapesResult {
   CellShapesResult& operator=(CellShapesResult&& other) noexcept;
 
   std::size_t size() const;
-  const cl::Buffer& boxes() const;  ///< int32 left, top, right, bottom per cell
+
+  /// int32 left, top, right, bottom per cell; in a volume left, top, front, right, bottom, back.
+  const cl::Buffer& boxes() const;
 
   /// int32 per cell. A null buffer if a seed lies so far outside the window that its distances may need more
   /// bits; read() gives them in any case.
@@ -126,8 +137,8 @@ class VOROCL_API CellStatisticsResult {
 
 /// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
 /// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
-/// with few seeds as with many; 30 bytes of device memory per seed. Enqueues and returns. Throws Error if the
-/// diagram knows no seeds (see Diagram::write()) or the device has too little memory.
+/// with few seeds as with many; 30 bytes of device memory per seed, in a volume 46. Enqueues and returns.
+/// Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
 VOROCL_API Report cell_sums(const Diagram& diagram, CellSumsResult& result);
 
 /// Finds the extent of every cell: its bounding box, whether it touches the window's border, and how far its

@@ -145,8 +145,9 @@ class VOROCL_API Axis {
 /// far larger than what a diagram can hold, which covers a Window of it.
 ///
 /// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
-/// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), distance_errors(), similarity(),
-/// distance_field() and expand_labels() take volumes, of which no axis is periodic; others throw Error.
+/// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(), cell_shapes(),
+/// cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and expand_labels() take
+/// volumes, of which no axis is periodic; others throw Error.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}

@@ -2,11 +2,7 @@
 
 #include "measures/runs.cl"
 #include "measures/seed_place.cl"
-
-// 64-bit sums without 64-bit atomics, which OpenCL C 1.2 leaves to chance: a pair (low word, high word) and a carry.
-static inline void add_to_pair(global uint* pair, uint value) {
-  if (atomic_add(pair, value) > 0xffffffffu - value) atomic_inc(pair + 1);
-}
+#include "measures/sums.cl"
 
 // Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs
 // no atomics, for no other work-item adds to the same place. Blocks are so small that three sums fit in 64 bits

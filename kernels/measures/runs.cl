@@ -5,7 +5,7 @@
 // The grid is cut into blocks; a work-item walks through the rows of one block. The host chooses the blocks' shape:
 // large ones for a CPU, small ones for a GPU, which needs many work-items.
 
-#include "core/position.cl"
+#include "core/vector.cl"
 
 // A block's pixels: x in [left, right), y in [top, bottom).
 typedef struct {

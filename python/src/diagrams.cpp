@@ -165,6 +165,20 @@ void expand(DiagramObject& diagram, double distance, const Array<std::uint32_t>&
   field.read(first);
 }
 
+/// What is measured of one cell, besides how its seed is given.
+struct CellMeasures {
+  const CellSums& sums;
+  const CellShape& shape;
+  std::uint32_t perimeter, neighbours;
+  Metric metric;
+
+  /// NaN of an empty cell.
+  double farthest() const {
+    if (sums.area == 0) return std::numeric_limits<double>::quiet_NaN();
+    return metric == Metric::euclidean ? std::sqrt(shape.largest_distance) : shape.largest_distance;
+  }
+};
+
 /// One cell, as CELL in vorocl/_objects.py says it: in pixels.
 struct Row {
   double x, y, centroid_x, centroid_y, largest_distance;
@@ -173,17 +187,30 @@ struct Row {
   bool touches_border;
 };
 
-Row row_of(const std::optional<Point>& seed, const CellSums& sums, const CellShape& shape,
-           std::uint32_t perimeter, std::uint32_t neighbours, Metric metric) {
+Row row_of(const std::optional<Point>& seed, const CellMeasures& cell) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Point place = seed.value_or(Point{none, none}), centroid = sums.centroid();
-  if (sums.area == 0) {
-    return {place.x, place.y, centroid.x, centroid.y, none, 0, perimeter, neighbours, 0, 0, -1, -1, false};
-  }
-  const double farthest =
-      metric == Metric::euclidean ? std::sqrt(shape.largest_distance) : shape.largest_distance;
-  return {place.x,    place.y,    centroid.x, centroid.y,  farthest,     sums.area,           perimeter,
-          neighbours, shape.left, shape.top,  shape.right, shape.bottom, shape.touches_border};
+  const Point place = seed.value_or(Point{none, none}), centroid = cell.sums.centroid();
+  const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false};
+  return {place.x,        place.y,        centroid.x,        centroid.y, cell.farthest(),
+          cell.sums.area, cell.perimeter, cell.neighbours,   box.left,   box.top,
+          box.right,      box.bottom,     box.touches_border};
+}
+
+/// One cell of a volume, as CELL3 there: in voxels.
+struct Row3 {
+  double x, y, z, centroid_x, centroid_y, centroid_z, largest_distance;
+  std::uint32_t volume, surface, neighbours;
+  std::int32_t left, top, front, right, bottom, back;
+  bool touches_border;
+};
+
+Row3 row_of(const std::optional<Point3>& seed, const CellMeasures& cell) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const Point3 place = seed.value_or(Point3{none, none, none}), centroid = cell.sums.centroid3();
+  const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false, 0, -1};
+  return {place.x,         place.y,        place.z,        centroid.x,      centroid.y,        centroid.z,
+          cell.farthest(), cell.sums.area, cell.perimeter, cell.neighbours, box.left,          box.top,
+          box.front,       box.right,      box.bottom,     box.back,        box.touches_border};
 }
 
 /// The seeds that the labels name.
@@ -194,27 +221,42 @@ const Seeds& seeds_of(const DiagramObject& diagram) {
   return *diagram.seeds;
 }
 
+/// The rows of all cells, whose seeds are at these places.
+template <typename Place>
+auto measure_cells(DiagramObject& diagram, const std::vector<std::optional<Place>>& places) {
+  const Metric metric = diagram.diagram.metric();
+  cell_sums(diagram.diagram, diagram.sums);
+  cell_shapes(diagram.diagram, diagram.shapes);
+  adjacency(diagram.diagram, diagram.adjacency);
+  const auto sums = diagram.sums.read();
+  const auto shapes = diagram.shapes.read();
+  const auto perimeters = diagram.adjacency.read_perimeters(),
+             neighbours = diagram.adjacency.read_neighbours();
+  std::vector<decltype(row_of(places.front(), std::declval<CellMeasures>()))> rows;
+  rows.reserve(places.size());
+  for (std::size_t id = 0; id < places.size(); ++id) {
+    rows.push_back(row_of(places[id], {sums[id], shapes[id], perimeters[id], neighbours[id], metric}));
+  }
+  return rows;
+}
+
 nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) {
   std::vector<Row> rows;
+  std::vector<Row3> rows_of_volume;
+  bool is_volume = false;
   {
     const nb::gil_scoped_release unlocked;
     const Turn turn(diagram.mutex);
     const Seeds& seeds = seeds_of(diagram);
-    const Metric metric = diagram.diagram.metric();
-    cell_sums(diagram.diagram, diagram.sums);
-    cell_shapes(diagram.diagram, diagram.shapes);
-    adjacency(diagram.diagram, diagram.adjacency);
-    const auto places = seeds.read_pixels();
-    const auto sums = diagram.sums.read();
-    const auto shapes = diagram.shapes.read();
-    const auto perimeters = diagram.adjacency.read_perimeters(),
-               neighbours = diagram.adjacency.read_neighbours();
-    rows.reserve(places.size());
-    for (std::size_t id = 0; id < places.size(); ++id) {
-      rows.push_back(row_of(places[id], sums[id], shapes[id], perimeters[id], neighbours[id], metric));
+    is_volume = seeds.grid().is_volume();
+    if (is_volume) {
+      rows_of_volume = measure_cells(diagram, seeds.read_voxels());
+    } else {
+      rows = measure_cells(diagram, seeds.read_pixels());
     }
   }
-  return to_numpy<std::uint8_t>(std::move(rows));
+  return is_volume ? to_numpy<std::uint8_t>(std::move(rows_of_volume))
+                   : to_numpy<std::uint8_t>(std::move(rows));
 }
 
 /// Pixels, by id.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import vorocl
 from scipy import ndimage
-from skimage import segmentation
+from skimage import measure, segmentation
 
 SHAPES = [(9, 14, 23), (40, 33, 37)]
 
@@ -73,7 +73,54 @@ def test_objects_take_volumes():
     simulation = vorocl.Simulation(shape)
     simulation.step([(0, 0, 0), (4, 4, 4)])
     assert simulation.step([(0, 0, 3), (4, 4, 4)]).read().shape == shape
+    assert simulation.diagram.cells()["volume"].sum() == 6 * 7 * 8
     assert simulation.seeds.move_to([(0, 0, 0), (4, 4, 4)]) == 3
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_cells_are_those_of_scikit_image(shape):
+    points = points_in(shape, 40, 5)
+    points[7] = np.nan
+    diagram = vorocl.Diagram(shape)
+    diagram.fill(vorocl.Seeds(points, shape), method="jfa")
+    labels, cells = diagram.read(), diagram.cells()
+    assert cells.dtype == vorocl.CELL3
+    assert np.isnan(cells["x"][7]) and cells["volume"][7] == 0 and np.isnan(cells["centroid_z"][7])
+    assert np.array_equal(diagram.areas(), cells["volume"])
+    x, y, z = (np.floor(points) + 0.5).T
+    for name, expected in ("x", x), ("y", y), ("z", z):
+        assert np.array_equal(cells[name], expected, equal_nan=True)
+    distances = diagram.distances()
+    for region in measure.regionprops(labels.astype(int) + 1):
+        cell = cells[region.label - 1]
+        assert cell["volume"] == region.area
+        centroid = [cell["centroid_z"], cell["centroid_y"], cell["centroid_x"]]
+        assert np.allclose(centroid, np.array(region.centroid) + 0.5, rtol=1e-12)
+        first, last = region.bbox[:3], np.array(region.bbox[3:]) - 1
+        assert [cell["front"], cell["top"], cell["left"]] == list(first)
+        assert [cell["back"], cell["bottom"], cell["right"]] == list(last)
+        assert cell["touches_border"] == (0 in first or (last == np.array(shape) - 1).any())
+        assert np.isclose(cell["largest_distance"], distances[labels == region.label - 1].max(), rtol=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_adjacent_cells_share_faces(shape):
+    points = points_in(shape, 40, 6)
+    diagram = vorocl.Diagram(shape)
+    diagram.fill(vorocl.Seeds(points, shape), method="jfa")
+    labels, expected = diagram.read(), {}
+    for axis in range(3):
+        beside = np.moveaxis(labels, axis, 0)
+        for a, b in zip(beside[:-1].ravel().tolist(), beside[1:].ravel().tolist()):
+            if a != b:
+                pair = min(a, b), max(a, b)
+                expected[pair] = expected.get(pair, 0) + 1
+    pairs, areas = diagram.adjacency()
+    assert dict(zip(map(tuple, pairs.tolist()), areas.tolist())) == expected
+    surface = np.zeros(40, int)
+    for pair, faces in expected.items():
+        surface[list(pair)] += faces
+    assert np.array_equal(diagram.cells()["surface"], surface)
 
 
 @exact_alone
@@ -137,7 +184,7 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), metric="manhattan"), "are Euclidean"),
     (lambda: vorocl.diagram([(1, 2, 9)], (4, 5, 6)), "outside the volume"),
     (lambda: vorocl.diagram([(1, 2, 3)], (2000, 2000, 2000)), r"2\^31 in all"),
-    (lambda: vorocl.cells([(1, 2, 3)], (4, 5, 6)), "which this measure cannot take"),
+    (lambda: vorocl.vertices([(1, 2, 3)], (4, 5, 6)), "which this measure cannot take"),
     (lambda: vorocl.relax([(1, 2, 3)], (4, 5, 6)), "Lloyd relaxation cannot take"),
     (lambda: vorocl.distance_transform_edt(np.ones((3, 4, 5))), "no zero"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, 2)), "the same along all axes"),

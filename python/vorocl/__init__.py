@@ -38,7 +38,7 @@ from ._functions import (
     similarity,
     vertices,
 )
-from ._objects import CELL, Diagram, Seeds, Simulation
+from ._objects import CELL, CELL3, Diagram, Seeds, Simulation
 from ._preparation import prepare
 from ._vorocl import DeviceDescription, DistanceErrors, Report
 
@@ -46,6 +46,7 @@ __all__ = [
     "BadArgument",
     "BadPoint",
     "CELL",
+    "CELL3",
     "Device",
     "DeviceDescription",
     "DeviceError",

@@ -474,6 +474,10 @@ def cells(
         Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
         say so, ``perimeter_px`` and ``largest_distance_px``.
 
+        In a volume the dtype is ``vorocl.CELL3``, all in voxels: there are ``z``, ``centroid_z``, ``front`` and ``back``
+        (the first and last slices) too, ``volume`` stands for the area, and ``surface``, of the voxel faces that the
+        cell shares with others, for the perimeter.
+
     Raises
     ------
     BadPoint, BadArgument, DeviceMemoryError, DeviceError
@@ -489,6 +493,8 @@ def cells(
     >>> whole = vorocl.cells([(1, 0.5)], (4, 8), bounds=(0, 0, 4, 2), y_up=True)[0]
     >>> whole[["area", "centroid_x", "centroid_y", "top"]].tolist()
     (8.0, 2.0, 1.0, 2.0)
+    >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["volume", "centroid_z", "surface"]].tolist()
+    [(18, 1.0, 6), (18, 1.0, 6)]
     """
     to_units(units, True)
     return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).cells(units=units)
@@ -519,7 +525,8 @@ def areas(
     Returns
     -------
     ndarray
-        Shape (N,), by row of `points`, as the field ``area`` of `cells`: uint32 in pixels, else float64.
+        Shape (N,), by row of `points`, as the field ``area`` of `cells`: uint32 in pixels, else float64. In a volume
+        the volumes, uint32 in voxels.
 
     Raises
     ------
@@ -568,7 +575,8 @@ def adjacency(
         uint32, shape (M, 2): rows (a, b) with a < b, each pair once, sorted.
     lengths : ndarray
         Shape (M,): of the pixel edges that the cells share; uint32 in pixels, else float64. Where pixels are no squares
-        in the units of `bounds` a length has no scale: then ``units="pixels"`` is needed.
+        in the units of `bounds` a length has no scale: then ``units="pixels"`` is needed. In a volume the areas of
+        contact: of the voxel faces that the cells share.
 
     Raises
     ------

@@ -54,6 +54,30 @@ CELL = np.dtype(
 )
 """One row of `cells` in pixels."""
 
+CELL3 = np.dtype(
+    [
+        ("x", np.float64),
+        ("y", np.float64),
+        ("z", np.float64),
+        ("centroid_x", np.float64),
+        ("centroid_y", np.float64),
+        ("centroid_z", np.float64),
+        ("largest_distance", np.float64),
+        ("volume", np.uint32),
+        ("surface", np.uint32),
+        ("neighbours", np.uint32),
+        ("left", np.int32),
+        ("top", np.int32),
+        ("front", np.int32),
+        ("right", np.int32),
+        ("bottom", np.int32),
+        ("back", np.int32),
+        ("touches_border", np.bool_),
+    ],
+    align=True,
+)
+"""One row of `cells` of a volume, in voxels."""
+
 
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
     if not isinstance(seeds, Seeds):
@@ -405,6 +429,8 @@ class Diagram(OnDevice):
         """
         in_data = to_units(units, self._are_in_data)
         rows = self._diagram.cells()
+        if len(self._shape) == 3:  # volumes have voxels for units
+            return rows.view(CELL3).reshape(len(rows))
         cells = rows.view(CELL).reshape(len(rows))
         return self._in_data(cells) if in_data else cells
 

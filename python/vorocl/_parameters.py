@@ -22,8 +22,9 @@ truth : {"snapped", "true"}, optional
     "shape": """\
 shape : (int, int)
     The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
-    flood take up to 32,000. Or a volume, (D, H, W) in voxels, which `diagram`, `distances`, `errors`, `Seeds`,
-    `Diagram` and `Simulation` take: sides up to 16,384, and as many voxels as 2048 x 1024 x 1024.""",
+    flood take up to 32,000. Or a volume, (D, H, W) in voxels, which `diagram`, `distances`, `cells`, `areas`,
+    `adjacency`, `errors`, `Seeds`, `Diagram` and `Simulation` take: sides up to 16,384, and as many voxels as
+    2048 x 1024 x 1024.""",
     "method": """\
 method : str, optional
     "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",

@@ -9,18 +9,20 @@ namespace vorocl {
 
 namespace {
 
-/// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. Cells
-/// in many pieces may have more neighbours; then it grows.
-constexpr std::size_t slots_per_seed = 8;  // SLOTS_OF_CELL of adjacency.cl
+/// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. In
+/// space random cells have 15.5 neighbours, which are 7.8 pairs per cell: half full. Cells in many pieces may
+/// have more; then it grows.
+std::size_t slots_of_cell(const PixelGrid& grid) { return grid.is_volume() ? 16 : 8; }
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
 constexpr std::size_t words_per_pair = 3;
 constexpr std::size_t word = sizeof(cl_uint);
-constexpr cl_uint empty_slot = 0xffffffffu;  // EMPTY_SLOT of adjacency.cl
+constexpr cl_uint no_pair = 0xffffffffu;  // NO_PAIR of pair_table.cl
 
-std::size_t first_slots(std::size_t seeds) {
+std::size_t first_slots(const MeasuredDiagram& of) {
+  const std::size_t wanted = slots_of_cell(of.grid) * of.count();
   std::size_t slots = least_slots;
-  while (slots < slots_per_seed * seeds && slots < most_slots) slots *= 2;
+  while (slots < wanted && slots < most_slots) slots *= 2;
   return slots;
 }
 
@@ -29,7 +31,7 @@ std::size_t first_slots(std::size_t seeds) {
 /// The table is made, and what it says of single cells. Whether it was large enough, and how many pairs it
 /// holds, the host asks when somebody reads.
 struct AdjacencyState : Measured {
-  cl::Buffer slots, seconds, lengths, overflow;      // the table: see adjacency.cl
+  cl::Buffer table, overflow;                        // see pair_table.cl
   cl::Buffer neighbours, perimeters, pairs_of_cell;  // by cell
   cl::Buffer first, placed, pair_list;               // the list
   std::size_t slot_count = 0;
@@ -54,28 +56,32 @@ struct AdjacencyState : Measured {
 std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diagram, std::size_t in_slots) {
   const Device& device = diagram.device;
   const cl_uint count = diagram.count();
-  const int width = diagram.grid.width(), height = diagram.grid.height();
+  const PixelGrid& grid = diagram.grid;
   const char* const file = "measures/adjacency.cl";
   const KernelOptions options = diagram.options_without_metric();
   slot_count = in_slots;
   large_enough = listed = false;
-  for (cl::Buffer* const table : {&slots, &seconds, &lengths}) make_room(*table, device, slot_count * word);
+  make_room(table, device, slot_count * words_per_pair * word);
   make_room(overflow, device, word);
-  const cl::Event begun = fill(device, slots, empty_slot, slot_count);
-  fill(device, lengths, cl_uint{0}, slot_count);
+  const cl::Event begun = fill(device, table, no_pair, slot_count * words_per_pair);
   fill(device, overflow, cl_uint{0}, 1);
   for (cl::Buffer* const numbers : {&neighbours, &perimeters, &pairs_of_cell}) {
     make_room(*numbers, device, count * word);
     if (count > 0) fill(device, *numbers, cl_uint{0}, count);
   }
-  const Blocks blocks(device, diagram.grid);
-  const cl::Buffer& row = row_behind(diagram, labels, behind);
-  blocks.run(kernels, file, "find_borders", options, labels, row, count, width, height, blocks.wide(),
-             blocks.high(), static_cast<cl_uint>(slot_count - 1), slots, lengths, overflow);
-  const cl::Event ended = kernels.get(device, file, "name_pairs", diagram.grid, options)
-                              .over_items(slot_count, labels, row, diagram.positions(), width, height,
-                                          static_cast<cl_uint>(slot_count), slots, seconds, lengths,
-                                          pairs_of_cell, neighbours, perimeters);
+  const Blocks blocks(device, grid);
+  const auto mask = static_cast<cl_uint>(slot_count - 1), of_cell = static_cast<cl_uint>(slots_of_cell(grid));
+  if (grid.is_volume()) {
+    blocks.run(kernels, "volumes/adjacency.cl", "find_faces", options, labels, count, grid.width(),
+               grid.height(), static_cast<cl_int>(grid.rows()), blocks.wide(), blocks.high(), mask, of_cell,
+               table, overflow);
+  } else {
+    blocks.run(kernels, file, "find_borders", options, labels, row_behind(diagram, labels, behind), count,
+               grid.width(), grid.height(), blocks.wide(), blocks.high(), mask, of_cell, table, overflow);
+  }
+  const cl::Event ended = kernels.get(device, file, "count_pairs", grid, options)
+                              .over_items(slot_count, diagram.positions(), static_cast<cl_uint>(slot_count),
+                                          table, pairs_of_cell, neighbours, perimeters);
   return {begun, ended};
 }
 
@@ -119,8 +125,7 @@ void AdjacencyState::list() {
     kernels.get(device, "measures/adjacency.cl", name, of->grid, of->options_without_metric())
         .over_items(items, arguments...);
   };
-  run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), slots, seconds, lengths, first, placed,
-      pair_list);
+  run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), table, first, placed, pair_list);
   run("sort_pairs", cells, of->count(), first, pair_list);
   pairs = sum;
   listed = true;
@@ -178,11 +183,11 @@ std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
 Report adjacency(const Diagram& diagram, AdjacencyResult& result) {
   Measuring<AdjacencyState> measuring(result);
   AdjacencyState& found = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   found.labels = diagram.labels();
   found.fills = Internal::state(diagram).fills;
   found.fill_measured = *found.fills;
-  const auto [first, last] = found.find(of, first_slots(of.count()));
+  const auto [first, last] = found.find(of, first_slots(of));
   return measuring.commit(std::move(of), first, last);
 }
 

@@ -12,6 +12,13 @@ struct CellShapesState : Measured {
   bool is_far() const { return !empty() && of->is_far(); }
 };
 
+namespace {
+
+/// Left, top, right, bottom; in a volume left, top, front, right, bottom, back.
+std::size_t sides_of_box(const PixelGrid& grid) { return grid.is_volume() ? 6 : 4; }
+
+}  // namespace
+
 CellShapesResult::CellShapesResult() = default;
 CellShapesResult::~CellShapesResult() = default;
 CellShapesResult::CellShapesResult(CellShapesResult&& other) noexcept = default;
@@ -26,21 +33,25 @@ const cl::Buffer& CellShapesResult::largest_distances() const {
 Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   Measuring<CellShapesState> measuring(result);
   CellShapesState& shapes = measuring.state();
-  MeasuredDiagram of = cells_of(diagram);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   const cl_uint count = of.count();
+  const bool is_volume = of.grid.is_volume();
   cl::Buffer& words = of.is_far() ? shapes.upper_words : shapes.distances;
-  make_room(shapes.boxes, of.device, count * sizeof(cl_int4));
+  make_room(shapes.boxes, of.device, count * sides_of_box(of.grid) * sizeof(cl_int));
   make_room(words, of.device, count * sizeof(cl_int));
-  const char* const file = "measures/shapes.cl";
+  const char* const file = is_volume ? "volumes/shapes.cl" : "measures/shapes.cl";
   const cl::Event first = shapes.kernels.get(of.device, file, "clear_shapes", of.grid, of.options())
                               .over_items(count, count, shapes.boxes, words);
   const Blocks blocks(of.device, of.grid);
-  const auto run = [&](const char* name, const cl::Buffer& one, const cl::Buffer& other) {
+  const int width = of.grid.width(), height = of.grid.height();
+  const auto run = [&](const char* name, const auto&... arguments) {
     return blocks.run(shapes.kernels, file, name, of.options(), diagram.labels(), of.positions(), count,
-                      of.periods(), of.grid.width(), of.grid.height(), blocks.wide(), blocks.high(), one,
-                      other);
+                      arguments...);
   };
-  cl::Event last = run("add_shapes", shapes.boxes, words);
+  cl::Event last = is_volume ? run("add_shapes", width, height, static_cast<cl_int>(of.grid.rows()),
+                                   blocks.wide(), blocks.high(), shapes.boxes, words)
+                             : run("add_shapes", of.periods(), width, height, blocks.wide(), blocks.high(),
+                                   shapes.boxes, words);
   if (of.seeds->may_lack_some() && count > 0) {
     last = shapes.kernels.get(of.device, file, "clear_absent", of.grid, of.options())
                .over_items(count, of.positions(), count, shapes.boxes, words);
@@ -48,12 +59,19 @@ Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   if (of.is_far()) {
     make_room(shapes.lower_words, of.device, count * sizeof(cl_uint));
     if (count > 0) fill(of.device, shapes.lower_words, cl_uint{0}, count);
-    last = run("add_lower_words", shapes.upper_words, shapes.lower_words);
+    last = run("add_lower_words", of.periods(), width, height, blocks.wide(), blocks.high(),
+               shapes.upper_words, shapes.lower_words);
   }
   return measuring.commit(std::move(of), count > 0 ? first : last, last);
 }
 
 namespace {
+
+bool touches_border(const CellShape& cell, const PixelGrid& grid) {
+  return (!grid.periodic_x() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
+         (!grid.periodic_y() && (cell.top == 0 || cell.bottom == grid.height() - 1)) ||
+         (grid.is_volume() && (cell.front == 0 || cell.back == grid.depth() - 1));
+}
 
 /// Those of empty cells are negative.
 std::vector<double> largest_distances_on_host(const CellShapesState& shapes) {
@@ -79,16 +97,21 @@ std::vector<CellShape> CellShapesResult::read() const {
   if (size() == 0) return {};
   const MeasuredDiagram& of = *state_->of;
   of.check();
-  const auto boxes = download<cl_int4>(of.device, state_->boxes, size());
-  const auto distances = largest_distances_on_host(*state_);
   const PixelGrid& grid = of.grid;
+  const std::size_t sides = sides_of_box(grid), axes = sides / 2;
+  const auto boxes = download<cl_int>(of.device, state_->boxes, size() * sides);
+  const auto distances = largest_distances_on_host(*state_);
   std::vector<CellShape> cells;
   cells.reserve(size());
   for (std::size_t id = 0; id < size(); ++id) {
-    const int left = boxes[id].s[0], top = boxes[id].s[1], right = boxes[id].s[2], bottom = boxes[id].s[3];
-    const bool touches = (!grid.periodic_x() && (left == 0 || right == grid.width() - 1)) ||
-                         (!grid.periodic_y() && (top == 0 || bottom == grid.height() - 1));
-    cells.push_back({left, top, right, bottom, distances[id], touches});
+    const cl_int *const first = boxes.data() + id * sides, *const last = first + axes;
+    CellShape cell = {first[0], first[1], last[0], last[1], distances[id], false};
+    if (grid.is_volume()) {
+      cell.front = first[2];
+      cell.back = last[2];
+    }
+    cell.touches_border = touches_border(cell, grid);
+    cells.push_back(cell);
   }
   return cells;
 }

@@ -7,7 +7,7 @@
 namespace vorocl {
 
 struct CellSumsState : Measured {
-  cl::Buffer area, sum_x, sum_y;
+  cl::Buffer area, sum_x, sum_y, sum_z;              // the last one of volumes
   cl::Buffer home, home_sums, periods_x, periods_y;  // while the sums are made: see cells.cl
 };
 

@@ -19,6 +19,7 @@ Point point_in(const Window& window, const Point& position) {
 }  // namespace
 
 std::vector<CellRow> cell_table(const Diagram& diagram) {
+  refuse_volume(diagram.window().grid(), "a table of cells");
   CellSumsResult sums_of_cells;
   CellShapesResult shapes_of_cells;
   AdjacencyResult pairs;

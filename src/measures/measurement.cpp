@@ -34,7 +34,9 @@ constexpr bool fits_home_sums(const BlockShape& shape) {
 }
 static_assert(fits_home_sums(on_a_cpu) && fits_home_sums(on_a_gpu));
 
-std::size_t blocks_along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
+const cl_int4 cuboids_on_a_cpu = {{6, 6, 6, 0}}, cuboids_on_a_gpu = {{5, 2, 1, 0}};
+
+std::size_t blocks_along(std::size_t pixels, int bits) { return ((pixels - 1) >> bits) + 1; }
 
 }  // namespace
 
@@ -90,6 +92,15 @@ Blocks::Blocks(const Device& device, const PixelGrid& grid)
       grid_(grid),
       wide_(shape_of_blocks(device).wide),
       high_(shape_of_blocks(device).high),
-      count_(blocks_along(grid.width(), wide_) * blocks_along(grid.height(), high_)) {}
+      count_(blocks_along(static_cast<std::size_t>(grid.width()), wide_) * blocks_along(grid.rows(), high_)) {
+}
+
+Cuboids::Cuboids(const Device& device, const PixelGrid& grid)
+    : device_(with_groups_for_blocks(device)),
+      grid_(grid),
+      bits_(works_in_vectors(device) ? cuboids_on_a_cpu : cuboids_on_a_gpu),
+      count_(blocks_along(static_cast<std::size_t>(grid.width()), bits_.s[0]) *
+             blocks_along(static_cast<std::size_t>(grid.height()), bits_.s[1]) *
+             blocks_along(static_cast<std::size_t>(grid.depth()), bits_.s[2])) {}
 
 }  // namespace vorocl

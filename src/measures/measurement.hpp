@@ -127,7 +127,7 @@ const cl::Buffer& buffer_of(const std::unique_ptr<State>& state, cl::Buffer Stat
   return state && !state->empty() ? (*state).*buffer : none;
 }
 
-/// The blocks of a grid, one per work-item.
+/// The blocks of a grid, one per work-item; of a volume those of the image of all its rows.
 class Blocks {
  public:
   Blocks(const Device& device, const PixelGrid& grid);
@@ -148,6 +148,30 @@ class Blocks {
   Device device_;
   PixelGrid grid_;
   int wide_, high_;
+  std::size_t count_;
+};
+
+/// The blocks of a volume that are as deep as they are high, one per work-item.
+class Cuboids {
+ public:
+  Cuboids(const Device& device, const PixelGrid& grid);
+
+  cl_int4 size() const { return {{grid_.width(), grid_.height(), grid_.depth(), 0}}; }
+
+  /// They have 2^bits voxels along each axis.
+  cl_int4 bits() const { return bits_; }
+
+  /// Enqueues a kernel that starts with take_cuboid() of kernels/volumes/blocks.cl.
+  template <typename... Arguments>
+  cl::Event run(KernelSet& kernels, const char* file, const char* name, const KernelOptions& options,
+                const Arguments&... arguments) const {
+    return kernels.get(device_, file, name, grid_, options).over_items(count_, arguments...);
+  }
+
+ private:
+  Device device_;
+  PixelGrid grid_;
+  cl_int4 bits_;
   std::size_t count_;
 };
 

@@ -2,10 +2,15 @@
 #define BOOST_TEST_MODULE volumes_command
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
+#include <sstream>
 
 #include "formats/npy.hpp"
 #include "run_command.hpp"
@@ -56,6 +61,96 @@ BOOST_AUTO_TEST_CASE(labels_are_written_slice_after_slice) {
   BOOST_TEST((result["seeds"] == 12 && result["method"] == method_of_device()));
 }
 
+namespace {
+
+/// A table's rows below its header, as numbers; NAN where there is none.
+std::vector<std::vector<double>> rows_of(const std::string& table) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(table);
+  std::string line, value;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    std::vector<double>& row = rows.emplace_back();
+    std::istringstream values(line + ",");
+    while (std::getline(values, value, ',')) row.push_back(value.empty() ? NAN : std::stod(value));
+  }
+  return rows;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(tables_of_cells_are_those_of_the_labels) {
+  const TemporaryFolder folder;
+  const Labels labels = expected_labels();
+  const auto result = nlohmann::json::parse(
+      succeeds(folder,
+               "cells --random 12 --rng-seed 3 --size 24x20x16 --cells a.csv --adjacency b.csv --labels "
+               "a.npy --json --method " +
+                   method_of_device()));
+  const std::string cells = content_of(folder / "a.csv"), pairs = content_of(folder / "b.csv");
+  BOOST_TEST(cells.rfind("id,x,y,z,volume,centroid_x,centroid_y,centroid_z,left,top,front,right,bottom,back,"
+                         "surface,neighbours,largest_distance,touches_border\n",
+                         0) == 0u);
+  BOOST_TEST(pairs.rfind("a,b,area\n", 0) == 0u);
+  BOOST_TEST((content_of(folder / "a.npy") ==
+              command::npy_header<std::uint32_t>({depth, height, width}) + bytes_of(labels)));
+
+  std::map<std::pair<double, double>, double> faces;
+  const int sides[] = {width, height, depth}, strides[] = {1, width, width * height};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int at = static_cast<int>(i) / strides[axis] % sides[axis];
+      if (at + 1 == sides[axis]) continue;
+      const std::uint32_t a = labels[i], b = labels[i + static_cast<std::size_t>(strides[axis])];
+      if (a != b) ++faces[std::minmax(double(a), double(b))];
+    }
+  }
+  const auto found_pairs = rows_of(pairs);
+  BOOST_TEST_REQUIRE(found_pairs.size() == faces.size());
+  for (const auto& row : found_pairs) BOOST_TEST((faces[{row[0], row[1]}] == row[2]));
+  const auto found = rows_of(cells);
+  BOOST_TEST_REQUIRE(found.size() == 12u);
+  double volumes = 0;
+  for (std::size_t id = 0; id < 12; ++id) {
+    const auto& row = found[id];
+    double count = 0, sum_z = 0, front = 1e9, back = -1, surface = 0, farthest = -1;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] != id) continue;
+      const double x = static_cast<double>(i % 24) + 0.5, y = static_cast<double>(i / 24 % 20) + 0.5,
+                   z = static_cast<double>(i / 480) + 0.5;
+      ++count;
+      sum_z += z;
+      front = std::min(front, z - 0.5);
+      back = std::max(back, z - 0.5);
+      farthest = std::max(farthest, std::hypot(x - row[1], y - row[2], z - row[3]));
+    }
+    for (const auto& [ids, area] : faces) surface += ids.first == row[0] || ids.second == row[0] ? area : 0;
+    volumes += count;
+    BOOST_TEST((row[0] == static_cast<double>(id) && row[4] == count && row[10] == front && row[13] == back));
+    BOOST_TEST((row[14] == surface && std::abs(row[7] - sum_z / count) < 1e-9));
+    BOOST_TEST(std::abs(row[16] - farthest) < 1e-9);
+  }
+  BOOST_TEST((result["cells"] == 12 && result["empty_cells"] == 0 && result["unlabelled_voxels"] == 0));
+  BOOST_TEST((result["pairs"] == faces.size() && result["mean_volume"] == volumes / 12));
+}
+
+/// Waves that do not reach all voxels, and seeds that share a voxel, are counted.
+BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) {
+  const TemporaryFolder folder;
+  const std::string crowded = "render --random 40 --size 3x2x2 --method jfa --labels a.npy";
+  const Grid grid(3, 2, 2);
+  std::set<std::size_t> taken;
+  for (const auto& voxel : Seeds::random(test_device(), grid, 40, 1).read_voxels()) {
+    taken.insert(static_cast<std::size_t>(voxel->x) + 3 * static_cast<std::size_t>(voxel->y) +
+                 6 * static_cast<std::size_t>(voxel->z));
+  }
+  const std::size_t empty = 40 - taken.size();
+  BOOST_TEST(succeeds(folder, crowded).find(fmt::format("{} of 40 seeds own no voxel", empty)) !=
+             std::string::npos);
+  const auto result = nlohmann::json::parse(succeeds(folder, crowded + " --json"));
+  BOOST_TEST((result["empty_cells"] == empty && result["unlabelled_voxels"] == 0));
+}
+
 BOOST_AUTO_TEST_CASE(pictures_show_slices) {
   const TemporaryFolder folder;
   const Labels labels = expected_labels();
@@ -104,10 +199,22 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
           {"made of --random seeds"});
   refuses(folder, "render --random 3 --size 8x8 --slice z=1 -o a.png", usage, {"--slice is for volumes"});
   refuses(folder, "render --random 3 --size 8x8x --labels a.npy", usage, {"WxHxD, such as 256x256x256"});
-  refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage, {"0 pixels"});
+  refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage,
+          {"the depth is 0", "from 1 to 16384 voxels"});
   refuses(folder, "render --random 3 --size 4096x4096x4096 --labels a.npy", failure,
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
-  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv", usage, {"vorocl render alone"});
+  refuses(folder, "cells --random 3 --size 8x8x8", usage,
+          {"nothing to write", "--cells, --adjacency, --labels"});
+  for (const std::string other : {"--exact", "--distance b.npy", "--border b.npy", "--cell-columns id",
+                                  "--periodic x", "--snap", "--units px"}) {
+    refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
+            {other.substr(0, other.find(' ')) + " is for planes"});
+  }
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
+  refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
+          {"16385", "from 1 to 16384 voxels"});
+  refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,
+          {"vorocl render and vorocl cells make"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
-          {"vorocl render alone"});
+          {"vorocl render and vorocl cells make"});
 }

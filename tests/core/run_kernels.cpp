@@ -144,6 +144,19 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
   }
 }
 
+/// Of seeds of which one is absent. Blocks are small here.
+void measure_volume(const Diagram& diagram) {
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  CellStatisticsResult statistics;
+  AdjacencyResult pairs;
+  cell_sums(diagram, sums);
+  cell_shapes(diagram, shapes);
+  cell_statistics(diagram, statistics);
+  adjacency(diagram, pairs);
+  pairs.read_pairs();
+}
+
 /// Volumes of few seeds, and of many in a part of them.
 void make_volumes(const Device& device) {
   const Grid grid(20, 12, 9);
@@ -168,6 +181,14 @@ void make_volumes(const Device& device) {
     expand_labels(flooded, 2, near_ones);
     in_a_part.move_to(std::vector<Point3>{{1, 2, 3}});
     if (in_a_part.displacement() == 0) throw Error("the seeds' way is wrong");
+    for (const int vector_width : {1, 4}) {
+      const Device measuring = device.with_tuning({vector_width, 4, 2, Shape::vector, 32});
+      points[1].x = 1000;
+      const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point3));
+      Diagram measured(measuring, grid);
+      jump_flooding(Seeds(measuring, grid, outside, Outside::absent), measured);
+      measure_volume(measured);
+    }
     device.finish();
   }
 }

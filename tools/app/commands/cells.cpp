@@ -4,6 +4,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/commands/cells_volume.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/exact_cells.hpp"
 #include "app/options/option_groups.hpp"
@@ -96,6 +97,17 @@ void run_exact(const Command& command, const CellsOptions& options) {
                    cells.kind.table()->columns, options.json});
 }
 
+/// The options that a volume has. Throws UsageError for the others.
+VolumeCells volume_of(const Command& command, const CellsOptions& options) {
+  for (const char* const name : {"--exact", "--distance", "--border", "--cell-columns", "--periodic",
+                                 "--snap", "--no-snap", "--frame", "--units"}) {
+    if (command.has(name))
+      throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
+  }
+  return {options.seeds,         options.method,        options.method_options, options.device,
+          options.files[0].path, options.files[1].path, options.files[4].path,  options.json};
+}
+
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
   const Input input = read_input(options.seeds);
@@ -116,7 +128,7 @@ void add_cells(CommandLine& line) {
   const auto options = std::make_shared<CellsOptions>();
   Command command =
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
-  add_seed_options(command, options->seeds);
+  add_seed_options(command, options->seeds, 1, false, true);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
@@ -136,6 +148,10 @@ void add_cells(CommandLine& line) {
       .value_name("FILE")
       .needs(exact);
   command.set_work([command, options] {
+    if (options->seeds.depth > 1) {
+      check_method_options(command, {options->method}, options->method_options);
+      return measure_volume(volume_of(command, *options));
+    }
     if (options->exact) return run_exact(command, *options);
     check_method_options(command, {options->method}, options->method_options);
     snap_for(options->method, options->seeds);

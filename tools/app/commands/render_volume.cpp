@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/terminal/console.hpp"
@@ -68,26 +69,13 @@ void check_picture(const VolumeRendering& options) {
 }
 
 void check(const VolumeRendering& options, const Grid& grid) {
-  if (options.seeds.random == 0) {
-    throw UsageError(
-        "--size WxHxD: a volume is made of --random seeds; points and masks of volumes are for Python");
-  }
-  SeedOptions of_a_plane = options.seeds;
-  of_a_plane.depth = 1;
-  check_seed_options(of_a_plane);
-  if (!options.method.volumes) {
-    std::string names;
-    for (const Method& method : methods()) {
-      if (method.volumes) names += (names.empty() ? "" : ", ") + method.name;
-    }
-    throw UsageError("the method " + options.method.name + " is for planes; volumes have " + names);
-  }
+  check_volume(options.seeds, options.method);
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE with --slice z=K, --labels FILE or both");
   }
   check_slice(options, grid);
   check_picture(options);
-  check_outputs(requested_files(options), of_a_plane);
+  check_outputs(requested_files(options), options.seeds);
 }
 
 std::vector<std::uint32_t> labels_in(const Plane& plane, const std::vector<std::uint32_t>& labels) {
@@ -131,25 +119,35 @@ void draw(const OutputFile& file, const VolumeRendering& options, const Seeds& s
   write_picture(file, Painter(options.picture).draw(measures, {}));
 }
 
+/// How many seeds own no voxel, and how many voxels have no label.
+struct Missing {
+  std::size_t cells, labels;
+};
+
+Missing missing_in(const std::vector<std::uint32_t>& labels, const Seeds& seeds) {
+  std::vector<bool> has_voxels(seeds.size());
+  std::size_t cells = 0, unlabelled = 0;
+  for (const std::uint32_t label : labels) {
+    if (label == no_label) {
+      ++unlabelled;
+    } else if (!has_voxels.at(label)) {
+      has_voxels[label] = true;
+      ++cells;
+    }
+  }
+  return {seeds.alive() - cells, unlabelled};
+}
+
 void print_result(const VolumeRendering& options, const Seeds& seeds, const Diagram& diagram,
-                  const Report& report) {
-  const Grid& grid = seeds.grid();
+                  const Report& report, const Missing& missing) {
   if (options.json) {
-    print_json(Json{{"method", options.method.name},
-                    {"metric", to_string(diagram.metric())},
-                    {"device", seeds.device().name()},
-                    {"width", grid.width()},
-                    {"height", grid.height()},
-                    {"depth", grid.depth()},
-                    {"seeds", seeds.alive()},
-                    {"waves", report.waves()},
-                    {"milliseconds", report.milliseconds()},
-                    {"host_milliseconds", report.host_milliseconds()}});
+    Json json = json_of_volume(options.method, seeds, diagram, report);
+    json.update(Json{{"empty_cells", missing.cells}, {"unlabelled_voxels", missing.labels}});
+    print_json(json);
     return;
   }
-  print("{}: {} on {} x {} x {} voxels in {:.1f} ms, {}, on {}\n", options.method.name,
-        counted(seeds.alive(), "seed"), grid.width(), grid.height(), grid.depth(), report.milliseconds(),
-        counted(report.waves(), "wave"), seeds.device().name());
+  print_volume(options.method, seeds, report);
+  print_cells_of_volume(missing.cells, seeds.alive(), missing.labels);
   print_written(requested_files(options));
 }
 
@@ -163,8 +161,7 @@ VolumeSlice parse_slice(const std::string& text) {
 }
 
 void render_volume(const VolumeRendering& options) {
-  const Size& size = *options.seeds.size;
-  const VolumeSize sides = {size.width(), size.height(), options.seeds.depth};
+  const VolumeSize sides = volume_size(options.seeds);
   const Grid grid = sides.grid();
   check(options, grid);
   const std::optional<OutputFile> picture = open_output(options.picture_path);
@@ -177,7 +174,7 @@ void render_volume(const VolumeRendering& options) {
   const std::vector<std::uint32_t> labels = diagram.read();
   if (label_file) write_volume(*label_file, sides, labels);
   if (picture) draw(*picture, options, seeds, diagram, labels);
-  print_result(options, seeds, diagram, report);
+  print_result(options, seeds, diagram, report, missing_in(labels, seeds));
 }
 
 }  // namespace vorocl::command

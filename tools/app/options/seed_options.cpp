@@ -102,7 +102,11 @@ Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
   if (second == std::string::npos) return parse_size(text);
   const auto slices = parse_number<std::int64_t>(text.substr(second + 1));
   if (!slices) throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
-  depth = Axis(*slices).pixels();
+  if (*slices < 1 || *slices > Window::max_side_of_volume) {
+    throw Error(
+        fmt::format("the depth is {}; it must be from 1 to {} voxels", *slices, Window::max_side_of_volume));
+  }
+  depth = *slices;
   return parse_size(text.substr(0, second));
 }
 

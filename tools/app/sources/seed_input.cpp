@@ -125,7 +125,8 @@ CsvPoints read_points(const SeedOptions& options) {
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.depth > 1) {
-    throw UsageError("--size WxHxD asks for a volume, which vorocl render alone makes, of --random seeds");
+    throw UsageError(
+        "--size WxHxD asks for a volume, which vorocl render and vorocl cells make, of --random seeds");
   }
   if (options.domain && options.points.empty()) {
     throw UsageError("--domain is for --points; the domain of a trajectory is its box");

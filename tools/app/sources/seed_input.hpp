@@ -26,7 +26,7 @@ struct SeedOptions {
   std::string trajectory;
   int frame = 0;  // of the trajectory
   std::optional<Size> size;
-  std::int64_t depth = 1;  // more: a volume, which vorocl render alone makes
+  std::int64_t depth = 1;  // more: a volume, which vorocl render and cells make
   int width = 0;
   std::optional<Bounds> bounds;
   std::optional<Bounds> domain;      // of points: what repeats along the periodic axes; else the bounds

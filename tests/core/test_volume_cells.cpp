@@ -1,0 +1,278 @@
+// Measures of the cells of volumes, against straight host code.
+#define BOOST_TEST_MODULE volume_cells
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "fixture.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+using Labels = std::vector<std::uint32_t>;
+using Voxel = std::array<int, 3>;
+
+struct Case {
+  std::string name;
+  Grid grid;
+  std::vector<Voxel> seeds;
+  std::vector<bool> absent;  // by seed; empty: none is
+  Labels labels;             // of the caller's; empty: jump flooding's
+};
+
+std::vector<Voxel> random_voxels(const Grid& grid, std::size_t count, unsigned rng_seed) {
+  std::mt19937 rng(rng_seed);
+  const auto below = [&](std::int64_t end) { return static_cast<int>(rng() % static_cast<unsigned>(end)); };
+  std::vector<Voxel> voxels(count);
+  for (Voxel& voxel : voxels) voxel = {below(grid.width()), below(grid.height()), below(grid.depth())};
+  return voxels;
+}
+
+/// Cells in many pieces, some of the labels none's.
+Labels random_labels(const Grid& grid, std::uint32_t cells, unsigned rng_seed) {
+  std::mt19937 rng(rng_seed);
+  Labels labels(grid.pixels());
+  for (std::uint32_t& label : labels) {
+    const std::uint32_t drawn = static_cast<std::uint32_t>(rng()) % (cells + cells / 8 + 1);
+    label = drawn < cells ? drawn : no_label;
+  }
+  return labels;
+}
+
+std::vector<Case> measured_cases() {
+  std::vector<Case> cases;
+  const auto add = [&](const std::string& name, const Grid& grid, std::size_t count) {
+    cases.push_back({name, grid, random_voxels(grid, count, 5), {}, {}});
+  };
+  add("no seed", Grid(9, 8, 7), 0);
+  add("one seed", Grid(17, 5, 3), 1);
+  add("few", Grid(70, 40, 37), 9);
+  add("some", Grid(70, 40, 37), 300);
+  add("dense", Grid(33, 34, 35), 9000);
+  add("flat", Grid(150, 70, 2), 40);
+  add("a column of rows", Grid(1, 40, 90), 30);
+  add("narrow", Grid(3, 1, 700), 200);
+  add("several blocks along each axis", Grid(140, 72, 40), 60);
+  const Grid grid(40, 30, 20);
+  cases.push_back({"pieces", grid, random_voxels(grid, 300, 1), {}, random_labels(grid, 300, 2)});
+  cases.push_back({"no labels", grid, random_voxels(grid, 5, 1), {}, Labels(grid.pixels(), no_label)});
+  // Labels that name seeds which are absent.
+  cases.push_back({"absent", grid, random_voxels(grid, 60, 1), {}, random_labels(grid, 60, 3)});
+  for (int i = 0; i < 60; ++i) cases.back().absent.push_back(i % 3 == 0);
+  return cases;
+}
+
+/// The device in the shapes that measurements differ for: large blocks, with whole and cut vectors, and small
+/// ones.
+std::vector<Device> shapes() {
+  const Device& device = test_device();
+  return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
+}
+
+struct Cell {
+  std::uint32_t area = 0;
+  std::array<std::int64_t, 3> sum = {};
+  Voxel least = {INT32_MAX, INT32_MAX, INT32_MAX}, greatest = {INT32_MIN, INT32_MIN, INT32_MIN};
+  std::int64_t farthest = -1;
+  bool touches_border = false;
+  std::uint32_t neighbours = 0, surface = 0;
+};
+
+struct Measured {
+  std::vector<Cell> cells;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;
+};
+
+/// Voxel by voxel; labels that name an absent seed are none.
+Measured on_host(const Case& test, const Labels& labels, Metric metric) {
+  const Grid& grid = test.grid;
+  const std::array<std::int64_t, 3> sides = {grid.width(), grid.height(), grid.depth()};
+  const std::array<std::size_t, 3> strides = {1, static_cast<std::size_t>(sides[0]),
+                                              static_cast<std::size_t>(sides[0] * sides[1])};
+  const auto is_cell = [&](std::uint32_t label) {
+    return label != no_label && (test.absent.empty() || !test.absent[label]);
+  };
+  Measured found;
+  found.cells.resize(test.seeds.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (!is_cell(labels[i])) continue;
+    Cell& cell = found.cells[labels[i]];
+    ++cell.area;
+    std::int64_t distance = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto at = static_cast<int>(i / strides[axis] % static_cast<std::size_t>(sides[axis]));
+      const std::int64_t way = at - test.seeds[labels[i]][axis];
+      cell.sum[axis] += at;
+      cell.least[axis] = std::min(cell.least[axis], at);
+      cell.greatest[axis] = std::max(cell.greatest[axis], at);
+      cell.touches_border |= at == 0 || at == sides[axis] - 1;
+      distance += metric == Metric::euclidean ? way * way : std::abs(way);
+      if (at + 1 == sides[axis]) continue;
+      const std::uint32_t next = labels[i + strides[axis]];
+      if (is_cell(next) && next != labels[i]) ++found.pairs[std::minmax({labels[i], next})];
+    }
+    cell.farthest = std::max(cell.farthest, distance);
+  }
+  for (const auto& [pair, faces] : found.pairs) {
+    for (const std::uint32_t id : {pair.first, pair.second}) {
+      ++found.cells[id].neighbours;
+      found.cells[id].surface += faces;
+    }
+  }
+  return found;
+}
+
+bool is(const CellSums& sums, const Cell& cell) {
+  return sums.area == cell.area && sums.sum_x == cell.sum[0] && sums.sum_y == cell.sum[1] &&
+         sums.sum_z == cell.sum[2];
+}
+
+bool is(const CellShape& shape, const Cell& cell) {
+  return Voxel{shape.left, shape.top, shape.front} == cell.least &&
+         Voxel{shape.right, shape.bottom, shape.back} == cell.greatest &&
+         shape.largest_distance == static_cast<double>(cell.farthest) &&
+         shape.touches_border == cell.touches_border;
+}
+
+template <typename T>
+std::size_t count_wrong(const std::vector<T>& found, const std::vector<Cell>& cells) {
+  BOOST_TEST_REQUIRE(found.size() == cells.size());
+  std::size_t wrong = 0;
+  for (std::size_t id = 0; id < found.size(); ++id) wrong += is(found[id], cells[id]) ? 0 : 1;
+  return wrong;
+}
+
+/// Results that measure one diagram after the other: their buffers grow, and hold what the last one left.
+struct Results {
+  CellSumsResult sums;
+  CellShapesResult shapes;
+  CellStatisticsResult statistics, of_sums;
+  AdjacencyResult pairs;
+};
+
+void check_statistics(const Case& test, const std::vector<Cell>& cells, const CellStatistics& statistics) {
+  std::size_t there = 0, empty = 0, voxels = 0;
+  for (std::size_t id = 0; id < cells.size(); ++id) {
+    if (!test.absent.empty() && test.absent[id]) continue;
+    ++there;
+    empty += cells[id].area == 0 ? 1 : 0;
+    voxels += cells[id].area;
+  }
+  BOOST_TEST(statistics.cells == there);
+  BOOST_TEST(statistics.empty_cells == empty);
+  BOOST_TEST(statistics.pixels == voxels);
+  if (there == 0) return;
+  const double mean = static_cast<double>(voxels) / static_cast<double>(there);
+  double squares = 0;
+  for (std::size_t id = 0; id < cells.size(); ++id) {
+    if (test.absent.empty() || !test.absent[id]) squares += std::pow(cells[id].area - mean, 2);
+  }
+  BOOST_TEST(statistics.mean_area == mean);
+  BOOST_TEST(std::abs(statistics.area_deviation - std::sqrt(squares / static_cast<double>(there))) <
+             1e-6 * mean + 1e-9);
+}
+
+void check_pairs(const Measured& expected, const AdjacencyResult& pairs) {
+  std::vector<CellPair> list;
+  for (const auto& [ids, faces] : expected.pairs) list.push_back({ids.first, ids.second, faces});
+  BOOST_TEST((pairs.read_pairs() == list));
+  const auto neighbours = pairs.read_neighbours(), surfaces = pairs.read_perimeters();
+  std::size_t wrong = 0;
+  for (std::size_t id = 0; id < neighbours.size(); ++id) {
+    const Cell& cell = expected.cells[id];
+    wrong += neighbours[id] != cell.neighbours || surfaces[id] != cell.surface ? 1 : 0;
+  }
+  BOOST_TEST(wrong == 0u);
+}
+
+void check(const Case& test, const Diagram& diagram, Results& results) {
+  BOOST_TEST_CONTEXT(test.name) {
+    const Measured expected = on_host(test, diagram.read(), diagram.metric());
+    cell_sums(diagram, results.sums);
+    cell_shapes(diagram, results.shapes);
+    cell_statistics(diagram, results.statistics);
+    cell_statistics(results.sums, results.of_sums);
+    adjacency(diagram, results.pairs);
+    BOOST_TEST(count_wrong(results.sums.read(), expected.cells) == 0u);
+    BOOST_TEST(count_wrong(results.shapes.read(), expected.cells) == 0u);
+    std::vector<std::uint32_t> areas;
+    for (const Cell& cell : expected.cells) areas.push_back(cell.area);
+    BOOST_TEST((results.statistics.read_areas() == areas));
+    check_statistics(test, expected.cells, results.statistics.read());
+    check_statistics(test, expected.cells, results.of_sums.read());
+    check_pairs(expected, results.pairs);
+  }
+}
+
+Seeds seeds_of(const Device& device, const Case& test) {
+  std::vector<double> xyz;
+  for (const Voxel& at : test.seeds) xyz.insert(xyz.end(), {at[0] + 0.5, at[1] + 0.25, at[2] + 0.75});
+  std::vector<std::uint8_t> present(test.seeds.size(), 1);
+  for (std::size_t id = 0; id < test.absent.size(); ++id) present[id] = test.absent[id] ? 0 : 1;
+  const double* const first = xyz.data();
+  return {device, test.grid,
+          Points(first, first + 1, first + 2, test.seeds.size(), 3 * sizeof(double)).marked(present.data())};
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(all_measures_are_those_of_the_host) {
+  for (const Device& device : shapes()) {
+    Results results;
+    for (const Case& test : measured_cases()) {
+      const Seeds seeds = seeds_of(device, test);
+      Diagram diagram(device, test.grid);
+      const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
+      if (test.labels.empty()) {
+        jump_flooding(seeds, diagram, {metric});
+      } else {
+        diagram.write(test.labels, seeds, metric);
+      }
+      check(test, diagram, results);
+    }
+  }
+}
+
+/// One cell of a volume whose coordinates add up to more than 32 bits have.
+BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
+  for (const Device& device : shapes()) {
+    const Grid grid(3, 2000, 1500);
+    const Seeds seeds(device, grid, std::vector<Point3>{{1, 1900, 1400}});
+    Diagram diagram(device, grid);
+    diagram.write(Labels(grid.pixels(), 0), seeds, Metric::euclidean);
+    CellSumsResult result;
+    cell_sums(diagram, result);
+    const CellSums cell = result.read().front();
+    BOOST_TEST(cell.sum_y == 1999ll * 2000 / 2 * 3 * 1500);
+    BOOST_TEST(cell.sum_z == 1499ll * 1500 / 2 * 3 * 2000);
+    BOOST_TEST(cell.sum_z > 0xffffffffll);
+    BOOST_TEST((cell.centroid3().x == 1.5 && cell.centroid3().y == 1000 && cell.centroid3().z == 750));
+  }
+  BOOST_TEST(std::isnan(CellSums().centroid3().z));
+}
+
+/// Two cells side by side share one face for each voxel between them, a known area.
+BOOST_AUTO_TEST_CASE(halves_of_a_box_touch_in_their_section) {
+  const Grid grid(20, 11, 7);
+  const Seeds seeds(test_device(), grid, std::vector<Point3>{{4, 5, 3}, {15, 5, 3}});
+  Diagram diagram(test_device(), grid);
+  jump_flooding(seeds, diagram);
+  AdjacencyResult pairs;
+  adjacency(diagram, pairs);
+  BOOST_TEST((pairs.read_pairs() == std::vector<CellPair>{{0, 1, 11 * 7}}));
+}
+
+/// More neighbours than the first table has room for: they are found again in a larger one.
+BOOST_AUTO_TEST_CASE(cells_with_many_neighbours_have_all_of_them) {
+  const Grid grid(64, 64, 32);
+  const Case test = {"confetti", grid, random_voxels(grid, 400, 1), {}, random_labels(grid, 400, 2)};
+  const Seeds seeds = seeds_of(test_device(), test);
+  Diagram diagram(test_device(), grid);
+  diagram.write(test.labels, seeds, Metric::euclidean);
+  Results results;
+  check(test, diagram, results);
+  BOOST_TEST(results.pairs.pairs() > 16u * 400);
+}

@@ -1,0 +1,27 @@
+// What the commands that make a volume share.
+#pragma once
+
+#include <cstddef>
+
+#include "app/sources/seed_input.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/raster.hpp"
+#include "vorocl/diagram.hpp"
+#include "vorocl/method.hpp"
+
+namespace vorocl::command {
+
+/// The volume that --size asks for.
+VolumeSize volume_size(const SeedOptions& seeds);
+
+/// Throws UsageError for seeds and methods that volumes do not have.
+void check_volume(const SeedOptions& seeds, const Method& method);
+
+/// What every command says of the volume that it made.
+Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report);
+void print_volume(const Method& method, const Seeds& seeds, const Report& report);
+
+/// Says which seeds own no voxel and which voxels no method reached; nothing if there are none.
+void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled);
+
+}  // namespace vorocl::command
