@@ -4,21 +4,19 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "app/outputs/painter.hpp"
+#include "app/commands/volume_slice.hpp"
 #include "app/sources/seed_input.hpp"
 #include "vorocl/method.hpp"
 
 namespace vorocl::command {
 
-/// A slice of a volume, across an axis.
-struct VolumeSlice {
-  char axis;  // x, y or z
-  std::int64_t at;
-};
+/// Throws UsageError for a method that knows planes alone.
+void check_volume_method(const Method& method);
 
-/// "z=K" to a slice. Throws Error if it is not that.
-VolumeSlice parse_slice(const std::string& text);
+/// Puts the ids that labels stand for in their place, if there are any.
+void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids);
 
 struct VolumeRendering {
   SeedOptions seeds;
