@@ -97,17 +97,16 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, picture + "--slice z=5 --contours", usage, {"--contours is for planes"});
   refuses(folder, labels + "--edges", usage, {"--edges requires"});
   refuses(folder, labels + "--method djfa", usage, {"djfa is for planes", "jfa, jfa+1, jfa+2, 1+jfa, exact"});
-  refuses(folder, labels + "--periodic x", usage, {"--periodic is for planes"});
+  refuses(folder, labels + "--waves w%d.png", usage, {"--waves is for planes"});
   refuses(folder, labels + "--bounds 0,0,1,1", usage, {"--bounds needs --points"});
   refuses(folder, volume + "--labels a.tif", usage, {"a.tif", ".npy, .vti"});
-  refuses(folder, "render --points points.csv --size 8x8x8 --labels a.npy", usage,
-          {"made of --random seeds"});
+  refuses(folder, "render --points points.csv --size 8x8x8 --labels a.npy", failure, {"no column z"});
   refuses(folder, "render --random 3 --size 8x8 --slice z=1 -o a.png", usage, {"--slice is for volumes"});
   refuses(folder, "render --random 3 --size 8x8x --labels a.npy", usage, {"WxHxD, such as 256x256x256"});
   refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage, {"0 pixels"});
   refuses(folder, "render --random 3 --size 4096x4096x4096 --labels a.npy", failure,
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
-  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv", usage, {"vorocl render alone"});
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv", usage, {"vorocl render and simulate alone"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
-          {"vorocl render alone"});
+          {"of a --trajectory"});
 }
