@@ -17,8 +17,7 @@ std::size_t bytes_of(const PixelGrid& grid) { return grid.pixels() * sizeof(std:
 
 std::string text_of(const Grid& grid) {
   return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) +
-         (grid.is_volume() ? " x " + std::to_string(grid.depth()) : "") +
-         periodic_text(grid);
+         (grid.is_volume() ? " x " + std::to_string(grid.depth()) : "") + periodic_text(grid);
 }
 
 /// Why seeds of one grid are not of another.

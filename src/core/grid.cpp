@@ -233,7 +233,9 @@ int bits_below(std::int64_t side) {
 }
 
 /// The bits that the coordinates of an axis take in a voxel's position: see VoxelBits.
-int bits_of(std::int64_t side, bool is_periodic) { return bits_below(side + (is_periodic ? side / 2 * 2 : 0)); }
+int bits_of(std::int64_t side, bool is_periodic) {
+  return bits_below(side + (is_periodic ? side / 2 * 2 : 0));
+}
 int bits_of(const Axis& axis) { return bits_of(axis.pixels(), axis.is_periodic()); }
 
 bool fits_in_a_volume(const Grid& grid) {
@@ -247,10 +249,11 @@ bool fits_in_a_volume(const Grid& grid) {
 
 void check_volume(const Grid& grid) {
   if (fits_in_a_volume(grid)) return;
-  throw Error("a volume of " + voxels_text(grid) + " voxels" + periodic_text(grid) +
-              " is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, as in "
-              "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
-              "voxels, or cut the volume into parts that overlap");
+  throw Error(
+      "a volume of " + voxels_text(grid) + " voxels" + periodic_text(grid) +
+      " is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, as in "
+      "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
+      "voxels, or cut the volume into parts that overlap");
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ std::string labels_of(const Space& space, const std::vector<Particle>& particles
     int distance = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double length = space.high[axis] - space.low[axis];
-      const auto at = static_cast<int>(std::floor((particle.at[axis] - space.low[axis]) * sides[axis] / length));
+      const auto at =
+          static_cast<int>(std::floor((particle.at[axis] - space.low[axis]) * sides[axis] / length));
       of_seed[axis] = space.periodic[axis] ? (at % sides[axis] + sides[axis]) % sides[axis]
                                            : std::min(at, sides[axis] - 1);
       int way = std::abs(of_seed[axis] - voxel[axis]);
@@ -71,7 +72,8 @@ std::string flags(const Space& space) {
 std::string dump_frame(int step, const Space& space, const std::vector<Particle>& particles, bool scaled) {
   std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS{}\n", step,
                                  particles.size(), flags(space));
-  for (std::size_t axis = 0; axis < 3; ++axis) text += fmt::format("{} {}\n", space.low[axis], space.high[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    text += fmt::format("{} {}\n", space.low[axis], space.high[axis]);
   text += scaled ? "ITEM: ATOMS id xs ys zs\n" : "ITEM: ATOMS id x y z\n";
   for (const Particle& particle : particles) {
     text += std::to_string(particle.id);
@@ -117,8 +119,9 @@ BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
 BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
   if (!can_be_exact()) return;
   const TemporaryFolder folder;
-  std::string xyz = "3\nLattice=\"10 0 0 0 20 0 0 0 6\" Origin=\"0 0 -1\" pbc=\"T T T\" Properties=id:I:1:pos:R:3\n",
-              csv = "z,x,y\n";
+  std::string
+      xyz = "3\nLattice=\"10 0 0 0 20 0 0 0 6\" Origin=\"0 0 -1\" pbc=\"T T T\" Properties=id:I:1:pos:R:3\n",
+      csv = "z,x,y\n";
   for (const Particle& particle : some) {
     const auto& [x, y, z] = particle.at;
     xyz += fmt::format("{} {} {} {}\n", particle.id, x, y, z);
@@ -142,7 +145,8 @@ BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
   succeeds(folder, "render --points numbers.csv --columns 1,2,0 " + size + bounds + "--periodic y");
   BOOST_TEST((content_of(folder / "a.npy") == labels));
   const Space tight = {{1.25, 2, -0.75}, {9.75, 19.5, 4.75}, {false, false, false}};
-  BOOST_TEST(run(folder, "render --points p.csv " + size).error.find("different scales") != std::string::npos);
+  BOOST_TEST(run(folder, "render --points p.csv " + size).error.find("different scales") !=
+             std::string::npos);
   BOOST_TEST((content_of(folder / "a.npy") == labels_of(tight, numbered)));
 }
 
@@ -153,8 +157,9 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   folder.file("a.lammpstrj", dump_frame(7, first, some, false));
   folder.file("tilted.xyz", "1\nLattice=\"10 0 0 3 20 0 0 0 6\"\nA 1 2 3\n");
   folder.file("turned.xyz", "1\nLattice=\"10 0 0 0 20 0 1 0 6\"\nA 1 2 3\n");
-  folder.file("flat.lammpstrj", "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n"
-                                "0 1\nITEM: ATOMS id x y\n1 0 0\n");
+  folder.file("flat.lammpstrj",
+              "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n"
+              "0 1\nITEM: ATOMS id x y\n1 0 0\n");
   const std::string volume = " --size 8x8x8 --labels a.npy ", points = "render --points p.csv" + volume,
                     dump = "render --trajectory a.lammpstrj" + volume;
   refuses(folder, points + "--bounds 0,0,8,8", usage, {"six numbers: X0,Y0,Z0,X1,Y1,Z1"});
@@ -164,7 +169,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, points + "--outside count", usage, {"--outside is for planes"});
   refuses(folder, "render --points flat.csv" + volume, failure, {"no column z", "choose three"});
   refuses(folder, dump + "--y-up", usage, {"--y-up is for planes"});
-  refuses(folder, dump + "--bounds=0,0,-1,10,20,4", failure, {"frame 0", "whole periods: in z", "from -1 to 5"});
+  refuses(folder, dump + "--bounds=0,0,-1,10,20,4", failure,
+          {"frame 0", "whole periods: in z", "from -1 to 5"});
   refuses(folder, "render --trajectory tilted.xyz" + volume, failure, {"tilted.xyz:2", "tilted (xy = 3)"});
   refuses(folder, "render --trajectory turned.xyz" + volume, failure, {"turned.xyz:2", "third along z"});
   refuses(folder, "render --trajectory flat.lammpstrj" + volume, failure, {"no z, which a volume needs"});

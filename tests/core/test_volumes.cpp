@@ -298,6 +298,23 @@ BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
   }
 }
 
+/// Then most voxels are nearest to images in other periods, of seeds that are far inside the volume.
+BOOST_AUTO_TEST_CASE(seeds_in_a_corner_reach_round_all_ends) {
+  if (!can_be_exact()) return;
+  Random random(15);
+  for (const Grid& open : {Grid(150, 97, 130), Grid(64, 200, 71)}) {
+    const Grid grid = periodic(open, true, true, true);
+    for (const int corner : {0, 1}) {
+      std::vector<At> seeds = random.in(Grid(9, 9, 9), 4);
+      for (At& seed : seeds) {
+        seed.x += corner * static_cast<int>(grid.width() - 9);
+        seed.z += corner * static_cast<int>(grid.depth() - 9);
+      }
+      check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, 20000));
+    }
+  }
+}
+
 /// Nearly all seeds are candidates next to the middle of a sphere: more than a full list holds.
 BOOST_AUTO_TEST_CASE(the_middle_of_a_sphere_is_right) {
   if (!can_be_exact()) return;
@@ -419,7 +436,8 @@ Labels reference_flood(const Grid& grid, const std::vector<At>& seeds, const Pla
         const int x = n % 3 - 1, y = n / 3 % 3 - 1, z = n / 9 - 1;
         if (wave.neighbourhood == Neighbourhood::von_neumann && std::abs(x) + std::abs(y) + std::abs(z) > 1)
           continue;
-        const auto from_x = inside(grid.x(), own.x + x * wave.step), from_y = inside(grid.y(), own.y + y * wave.step),
+        const auto from_x = inside(grid.x(), own.x + x * wave.step),
+                   from_y = inside(grid.y(), own.y + y * wave.step),
                    from_z = inside(grid.z(), own.z + z * wave.step);
         if (!from_x || !from_y || !from_z) continue;
         const std::uint32_t label = before[index_of(grid, *from_x, *from_y, *from_z)];
@@ -478,7 +496,8 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
     std::vector<std::int64_t> distances;
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const At at = {static_cast<int>(i % 50), static_cast<int>(i / 50 % 40), static_cast<int>(i / 2000)};
-      const std::int64_t own = labels[i] == no_label ? no_distance : distance(grid, voxels[labels[i]], at, metric);
+      const std::int64_t own =
+          labels[i] == no_label ? no_distance : distance(grid, voxels[labels[i]], at, metric);
       const std::int64_t least = distance(grid, voxels[truth[i]], at, metric);
       distances.push_back(own);
       differences += labels[i] != truth[i] ? 1 : 0;

@@ -12,8 +12,8 @@
 
 namespace vorocl::command {
 
-/// A file that holds an array of points: of shape (N, 2), or (N, 3) in a volume, and booleans or any integer or floating-point type
-/// of at most 8 bytes. The points are read when they are asked for.
+/// A file that holds an array of points: of shape (N, 2), or (N, 3) in a volume, and booleans or any integer
+/// or floating-point type of at most 8 bytes. The points are read when they are asked for.
 class NpyPoints {
  public:
   /// Throws Error if the file is something else, ends early or holds no points or more than `most`.

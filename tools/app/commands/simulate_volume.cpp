@@ -44,9 +44,8 @@ void check(const Command& command, const SimulateOptions& options, const std::op
     throw UsageError("--size WxHxD: vorocl simulate makes volumes of a --trajectory");
   }
   check_volume_options(options.seeds);
-  for (const char* const name :
-       {"--compare-with", "--fit", "--cells", "--adjacency", "--distance", "--similarity", "--statistics",
-        "--resume", "--snap", "--no-snap"}) {
+  for (const char* const name : {"--compare-with", "--fit", "--cells", "--adjacency", "--distance",
+                                 "--similarity", "--statistics", "--resume", "--snap", "--no-snap"}) {
     if (command.has(name)) {
       throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
     }
@@ -139,7 +138,8 @@ void simulate_volume(const Command& command, const SimulateOptions& options,
     }
     milliseconds += report.milliseconds();
     progress.show(frame + 1, std::nullopt);
-    if (interruption.came()) throw Error(fmt::format("interrupted; frames complete before that: {}", frame + 1));
+    if (interruption.came())
+      throw Error(fmt::format("interrupted; frames complete before that: {}", frame + 1));
     more = (!options.motion.frames || frame < *options.motion.frames) && source.next();
   }
   files.finish();

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/commands/simulate_course.hpp"
-#include "app/options/command_line.hpp"
 #include "app/commands/volume_slice.hpp"
+#include "app/options/command_line.hpp"
 
 namespace vorocl::command {
 

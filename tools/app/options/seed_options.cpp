@@ -53,11 +53,12 @@ Option add_rng_seed_option(Command& command, SeedOptions& options) {
 
 Option add_columns_option(Command& command, SeedOptions& options, bool volumes) {
   return command
-      .add_parsed("--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
-                  std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
-                              "names x and y") +
-                      (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
-                      " where there is no header")
+      .add_parsed(
+          "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
+          std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
+                      "names x and y") +
+              (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
+              " where there is no header")
       .value_name(volumes ? "X,Y[,Z]" : "X,Y");
 }
 
@@ -81,8 +82,7 @@ Bounds parse_bounds_and_z(const std::string& text, std::optional<std::pair<doubl
     z = {along_z.y0, along_z.y1};
     return bounds;
   } catch (const Error&) {
-    throw Error("\"" + text +
-                "\" must be X0,Y0,Z0,X1,Y1,Z1: six numbers with X0 < X1, Y0 < Y1 and Z0 < Z1");
+    throw Error("\"" + text + "\" must be X0,Y0,Z0,X1,Y1,Z1: six numbers with X0 < X1, Y0 < Y1 and Z0 < Z1");
   }
 }
 

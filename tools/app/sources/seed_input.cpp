@@ -127,8 +127,8 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.depth > 1) {
     throw UsageError("--size WxHxD asks for a volume, which vorocl render and simulate alone make");
   }
-  const char* const of_volumes = options.z_bounds                               ? "--bounds with six numbers"
-                                 : options.periodic_z                           ? "--periodic with z"
+  const char* const of_volumes = options.z_bounds     ? "--bounds with six numbers"
+                                 : options.periodic_z ? "--periodic with z"
                                  : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"
                                                                                   : nullptr;
   if (of_volumes != nullptr) {

@@ -35,7 +35,7 @@ struct SeedOptions {
   std::optional<Periodic> periodic;  // else none, or what the trajectory says
   std::optional<std::pair<double, double>> z_bounds;  // of a volume, as those of `bounds`
   bool periodic_z = false;                            // of a volume, where `periodic` is given
-  std::optional<Snap> snap;          // of points and particles, as given; else ...
+  std::optional<Snap> snap;                           // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;
   Snap of_pixels = Snap::to_pixels;   // of masks and random seeds
   bool y_up = false, y_down = false;  // as given; see points_up()

@@ -75,15 +75,17 @@ Grid grid_of(const SeedOptions& options, const Sides& sides) {
           axis(options.depth, sides[2])};
 }
 
-void check_inside(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids, const Grid& grid) {
+void check_inside(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids,
+                  const Grid& grid) {
   const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (axes[axis]->covers(coordinates(points[i])[axis])) continue;
-      throw Error(fmt::format(
-          "{} {} at ({}, {}, {}) is outside the bounds, in {} from {} to {}; give bounds that hold all points",
-          ids.empty() ? "point" : "particle", ids.empty() ? i : ids[i], points[i].x, points[i].y, points[i].z,
-          names[axis], axes[axis]->from(), axes[axis]->to()));
+      throw Error(
+          fmt::format("{} {} at ({}, {}, {}) is outside the bounds, in {} from {} to {}; give bounds that "
+                      "hold all points",
+                      ids.empty() ? "point" : "particle", ids.empty() ? i : ids[i], points[i].x, points[i].y,
+                      points[i].z, names[axis], axes[axis]->from(), axes[axis]->to()));
     }
   }
 }
@@ -94,10 +96,10 @@ void warn_of_voxels(const Grid& grid) {
     return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
   };
   if (is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z())) return;
-  print_warning(
-      fmt::format("the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
-                  "data units; a --size like the bounds keeps voxels cubes",
-                  grid.width(), grid.height(), grid.depth()));
+  print_warning(fmt::format(
+      "the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
+      "data units; a --size like the bounds keeps voxels cubes",
+      grid.width(), grid.height(), grid.depth()));
 }
 
 std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
@@ -129,7 +131,8 @@ VolumeInput input_from_points(const SeedOptions& options) {
     const Grid grid = grid_of(options, sides);
     check_inside(points, {}, grid);
     warn_of_voxels(grid);
-    if (!given && std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
+    if (!given &&
+        std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
     return input_from(grid, points, {});
@@ -189,8 +192,9 @@ void VolumeFrames::take_frame() {
     take_periodic_axes(options_, sides);
     for (std::size_t i = 0; i < 3; ++i) {
       if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
-      throw Error(fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
-                              names[i], whole[i].low, whole[i].high));
+      throw Error(
+          fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
+                      names[i], whole[i].low, whole[i].high));
     }
     grid_ = grid_of(options_, sides);
     check_inside(points_, frame_.ids, *grid_);

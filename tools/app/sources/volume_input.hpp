@@ -27,8 +27,8 @@ struct VolumeInput {
 /// bounding box of the particles.
 class VolumeFrames {
  public:
-  /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames or
-  /// no z, or has a tilted box; warns on standard error where the axes get different scales.
+  /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
+  /// or no z, or has a tilted box; warns on standard error where the axes get different scales.
   explicit VolumeFrames(const SeedOptions& options, int start = 0);
 
   /// Goes to the next frame; false after the last. Throws as above.
@@ -60,8 +60,8 @@ class VolumeFrames {
 /// Throws UsageError for options of seeds that volumes do not have.
 void check_volume_options(const SeedOptions& options);
 
-/// Checks the options, and reads and checks the files. Throws UsageError, and Error if a file is bad or a point
-/// is outside the bounds; warns on standard error where the axes get different scales.
+/// Checks the options, and reads and checks the files. Throws UsageError, and Error if a file is bad or a
+/// point is outside the bounds; warns on standard error where the axes get different scales.
 VolumeInput read_volume_input(const SeedOptions& options);
 
 }  // namespace vorocl::command

@@ -81,8 +81,7 @@ bool is_negligible(double length, double beside) { return std::abs(length) <= 1e
 
 SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
                              double tilt)
-    : x_(x), y_(y), z_(z), tilt_(tilt), box_{x.low,        y.low,        x.high, y.high,
-                                             x.periodic(), y.periodic(), tilt} {
+    : x_(x), y_(y), z_(z), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
   box_.z0 = z.low;
   box_.z1 = z.high;
   box_.periodic_z = z.periodic();
