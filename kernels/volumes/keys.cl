@@ -90,6 +90,7 @@ static inline void make_keys(extent_t e, const dominators_t* d, const ulong* lis
   uint position[MOST_OF_KEYS + 8];
   for (int i = 0; i < count; i += 8) vstore8(positions_of(e, vload8(0, seed + i)), 0, position + i);
 #else
+  (void)e;
   const uint* const position = seed;
 #endif
   for (int i = 0; i < count; i += 8) {
