@@ -87,7 +87,7 @@ std::string dump_frame(int step, const Space& space, const std::vector<Particle>
 }
 
 const Space first = {{0, 0, -1}, {10, 20, 5}, {true, true, true}},
-            second = {{0, 2, -1}, {10, 22, 5}, {true, false, true}};
+            second = {{0, 2, -1}, {10, 22, 5}, {false, true, false}};
 const std::vector<Particle> some = {{90, {1.25, 2, -0.75}}, {4, {9.75, 19.5, 4.75}}, {5, {5, 5.25, 4}}},
                             others = {{5, {5.25, 21, 4.25}}, {90, {1.25, 2, -0.25}}};
 

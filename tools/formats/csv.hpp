@@ -24,7 +24,7 @@ std::string to_csv(const CsvFields& fields);
 struct Columns {
   std::string x;
   std::string y;
-  std::string z = "";  ///< of a volume; else empty
+  std::string z = {};  ///< of a volume; else empty
 };
 
 /// "x,y" to columns. Throws Error unless these are two names.
