@@ -44,6 +44,11 @@ builds_of() { # KERNEL
     for axes in -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; do
       echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
     done
+    if [[ $kernel == kernels/volumes/* ]]; then
+      for axes in -DVOROCL_PERIODIC_Z '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; do
+        echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
+      done
+    fi
     if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, in outer positions
       for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FAR'; do
         echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $axes"

@@ -147,7 +147,7 @@ class VOROCL_API Axis {
 /// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
 /// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(), cell_shapes(),
 /// cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and expand_labels() take
-/// volumes, of which no axis is periodic; others throw Error.
+/// volumes; others throw Error. Any axes may be periodic, but for cell_sums(), cell_shapes() and adjacency().
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
@@ -176,6 +176,8 @@ class VOROCL_API Grid {
   std::int64_t height() const { return y_.pixels(); }
   std::int64_t depth() const { return z_.pixels(); }
   bool is_volume() const { return depth() > 1; }
+
+  /// The axes of a plane, or of a volume's slices, that are periodic; for z see z().
   Periodic periodic() const { return periodic_along(x_.is_periodic(), y_.is_periodic()); }
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()) *
@@ -220,7 +222,8 @@ class VOROCL_API Window {
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
   static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
-  /// Of a volume: its sides, and the bits of the whole numbers below each of them, added up.
+  /// Of a volume: its sides, and the bits of the whole numbers below each of them, added up. A periodic side
+  /// counts twice.
   static constexpr std::int64_t max_side_of_volume = 16384;
   static constexpr int max_bits_of_volume = 31;  ///< such as 2048 x 1024 x 1024 voxels
 

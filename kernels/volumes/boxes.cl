@@ -39,7 +39,7 @@ __attribute__((noinline)) static void label_parts(const index_t* index, dominato
   for (int i = 0; i < 8; ++i) {
     const box_t part = {b.x + i % 2 * (BOX_X / 2), b.y + i / 2 % 2 * (BOX_Y / 2), b.z + i / 4 * (BOX_Z / 2),
                         BOX_X / 2 - 1, BOX_Y / 2 - 1, BOX_Z / 2 - 1};
-    if (part.x >= e.width || part.y >= e.height || part.z >= e.depth) continue;
+    if (part.x >= END_X(e) || part.y >= END_Y(e) || part.z >= END_Z(e)) continue;
     const int in_part = take_or_search(index, d, part, list, count, of_part);
     if (in_part == OVERFLOW) {
       label_by_voxels(index, part, labels);
@@ -64,12 +64,17 @@ kernel void label_regions(global const uint* restrict starts, global const uint*
                           global const ulong* restrict list, int width, int height, int depth,
                           global uint* restrict labels, global const uint* restrict boxes_left) {
   const index_t index = {extent_of(width, height, depth), starts, low, high, seed, list};
-  const int region = (int)get_global_id(0), rx = index.extent.rx, ry = index.extent.ry;
-  if (region >= regions_of(index.extent)) return;
+  const extent_t e = index.extent;
+  const int region = (int)get_global_id(0), rx = e.rx, ry = e.ry;
+  if (region >= regions_of(e)) return;
   const uint left = boxes_left[region];
   if (left == 0) return;
-  const box_t box = {region % rx * REGION, region / rx % ry * REGION, region / rx / ry * REGION,
-                     REGION - 1, REGION - 1, REGION - 1};
+  const box_t box = {region % rx * REGION + MARGIN_X(e),
+                     region / rx % ry * REGION + MARGIN_Y(e),
+                     region / rx / ry * REGION + MARGIN_Z(e),
+                     REGION - 1,
+                     REGION - 1,
+                     REGION - 1};
   ulong of_region[SEED_ROOM], of_tile[SEED_ROOM], of_box[SEED_ROOM];
   dominators_t d;
   // Where only some boxes are left, each of them searches for itself.
@@ -82,7 +87,7 @@ kernel void label_regions(global const uint* restrict starts, global const uint*
   for (int tile = 0; tile < 8; ++tile) {
     const box_t t = {box.x + tile % 2 * TILE, box.y + tile / 2 % 2 * TILE, box.z + tile / 4 * TILE,
                      TILE - 1, TILE - 1, TILE - 1};
-    if (t.x >= width || t.y >= height || t.z >= depth || (left >> tile * BOXES & 15) == 0) continue;
+    if (t.x >= END_X(e) || t.y >= END_Y(e) || t.z >= END_Z(e) || (left >> tile * BOXES & 15) == 0) continue;
     const int in_tile = all ? take_or_search(&index, &d, t, of_region, in_region, of_tile) : OVERFLOW;
     if (in_tile == 1) {
       fill(&index, t, (uint)(of_tile[0] >> 32), labels);
@@ -90,7 +95,7 @@ kernel void label_regions(global const uint* restrict starts, global const uint*
     }
     for (int part = 0; part < BOXES; ++part) {
       const box_t b = {t.x, t.y + part % 2 * BOX_Y, t.z + part / 2 * BOX_Z, BOX_X - 1, BOX_Y - 1, BOX_Z - 1};
-      if (b.y >= height || b.z >= depth || (left >> (tile * BOXES + part) & 1) == 0) continue;
+      if (b.y >= END_Y(e) || b.z >= END_Z(e) || (left >> (tile * BOXES + part) & 1) == 0) continue;
       label_box(&index, &d, of_box, take_or_search(&index, &d, b, of_tile, in_tile, of_box), labels);
     }
   }

@@ -2,7 +2,8 @@
 // far. A voxel's key is distance * K^3 + the place of its seed among the K^3 voxels within reach, K = 2 * reach + 1, z
 // above y above x: so the least key is the nearest seed by the tie rule, and says where it stands. A voxel is done if
 // its distance is below (reach + 1)^2: no seed out of reach is as near. For a reach of 5 that is 36 * 1331 < 65536;
-// greater distances saturate. A box with a voxel that is not done is left to boxes.cl.
+// greater distances saturate. A box with a voxel that is not done is left to boxes.cl; and so is one within reach of an
+// end of a periodic axis, where seeds follow each other in another order than the tie rule's.
 
 #ifndef VOROCL_VOLUMES_DENSE
 #define VOROCL_VOLUMES_DENSE
@@ -26,6 +27,31 @@ typedef struct __attribute__((packed)) { near_keys v; } unaligned_keys;
 // Regions with so many seeds try a reach: one per 18 voxels, one per 90.
 #define DENSE_FOR_SHORT (REGION * REGION * REGION / 18)
 #define DENSE_FOR_LONG (REGION * REGION * REGION / 90)
+
+// Whether voxels are within reach of an end of an axis.
+static inline bool is_near_end(int first, int count, int size, int reach, int periodic) {
+  return periodic && (first < reach || first + count > size - reach);
+}
+
+// The boxes of a region within reach of an end of a periodic axis, as bits in the order in which boxes.cl goes through
+// them.
+static inline uint boxes_at_ends(extent_t e, int4 at, int reach) {
+  uint boxes = 0;
+#ifdef VOROCL_PERIODIC
+  for (int i = 0; i < 8 * BOXES; ++i) {
+    const int tile = i / BOXES;
+    const int x = at.x + tile % 2 * TILE, y = at.y + tile / 2 % 2 * TILE + i % 2 * BOX_Y;
+    const int z = at.z + tile / 4 * TILE + i / 2 % 2 * BOX_Z;
+    const bool is_near = is_near_end(x, BOX_X, e.width, reach, PERIODIC_X) ||
+                         is_near_end(y, BOX_Y, e.height, reach, PERIODIC_Y) ||
+                         is_near_end(z, BOX_Z, e.depth, reach, PERIODIC_Z);
+    boxes |= is_near ? 1u << i : 0;
+  }
+#else
+  (void)e, (void)at, (void)reach;
+#endif
+  return boxes;
+}
 
 // What is known of the seeds of a region and around it.
 typedef struct {
@@ -155,7 +181,7 @@ __attribute__((always_inline)) static inline bool store_row(const int reach, nea
   return some_far;
 }
 
-// Returns a bit for each box that is left, in the order in which boxes.cl goes through them.
+// Returns a bit for each box that is left, in the same order.
 __attribute__((always_inline)) static inline uint label_by_passes(const int reach, extent_t e, global const uint* bits,
                                                                   global const uint* starts, global const ulong* list,
                                                                   int4 at, global uint* labels) {
@@ -168,7 +194,7 @@ __attribute__((always_inline)) static inline uint label_by_passes(const int reac
     offset[i] = ((i / (k * k) - reach) * side + i / k % k - reach) * STRIDE + i % k - reach;
   }
   near_keys after_y[LONG_SIDE * REGION];
-  uint left = 0;
+  uint left = boxes_at_ends(e, at, reach);
   for (int strip = 0; strip < 2; ++strip) {
     for (int z = 0; z < side; ++z) pass_slice(reach, around.words + z * side * 2 + strip, after_y + z * REGION);
     // All of a strip has its keys before labels are stored.

@@ -14,32 +14,41 @@ static inline place_t place_of(int width, int height, int depth) {
   return place;
 }
 
-// Of a row's values in the vector that starts at x, those that are in the row; EMPTY in the other lanes.
+// A row's values in the vector that starts at x, less than a period outside it. A periodic row goes on there with its
+// other end; else lanes outside are EMPTY.
 static inline uint_v load_positions(global const uint* row, int x, int width) {
-  if (x <= -VOROCL_WIDTH || x >= width) return (uint_v)EMPTY;
+  x = wrapped(x, width, PERIODIC_X);
+  if (!PERIODIC_X && (x <= -VOROCL_WIDTH || x >= width)) return (uint_v)EMPTY;
   const uint_v values = LOAD_VECTOR(row + x);
-  if (x >= 0 && x + VOROCL_WIDTH <= width) return values;
-  return select((uint_v)EMPTY, values, (uint)x + LANES < (uint_v)(uint)width);
+  if ((PERIODIC_X || x >= 0) && x + VOROCL_WIDTH <= width) return values;
+  const uint_v outside = PERIODIC_X ? LOAD_VECTOR(row + x - width) : (uint_v)EMPTY;
+  return select(outside, values, (uint)x + LANES < (uint_v)(uint)width);
 }
+
+// A wave's step along an axis. Along a periodic one it may be longer than the period.
+static inline int step_along(int step, int size, int periodic) { return periodic && step >= size ? step % size : step; }
 
 // The best position of the vector's voxels after a wave. An empty position is farther than any seed.
 static inline uint_v best_position(global const uint* image, place_t p, int step) {
   const int_v x = AS_INT_V((uint)p.x + LANES);
+  const int step_x = step_along(step, p.width, PERIODIC_X), step_y = step_along(step, p.height, PERIODIC_Y);
+  const int step_z = step_along(step, p.depth, PERIODIC_Z);
   uint_v best = (uint_v)EMPTY, least = (uint_v)0xffffffffu;
   for (int dz = -1; dz <= 1; ++dz) {
-    const int from_z = p.z + dz * step;
+    const int from_z = wrapped(p.z + dz * step_z, p.depth, PERIODIC_Z);
     if (from_z < 0 || from_z >= p.depth) continue;
     for (int dy = -1; dy <= 1; ++dy) {
-      const int from_y = p.y + dy * step;
+      const int from_y = wrapped(p.y + dy * step_y, p.height, PERIODIC_Y);
       if (from_y < 0 || from_y >= p.height) continue;
       const size_t first = ((size_t)from_z * (size_t)p.height + (size_t)from_y) * (size_t)p.width;
 #pragma unroll
       for (int dx = -1; dx <= 1; ++dx) {
         if (VOROCL_NEIGHBOURS == 5 && abs(dx) + abs(dy) + abs(dz) > 1) continue;
-        const uint_v position = load_positions(image + VOROCL_GUARD + first, p.x + dx * step, p.width);
-        const int_v way_x = AS_INT_V(position & MASK_X) - x;
-        const int_v way_y = AS_INT_V(position >> VOROCL_BITS_X & MASK_Y) - p.y;
-        const int_v way_z = AS_INT_V(position >> SHIFT_Z & MASK_Z) - p.z;
+        const uint_v position = load_positions(image + VOROCL_GUARD + first, p.x + dx * step_x, p.width);
+        const int_v inside_x = AS_INT_V(position & MASK_X) - x, way_x = SHORTER(inside_x, p.width, PERIODIC_X);
+        const int_v inside_y = AS_INT_V(position >> VOROCL_BITS_X & MASK_Y) - p.y;
+        const int_v inside_z = AS_INT_V(position >> SHIFT_Z & MASK_Z) - p.z;
+        const int_v way_y = SHORTER(inside_y, p.height, PERIODIC_Y), way_z = SHORTER(inside_z, p.depth, PERIODIC_Z);
         const uint_v distance =
             AS_UINT_V(ALONG(way_x) + ALONG(way_y) + ALONG(way_z)) | (position & EMPTY);
         best = select(best, position, distance < least || (distance == least && position < best));

@@ -16,15 +16,26 @@
 #define BOX_Y 8
 #define BOX_Z 8
 
+// The ends of the volume, in places.
+#define END_X(e) ((e).width + MARGIN_X(e))
+#define END_Y(e) ((e).height + MARGIN_Y(e))
+#define END_Z(e) ((e).depth + MARGIN_Z(e))
+
+// The label of the voxel at a place.
+static inline global uint* label_at(extent_t e, global uint* labels, int x, int y, int z) {
+  const size_t row = (size_t)(z - MARGIN_Z(e)) * (size_t)e.height + (size_t)(y - MARGIN_Y(e));
+  return labels + row * (size_t)e.width + (x - MARGIN_X(e));
+}
+
 static inline void fill(const index_t* index, box_t b, uint label, global uint* labels) {
   const extent_t e = index->extent;
-  const int right = min(b.x + b.hx + 1, e.width);
-  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
-    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
-      global uint* const row = labels + ((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width;
-      int x = b.x;
-      for (; x + 8 <= right; x += 8) ((global unaligned_uv*)(row + x))->v = (uv)label;
-      for (; x < right; ++x) row[x] = label;
+  const int columns = min(b.hx + 1, END_X(e) - b.x);
+  for (int z = b.z; z < min(b.z + b.hz + 1, END_Z(e)); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, END_Y(e)); ++y) {
+      global uint* const row = label_at(e, labels, b.x, y, z);
+      int x = 0;
+      for (; x + 8 <= columns; x += 8) ((global unaligned_uv*)(row + x))->v = (uv)label;
+      for (; x < columns; ++x) row[x] = label;
     }
   }
 }
@@ -70,14 +81,22 @@ typedef struct {
   uint label_of[MOST_OF_KEYS + 32];  // by rank; read in whole vectors
 } keys_t;
 
-static inline void make_keys(const dominators_t* d, const ulong* list, int count, keys_t* keys) {
+// Images of one seed have one rank, and one label.
+static inline void make_keys(extent_t e, const dominators_t* d, const ulong* list, int count, keys_t* keys) {
   const box_t b = d->box;
   uint seed[MOST_OF_KEYS + 8], rank[MOST_OF_KEYS + 8];
   for (int i = 0; i < count; i += 8) vstore8(load_seeds(list + i), 0, seed + i);
+#ifdef VOROCL_PERIODIC
+  uint position[MOST_OF_KEYS + 8];
+  for (int i = 0; i < count; i += 8) vstore8(positions_of(e, vload8(0, seed + i)), 0, position + i);
+#else
+  (void)e;
+  const uint* const position = seed;
+#endif
   for (int i = 0; i < count; i += 8) {
-    const uv own = vload8(0, seed + i);
+    const uv own = vload8(0, position + i);
     uv r = (uv)0;  // counted by select(): Oclgrind takes the true of a comparison that is added for 255
-    for (int j = 0; j < count; ++j) r += select((uv)0, (uv)1, (uv)seed[j] < own);
+    for (int j = 0; j < count; ++j) r += select((uv)0, (uv)1, (uv)position[j] < own);
     vstore8(r, 0, rank + i);
   }
   for (int i = 0; i < count; ++i) keys->label_of[rank[i]] = (uint)(list[i] >> 32);
@@ -117,17 +136,16 @@ __attribute__((noinline)) static void label_by_keys(const index_t* index, const 
   const box_t b = d->box;
   const extent_t e = index->extent;
   keys_t keys;
-  make_keys(d, list, count, &keys);
+  make_keys(e, d, list, count, &keys);
   const int vectors = (count + 7) / 8;
-  const bool whole = b.x + BOX_X <= e.width && b.y + BOX_Y <= e.height;
-  for (int z = 0; z < min(BOX_Z, e.depth - b.z); ++z) {
+  const bool whole = b.x + BOX_X <= END_X(e) && b.y + BOX_Y <= END_Y(e);
+  for (int z = 0; z < min(BOX_Z, END_Z(e) - b.z); ++z) {
     uint of_row[MOST_OF_KEYS * BOX_Y];
     for (int i = 0; i < count; ++i) vstore8(keys.of_y[i] + keys.of_z[i * BOX_Z + z], (size_t)i, of_row);
     for (int first = 0; first < BOX_Y; first += ROWS) {
       iv least[2 * ROWS];
       find_least(&keys, of_row, first, least);
-      global uint* const out =
-          labels + ((size_t)(b.z + z) * (size_t)e.height + (size_t)(b.y + first)) * (size_t)e.width + b.x;
+      global uint* const out = label_at(e, labels, b.x, b.y + first, b.z + z);
       if (whole) {
         switch (vectors) {
           case 1: label_block(keys.label_of, 1, keys.rank_mask, least, out, e.width); break;
@@ -138,12 +156,12 @@ __attribute__((noinline)) static void label_by_keys(const index_t* index, const 
         }
         continue;
       }
-      for (int i = 0; i < ROWS && b.y + first + i < e.height; ++i) {
+      for (int i = 0; i < ROWS && b.y + first + i < END_Y(e); ++i) {
         uint at[BOX_X];
         vstore8(as_uint8(least[2 * i]) & keys.rank_mask, 0, at);
         vstore8(as_uint8(least[2 * i + 1]) & keys.rank_mask, 1, at);
         global uint* const row = out + (size_t)i * (size_t)e.width;
-        for (int x = 0; x < min(BOX_X, e.width - b.x); ++x) row[x] = keys.label_of[at[x]];
+        for (int x = 0; x < min(BOX_X, END_X(e) - b.x); ++x) row[x] = keys.label_of[at[x]];
       }
     }
   }
@@ -152,9 +170,9 @@ __attribute__((noinline)) static void label_by_keys(const index_t* index, const 
 // A part of a box with more candidates than ranks, voxel by voxel. Rare, so plain.
 static inline void label_plainly(const index_t* index, box_t b, const ulong* list, int count, global uint* labels) {
   const extent_t e = index->extent;
-  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
-    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
-      for (int x = b.x; x < min(b.x + b.hx + 1, e.width); x += 8) {
+  for (int z = b.z; z < min(b.z + b.hz + 1, END_Z(e)); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, END_Y(e)); ++y) {
+      for (int x = b.x; x < min(b.x + b.hx + 1, END_X(e)); x += 8) {
         iv least = (iv)INT_MAX;
         uv best = (uv)EMPTY, label = (uv)0;
         for (int i = 0; i < count; ++i) {
@@ -162,15 +180,16 @@ static inline void label_plainly(const index_t* index, box_t b, const ulong* lis
           const iv dx = LANES_8 + (x - x_of(seed));
           const int dy = y - y_of(seed), dz = z - z_of(seed);
           const iv distance = dx * dx + (dy * dy + dz * dz);
-          const iv wins = (distance < least) | ((distance == least) & as_int8(seed < best));
+          const uv position = positions_of(e, (uv)seed);
+          const iv wins = (distance < least) | ((distance == least) & as_int8(position < best));
           least = min(least, distance);
-          best = select(best, (uv)seed, wins);
+          best = select(best, position, wins);
           label = select(label, (uv)(uint)(list[i] >> 32), wins);
         }
         uint l[8];
         vstore8(label, 0, l);
-        global uint* const out = labels + ((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + x;
-        for (int i = 0; i < min(8, e.width - x); ++i) out[i] = l[i];
+        global uint* const out = label_at(e, labels, x, y, z);
+        for (int i = 0; i < min(8, END_X(e) - x); ++i) out[i] = l[i];
       }
     }
   }
@@ -179,10 +198,10 @@ static inline void label_plainly(const index_t* index, box_t b, const ulong* lis
 // A part whose list overflowed, voxel by voxel.
 static inline void label_by_voxels(const index_t* index, box_t b, global uint* labels) {
   const extent_t e = index->extent;
-  for (int z = b.z; z < min(b.z + b.hz + 1, e.depth); ++z) {
-    for (int y = b.y; y < min(b.y + b.hy + 1, e.height); ++y) {
-      for (int x = b.x; x < min(b.x + b.hx + 1, e.width); ++x) {
-        labels[((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + (size_t)x] = search_voxel(index, x, y, z);
+  for (int z = b.z; z < min(b.z + b.hz + 1, END_Z(e)); ++z) {
+    for (int y = b.y; y < min(b.y + b.hy + 1, END_Y(e)); ++y) {
+      for (int x = b.x; x < min(b.x + b.hx + 1, END_X(e)); ++x) {
+        *label_at(e, labels, x, y, z) = search_voxel(index, x - MARGIN_X(e), y - MARGIN_Y(e), z - MARGIN_Z(e));
       }
     }
   }

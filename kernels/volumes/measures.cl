@@ -6,17 +6,23 @@
 
 #define NO_SEED 0x7fffffffu  // farther than any distance
 
-static inline uint distance_to(uint position, uint x, uint y, uint z) {
+static inline uint distance_to(uint position, uint x, uint y, uint z, int4 size) {
   if (position & EMPTY) return NO_SEED;
-  const int way_x = x_of(position) - (int)x, way_y = y_of(position) - (int)y, way_z = z_of(position) - (int)z;
+  const int inside_x = x_of(position) - (int)x, inside_y = y_of(position) - (int)y, inside_z = z_of(position) - (int)z;
+  const int way_x = SHORTER(inside_x, size.x, PERIODIC_X), way_y = SHORTER(inside_y, size.y, PERIODIC_Y);
+  const int way_z = SHORTER(inside_z, size.z, PERIODIC_Z);
   return (uint)(ALONG(way_x) + ALONG(way_y) + ALONG(way_z));
 }
 
 // The distance of a row's voxel to the seed of its label.
 static inline uint label_distance(global const uint* labels, global const uint* positions, uint count, uint x, uint row,
-                                  int width, int height) {
-  const uint label = labels[(size_t)row * (size_t)width + x];
-  return distance_to(positions[min(label, count)], x, row % (uint)height, row / (uint)height);
+                                  int4 size) {
+  const uint label = labels[(size_t)row * (size_t)size.x + x], height = (uint)size.y;
+  return distance_to(positions[min(label, count)], x, row % height, row / height, size);
+}
+
+static inline int4 size_of(int width, int height, uint rows) {
+  return (int4)(width, height, (int)(rows / (uint)height), 0);
 }
 
 // A work-item per row.
@@ -24,8 +30,9 @@ kernel void integer_distances(global const uint* restrict labels, global const u
                               int width, int height, uint rows, global int* restrict out) {
   const uint row = (uint)get_global_id(0);
   if (row >= rows) return;
+  const int4 size = size_of(width, height, rows);
   for (uint x = 0; x < (uint)width; ++x) {
-    out[(size_t)row * (size_t)width + x] = (int)label_distance(labels, positions, count, x, row, width, height);
+    out[(size_t)row * (size_t)width + x] = (int)label_distance(labels, positions, count, x, row, size);
   }
 }
 
@@ -33,8 +40,9 @@ kernel void float_distances(global const uint* restrict labels, global const uin
                             int width, int height, uint rows, global float* restrict out) {
   const uint row = (uint)get_global_id(0);
   if (row >= rows) return;
+  const int4 size = size_of(width, height, rows);
   for (uint x = 0; x < (uint)width; ++x) {
-    const uint distance = label_distance(labels, positions, count, x, row, width, height);
+    const uint distance = label_distance(labels, positions, count, x, row, size);
 #ifdef VOROCL_MANHATTAN
     const float in_voxels = (float)distance;
 #else
@@ -49,9 +57,10 @@ kernel void expand_labels(global const uint* restrict labels, global const uint*
                           int width, int height, uint rows, uint most, global uint* restrict out) {
   const uint row = (uint)get_global_id(0);
   if (row >= rows) return;
+  const int4 size = size_of(width, height, rows);
   for (uint x = 0; x < (uint)width; ++x) {
     const size_t at = (size_t)row * (size_t)width + x;
-    out[at] = label_distance(labels, positions, count, x, row, width, height) <= most ? labels[at] : NO_LABEL;
+    out[at] = label_distance(labels, positions, count, x, row, size) <= most ? labels[at] : NO_LABEL;
   }
 }
 
@@ -63,13 +72,14 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
   local uint2 wrong_of[MOST_COMPARING];
   local long sum_of[MOST_COMPARING];
   local float greatest_of[MOST_COMPARING];
+  const int4 size = size_of(width, height, voxels / (uint)width);
   errors_t errors = NO_ERRORS;
   FOR_EACH_VECTOR(first, end, walk, voxels) {
     for (uint i = first; i < end; ++i) {
       if (labels[i] == exact[i]) continue;
       const uint x = i % (uint)width, row = i / (uint)width;
-      const uint distance = label_distance(labels, positions, count, x, row, width, height);
-      const uint least = label_distance(exact, positions, count, x, row, width, height);
+      const uint distance = label_distance(labels, positions, count, x, row, size);
+      const uint least = label_distance(exact, positions, count, x, row, size);
       if (distance <= least) continue;
       if (distance == NO_SEED) {
         errors.wrong += (uint2)(1, 1);

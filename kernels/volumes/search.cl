@@ -5,6 +5,11 @@
 // |s - c|^2 - |d - c|^2, is a sum of least lags along the axes: with coordinates from the box's first corner and h its
 // last one, |s|^2 - |d|^2 - sum of max(0, 2 h (s - d)). So a corner costs nothing: 10 operations for all 8.
 // Equal distances rule nothing out, so no proof needs the tie rule.
+//
+// PLACES. Along a periodic axis a seed has images, a period before and behind it, and the candidates are images: a box
+// may have two of one seed. They are seeds like others to all proofs, for the nearest image is as far as the shorter way
+// round. Their places are coordinates that start half a period before the volume (MARGIN_X and so on, 0 along other
+// axes), packed as positions are; an image that is farther from all voxels is none. Boxes are in places.
 
 #ifndef VOROCL_VOLUMES_SEARCH
 #define VOROCL_VOLUMES_SEARCH
@@ -21,6 +26,10 @@
 #define PLACES 9          // the centre and the corners of a box
 #define OVERFLOW (-1)     // instead of a number of seeds
 
+#define MARGIN_X(e) (PERIODIC_X ? (e).width / 2 : 0)
+#define MARGIN_Y(e) (PERIODIC_Y ? (e).height / 2 : 0)
+#define MARGIN_Z(e) (PERIODIC_Z ? (e).depth / 2 : 0)
+
 typedef struct {
   extent_t extent;
   global const uint* starts;
@@ -34,6 +43,102 @@ typedef struct {
   int x, y, z;     // the first corner
   int hx, hy, hz;  // from it to the last corner
 } box_t;
+
+// What is added to positions for the places of an image. Images have numbers: a digit of base 3 for each axis, of which
+// 1 is the seed itself.
+typedef struct {
+  int x, y, z;
+} image_t;
+#ifdef VOROCL_PERIODIC
+#define FIRST_IMAGE 0u
+#define LAST_IMAGE 26u
+#else
+#define FIRST_IMAGE 13u
+#define LAST_IMAGE 13u
+#endif
+
+// The same of 8 images.
+typedef struct {
+  iv x, y, z;
+} images_t;
+
+static inline images_t images_of(extent_t e, uv numbers) {
+  const images_t images = {as_int8(numbers % 3 - 1) * e.width + MARGIN_X(e),
+                           as_int8(numbers / 3 % 3 - 1) * e.height + MARGIN_Y(e),
+                           as_int8(numbers / 9 - 1) * e.depth + MARGIN_Z(e)};
+  return images;
+}
+static inline image_t image_of(extent_t e, uint number) {
+  const image_t image = {((int)(number % 3) - 1) * e.width + MARGIN_X(e),
+                         ((int)(number / 3 % 3) - 1) * e.height + MARGIN_Y(e),
+                         ((int)(number / 9) - 1) * e.depth + MARGIN_Z(e)};
+  return image;
+}
+
+// Whether the image before (digit 0) or behind (2) is the nearest one of some seed to some voxel of a box, along an
+// axis.
+static inline bool has_near_image(uint digit, int first, int h, int size, int periodic) {
+  const int at = first - size / 2;  // the box's first voxel in the volume
+  return digit == 1 || (periodic && (digit == 0 ? 2 * at < size : 2 * (at + h) >= size));
+}
+static inline bool is_near_image(extent_t e, box_t b, uint number) {
+  return has_near_image(number % 3, b.x, b.hx, e.width, PERIODIC_X) &&
+         has_near_image(number / 3 % 3, b.y, b.hy, e.height, PERIODIC_Y) &&
+         has_near_image(number / 9, b.z, b.hz, e.depth, PERIODIC_Z);
+}
+
+static inline iv is_empty(uv seeds) { return as_int8(seeds) < 0; }
+
+// The places of images of seeds; EMPTY where there is none.
+static inline uv places_of(extent_t e, images_t images, uv seeds) {
+#ifdef VOROCL_PERIODIC
+  const iv x = xs_of(seeds) + images.x, y = ys_of(seeds) + images.y, z = zs_of(seeds) + images.z;
+  const iv none = is_empty(seeds) | (x < 0) | (y < 0) | (z < 0) | (x >= e.width + 2 * MARGIN_X(e)) |
+                  (y >= e.height + 2 * MARGIN_Y(e)) | (z >= e.depth + 2 * MARGIN_Z(e));
+  return select(as_uint8(z) << SHIFT_Z | as_uint8(y) << VOROCL_BITS_X | as_uint8(x), (uv)EMPTY, none);
+#else
+  (void)e, (void)images;
+  return seeds;
+#endif
+}
+
+// The same of the boxes of nodes, cut at the ends of the places.
+static inline void place_boxes(extent_t e, images_t images, uv* low, uv* high) {
+#ifdef VOROCL_PERIODIC
+  const iv lx = max(xs_of(*low) + images.x, 0), hx = min(xs_of(*high) + images.x, e.width + 2 * MARGIN_X(e) - 1);
+  const iv ly = max(ys_of(*low) + images.y, 0), hy = min(ys_of(*high) + images.y, e.height + 2 * MARGIN_Y(e) - 1);
+  const iv lz = max(zs_of(*low) + images.z, 0), hz = min(zs_of(*high) + images.z, e.depth + 2 * MARGIN_Z(e) - 1);
+  const iv none = is_empty(*low) | (lx > hx) | (ly > hy) | (lz > hz);
+  *low = select(as_uint8(lz) << SHIFT_Z | as_uint8(ly) << VOROCL_BITS_X | as_uint8(lx), (uv)EMPTY, none);
+  *high = select(as_uint8(hz) << SHIFT_Z | as_uint8(hy) << VOROCL_BITS_X | as_uint8(hx), (uv)EMPTY, none);
+#else
+  (void)e, (void)images, (void)low, (void)high;
+#endif
+}
+
+// The positions of the seeds whose images are at these places.
+static inline uv positions_of(extent_t e, uv places) {
+#ifdef VOROCL_PERIODIC
+  iv x = xs_of(places) - MARGIN_X(e), y = ys_of(places) - MARGIN_Y(e), z = zs_of(places) - MARGIN_Z(e);
+  x += select((iv)0, (iv)e.width, x < 0) - select((iv)0, (iv)e.width, x >= e.width);
+  y += select((iv)0, (iv)e.height, y < 0) - select((iv)0, (iv)e.height, y >= e.height);
+  z += select((iv)0, (iv)e.depth, z < 0) - select((iv)0, (iv)e.depth, z >= e.depth);
+  return as_uint8(z) << SHIFT_Z | as_uint8(y) << VOROCL_BITS_X | as_uint8(x);
+#else
+  (void)e;
+  return places;
+#endif
+}
+
+// The entries of a search's lists: the number of an image, above a node's. Without periodic axes the node alone.
+#ifdef VOROCL_PERIODIC
+#define NODE_BITS 26  // there are at most 2^24 bins
+#else
+#define NODE_BITS 0
+#endif
+static inline uint entry_of(uint image, uint node) { return NODE_BITS == 0 ? node : image << NODE_BITS | node; }
+static inline uint node_of(uint entry) { return NODE_BITS == 0 ? entry : entry & ((1u << NODE_BITS) - 1); }
+static inline uint image_in(uint entry) { return NODE_BITS == 0 ? FIRST_IMAGE : entry >> NODE_BITS; }
 
 // The seed nearest to each place, as far as known.
 typedef struct {
@@ -62,8 +167,6 @@ static inline void begin_nearest(nearest_t* nearest, const dominators_t* d) {
 #pragma unroll
   for (int i = 0; i < PLACES; ++i) nearest->best[i] = (iv)d->distance[i], nearest->seed[i] = (uv)d->seed[i];
 }
-
-static inline iv is_empty(uv seeds) { return as_int8(seeds) < 0; }
 
 static inline void take_nearest(nearest_t* nearest, box_t b, uv seed) {
   const iv x = xs_of(seed) - b.x, y = ys_of(seed) - b.y, z = zs_of(seed) - b.z;
@@ -180,9 +283,23 @@ static inline int keep_nodes(uint first, iv condition, uint* nodes, int kept) {
   return kept;
 }
 
-static inline int copy_seeds(const index_t* index, uint begin, uint end, ulong* seeds, int found) {
+// Adds the images of these seeds of the index to a list.
+static inline int copy_seeds(const index_t* index, image_t image, uint begin, uint end, ulong* seeds, int found) {
+#ifdef VOROCL_PERIODIC
+  const extent_t e = index->extent;
+  for (uint j = begin; j < end; ++j) {
+    const ulong seed = index->list[j];
+    const int x = x_of((uint)seed) + image.x, y = y_of((uint)seed) + image.y, z = z_of((uint)seed) + image.z;
+    seeds[found] = (seed >> 32) << 32 | pack(x, y, z);
+    found += x >= 0 && x < e.width + 2 * MARGIN_X(e) && y >= 0 && y < e.height + 2 * MARGIN_Y(e) && z >= 0 &&
+             z < e.depth + 2 * MARGIN_Z(e);
+  }
+  return found;
+#else
+  (void)image;
   for (uint j = begin; j < end; j += 4) vstore4(vload4(0, index->list + j), 0, seeds + found + (int)(j - begin));
   return found + (int)(end - begin);
+#endif
 }
 
 // The regions with seeds of the blocks that may hold a seed that wins; OVERFLOW if there are too many.
@@ -190,22 +307,35 @@ static inline int regions_of_blocks(const index_t* index, dominators_t* d, neare
   const extent_t e = index->extent;
   const int blocks = blocks_of(e);
   const size_t region_nodes = (size_t)regions_of(e) * BINS, start = region_nodes + (size_t)regions_of(e);
-  for (int i = 0; i < blocks; i += 8) take_nearest(nearest, d->box, vload8(0, index->seed + start + i));
+  for (uint number = FIRST_IMAGE; number <= LAST_IMAGE; ++number) {
+    if (!is_near_image(e, d->box, number)) continue;
+    const images_t images = images_of(e, (uv)number);
+    for (int i = 0; i < blocks; i += 8) {
+      take_nearest(nearest, d->box, places_of(e, images, vload8(0, index->seed + start + i)));
+    }
+  }
   end_nearest(nearest, d);
   int count = 0;
-  for (int i = 0; i < blocks; i += 8) {
-    int keep[8];
-    vstore8(nodes_left(d, vload8(0, index->low + start + i), vload8(0, index->high + start + i)), 0, keep);
-    for (int lane = 0; lane < 8; ++lane) {
-      if (!keep[lane]) continue;
-      if (count > MOST_NODES - BLOCK * BLOCK * BLOCK) return OVERFLOW;
-      const int block = i + lane;
-      const int x = block % e.bx * BLOCK, y = block / e.bx % e.by * BLOCK, z = block / e.bx / e.by * BLOCK;
-      for (int k = z; k < min(z + BLOCK, e.rz); ++k) {
-        for (int j = y; j < min(y + BLOCK, e.ry); ++j) {
-          for (int l = x; l < min(x + BLOCK, e.rx); ++l) {
-            regions[count] = (uint)((k * e.ry + j) * e.rx + l);
-            count += index->low[region_nodes + regions[count]] != EMPTY;
+  for (uint number = FIRST_IMAGE; number <= LAST_IMAGE; ++number) {
+    if (!is_near_image(e, d->box, number)) continue;
+    const images_t images = images_of(e, (uv)number);
+    for (int i = 0; i < blocks; i += 8) {
+      int keep[8];
+      uv low = vload8(0, index->low + start + i), high = vload8(0, index->high + start + i);
+      place_boxes(e, images, &low, &high);
+      vstore8(nodes_left(d, low, high), 0, keep);
+      for (int lane = 0; lane < 8; ++lane) {
+        if (!keep[lane]) continue;
+        if (count > MOST_NODES - BLOCK * BLOCK * BLOCK) return OVERFLOW;
+        const int block = i + lane;
+        const int x = block % e.bx * BLOCK, y = block / e.bx % e.by * BLOCK, z = block / e.bx / e.by * BLOCK;
+        for (int k = z; k < min(z + BLOCK, e.rz); ++k) {
+          for (int j = y; j < min(y + BLOCK, e.ry); ++j) {
+            for (int l = x; l < min(x + BLOCK, e.rx); ++l) {
+              const uint region = (uint)((k * e.ry + j) * e.rx + l);
+              regions[count] = entry_of(number, region);
+              count += index->low[region_nodes + region] != EMPTY;
+            }
           }
         }
       }
@@ -214,23 +344,33 @@ static inline int regions_of_blocks(const index_t* index, dominators_t* d, neare
   return count;
 }
 
+// The images of 8 regions of a list.
+static inline images_t images_of_regions(extent_t e, const uint* regions, int i) {
+  return images_of(e, NODE_BITS == 0 ? (uv)FIRST_IMAGE : vload8(0, regions + i) >> NODE_BITS);
+}
+
 // The values of 8 regions of a list; EMPTY behind its end.
 static inline uv of_regions(global const uint* values, const uint* regions, int i, int count) {
   uint lane[8];
-  for (int l = 0; l < 8; ++l) lane[l] = i + l < count ? values[regions[i + l]] : EMPTY;
+  for (int l = 0; l < 8; ++l) lane[l] = i + l < count ? values[node_of(regions[i + l])] : EMPTY;
   return vload8(0, lane);
 }
 
 // Of a list of regions those that may hold a seed that wins.
 static inline int regions_left(const index_t* index, dominators_t* d, nearest_t* nearest, uint* regions, int count) {
-  const size_t first = (size_t)regions_of(index->extent) * BINS;
-  for (int i = 0; i < count; i += 8) take_nearest(nearest, d->box, of_regions(index->seed + first, regions, i, count));
+  const extent_t e = index->extent;
+  const size_t first = (size_t)regions_of(e) * BINS;
+  for (int i = 0; i < count; i += 8) {
+    const uv seeds = of_regions(index->seed + first, regions, i, count);
+    take_nearest(nearest, d->box, places_of(e, images_of_regions(e, regions, i), seeds));
+  }
   end_nearest(nearest, d);
   int kept = 0;
   for (int i = 0; i < count; i += 8) {
     int keep[8];
-    const uv low = of_regions(index->low + first, regions, i, count);
-    vstore8(nodes_left(d, low, of_regions(index->high + first, regions, i, count)), 0, keep);
+    uv low = of_regions(index->low + first, regions, i, count), high = of_regions(index->high + first, regions, i, count);
+    place_boxes(e, images_of_regions(e, regions, i), &low, &high);
+    vstore8(nodes_left(d, low, high), 0, keep);
     for (int lane = 0; lane < 8; ++lane) {
       regions[kept] = regions[i + lane];
       kept += keep[lane] & 1;
@@ -242,16 +382,22 @@ static inline int regions_left(const index_t* index, dominators_t* d, nearest_t*
 // The bins of regions that may hold a seed that wins; OVERFLOW if there are too many.
 static inline int bins_left(const index_t* index, dominators_t* d, nearest_t* nearest, const uint* regions, int count,
                             uint* bins) {
+  const extent_t e = index->extent;
   for (int i = 0; i < count; ++i) {
-    for (uint j = 0; j < BINS; j += 8) take_nearest(nearest, d->box, vload8(0, index->seed + regions[i] * BINS + j));
+    const images_t images = images_of(e, (uv)image_in(regions[i]));
+    global const uint* const seeds = index->seed + node_of(regions[i]) * BINS;
+    for (uint j = 0; j < BINS; j += 8) take_nearest(nearest, d->box, places_of(e, images, vload8(0, seeds + j)));
   }
   end_nearest(nearest, d);
   int kept = 0;
   for (int i = 0; i < count; ++i) {
     if (kept > MOST_NODES - BINS) return OVERFLOW;
+    const uint number = image_in(regions[i]);
     for (uint j = 0; j < BINS; j += 8) {
-      const uint at = regions[i] * BINS + j;
-      kept = keep_nodes(at, nodes_left(d, vload8(0, index->low + at), vload8(0, index->high + at)), bins, kept);
+      const uint at = node_of(regions[i]) * BINS + j;
+      uv low = vload8(0, index->low + at), high = vload8(0, index->high + at);
+      place_boxes(e, images_of(e, (uv)number), &low, &high);
+      kept = keep_nodes(entry_of(number, at), nodes_left(d, low, high), bins, kept);
     }
   }
   return kept;
@@ -269,9 +415,10 @@ __attribute__((noinline)) static int search(const index_t* index, box_t box, dom
   // The seeds of a region with few of them are taken as they are. Of others the bins are tested.
   int found = 0, crowded = 0;
   for (int i = 0; i < count; ++i) {
-    const uint begin = index->starts[regions[i] * (BINS + 1)], end = index->starts[regions[i] * (BINS + 1) + BINS];
+    const uint first = node_of(regions[i]) * (BINS + 1);
+    const uint begin = index->starts[first], end = index->starts[first + BINS];
     if (end - begin <= FEW_IN_REGION && found <= MOST_SEEDS - FEW_IN_REGION) {
-      found = copy_seeds(index, begin, end, seeds, found);
+      found = copy_seeds(index, image_of(index->extent, image_in(regions[i])), begin, end, seeds, found);
     } else {
       regions[crowded++] = regions[i];
     }
@@ -280,8 +427,9 @@ __attribute__((noinline)) static int search(const index_t* index, box_t box, dom
     count = bins_left(index, d, &nearest, regions, crowded, bins);
     if (count == OVERFLOW) return OVERFLOW;
     for (int i = 0; i < count; ++i) {
-      const uint at = bins[i] / BINS * (BINS + 1) + bins[i] % BINS;
-      found = copy_seeds(index, index->starts[at], index->starts[at + 1], seeds, found);
+      const uint bin = node_of(bins[i]), at = bin / BINS * (BINS + 1) + bin % BINS;
+      const image_t image = image_of(index->extent, image_in(bins[i]));
+      found = copy_seeds(index, image, index->starts[at], index->starts[at + 1], seeds, found);
       if (found <= MOST_SEEDS) continue;
       pad(seeds, found);
       improve(d, seeds, found);
@@ -294,11 +442,20 @@ __attribute__((noinline)) static int search(const index_t* index, box_t box, dom
   return filter(d, seeds, found, seeds);
 }
 
-// The squared distance of a voxel to the box around a node's seeds.
+// The least way along an axis from a coordinate to a stretch of it.
+static inline int way_to(int at, int low, int high, int size, int periodic) {
+  const int inside = max(max(low - at, at - high), 0);
+  if (!periodic) return inside;
+  return min(inside, size - max(high - at, at - low));
+}
+
+// The squared distance of a voxel to the box around a node's seeds. The search of a voxel is in positions.
 static inline uint distance_to_node(const index_t* index, size_t node, int x, int y, int z) {
   const uint low = index->low[node], high = index->high[node];
-  const int dx = max(max(x_of(low) - x, x - x_of(high)), 0), dy = max(max(y_of(low) - y, y - y_of(high)), 0);
-  const int dz = max(max(z_of(low) - z, z - z_of(high)), 0);
+  const extent_t e = index->extent;
+  const int dx = way_to(x, x_of(low), x_of(high), e.width, PERIODIC_X);
+  const int dy = way_to(y, y_of(low), y_of(high), e.height, PERIODIC_Y);
+  const int dz = way_to(z, z_of(low), z_of(high), e.depth, PERIODIC_Z);
   return (uint)(dx * dx + dy * dy + dz * dz);
 }
 
@@ -317,7 +474,10 @@ static inline void search_bin(const index_t* index, uint bin, int x, int y, int 
   const uint first = bin / BINS * (BINS + 1) + bin % BINS, end = index->starts[first + 1];
   for (uint i = index->starts[first]; i < end; ++i) {
     const ulong seed = index->list[i];
-    const int dx = x_of((uint)seed) - x, dy = y_of((uint)seed) - y, dz = z_of((uint)seed) - z;
+    const int inside_x = x_of((uint)seed) - x, inside_y = y_of((uint)seed) - y, inside_z = z_of((uint)seed) - z;
+    const int dx = SHORTER(inside_x, index->extent.width, PERIODIC_X);
+    const int dy = SHORTER(inside_y, index->extent.height, PERIODIC_Y);
+    const int dz = SHORTER(inside_z, index->extent.depth, PERIODIC_Z);
     const uint distance = (uint)(dx * dx + dy * dy + dz * dz);
     if (distance > nearest->distance) continue;
     if (distance == nearest->distance && (uint)seed > (uint)nearest->seed) continue;

@@ -20,12 +20,13 @@ VECTOR_KERNEL void random_voxels(global uint* restrict positions, uint count, in
 
 // The greatest way of a seed along an axis between two lists of positions; in a word of 0.
 kernel void find_greatest_way(global const uint* restrict from, global const uint* restrict to, uint count, int width,
-                              int height, global uint* restrict greatest) {
+                              int height, int depth, global uint* restrict greatest) {
   const uint id = (uint)get_global_id(0);
-  (void)width, (void)height;  // as the kernel of planes
+  (void)width, (void)height, (void)depth;  // of periodic axes alone
   if (id >= count || (from[id] | to[id]) & EMPTY) return;
-  const uint x = abs(x_of(from[id]) - x_of(to[id])), y = abs(y_of(from[id]) - y_of(to[id]));
-  const uint way = max(max(x, y), abs(z_of(from[id]) - z_of(to[id])));
+  const int x = x_of(from[id]) - x_of(to[id]), y = y_of(from[id]) - y_of(to[id]), z = z_of(from[id]) - z_of(to[id]);
+  const uint in_plane = max(abs(SHORTER(x, width, PERIODIC_X)), abs(SHORTER(y, height, PERIODIC_Y)));
+  const uint way = max(in_plane, abs(SHORTER(z, depth, PERIODIC_Z)));
   if (way > 0) atomic_max(greatest, way);
 }
 

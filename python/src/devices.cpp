@@ -19,7 +19,7 @@ using Bounds = std::tuple<double, double, double, double>;
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it.
 Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool periodic_x, bool periodic_y,
-               double tilt, const std::optional<Bounds>& bounds, bool y_up, bool closed) {
+               bool periodic_z, double tilt, const std::optional<Bounds>& bounds, bool y_up, bool closed) {
   Axis x(width), y(height);
   if (bounds) {
     const auto [x0, y0, x1, y1] = *bounds;
@@ -31,7 +31,8 @@ Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool
   if (periodic_y) y = y.periodic();
   if (y_up) y = y.reversed();
   if (depth != 1) {
-    const Grid volume(x, y, Axis(depth));
+    const Axis z(depth);
+    const Grid volume(x, y, periodic_z ? z.periodic() : z);
     constexpr std::uint64_t most = std::uint64_t{1} << Window::max_bits_of_volume;
     if (width <= Window::max_side_of_volume && height <= Window::max_side_of_volume &&
         depth <= Window::max_side_of_volume && volume.pixels() <= most) {
@@ -90,13 +91,14 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"), nb::arg("tilt"), nb::arg("bounds").none(), nb::arg("y_up"),
-           nb::arg("closed"))
+           nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("tilt"), nb::arg("bounds").none(),
+           nb::arg("y_up"), nb::arg("closed"))
       .def_prop_ro("width", &Grid::width)
       .def_prop_ro("height", &Grid::height)
       .def_prop_ro("depth", &Grid::depth)
       .def_prop_ro("periodic_x", [](const Grid& grid) { return grid.x().is_periodic(); })
       .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); })
+      .def_prop_ro("periodic_z", [](const Grid& grid) { return grid.z().is_periodic(); })
       .def_prop_ro("tilt", &Grid::tilt);
 
   nb::class_<Report>(module, "Report")

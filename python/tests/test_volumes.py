@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import vorocl
 from scipy import ndimage
+from scipy.spatial import cKDTree
 from skimage import measure, segmentation
 
 SHAPES = [(9, 14, 23), (40, 33, 37)]
@@ -40,6 +41,23 @@ exact_alone = pytest.mark.skipif(not device_is_exact(), reason="exact diagrams o
 def test_labels_are_those_of_brute_force(shape, count):
     points = points_in(shape, count, count)
     assert np.array_equal(vorocl.diagram(points, shape), brute_force(points, shape))
+
+
+@exact_alone
+@pytest.mark.parametrize("shape", [(60, 50, 70), (3, 1, 40)])
+@pytest.mark.parametrize("count", [1, 20, 3000])
+def test_periodic_labels_are_those_of_a_k_d_tree(shape, count):
+    points = points_in(shape, count, count)
+    labels = vorocl.diagram(points + 3 * np.array(shape[::-1]), shape, periodic=(True, True, True))
+    centres = np.stack(np.indices(shape), axis=-1)[..., ::-1].reshape(-1, 3)
+    voxels = np.floor(points)
+    nearest, _ = cKDTree(voxels, boxsize=shape[::-1]).query(centres)
+    apart = abs(centres - voxels[labels.ravel()])
+    apart = np.minimum(apart, np.array(shape[::-1]) - apart)
+    assert np.array_equal((apart**2).sum(1), np.round(nearest**2))
+    tree = vorocl.distances(points, shape, periodic=(True, True, True))
+    assert np.allclose(tree.ravel(), nearest, rtol=1e-6)
+    assert vorocl.errors(labels, points, periodic=(True, True, True)).wrong_pixels == 0
 
 
 def test_jump_flooding_is_judged_by_exact_labels():
@@ -176,8 +194,8 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 3)], (1, 5, 6)), r"one slice is a plane: give the shape \(5, 6\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (2, 3, 4, 5)), r"\(H, W\), or three \(D, H, W\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 1, 1)), "bounds is for planes"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), periodic=(True, False)), "periodic is for planes"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), periodic=(False, False, True)), "periodic is for planes"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), periodic=(True, False)), "periodic must be three booleans"),
+    (lambda: vorocl.diagram([(1, 2)], (5, 6), periodic=(False, False, True)), "periodic must be two booleans"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), y_up=True), "y_up is for planes"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), snap=False), "snap=False is for planes"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), method="djfa"), "volume of 6 x 5 x 4 voxels, which flooding"),

@@ -66,7 +66,7 @@ def to_grid(
     tilt: float = 0.0,
 ) -> _vorocl.Grid:
     """The grid of a shape (H, W), of its periodic axes (x, y) and its tilt, and of what it shows of the points' plane;
-    or of a shape (D, H, W), which has none of these.
+    or of a shape (D, H, W), which has periodic axes (x, y, z) and nothing else of these.
 
     Points at the bounds' far ends are inside, unless what is outside them counts all round.
     """
@@ -82,24 +82,33 @@ def to_grid(
         axes = [_to_bool(axis) for axis in periodic]
     except (TypeError, ValueError):
         axes = []
-    if len(axes) not in (2, len(sides)):
-        raise BadArgument(f"periodic must be two booleans (x, y); this is {shown(periodic)}")
+    if len(axes) == 2 and not any(axes):  # the default
+        axes = [False] * len(sides)
+    if len(axes) != len(sides):
+        wanted = "three booleans (x, y, z) for a volume" if len(sides) == 3 else "two booleans (x, y)"
+        raise BadArgument(f"periodic must be {wanted}; this is {shown(periodic)}")
     corners, upwards, tilted = to_bounds(bounds), to_flag(y_up, "y_up"), to_number(tilt, "tilt")
     closed = corners is not None and (to_outside(outside) != "count" or any(axes))
     if len(sides) == 3:
-        refused = {"bounds": corners is not None, "periodic": any(axes), "tilt": tilted != 0, "y_up": upwards}
+        refused = {"bounds": corners is not None, "tilt": tilted != 0, "y_up": upwards}
         for name, is_given in refused.items():
             if is_given:
                 raise BadArgument(f"{name} is for planes, and the shape {tuple(sides)} is that of a volume")
         if sides[0] == 1:
             raise BadArgument(f"a volume of one slice is a plane: give the shape {tuple(sides[1:])}, and points (x, y)")
-    depth = sides[0] if len(sides) == 3 else 1
-    return _vorocl.Grid(width, height, depth, axes[0], axes[1], tilted, corners, upwards, closed)
+    depth, periodic_z = (sides[0], axes[2]) if len(sides) == 3 else (1, False)
+    return _vorocl.Grid(width, height, depth, axes[0], axes[1], periodic_z, tilted, corners, upwards, closed)
 
 
 def shape_of(grid: _vorocl.Grid) -> Shape:
     """(H, W) of a grid, or (D, H, W) of a volume."""
     return (grid.height, grid.width) if grid.depth == 1 else (grid.depth, grid.height, grid.width)
+
+
+def periodic_of(grid: _vorocl.Grid) -> Periodic:
+    """Which axes (x, y) of a grid are periodic, or (x, y, z) of a volume."""
+    axes = (grid.periodic_x, grid.periodic_y)
+    return axes if grid.depth == 1 else (*axes, grid.periodic_z)
 
 
 def _to_bool(value: object) -> bool:

@@ -21,6 +21,7 @@ from ._arguments import (
     Truth,
     Units,
     output,
+    periodic_of,
     shape_of,
     shown,
     to_bounds,
@@ -77,7 +78,7 @@ def _filled(
 ) -> Diagram:
     """The diagram, which is the thread's until its next call; or its labels alone, in an array."""
     grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
-    shape, periodic, tilt = shape_of(grid), (grid.periodic_x, grid.periodic_y), grid.tilt
+    shape, periodic, tilt = shape_of(grid), periodic_of(grid), grid.tilt
     corners, array = to_bounds(bounds), to_points(points, len(shape))
     snapped = to_snap(snap, shape, method)
     wanted = (shape, periodic, tilt, corners, to_outside(outside), y_up, snapped, to_device(device))

@@ -24,7 +24,7 @@ shape : (int, int)
     The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
     flood take up to 32,000. Or a volume, (D, H, W) in voxels, which `diagram`, `distances`, `cells`, `areas`,
     `adjacency`, `errors`, `Seeds`, `Diagram` and `Simulation` take: sides up to 16,384, and as many voxels as
-    2048 x 1024 x 1024.""",
+    2048 x 1024 x 1024; along periodic axes half as many.""",
     "method": """\
 method : str, optional
     "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",
@@ -39,7 +39,8 @@ bounds : (float, float, float, float), optional
     pixels need not be the nearest in the plane. Without it, points are in pixels.""",
     "periodic": """\
 periodic : (bool, bool), optional
-    Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap.""",
+    Which axes, x and y, are periodic: distances go the shorter way round, and points outside wrap. Of a volume three:
+    x, y and z.""",
     "tilt": """\
 tilt : float, optional
     Of a box that is tilted in its plane, as LAMMPS's ``xy``: how far the copy of the grid at greater y is shifted along

@@ -16,10 +16,8 @@ namespace {
 std::size_t bytes_of(const PixelGrid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
 
 std::string text_of(const Grid& grid) {
-  const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
   return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) +
-         (grid.is_volume() ? " x " + std::to_string(grid.depth()) : "") +
-         periodic[static_cast<int>(grid.periodic())];
+         (grid.is_volume() ? " x " + std::to_string(grid.depth()) : "") + periodic_text(grid);
 }
 
 /// Why seeds of one grid are not of another.

@@ -232,22 +232,28 @@ int bits_below(std::int64_t side) {
   return bits;
 }
 
+/// The bits that the coordinates of an axis take in a voxel's position: see VoxelBits.
+int bits_of(std::int64_t side, bool is_periodic) {
+  return bits_below(side + (is_periodic ? side / 2 * 2 : 0));
+}
+int bits_of(const Axis& axis) { return bits_of(axis.pixels(), axis.is_periodic()); }
+
 bool fits_in_a_volume(const Grid& grid) {
-  constexpr std::int64_t most = Window::max_side_of_volume;
-  return grid.width() <= most && grid.height() <= most && grid.depth() <= most &&
-         bits_below(grid.width()) + bits_below(grid.height()) + bits_below(grid.depth()) <=
-             Window::max_bits_of_volume;
+  const auto is_short = [](const Axis& axis) {
+    const std::int64_t most = Window::max_side_of_volume;
+    return axis.pixels() <= (axis.is_periodic() ? most / 2 : most);
+  };
+  return is_short(grid.x()) && is_short(grid.y()) && is_short(grid.z()) &&
+         bits_of(grid.x()) + bits_of(grid.y()) + bits_of(grid.z()) <= Window::max_bits_of_volume;
 }
 
 void check_volume(const Grid& grid) {
-  if (grid.periodic() != Periodic::none || grid.z().is_periodic()) {
-    throw Error("the volume has a periodic axis, which volumes cannot have yet");
-  }
   if (fits_in_a_volume(grid)) return;
   throw Error(
-      "a volume of " + voxels_text(grid) +
-      " voxels is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, "
-      "as in 2048 x 1024 x 1024; take fewer voxels, or cut the volume into parts that overlap");
+      "a volume of " + voxels_text(grid) + " voxels" + periodic_text(grid) +
+      " is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, as in "
+      "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
+      "voxels, or cut the volume into parts that overlap");
 }
 
 }  // namespace
@@ -258,6 +264,7 @@ PixelGrid::PixelGrid(const Window& window)
   if (window.grid().is_volume()) {
     check_volume(window.grid());
     depth_ = static_cast<int>(window.depth());
+    periodic_z_ = window.grid().z().is_periodic();
   } else if (window.pixels() > Window::max_pixels) {
     throw Error("a diagram of " + std::to_string(width_) + " x " + std::to_string(height_) +
                 " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
@@ -265,7 +272,9 @@ PixelGrid::PixelGrid(const Window& window)
 }
 
 VoxelBits::VoxelBits(const PixelGrid& grid)
-    : x(bits_below(grid.width())), y(bits_below(grid.height())), z(bits_below(grid.depth())) {
+    : x(bits_of(grid.width(), grid.periodic_x())),
+      y(bits_of(grid.height(), grid.periodic_y())),
+      z(bits_of(grid.depth(), grid.periodic_z())) {
   constexpr int usual_x = 11, usual_y = 10, usual_z = 10;  // so that one program serves most volumes
   if (x > usual_x || y > usual_y || z > usual_z) return;
   x = usual_x;
@@ -292,11 +301,24 @@ void refuse_tilted_and_volumes(const Grid& grid, const char* what) {
               " cannot take; exact diagrams of a window of the grid do");
 }
 
+namespace {
+std::string periodic_text(bool x, bool y, bool z) {
+  std::string text;
+  for (const char* const axis : {x ? "x" : "", y ? "y" : "", z ? "z" : ""}) {
+    if (*axis != 0) text += (text.empty() ? "" : " and ") + std::string(axis);
+  }
+  return text.empty() ? "" : ", periodic in " + text;
+}
+}  // namespace
+
+std::string periodic_text(const Grid& grid) {
+  return periodic_text(grid.x().is_periodic(), grid.y().is_periodic(), grid.z().is_periodic());
+}
+
 std::string size_text(const PixelGrid& pixels) {
-  const char* const periodic[] = {"", ", periodic in x", ", periodic in y", ", periodic in x and y"};
   return std::to_string(pixels.width()) + " x " + std::to_string(pixels.height()) +
          (pixels.is_volume() ? " x " + std::to_string(pixels.depth()) : "") +
-         periodic[static_cast<int>(pixels.periodic())];
+         periodic_text(pixels.periodic_x(), pixels.periodic_y(), pixels.periodic_z());
 }
 
 }  // namespace vorocl

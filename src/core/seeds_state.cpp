@@ -41,10 +41,14 @@ bool is_finite(const Point3& point) {
 BadPoint outside_the_volume(std::size_t id, const Point3& point, const Grid& grid) {
   std::ostringstream text;
   text << "has z = " << point.z << " and is " << (is_finite(point) ? "outside the volume" : "not finite");
-  const char* before = "; x must be in [";
-  for (const Axis* axis : {&grid.x(), &grid.y(), &grid.z()}) {
-    text << before << axis->from() << ", " << axis->to() << (axis->is_closed() ? "]" : ")");
-    before = axis == &grid.x() ? ", y in [" : " and z in [";
+  const char* before = "; ";
+  const char* must = " must be in [";
+  const std::pair<char, const Axis*> axes[] = {{'x', &grid.x()}, {'y', &grid.y()}, {'z', &grid.z()}};
+  for (const auto& [name, axis] : axes) {
+    if (axis->is_periodic()) continue;  // it has all
+    text << before << name << must << axis->from() << ", " << axis->to() << (axis->is_closed() ? "]" : ")");
+    before = name == 'x' && !grid.z().is_periodic() && !grid.y().is_periodic() ? ", " : " and ";
+    must = " in [";
   }
   return {id, Point{point.x, point.y}, text.str()};
 }

@@ -33,7 +33,7 @@ const cl::Buffer& CellShapesResult::largest_distances() const {
 Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   Measuring<CellShapesState> measuring(result);
   CellShapesState& shapes = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram, Volumes::not_periodic);
   const cl_uint count = of.count();
   const bool is_volume = of.grid.is_volume();
   cl::Buffer& words = of.is_far() ? shapes.upper_words : shapes.distances;

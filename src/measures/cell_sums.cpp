@@ -90,7 +90,7 @@ Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
 Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
   Measuring<CellSumsState> measuring(result);
   CellSumsState& sums = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram, Volumes::not_periodic);
   const cl_uint count = of.count();
   make_room(sums.area, of.device, count * sizeof(cl_uint));
   make_room(sums.sum_x, of.device, count * sizeof(cl_long));

@@ -74,10 +74,10 @@ struct MeasuredDiagram {
 /// in a tilted grid is copied to `room` as it lies there.
 const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
 
-/// Whether a measure takes volumes.
-enum class Volumes { refused, taken };
+/// Which volumes a measure takes.
+enum class Volumes { refused, not_periodic, taken };
 
-/// A diagram for a measure that looks at labels alone. Throws Error if it is a volume, and those are refused.
+/// A diagram for a measure that looks at labels alone. Throws Error if it is a volume that is refused.
 MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes = Volumes::refused);
 
 /// A diagram for a measure that needs its seeds. Throws Error too if it knows none.

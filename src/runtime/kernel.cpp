@@ -19,6 +19,7 @@ int vector_width_for(const Device& device, const PixelGrid& grid) {
 /// Whether there may be two images of a seed in the surroundings of a bin: see exact/sizes.cl.
 bool has_short_period(const PixelGrid& grid) {
   constexpr int surroundings = 64;
+  if (grid.is_volume()) return false;
   return (grid.periodic_x() && grid.width() < surroundings) ||
          (grid.periodic_y() && grid.height() < surroundings);
 }
@@ -40,6 +41,7 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (options.extent == Extent::fractions ? " -DVOROCL_FRACTIONS" : "") +
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
+         (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") +
          (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid);
 }
 

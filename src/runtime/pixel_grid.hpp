@@ -17,7 +17,7 @@ class PixelGrid {
   PixelGrid(int width, int height, Periodic periodic = Periodic::none)
       : width_(width), height_(height), periodic_(periodic) {}
 
-  /// Those of a diagram's window. Throws Error if it is larger than a diagram can be.
+  /// Those of a diagram's window, or a volume. Throws Error if it is larger than a diagram can be.
   explicit PixelGrid(const Window& window);
 
   /// The same pixels, and no ends that meet.
@@ -30,23 +30,26 @@ class PixelGrid {
   Periodic periodic() const { return periodic_; }
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
+  bool periodic_z() const { return periodic_z_; }
   int longest_side() const { return std::max({width_, height_, depth_}); }
   std::size_t rows() const { return static_cast<std::size_t>(height_) * static_cast<std::size_t>(depth_); }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * rows(); }
 
   friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
     return a.width_ == b.width_ && a.height_ == b.height_ && a.depth_ == b.depth_ &&
-           a.periodic_ == b.periodic_;
+           a.periodic_ == b.periodic_ && a.periodic_z_ == b.periodic_z_;
   }
   friend bool operator!=(const PixelGrid& a, const PixelGrid& b) { return !(a == b); }
 
  private:
   int width_, height_, depth_ = 1;
   Periodic periodic_;
+  bool periodic_z_ = false;  // of a volume
 };
 
 /// How a voxel's coordinates lie in its position: x in the lowest bits, then y, then z, so that positions are
-/// in the order of the tie rule. In kernels VOROCL_BITS_X, VOROCL_BITS_Y and VOROCL_BITS_Z.
+/// in the order of the tie rule. Along a periodic axis there is room for half a period more at both ends. In
+/// kernels VOROCL_BITS_X, VOROCL_BITS_Y and VOROCL_BITS_Z.
 struct VoxelBits {
   explicit VoxelBits(const PixelGrid& grid);
 
@@ -66,6 +69,9 @@ void refuse_volume(const Grid& grid, const char* what);
 
 /// Throws Error if a grid is tilted or a volume, for something ("flooding") that knows neither.
 void refuse_tilted_and_volumes(const Grid& grid, const char* what);
+
+/// ", periodic in x and y", or nothing.
+std::string periodic_text(const Grid& grid);
 
 /// "640 x 480, periodic in x".
 std::string size_text(const PixelGrid& pixels);

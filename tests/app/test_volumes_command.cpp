@@ -192,11 +192,10 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, picture + "--slice z=5 --contours", usage, {"--contours is for planes"});
   refuses(folder, labels + "--edges", usage, {"--edges requires"});
   refuses(folder, labels + "--method djfa", usage, {"djfa is for planes", "jfa, jfa+1, jfa+2, 1+jfa, exact"});
-  refuses(folder, labels + "--periodic x", usage, {"--periodic is for planes"});
+  refuses(folder, labels + "--waves w%d.png", usage, {"--waves is for planes"});
   refuses(folder, labels + "--bounds 0,0,1,1", usage, {"--bounds needs --points"});
   refuses(folder, volume + "--labels a.tif", usage, {"a.tif", ".npy, .vti"});
-  refuses(folder, "render --points points.csv --size 8x8x8 --labels a.npy", usage,
-          {"made of --random seeds"});
+  refuses(folder, "render --points points.csv --size 8x8x8 --labels a.npy", failure, {"no column z"});
   refuses(folder, "render --random 3 --size 8x8 --slice z=1 -o a.png", usage, {"--slice is for volumes"});
   refuses(folder, "render --random 3 --size 8x8x --labels a.npy", usage, {"WxHxD, such as 256x256x256"});
   refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage,
@@ -206,15 +205,18 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "cells --random 3 --size 8x8x8", usage,
           {"nothing to write", "--cells, --adjacency, --labels"});
   for (const std::string other : {"--exact", "--distance b.npy", "--border b.npy", "--cell-columns id",
-                                  "--periodic x", "--snap", "--units px"}) {
+                                  "--snap", "--units px"}) {
     refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
             {other.substr(0, other.find(' ')) + " is for planes"});
   }
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
           {"16385", "from 1 to 16384 voxels"});
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --periodic z", usage,
+          {"--periodic", "cells of volumes"});
+  refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", usage, {"--random seeds"});
   refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,
-          {"vorocl render and vorocl cells make"});
+          {"vorocl render, cells and simulate make"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
-          {"vorocl render and vorocl cells make"});
+          {"of a --trajectory"});
 }

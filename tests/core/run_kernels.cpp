@@ -158,10 +158,9 @@ void measure_volume(const Diagram& diagram) {
 }
 
 /// Volumes of few seeds, and of many in a part of them.
-void make_volumes(const Device& device) {
-  const Grid grid(20, 12, 9);
+void make_volumes(const Device& device, const Grid& grid) {
   for (const std::size_t count : {9u, 600u}) {
-    const Seeds seeds = Seeds::random(device, Grid(10, 12, 9), count, 1);
+    const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
     std::vector<Point3> points;
     for (const auto& voxel : seeds.read_voxels()) points.push_back(*voxel);
     Seeds in_a_part(device, grid, points);
@@ -280,7 +279,9 @@ int main() {
     }
   }
   measure_many_cells(device, Grid(13, 9));
-  make_volumes(device.with_tuning({4, 4, 2, Shape::vector, 32}));
+  const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
+  make_volumes(for_volumes, Grid(20, 12, 9));
+  make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic(), Axis(5).periodic()));
   cut_exact_cells(device);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <optional>
 #include <random>
 
 #include "fixture.hpp"
@@ -56,6 +57,23 @@ std::size_t index_of(const Grid& grid, std::int64_t x, std::int64_t y, std::int6
   return static_cast<std::size_t>((z * grid.height() + y) * grid.width() + x);
 }
 
+/// These axes of a grid, made periodic.
+Grid periodic(const Grid& grid, bool x, bool y, bool z) {
+  return {x ? grid.x().periodic() : grid.x(), y ? grid.y().periodic() : grid.y(),
+          z ? grid.z().periodic() : grid.z()};
+}
+
+/// From one coordinate to another: the shorter way round along a periodic axis.
+std::int64_t way(const Axis& axis, std::int64_t from, std::int64_t to) {
+  const std::int64_t inside = std::abs(from - to);
+  return axis.is_periodic() ? std::min(inside, axis.pixels() - inside) : inside;
+}
+
+std::int64_t squared_distance(const Grid& grid, const At& a, const At& b) {
+  const std::int64_t x = way(grid.x(), a.x, b.x), y = way(grid.y(), a.y, b.y), z = way(grid.z(), a.z, b.z);
+  return x * x + y * y + z * z;
+}
+
 constexpr std::int64_t none = std::int64_t{1} << 40;
 
 /// Every voxel against every seed, in the order of the tie rule: only what is nearer takes a voxel.
@@ -70,11 +88,10 @@ Labels brute_force(const Grid& grid, const std::vector<At>& seeds) {
   std::vector<std::int64_t> least(labels.size(), none);
   for (const std::uint32_t id : order) {
     std::size_t at = 0;
-    for (std::int64_t z = 0; z < grid.depth(); ++z) {
-      for (std::int64_t y = 0; y < grid.height(); ++y) {
-        for (std::int64_t x = 0; x < grid.width(); ++x, ++at) {
-          const std::int64_t dx = x - seeds[id].x, dy = y - seeds[id].y, dz = z - seeds[id].z;
-          const std::int64_t distance = dx * dx + dy * dy + dz * dz;
+    for (int z = 0; z < grid.depth(); ++z) {
+      for (int y = 0; y < grid.height(); ++y) {
+        for (int x = 0; x < grid.width(); ++x, ++at) {
+          const std::int64_t distance = squared_distance(grid, {x, y, z}, seeds[id]);
           if (distance >= least[at]) continue;
           least[at] = distance;
           labels[at] = id;
@@ -98,14 +115,13 @@ Labels line_by_line(const Grid& grid, const std::vector<At>& seeds) {
     const Labels before = labels;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(labels.size()); ++i) {
       const std::int64_t voxel[] = {i % sides[0], i / sides[0] % sides[1], i / strides[2]};
+      const At at = {static_cast<int>(voxel[0]), static_cast<int>(voxel[1]), static_cast<int>(voxel[2])};
       std::int64_t least = none;
       for (std::int64_t j = 0; j < sides[axis];
            ++j) {  // the first one stays: axes come in the order of the rule
         const std::uint32_t id = before[static_cast<std::size_t>(i + (j - voxel[axis]) * strides[axis])];
         if (id == no_label) continue;
-        const std::int64_t dx = voxel[0] - seeds[id].x, dy = voxel[1] - seeds[id].y,
-                           dz = voxel[2] - seeds[id].z;
-        const std::int64_t distance = dx * dx + dy * dy + dz * dz;
+        const std::int64_t distance = squared_distance(grid, at, seeds[id]);
         if (distance >= least) continue;
         least = distance;
         labels[static_cast<std::size_t>(i)] = id;
@@ -208,8 +224,7 @@ void check_some(const Labels& labels, const Grid& grid, const std::vector<At>& s
     std::int64_t least = none;
     std::size_t nearest = 0;
     for (std::size_t id = 0; id < seeds.size(); ++id) {
-      const std::int64_t dx = voxel.x - seeds[id].x, dy = voxel.y - seeds[id].y, dz = voxel.z - seeds[id].z;
-      const std::int64_t distance = dx * dx + dy * dy + dz * dz;
+      const std::int64_t distance = squared_distance(grid, voxel, seeds[id]);
       if (distance > least || (distance == least && !(order(id) < order(nearest)))) continue;
       least = distance;
       nearest = id;
@@ -221,7 +236,9 @@ void check_some(const Labels& labels, const Grid& grid, const std::vector<At>& s
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_two_oracles_agree) {
-  for (const Case& c : hurtful_cases(Grid(20, 12, 9))) {
+  std::vector<Case> cases = hurtful_cases(Grid(20, 12, 9));
+  for (const Case& c : hurtful_cases(periodic(Grid(13, 12, 3), true, false, true))) cases.push_back(c);
+  for (const Case& c : cases) {
     BOOST_TEST(count_differences(line_by_line(c.grid, c.seeds), brute_force(c.grid, c.seeds)) == 0, c.name);
   }
 }
@@ -230,7 +247,8 @@ BOOST_AUTO_TEST_CASE(sets_made_to_hurt_have_no_wrong_voxel) {
   if (!can_be_exact()) return;
   const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
   for (const Grid& grid :
-       {Grid(70, 44, 37), Grid(33, 65, 16), Grid(1, 40, 90), Grid(200, 3, 2), Grid(5, 1, 7)}) {
+       {Grid(70, 44, 37), Grid(33, 65, 16), Grid(1, 40, 90), Grid(200, 3, 2), Grid(5, 1, 7),
+        periodic(Grid(44, 33, 20), true, true, true), periodic(Grid(1, 3, 64), true, true, true)}) {
     for (const Case& c : hurtful_cases(grid)) {
       const Labels expected = line_by_line(c.grid, c.seeds);
       check_exact(c, expected, test_device(), "full lists");
@@ -244,7 +262,10 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
   Random random(1);
   for (int i = 0; i < (long_tests ? 100000 : 2000); ++i) {
     const int most = i % 16 == 0 ? 72 : 24;
-    const Grid grid(1 + random.below(most), 1 + random.below(most), 2 + random.below(most));
+    const Grid open(1 + random.below(most), 1 + random.below(most), 2 + random.below(most));
+    // There is a program for each choice, and the long tests have one choice more.
+    const bool along_y = i % 2 == 0, along_others = i % 3 == 2 && (along_y || long_tests);
+    const Grid grid = periodic(open, along_others, along_y, along_others);
     // All orders of magnitude alike, in a part of the volume, so that some of it is empty.
     const Grid part(1 + random.below(grid.width()), 1 + random.below(grid.height()),
                     1 + random.below(grid.depth()));
@@ -252,9 +273,8 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
     const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
     const std::vector<At> seeds = random.in(part, count);
     const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
-    BOOST_TEST_REQUIRE(wrong == 0, "volume " << i << ", " << grid.width() << " x " << grid.height() << " x "
-                                             << grid.depth() << " with " << count << " seeds: " << wrong
-                                             << " wrong voxels");
+    BOOST_TEST_REQUIRE(wrong == 0, "volume " << i << ", " << size_text(PixelGrid(grid)) << " with " << count
+                                             << " seeds: " << wrong << " wrong voxels");
   }
 }
 
@@ -270,11 +290,29 @@ BOOST_AUTO_TEST_CASE(long_volumes_pack_positions_in_their_own_way) {
 
 BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
   if (!can_be_exact()) return;
-  const Grid grid(256, 256, 256);
   Random random(7);
   for (const std::size_t count : {100u, 4096u, 40000u, 300000u}) {
+    const bool some_periodic = count == 100 || count == 300000;
+    const Grid grid = periodic(Grid(256, 250, 256), some_periodic, some_periodic, some_periodic);
     const std::vector<At> seeds = random.in(grid, count);
     check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, long_tests ? 5000 : 100));
+  }
+}
+
+/// Then most voxels are nearest to images in other periods, of seeds that are far inside the volume.
+BOOST_AUTO_TEST_CASE(seeds_in_a_corner_reach_round_all_ends) {
+  if (!can_be_exact()) return;
+  Random random(15);
+  for (const Grid& open : {Grid(150, 97, 130), Grid(64, 200, 71)}) {
+    const Grid grid = periodic(open, true, true, true);
+    for (const int corner : {0, 1}) {
+      std::vector<At> seeds = random.in(Grid(9, 9, 9), 4);
+      for (At& seed : seeds) {
+        seed.x += corner * static_cast<int>(grid.width() - 9);
+        seed.z += corner * static_cast<int>(grid.depth() - 9);
+      }
+      check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, 20000));
+    }
   }
 }
 
@@ -328,6 +366,10 @@ BOOST_AUTO_TEST_CASE(seeds_say_how_far_they_went) {
   BOOST_TEST(seeds.displacement() == 7);
   seeds.move_to(std::vector<Point3>{{3, 12, 3}});
   BOOST_TEST(seeds.displacement() == 11);
+  Seeds wrapping(test_device(), periodic(grid, true, false, true),
+                 std::vector<Point3>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
+  wrapping.move_to(std::vector<Point3>{{-2, 1, -6}, {10, 22, 30}, {26, 5, 5}});
+  BOOST_TEST(wrapping.displacement() == 9);
   Seeds random = Seeds::random(test_device(), grid, 3, 1);
   random.move_to(std::vector<Point3>{{1, 2, 3}});
   BOOST_TEST(random.read_voxels()[0]->z == 3.5);
@@ -367,9 +409,16 @@ BOOST_AUTO_TEST_CASE(random_voxels_are_the_same_for_all_widths_and_fill_the_volu
 
 namespace {
 
-std::int64_t distance(const At& a, const At& b, Metric metric) {
-  const std::int64_t x = std::abs(a.x - b.x), y = std::abs(a.y - b.y), z = std::abs(a.z - b.z);
-  return metric == Metric::euclidean ? x * x + y * y + z * z : x + y + z;
+std::int64_t distance(const Grid& grid, const At& a, const At& b, Metric metric) {
+  if (metric == Metric::euclidean) return squared_distance(grid, a, b);
+  return way(grid.x(), a.x, b.x) + way(grid.y(), a.y, b.y) + way(grid.z(), a.z, b.z);
+}
+
+/// A coordinate as it is in the volume; none where it is outside.
+std::optional<int> inside(const Axis& axis, int at) {
+  const auto size = static_cast<int>(axis.pixels());
+  if (axis.is_periodic()) return (at % size + size) % size;
+  return at >= 0 && at < size ? std::optional<int>(at) : std::nullopt;
 }
 
 /// A plan of waves on the host: labels are those of the lowest ids.
@@ -378,10 +427,6 @@ Labels reference_flood(const Grid& grid, const std::vector<At>& seeds, const Pla
   for (std::size_t id = seeds.size(); id-- > 0;) {
     image[index_of(grid, seeds[id].x, seeds[id].y, seeds[id].z)] = static_cast<std::uint32_t>(id);
   }
-  const auto is_inside = [&](const At& at) {
-    return at.x >= 0 && at.x < grid.width() && at.y >= 0 && at.y < grid.height() && at.z >= 0 &&
-           at.z < grid.depth();
-  };
   for (const Wave& wave : plan) {
     const Labels before = image;
     for (int i = 0; i < static_cast<int>(image.size()); ++i) {
@@ -392,13 +437,15 @@ Labels reference_flood(const Grid& grid, const std::vector<At>& seeds, const Pla
         const int x = n % 3 - 1, y = n / 3 % 3 - 1, z = n / 9 - 1;
         if (wave.neighbourhood == Neighbourhood::von_neumann && std::abs(x) + std::abs(y) + std::abs(z) > 1)
           continue;
-        const At from = {own.x + x * wave.step, own.y + y * wave.step, own.z + z * wave.step};
-        if (!is_inside(from)) continue;
-        const std::uint32_t label = before[index_of(grid, from.x, from.y, from.z)];
+        const auto from_x = inside(grid.x(), own.x + x * wave.step),
+                   from_y = inside(grid.y(), own.y + y * wave.step),
+                   from_z = inside(grid.z(), own.z + z * wave.step);
+        if (!from_x || !from_y || !from_z) continue;
+        const std::uint32_t label = before[index_of(grid, *from_x, *from_y, *from_z)];
         if (label == no_label) continue;
         const auto key = [&](std::uint32_t id) {
           const At& at = seeds[id];
-          return std::make_tuple(distance(at, own, metric), at.z, at.y, at.x);
+          return std::make_tuple(distance(grid, at, own, metric), at.z, at.y, at.x);
         };
         if (best == no_label || key(label) < key(best)) best = label;
       }
@@ -412,7 +459,7 @@ Labels reference_flood(const Grid& grid, const std::vector<At>& seeds, const Pla
 
 BOOST_AUTO_TEST_CASE(jump_flooding_runs_its_waves_in_volumes) {
   Random random(17);
-  for (const Grid& grid : {Grid(37, 20, 11), Grid(6, 3, 50)}) {
+  for (const Grid& grid : {Grid(37, 20, 11), Grid(6, 3, 50), periodic(Grid(21, 3, 14), true, true, true)}) {
     for (const std::size_t count : {1u, 7u, 300u}) {
       const std::vector<At> voxels = random.in(grid, count);
       for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
@@ -434,12 +481,13 @@ BOOST_AUTO_TEST_CASE(jump_flooding_runs_its_waves_in_volumes) {
 }
 
 BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
-  const Grid grid(50, 40, 30);
   Random random(19);
-  const std::vector<At> voxels = random.in(grid, 60);
-  const Seeds seeds = seeds_at(test_device(), grid, voxels);
-  Diagram flooded(test_device(), grid), exact(test_device(), grid);
-  for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
+  const Grid open(50, 40, 30);
+  for (const auto& [grid, metric] : {std::pair(open, Metric::euclidean), std::pair(open, Metric::manhattan),
+                                     std::pair(periodic(open, true, true, true), Metric::euclidean)}) {
+    const std::vector<At> voxels = random.in(grid, 60);
+    const Seeds seeds = seeds_at(test_device(), grid, voxels);
+    Diagram flooded(test_device(), grid), exact(test_device(), grid);
     const Labels truth = metric == Metric::euclidean ? brute_force(grid, voxels) : Labels(grid.pixels(), 0);
     exact.write(truth, seeds, metric);
     jump_flooding(seeds, flooded, {metric, Neighbourhood::von_neumann});
@@ -449,8 +497,9 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
     std::vector<std::int64_t> distances;
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const At at = {static_cast<int>(i % 50), static_cast<int>(i / 50 % 40), static_cast<int>(i / 2000)};
-      const std::int64_t own = labels[i] == no_label ? no_distance : distance(voxels[labels[i]], at, metric);
-      const std::int64_t least = distance(voxels[truth[i]], at, metric);
+      const std::int64_t own =
+          labels[i] == no_label ? no_distance : distance(grid, voxels[labels[i]], at, metric);
+      const std::int64_t least = distance(grid, voxels[truth[i]], at, metric);
       distances.push_back(own);
       differences += labels[i] != truth[i] ? 1 : 0;
       if (own <= least) continue;
@@ -527,10 +576,10 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
   check_refusal(too_large, [&] { Diagram(device, Grid(2049, 1024, 1024)); });
   check_refusal(too_large, [&] { Diagram(device, Grid(16385, 2, 2)); });
   check_refusal(too_large, [&] { Seeds::random(device, Grid(4096, 4096, 4096), 1, 1); });
-  const Axis wraps = Axis(8).periodic();
-  for (const Grid& periodic : {Grid(wraps, Axis(8), Axis(8)), Grid(Axis(8), Axis(8), wraps)}) {
-    check_refusal("periodic axis, which volumes cannot have yet", [&] { Diagram(device, periodic); });
-  }
+  check_refusal("8193 voxels, periodic in z is too large",
+                [&] { Diagram(device, periodic(Grid(2, 2, 8193), false, false, true)); });
+  check_refusal("periodic in x and y " + too_large,
+                [&] { Diagram(device, periodic(Grid(2048, 1024, 512), true, true, false)); });
   const Grid grid(8, 8, 8);
   check_refusal("a window of a part cannot take", [&] { Window(grid, 0, 0, 4, 4); });
   check_refusal("the points have no z", [&] { Seeds(device, grid, {{1, 1}}); });

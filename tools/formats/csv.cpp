@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "formats/values.hpp"
@@ -69,11 +68,15 @@ std::size_t locate(const std::string& column, const Line& first, bool has_header
                     (has_commas ? "" : "; fields are separated by commas here"));
 }
 
-std::pair<std::size_t, std::size_t> locate(const Columns& wanted, const Line& first, bool has_header) {
+CsvIndices locate(const Columns& wanted, const Line& first, bool has_header) {
+  const bool has_z = !wanted.z.empty();
   try {
-    return {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header)};
+    CsvIndices indices = {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header), {}, {}};
+    if (has_z) indices.z = locate(wanted.z, first, has_header);
+    return indices;
   } catch (const Error& error) {
-    throw Error(error.what() + std::string(" (choose two with --columns, by name or by index from 0)"));
+    throw Error(error.what() + std::string(" (choose ") + (has_z ? "three" : "two") +
+                " with --columns, by name or by index from 0)");
   }
 }
 
@@ -86,13 +89,14 @@ const std::string& field(const Line& line, std::size_t index) {
 constexpr const char* of_decimal_commas = "; decimals have a point, not a comma";
 
 /// Of more columns without names than are needed the first two may be half of two decimal commas.
-void refuse_columns_to_choose_from(const Line& first, std::size_t needed) {
+void refuse_columns_to_choose_from(const Line& first, std::size_t needed, bool has_z) {
   const auto past_empty_ends = std::find_if(first.fields.rbegin(), first.fields.rend(),
                                             [](const std::string& field) { return !field.empty(); });
   const auto columns = static_cast<std::size_t>(first.fields.rend() - past_empty_ends);
   if (columns <= needed) return;
-  throw first.error("there are " + std::to_string(columns) +
-                    " columns without names: choose two with --columns, such as 0,1" + of_decimal_commas);
+  throw first.error("there are " + std::to_string(columns) + " columns without names: choose " +
+                    (has_z ? "three" : "two") + " with --columns, such as " + (has_z ? "0,1,2" : "0,1") +
+                    of_decimal_commas);
 }
 
 double number(const Line& line, std::size_t index) {
@@ -152,20 +156,28 @@ std::string to_csv(const CsvFields& fields) {
 }
 
 Columns parse_columns(const std::string& text) {
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos) {
-    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
+  const Columns columns = parse_columns_and_z(text);
+  if (columns.z.empty()) return columns;
+  throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
+}
+
+Columns parse_columns_and_z(const std::string& text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto comma = std::min(text.find(',', begin), text.size());
+    names.emplace_back(trimmed(text.substr(begin, comma - begin)));
+    begin = comma + 1;
   }
-  Columns columns{std::string(trimmed(text.substr(0, comma))), std::string(trimmed(text.substr(comma + 1)))};
-  if (columns.x.empty() || columns.y.empty()) {
-    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
+  const bool some_empty = std::find(names.begin(), names.end(), "") != names.end();
+  if (names.size() < 2 || names.size() > 3 || some_empty) {
+    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1, or three of a volume");
   }
-  return columns;
+  return {names[0], names[1], names.size() > 2 ? names[2] : ""};
 }
 
 CsvReader::CsvReader(const std::string& path, const std::optional<Columns>& columns,
-                     const std::string& value_column)
-    : path_(path), columns_(columns), value_column_(value_column), lines_(path) {}
+                     const std::string& value_column, bool has_z)
+    : path_(path), columns_(columns), value_column_(value_column), lines_(path), has_z_(has_z) {}
 
 bool CsvReader::next() {
   Line line{lines_, {}};
@@ -177,9 +189,10 @@ bool CsvReader::next() {
       const bool has_header = is_header(line.fields);
       indices_.emplace();
       if (columns_ || has_header) {
-        std::tie(indices_->x, indices_->y) = locate(columns_.value_or(Columns{"x", "y"}), line, has_header);
+        *indices_ = locate(columns_.value_or(Columns{"x", "y", has_z_ ? "z" : ""}), line, has_header);
       } else {
-        refuse_columns_to_choose_from(line, value_column_.empty() ? 2 : 3);
+        refuse_columns_to_choose_from(line, (value_column_.empty() ? 2 : 3) + (has_z_ ? 1 : 0), has_z_);
+        if (has_z_) indices_->z = 2;
       }
       if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
       columns_there_ = line.fields.size();
@@ -192,6 +205,7 @@ bool CsvReader::next() {
                        of_decimal_commas);
     }
     point_ = {coordinate(line, indices_->x), coordinate(line, indices_->y)};
+    if (indices_->z) z_ = coordinate(line, *indices_->z);
     if (indices_->value) value_ = value_or_absent(line, *indices_->value);
     return has_points_ = true;
   }
@@ -208,6 +222,13 @@ CsvPoints read_csv(const std::string& path, const std::optional<Columns>& column
     if (!value_column.empty()) result.values.push_back(reader.value());
   }
   return result;
+}
+
+std::vector<Point3> read_csv_of_volume(const std::string& path, const std::optional<Columns>& columns) {
+  CsvReader reader(path, columns, "", true);
+  std::vector<Point3> points;
+  while (reader.next()) points.push_back({reader.point().x, reader.point().y, reader.z()});
+  return points;
 }
 
 }  // namespace vorocl::command

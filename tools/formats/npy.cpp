@@ -157,10 +157,12 @@ void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
 
 }  // namespace
 
-NpyPoints::NpyPoints(const std::string& path, std::uint64_t most) : path_(path), file_(open_to_read(path)) {
+NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, std::size_t dimensions)
+    : path_(path), file_(open_to_read(path)), dimensions_(dimensions) {
   const Header header = read_header(file_, path);
-  if (header.shape.size() != 2 || header.shape[1] != 2) {
-    throw Error(path + " has the shape " + to_string(header.shape) + "; points need (N, 2)");
+  if (header.shape.size() != 2 || header.shape[1] != dimensions) {
+    throw Error(path + " has the shape " + to_string(header.shape) + "; points need (N, " +
+                std::to_string(dimensions) + ")");
   }
   size_ = header.shape[0];
   if (size_ == 0) throw Error(path + " holds no points");
@@ -168,28 +170,43 @@ NpyPoints::NpyPoints(const std::string& path, std::uint64_t most) : path_(path),
     throw Error(path + " holds " + std::to_string(size_) + " points; at most " + std::to_string(most) +
                 " can be seeds");
   }
-  begin_ = find_values(file_, header, 2 * size_, path);
+  begin_ = find_values(file_, header, dimensions * size_, path);
   type_ = header.type;
 }
 
-std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
+std::vector<double> NpyPoints::read_values(std::uint64_t first, std::size_t count) {
   const Type& type = types().at(type_);
-  const std::size_t bytes_per_point = 2 * type.size;
+  const std::size_t bytes_per_point = dimensions_ * type.size;
   std::vector<char> bytes(count * bytes_per_point);
   file_.seekg(static_cast<std::streamoff>(begin_ + first * bytes_per_point));
   read_bytes(file_, bytes.data(), bytes.size(), path_);
+  std::vector<double> values(count * dimensions_);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = type.read(&bytes[i * type.size]);
+  return values;
+}
+
+std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
+  const std::vector<double> values = read_values(first, count);
   std::vector<Point> points(count);
-  const char* value = bytes.data();
-  for (Point& point : points) {
-    point = {type.read(value), type.read(value + type.size)};
-    value += bytes_per_point;
-  }
+  for (std::size_t i = 0; i < count; ++i) points[i] = {values[2 * i], values[2 * i + 1]};
+  return points;
+}
+
+std::vector<Point3> NpyPoints::read_of_volume(std::uint64_t first, std::size_t count) {
+  const std::vector<double> values = read_values(first, count);
+  std::vector<Point3> points(count);
+  for (std::size_t i = 0; i < count; ++i) points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
   return points;
 }
 
 std::vector<Point> read_npy_points(const std::string& path) {
   NpyPoints points(path, Window::max_pixels);
   return points.read(0, points.size());
+}
+
+std::vector<Point3> read_npy_points_of_volume(const std::string& path) {
+  NpyPoints points(path, Window::max_pixels, 3);
+  return points.read_of_volume(0, points.size());
 }
 
 namespace {

@@ -12,27 +12,35 @@
 
 namespace vorocl::command {
 
-/// A file that holds an array of points: of shape (N, 2), and booleans or any integer or floating-point type
-/// of at most 8 bytes. The points are read when they are asked for.
+/// A file that holds an array of points: of shape (N, 2), or (N, 3) in a volume, and booleans or any integer
+/// or floating-point type of at most 8 bytes. The points are read when they are asked for.
 class NpyPoints {
  public:
   /// Throws Error if the file is something else, ends early or holds no points or more than `most`.
-  explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1);
+  explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1, std::size_t dimensions = 2);
 
   std::uint64_t size() const { return size_; }
 
   /// The points from `first` on, which are there. Throws Error if they cannot be read.
   std::vector<Point> read(std::uint64_t first, std::size_t count);
 
+  /// As read(), of a volume.
+  std::vector<Point3> read_of_volume(std::uint64_t first, std::size_t count);
+
  private:
+  /// The coordinates, point after point.
+  std::vector<double> read_values(std::uint64_t first, std::size_t count);
+
   std::string path_;
   std::ifstream file_;
+  std::size_t dimensions_;
   std::uint64_t begin_ = 0, size_ = 0;  // where the values begin in the file, and the points
   std::string type_;
 };
 
 /// All points of such a file, at most 2^30.
 std::vector<Point> read_npy_points(const std::string& path);
+std::vector<Point3> read_npy_points_of_volume(const std::string& path);
 
 /// Labels: uint32, shape (height, width). Throws Error if the file is something else.
 LabelImage read_npy_labels(const std::string& path);

@@ -22,10 +22,19 @@ void read_all(const std::string& path, const std::string& column) {
   }
 }
 
+void read_volumes(const std::string& path) {
+  const auto reader = open_trajectory(path, "", Wanted::volume);
+  for (Frame frame; reader->next(frame);) {
+    require(frame.z.size() == frame.ids.size() && frame.positions.size() == frame.ids.size());
+    for (const double z : frame.z) require(!frame.box || (z >= frame.box->z0 && z <= frame.box->z1));
+  }
+}
+
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = input_file(data, size, ".xyz");
   for (const char* const column : {"", "vx", "v[2]"}) read_or_refuse([&] { read_all(path, column); });
+  read_or_refuse([&] { read_volumes(path); });
   return 0;
 }

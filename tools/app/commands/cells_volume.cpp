@@ -10,6 +10,7 @@
 #include "app/options/option_groups.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/outputs/volume_tables.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -27,7 +28,10 @@ std::vector<RequestedFile> requested_files(const VolumeCells& options) {
 }
 
 void check(const VolumeCells& options) {
-  check_volume(options.seeds, options.method);
+  check_volume_options(options.seeds);
+  check_volume_method(options.method);
+  if (options.seeds.random == 0) throw UsageError("cells of volumes are made of --random seeds");
+  if (options.seeds.periodic) throw UsageError("--periodic: cells of volumes are measured without it");
   if (options.cells.empty() && options.adjacency.empty() && options.labels.empty()) {
     throw UsageError("nothing to write: give at least one of --cells, --adjacency, --labels");
   }
@@ -69,8 +73,9 @@ void measure_volume(const VolumeCells& options) {
                                   labels = open_output(options.labels);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  const Seeds seeds = Seeds::random(device, sides.grid(), options.seeds.random, options.seeds.rng_seed);
-  Diagram diagram(device, sides.grid());
+  const VolumeInput input = read_volume_input(options.seeds);
+  const Seeds seeds = input.place(device);
+  Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, options.method_options);
   AdjacencyResult pairs;
   adjacency(diagram, pairs);

@@ -130,10 +130,7 @@ void run(const RenderOptions& options) {
 
 /// The options that a volume has. Throws UsageError for the others.
 VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
-  for (const char* const name : {"--waves", "--periodic", "--snap", "--no-snap", "--frame", "--units"}) {
-    if (command.has(name))
-      throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
-  }
+  if (command.has("--waves")) throw UsageError("--waves is for planes, and --size WxHxD asks for a volume");
   return {options.seeds,       options.method,  options.method_options, options.device, options.picture_path,
           options.labels.path, options.picture, options.slice,          options.json};
 }
@@ -158,10 +155,7 @@ void add_render(CommandLine& line) {
            "Pictures to write of the diagram before the first wave and after every wave, such as "
            "waves/%02d.png; for djfa, the waves of the JFA that makes frame 0")
       .value_name("PICTURES");
-  command
-      .add_parsed("--slice", options->slice, parse_slice,
-                  "Of a volume, the slice that the picture shows, from 0: z=K, or along x or y")
-      .value_name("z=K");
+  add_slice_option(command, options->slice);
   add_picture_options(command, options->picture);
   add_json_option(command, options->json);
   command.set_work([command, options] {

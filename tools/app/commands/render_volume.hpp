@@ -1,24 +1,14 @@
 // vorocl render of a volume: its labels, and a picture of a slice of it.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "app/outputs/painter.hpp"
+#include "app/commands/volume_slice.hpp"
 #include "app/sources/seed_input.hpp"
 #include "vorocl/method.hpp"
 
 namespace vorocl::command {
-
-/// A slice of a volume, across an axis.
-struct VolumeSlice {
-  char axis;  // x, y or z
-  std::int64_t at;
-};
-
-/// "z=K" to a slice. Throws Error if it is not that.
-VolumeSlice parse_slice(const std::string& text);
 
 struct VolumeRendering {
   SeedOptions seeds;

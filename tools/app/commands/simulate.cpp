@@ -9,6 +9,7 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/exact_frames.hpp"
 #include "app/commands/simulate_course.hpp"
+#include "app/commands/simulate_volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -292,7 +293,7 @@ void add_simulate(CommandLine& line) {
   const auto options = std::make_shared<SimulateOptions>();
   Command command =
       line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
-  add_seed_options(command, options->seeds, 1, true);
+  add_seed_options(command, options->seeds, 1, true, true);
   add_motion_options(command, options->motion);
   add_units_option(command, options->seeds);
   add_snap_option(command, options->seeds);
@@ -319,6 +320,8 @@ void add_simulate(CommandLine& line) {
       .value_name("PIXELS")
       .needs(compare_with);
   add_frame_writer_options(command, options->output);
+  const auto slice = std::make_shared<std::optional<VolumeSlice>>();
+  add_slice_option(command, *slice);
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   const Option exact = command.add("--exact", options->exact,
@@ -332,10 +335,12 @@ void add_simulate(CommandLine& line) {
            "of WKT) or .vtp (ParaView)")
       .value_name("FILES")
       .needs(exact);
-  command.set_work([command, options] {
+  command.set_work([command, options, slice] {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
+    if (options->seeds.depth > 1) return simulate_volume(command, *options, *slice);
+    if (*slice) throw UsageError("--slice is for volumes: give --size WxHxD");
     snap_for(options->method, options->seeds);
     const bool judges = !options->method.exact && options->compare_with && options->compare_with->exact;
     if (judges) options->seeds.usual_snap = options->truth;

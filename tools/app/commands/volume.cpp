@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "app/sources/bounds.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -11,20 +12,18 @@ VolumeSize volume_size(const SeedOptions& seeds) {
   return {seeds.size->width(), seeds.size->height(), seeds.depth};
 }
 
-void check_volume(const SeedOptions& seeds, const Method& method) {
-  if (seeds.random == 0) {
-    throw UsageError(
-        "--size WxHxD: a volume is made of --random seeds; points and masks of volumes are for Python");
-  }
-  SeedOptions of_a_plane = seeds;
-  of_a_plane.depth = 1;
-  check_seed_options(of_a_plane);
+void check_volume_method(const Method& method) {
   if (method.volumes) return;
   std::string names;
   for (const Method& other : methods()) {
     if (other.volumes) names += (names.empty() ? "" : ", ") + other.name;
   }
   throw UsageError("the method " + method.name + " is for planes; volumes have " + names);
+}
+
+void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids) {
+  if (ids.empty()) return;
+  for (std::uint32_t& label : labels) label = label == no_label ? no_label : ids[label];
 }
 
 Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report) {
@@ -35,6 +34,7 @@ Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& dia
           {"width", grid.width()},
           {"height", grid.height()},
           {"depth", grid.depth()},
+          {"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
           {"seeds", seeds.alive()},
           {"waves", report.waves()},
           {"milliseconds", report.milliseconds()},

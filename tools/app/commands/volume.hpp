@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
@@ -14,8 +16,11 @@ namespace vorocl::command {
 /// The volume that --size asks for.
 VolumeSize volume_size(const SeedOptions& seeds);
 
-/// Throws UsageError for seeds and methods that volumes do not have.
-void check_volume(const SeedOptions& seeds, const Method& method);
+/// Throws UsageError for a method that knows planes alone.
+void check_volume_method(const Method& method);
+
+/// Puts the ids that labels stand for in their place, if there are any.
+void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids);
 
 /// What every command says of the volume that it made.
 Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report);

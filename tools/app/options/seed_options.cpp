@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <string_view>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -50,17 +51,39 @@ Option add_rng_seed_option(Command& command, SeedOptions& options) {
       .default_is_value();
 }
 
-Option add_columns_option(Command& command, SeedOptions& options) {
+Option add_columns_option(Command& command, SeedOptions& options, bool volumes) {
   return command
       .add_parsed(
-          "--columns", options.columns, parse_columns,
-          "Columns of the CSV file, by name or by index from 0; else those that the header names x and y, or "
-          "the only two where there is no header")
-      .value_name("X,Y");
+          "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
+          std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
+                      "names x and y") +
+              (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
+              " where there is no header")
+      .value_name(volumes ? "X,Y[,Z]" : "X,Y");
 }
 
 void add_bounds_option(Command& command, SeedOptions& options, const std::string& about) {
   command.add_parsed("--bounds", options.bounds, parse_bounds, about).value_name("X0,Y0,X1,Y1");
+}
+
+/// "X0,Y0,X1,Y1", or "X0,Y0,Z0,X1,Y1,Z1" of a volume, whose z is set apart.
+Bounds parse_bounds_and_z(const std::string& text, std::optional<std::pair<double, double>>& z) {
+  z.reset();
+  if (std::count(text.begin(), text.end(), ',') != 5) return parse_bounds(text);
+  std::vector<std::string> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const auto comma = std::min(text.find(',', begin), text.size());
+    numbers.push_back(text.substr(begin, comma - begin));
+    begin = comma + 1;
+  }
+  try {
+    const Bounds along_z = parse_bounds("0," + numbers[2] + ",1," + numbers[5]);
+    const Bounds bounds = parse_bounds(numbers[0] + ',' + numbers[1] + ',' + numbers[3] + ',' + numbers[4]);
+    z = {along_z.y0, along_z.y1};
+    return bounds;
+  } catch (const Error&) {
+    throw Error("\"" + text + "\" must be X0,Y0,Z0,X1,Y1,Z1: six numbers with X0 < X1, Y0 < Y1 and Z0 < Z1");
+  }
 }
 
 void add_outside_option(Command& command, SeedOptions& options) {
@@ -78,6 +101,20 @@ Option add_periodic_option(Command& command, SeedOptions& options, const std::st
     axes.emplace_back(to_string(some), some);
   }
   return command.add_choice("--periodic", options.periodic, axes, about);
+}
+
+/// The same where there are volumes, of which z is set apart.
+Option add_periodic_option_with_z(Command& command, SeedOptions& options, const std::string& about) {
+  Choices<std::pair<Periodic, bool>> axes;
+  for (const bool z : {false, true}) {
+    for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
+      axes.push_back({to_string(some, z), {some, z}});
+    }
+  }
+  const auto set = [&options, axes](const std::string& text) {
+    std::tie(options.periodic, options.periodic_z) = choose(axes, text);
+  };
+  return command.add("--periodic", set, about + ": " + names_of(axes)).value_name("NAME");
 }
 
 void add_y_options(Command& command, SeedOptions& options, const std::string& about_up) {
@@ -152,10 +189,10 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
 
   Option rng_seed = add_rng_seed_option(command, options);
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
-  add_columns_option(command, options).needs(points);
+  add_columns_option(command, options, volumes).needs(points);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
-      (volumes ? "; with a depth, a volume of random voxels" : "");
+      (volumes ? "; with a depth, those of a volume" : "");
   const Option size = command
                           .add(
                               "--size",
@@ -172,9 +209,16 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
       .value_name("W")
       .excludes(size);
   const std::string fitted = move ? "what --fit says of a trajectory" : "the box of a trajectory's frame";
-  add_bounds_option(command, options,
-                    "Rectangle in data units that the grid shows; else " + fitted +
-                        ", or the domain or the bounding box of the points");
+  const std::string about_bounds = "Rectangle in data units that the grid shows; else " + fitted +
+                                   ", or the domain or the bounding box of the points";
+  if (volumes) {
+    const auto set = [&options](const std::string& text) {
+      options.bounds = parse_bounds_and_z(text, options.z_bounds);
+    };
+    command.add("--bounds", set, about_bounds + "; of a volume X0,Y0,Z0,X1,Y1,Z1").value_name("X0,Y0,X1,Y1");
+  } else {
+    add_bounds_option(command, options, about_bounds);
+  }
   add_outside_option(command, options);
   command
       .add_parsed(
@@ -183,9 +227,11 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "of it")
       .value_name("X0,Y0,X1,Y1")
       .default_text("the bounds");
-  add_periodic_option(command, options,
-                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
-                      "across the border, and points outside the domain wrap")
+  const std::string about_periodic =
+      "Axes along which the plane repeats: distances go the shorter way round, cells reach across the "
+      "border, and points outside the domain wrap";
+  (volumes ? add_periodic_option_with_z(command, options, about_periodic)
+           : add_periodic_option(command, options, about_periodic))
       .default_text("what a trajectory's file says, else none");
   add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
 }
@@ -197,7 +243,7 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   const Option random = add_random_option(source, seeds, no_label - 1);
   const Option points = add_points_option(source, seeds);
   add_rng_seed_option(command, seeds).needs(random);
-  add_columns_option(command, seeds).needs(points);
+  add_columns_option(command, seeds, false).needs(points);
   command.add_parsed("--size", options.size, parse_plane, "Width and height of the plane in pixels")
       .value_name("WxH")
       .required();

@@ -15,8 +15,6 @@ namespace vorocl::command {
 
 namespace {
 
-const std::string film_extension = ".mp4";
-
 /// A film's sides are even.
 void note_of_size(const Film& film, const cv::Size& picture) {
   const cv::Size size = film_size(picture);

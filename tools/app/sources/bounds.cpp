@@ -50,9 +50,10 @@ std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
 }
 
-std::string to_string(Periodic axes) {
+std::string to_string(Periodic axes, bool z) {
   static const char* const names[] = {"none", "x", "y", "xy"};
-  return names[static_cast<std::size_t>(axes)];
+  const std::string name = names[static_cast<std::size_t>(axes)];
+  return !z ? name : axes == Periodic::none ? "z" : name + 'z';
 }
 
 Bounds bounding_box(const std::vector<Point>& points) {

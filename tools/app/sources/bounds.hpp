@@ -22,7 +22,7 @@ Bounds parse_bounds(const std::string& text);
 std::string to_string(const Bounds& bounds);
 
 /// The axes by the names that --periodic and JSON give them.
-std::string to_string(Periodic axes);
+std::string to_string(Periodic axes, bool z = false);
 
 /// The least bounds that hold all points (at least one). Throws Error if one is not finite.
 Bounds bounding_box(const std::vector<Point>& points);

@@ -125,8 +125,14 @@ CsvPoints read_points(const SeedOptions& options) {
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.depth > 1) {
-    throw UsageError(
-        "--size WxHxD asks for a volume, which vorocl render and vorocl cells make, of --random seeds");
+    throw UsageError("--size WxHxD asks for a volume, which vorocl render, cells and simulate make");
+  }
+  const char* const of_volumes = options.z_bounds     ? "--bounds with six numbers"
+                                 : options.periodic_z ? "--periodic with z"
+                                 : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"
+                                                                                  : nullptr;
+  if (of_volumes != nullptr) {
+    throw UsageError(std::string(of_volumes) + " is for volumes: give --size WxHxD");
   }
   if (options.domain && options.points.empty()) {
     throw UsageError("--domain is for --points; the domain of a trajectory is its box");

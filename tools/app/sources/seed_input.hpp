@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/sources/bounds.hpp"
@@ -26,13 +27,15 @@ struct SeedOptions {
   std::string trajectory;
   int frame = 0;  // of the trajectory
   std::optional<Size> size;
-  std::int64_t depth = 1;  // more: a volume, which vorocl render and cells make
+  std::int64_t depth = 1;  // more: a volume, which some commands make: see volume_input.hpp
   int width = 0;
   std::optional<Bounds> bounds;
   std::optional<Bounds> domain;      // of points: what repeats along the periodic axes; else the bounds
   std::optional<Outside> outside;    // the bounds; else they count
   std::optional<Periodic> periodic;  // else none, or what the trajectory says
-  std::optional<Snap> snap;          // of points and particles, as given; else ...
+  std::optional<std::pair<double, double>> z_bounds;  // of a volume, as those of `bounds`
+  bool periodic_z = false;                            // of a volume, where `periodic` is given
+  std::optional<Snap> snap;                           // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;
   Snap of_pixels = Snap::to_pixels;   // of masks and random seeds
   bool y_up = false, y_down = false;  // as given; see points_up()

@@ -12,6 +12,8 @@
 
 namespace vorocl::command {
 
+constexpr const char* film_extension = ".mp4";
+
 /// The size of a film of pictures of this size: its sides are even.
 cv::Size film_size(const cv::Size& picture);
 

@@ -155,7 +155,7 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
   const auto& [x, y, z] = values;
   if (has_edges) {
     const Edges edges = {{x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}};
-    return box_from_edges(lines_, edges, {x[3], y[3]}, sides[0], sides[1]);
+    return box_from_edges(lines_, edges, {x[3], y[3], z[3]}, sides[0], sides[1], sides[2]);
   }
   const double tilt = x[2];
   // The bounds in x are those of the whole parallelogram.
@@ -164,7 +164,7 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
   if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
     throw lines_.error("the box is tilted in z (xz, yz); only a tilt xy can be drawn in the plane");
   }
-  return SimulationBox(lines_, x_axis, y_axis, z[1] - z[0], tilt);
+  return SimulationBox(lines_, x_axis, y_axis, {z[0], z[1], sides[2]}, tilt);
 }
 
 }  // namespace vorocl::command

@@ -123,6 +123,10 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
                         std::optional<SimulationBox>& box, Frame& frame) {
   check_fits(lines, count);
   clear();
+  if (wanted_ == Wanted::volume) {
+    if (!layout.z) throw lines.error("the particles have no z, which a volume needs");
+    if (box) box->check_volume(lines);
+  }
   const std::size_t first_line = lines.number() + 1;
   if (wanted_ == Wanted::box && box && !box->grows()) {
     if (!lines.skip(count.value)) throw cut_off(lines, count.line);
@@ -142,6 +146,7 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
   frame.z_span = ids_.empty() ? 0 : (highest_z_ - lowest_z_) * (layout.scaled ? box->depth() : 1);
   give(ids_, frame.ids);
   give(positions_, frame.positions);
+  give(z_, frame.z);
   give(values_, frame.values);
   frame.box = box ? std::optional<Box>(box->extent()) : std::nullopt;
 }
@@ -149,6 +154,7 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
 void ParticleRows::clear() {
   ids_.clear();
   positions_.clear();
+  z_.clear();
   values_.clear();
   order_.clear();
   lowest_z_ = std::numeric_limits<double>::infinity();
@@ -172,11 +178,18 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
       layout.id ? parse_id(lines, fields_[*layout.id]) : static_cast<std::uint32_t>(ids_.size());
   Point position = {real_in(lines, fields_[layout.x], "a finite x"),
                     real_in(lines, fields_[layout.y], "a finite y")};
-  const double z = layout.z ? parse_number<double>(fields_[*layout.z]).value_or(0) : 0;
+  double z = 0;
+  if (wanted_ == Wanted::volume) {
+    z = real_in(lines, fields_[*layout.z], "a finite z");
+    if (box) z = box->place_z(lines, id, z, layout.scaled);
+    z_.push_back(z);
+  } else if (layout.z) {
+    z = parse_number<double>(fields_[*layout.z]).value_or(0);
+  }
   if (layout.value) values_.push_back(parse_value(lines, fields_[*layout.value]));
   if (layout.scaled) position = box->from_scaled(position);
   if (box) position = box->place(lines, id, position);
-  if (!std::isfinite(position.x) || !std::isfinite(position.y)) {
+  if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(z)) {
     throw lines.error("the position is too far from the box to be computed");
   }
   ids_.push_back(id);

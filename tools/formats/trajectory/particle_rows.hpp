@@ -73,6 +73,7 @@ class ParticleRows {
   // Of the rows so far, in the order of the file.
   std::vector<std::uint32_t> ids_;
   std::vector<Point> positions_;
+  std::vector<double> z_;  // of a volume
   std::vector<double> values_;
   double lowest_z_ = 0, highest_z_ = 0;
   std::vector<std::string_view> fields_;  // of the present row

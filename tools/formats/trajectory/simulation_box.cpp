@@ -79,10 +79,12 @@ void hold(const LineReader& lines, std::uint32_t id, const BoxAxis& axis, char n
 
 bool is_negligible(double length, double beside) { return std::abs(length) <= 1e-9 * std::abs(beside); }
 
-SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth,
+SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
                              double tilt)
-    : x_(x), y_(y), depth_(depth), tilt_(tilt), box_{x.low,        y.low,        x.high, y.high,
-                                                     x.periodic(), y.periodic(), tilt} {
+    : x_(x), y_(y), z_(z), tilt_(tilt), box_{x.low, y.low, x.high, y.high, x.periodic(), y.periodic(), tilt} {
+  box_.z0 = z.low;
+  box_.z1 = z.high;
+  box_.periodic_z = z.periodic();
   box_.open_x0 = x.sides.first == Side::open;
   box_.open_x1 = x.sides.second == Side::open;
   box_.open_y0 = y.sides.first == Side::open;
@@ -96,6 +98,22 @@ SimulationBox::SimulationBox(const LineReader& lines, const BoxAxis& x, const Bo
         "rectangle");
   }
   tilt_ = box_.tilt = 0;
+}
+
+void SimulationBox::check_volume(const LineReader& lines) const {
+  check(lines, z_, 'z');
+  if (is_negligible(tilt_, x_.length())) return;
+  throw lines.error(fmt::format("the box is tilted (xy = {}), which volumes cannot take", tilt_));
+}
+
+double SimulationBox::place_z(const LineReader& lines, std::uint32_t id, double z, bool scaled) {
+  if (scaled) z = unscaled(z_, z);
+  if (z_.periodic()) {
+    wrap(z_, z);
+  } else {
+    hold(lines, id, z_, 'z', z, box_.z0, box_.z1);
+  }
+  return z;
 }
 
 Point SimulationBox::from_scaled(Point scaled) const {
@@ -117,7 +135,8 @@ Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point posi
   return position;
 }
 
-SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y) {
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
+                             Sides z) {
   const auto& [a, b, c] = edges;
   const double length = std::max(std::abs(a[0]), std::abs(b[1]));
   for (const double component : {a[1], a[2], b[2], c[0], c[1]}) {
@@ -129,7 +148,8 @@ SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point 
   }
   const BoxAxis x_axis{origin.x, origin.x + a[0], x};
   const BoxAxis y_axis{origin.y, origin.y + b[1], y};
-  return SimulationBox(lines, x_axis, y_axis, c[2], b[0]);
+  const BoxAxis z_axis{origin.z, origin.z + c[2], z};
+  return SimulationBox(lines, x_axis, y_axis, z_axis, b[0]);
 }
 
 }  // namespace vorocl::command

@@ -26,13 +26,17 @@ struct BoxAxis {
 };
 
 /// A parallelogram with the edges (x.length(), 0) and (tilt, y.length()), whose lower left corner is
-/// (x.low, y.low).
+/// (x.low, y.low); in a volume as deep as z is long.
 class SimulationBox {
  public:
   /// Throws Error, at the reader's line, for bounds in the wrong order, a periodic axis of no length, and a
-  /// tilt where not both axes are periodic: only then a rectangle holds the same particles. `depth` is its
-  /// length in z.
-  SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, double depth, double tilt = 0);
+  /// tilt where not both axes are periodic: only then a rectangle holds the same particles. Of z nothing is
+  /// asked, which planes leave out: see check_volume().
+  SimulationBox(const LineReader& lines, const BoxAxis& x, const BoxAxis& y, const BoxAxis& z,
+                double tilt = 0);
+
+  /// Throws Error, at the reader's line, for what is wrong of z, and for a tilt.
+  void check_volume(const LineReader& lines) const;
 
   /// A position given in lengths of the edges, in data units.
   Point from_scaled(Point scaled) const;
@@ -42,7 +46,10 @@ class SimulationBox {
   /// wall.
   Point place(const LineReader& lines, std::uint32_t id, Point position);
 
-  double depth() const { return depth_; }
+  /// The same of z.
+  double place_z(const LineReader& lines, std::uint32_t id, double z, bool scaled);
+
+  double depth() const { return z_.length(); }
 
   /// Whether a side gives way to particles.
   bool grows() const { return box_.open_x0 || box_.open_x1 || box_.open_y0 || box_.open_y1; }
@@ -53,7 +60,7 @@ class SimulationBox {
  private:
   BoxAxis x_;
   BoxAxis y_;
-  double depth_;
+  BoxAxis z_;
   double tilt_;
   Box box_;
 };
@@ -67,7 +74,8 @@ struct Edges {
 
 /// The box with these edges. Throws Error, at the reader's line, unless the first lies along x, the second
 /// in the xy plane and the third along z, and where SimulationBox does.
-SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y);
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
+                             Sides z);
 
 /// Whether a length is so small beside another that it can be an error of rounding.
 bool is_negligible(double length, double beside);

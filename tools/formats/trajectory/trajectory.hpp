@@ -24,10 +24,15 @@ struct Box {
   double tilt = 0;
   /// Sides that give way to particles: shrink-wrapped ones. Beyond the others there is nothing.
   bool open_x0 = false, open_y0 = false, open_x1 = false, open_y1 = false;
+  /// Of a volume.
+  double z0 = 0;
+  double z1 = 0;
+  bool periodic_z = false;
 };
 
 /// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on
-/// its kind of coordinates. The third dimension is left out: particles are seen along z.
+/// its kind of coordinates. Without Wanted::volume the third dimension is left out: particles are seen along
+/// z.
 struct Frame {
   std::optional<std::int64_t> timestep;  ///< none in XYZ
   std::optional<Box> box;                ///< none in an XYZ without a lattice
@@ -35,6 +40,7 @@ struct Frame {
   /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);
   /// elsewhere the box holds it, grown where the file's box is no wall.
   std::vector<Point> positions;
+  std::vector<double> z;       ///< of a volume, likewise; else empty
   double z_span = 0;           ///< how far the particles lie apart along z; 0 where the file has no z
   std::vector<double> values;  ///< of the value column, in the order of the ids; empty without one
 };
@@ -57,6 +63,7 @@ class TrajectoryReader {
 /// What of a frame is to be read.
 enum class Wanted {
   all,
+  volume,  ///< all, with z
   box  ///< and no particles where it does not depend on them: their rows are passed over, whatever they hold
 };
 

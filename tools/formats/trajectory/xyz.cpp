@@ -103,22 +103,23 @@ std::optional<SimulationBox> parse_box(const LineReader& lines, const Pairs& pai
   const auto lattice = pairs.find("lattice");
   if (lattice == pairs.end()) return std::nullopt;
   const std::vector<double> v = numbers(lines, "Lattice", lattice->second, 9);
-  Point origin;
+  Point3 origin;
   if (const auto found = pairs.find("origin"); found != pairs.end()) {
     const std::vector<double> corner = numbers(lines, "Origin", found->second, 3);
-    origin = {corner[0], corner[1]};
+    origin = {corner[0], corner[1], corner[2]};
   }
   Sides x{Side::periodic, Side::periodic};
-  Sides y = x;
+  Sides y = x, z = x;
   if (const auto found = pairs.find("pbc"); found != pairs.end()) {
     const std::vector<std::string_view> axes = elements(lines, "pbc", found->second, 3);
     x = parse_periodic(lines, axes[0]);
     y = parse_periodic(lines, axes[1]);
+    z = parse_periodic(lines, axes[2]);
   }
   // Some programs write a lattice of zeros where there is none.
   if (x.first != Side::periodic && y.first != Side::periodic && v[0] == 0 && v[4] == 0) return std::nullopt;
   const Edges edges = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
-  return box_from_edges(lines, edges, origin, x, y);
+  return box_from_edges(lines, edges, origin, x, y, z);
 }
 
 /// The columns from "name:type:number of columns" for each property, with colons between them too.

@@ -1,0 +1,186 @@
+// Volumes of points and trajectories with z: labels against brute force, frame by frame; and what is refused.
+#define BOOST_TEST_MODULE volume_trajectories
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "formats/npy.hpp"
+#include "run_command.hpp"
+
+using namespace vorocl;
+
+namespace {
+
+struct Particle {
+  std::uint32_t id;
+  std::array<double, 3> at;
+};
+
+/// A box of a frame, and along which axes it repeats.
+struct Space {
+  std::array<double, 3> low, high;
+  std::array<bool, 3> periodic;
+};
+
+constexpr std::array<int, 3> sides = {20, 40, 12};
+
+/// The file of labels: the id of the nearest voxel that has a particle, ties by z, y, x and id.
+std::string labels_of(const Space& space, const std::vector<Particle>& particles) {
+  std::string bytes = command::npy_header<std::uint32_t>({sides[2], sides[1], sides[0]});
+  std::array<int, 3> voxel = {};
+  const auto key = [&](const Particle& particle) {
+    std::array<int, 3> of_seed = {};
+    int distance = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double length = space.high[axis] - space.low[axis];
+      const auto at =
+          static_cast<int>(std::floor((particle.at[axis] - space.low[axis]) * sides[axis] / length));
+      of_seed[axis] = space.periodic[axis] ? (at % sides[axis] + sides[axis]) % sides[axis]
+                                           : std::min(at, sides[axis] - 1);
+      int way = std::abs(of_seed[axis] - voxel[axis]);
+      if (space.periodic[axis]) way = std::min(way, sides[axis] - way);
+      distance += way * way;
+    }
+    return std::make_tuple(distance, of_seed[2], of_seed[1], of_seed[0], particle.id);
+  };
+  for (voxel[2] = 0; voxel[2] < sides[2]; ++voxel[2]) {
+    for (voxel[1] = 0; voxel[1] < sides[1]; ++voxel[1]) {
+      for (voxel[0] = 0; voxel[0] < sides[0]; ++voxel[0]) {
+        const Particle* nearest = &particles.front();
+        for (const Particle& particle : particles) {
+          if (key(particle) < key(*nearest)) nearest = &particle;
+        }
+        char label[sizeof nearest->id];
+        std::memcpy(label, &nearest->id, sizeof label);
+        bytes.append(label, sizeof label);
+      }
+    }
+  }
+  return bytes;
+}
+
+std::string flags(const Space& space) {
+  std::string text;
+  for (const bool periodic : space.periodic) text += periodic ? " pp" : " ff";
+  return text;
+}
+
+std::string dump_frame(int step, const Space& space, const std::vector<Particle>& particles, bool scaled) {
+  std::string text = fmt::format("ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n{}\nITEM: BOX BOUNDS{}\n", step,
+                                 particles.size(), flags(space));
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    text += fmt::format("{} {}\n", space.low[axis], space.high[axis]);
+  text += scaled ? "ITEM: ATOMS id xs ys zs\n" : "ITEM: ATOMS id x y z\n";
+  for (const Particle& particle : particles) {
+    text += std::to_string(particle.id);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double at = particle.at[axis], length = space.high[axis] - space.low[axis];
+      text += fmt::format(" {}", scaled ? (at - space.low[axis]) / length : at);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+const Space first = {{0, 0, -1}, {10, 20, 5}, {true, true, true}},
+            second = {{0, 2, -1}, {10, 22, 5}, {false, true, false}};
+const std::vector<Particle> some = {{90, {1.25, 2, -0.75}}, {4, {9.75, 19.5, 4.75}}, {5, {5, 5.25, 4}}},
+                            others = {{5, {5.25, 21, 4.25}}, {90, {1.25, 2, -0.25}}};
+
+/// Exact diagrams of volumes are for CPUs.
+bool can_be_exact() { return test_device().tuning().shape == Shape::vector; }
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  folder.file("a.lammpstrj", dump_frame(7, first, some, false) + dump_frame(8, second, others, true));
+  const std::string of_file = "--trajectory a.lammpstrj --size 20x40x12 ";
+  succeeds(folder, "simulate " + of_file + "--labels f/%02d.npy -o f/%02d.png --slice z=3");
+  BOOST_TEST((content_of(folder / "f/00.npy") == labels_of(first, some)));
+  BOOST_TEST((content_of(folder / "f/01.npy") == labels_of(second, others)));
+  BOOST_TEST(!content_of(folder / "f/01.png").empty());
+  succeeds(folder, "render " + of_file + "--frame 1 --labels a.npy");
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(second, others)));
+  const auto result = nlohmann::json::parse(
+      succeeds(folder, "simulate " + of_file + "--frames 1 --labels g/%d.npy --periodic y --every 2 --json"));
+  BOOST_TEST((result["frames"] == 2 && result["periodic"] == "y" && result["depth"] == 12));
+  Space told = first;
+  told.periodic = {false, true, false};
+  BOOST_TEST((content_of(folder / "g/0.npy") == labels_of(told, some)));
+  BOOST_TEST((run(folder, "render " + of_file + "--frame 2 --labels a.npy").exit_code == failure));
+}
+
+BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  std::string
+      xyz = "3\nLattice=\"10 0 0 0 20 0 0 0 6\" Origin=\"0 0 -1\" pbc=\"T T T\" Properties=id:I:1:pos:R:3\n",
+      csv = "z,x,y\n";
+  for (const Particle& particle : some) {
+    const auto& [x, y, z] = particle.at;
+    xyz += fmt::format("{} {} {} {}\n", particle.id, x, y, z);
+    csv += fmt::format("{},{},{}\n", z, x, y);
+  }
+  folder.file("a.xyz", xyz);
+  succeeds(folder, "render --trajectory a.xyz --size 20x40x12 --labels a.npy");
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(first, some)));
+  folder.file("p.csv", csv);
+  std::vector<Particle> numbered = some;
+  for (std::size_t i = 0; i < numbered.size(); ++i) numbered[i].id = static_cast<std::uint32_t>(i);
+  const std::string size = "--size 20x40x12 --labels a.npy ", bounds = "--bounds=0,0,-1,10,20,5 ";
+  for (const bool periodic : {false, true}) {
+    Space space = first;
+    space.periodic = {false, periodic, false};
+    succeeds(folder, "render --points p.csv " + size + bounds + (periodic ? "--periodic y" : ""));
+    BOOST_TEST((content_of(folder / "a.npy") == labels_of(space, numbered)));
+  }
+  const std::string labels = content_of(folder / "a.npy");
+  folder.file("numbers.csv", csv.substr(csv.find('\n') + 1));
+  succeeds(folder, "render --points numbers.csv --columns 1,2,0 " + size + bounds + "--periodic y");
+  BOOST_TEST((content_of(folder / "a.npy") == labels));
+  const Space tight = {{1.25, 2, -0.75}, {9.75, 19.5, 4.75}, {false, false, false}};
+  BOOST_TEST(run(folder, "render --points p.csv " + size).error.find("different scales") !=
+             std::string::npos);
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(tight, numbered)));
+}
+
+BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,z\n1,2,3\n4,5,6\n");
+  folder.file("flat.csv", "x,y\n1,2\n");
+  folder.file("a.lammpstrj", dump_frame(7, first, some, false));
+  folder.file("tilted.xyz", "1\nLattice=\"10 0 0 3 20 0 0 0 6\"\nA 1 2 3\n");
+  folder.file("turned.xyz", "1\nLattice=\"10 0 0 0 20 0 1 0 6\"\nA 1 2 3\n");
+  folder.file("flat.lammpstrj",
+              "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n0 1\n0 1\n"
+              "0 1\nITEM: ATOMS id x y\n1 0 0\n");
+  const std::string volume = " --size 8x8x8 --labels a.npy ", points = "render --points p.csv" + volume,
+                    dump = "render --trajectory a.lammpstrj" + volume;
+  refuses(folder, points + "--bounds 0,0,8,8", usage, {"six numbers: X0,Y0,Z0,X1,Y1,Z1"});
+  refuses(folder, points + "--bounds 0,0,8,8,8,8", usage, {"Z0 < Z1"});
+  refuses(folder, points + "--bounds 0,0,0,8,8,4", failure, {"point 1 at (4, 5, 6)", "in z from 0 to 4"});
+  refuses(folder, points + "--columns x,y", usage, {"three: X,Y,Z"});
+  refuses(folder, points + "--outside count", usage, {"--outside is for planes"});
+  refuses(folder, "render --points flat.csv" + volume, failure, {"no column z", "choose three"});
+  refuses(folder, dump + "--y-up", usage, {"--y-up is for planes"});
+  refuses(folder, dump + "--bounds=0,0,-1,10,20,4", failure,
+          {"frame 0", "whole periods: in z", "from -1 to 5"});
+  refuses(folder, "render --trajectory tilted.xyz" + volume, failure, {"tilted.xyz:2", "tilted (xy = 3)"});
+  refuses(folder, "render --trajectory turned.xyz" + volume, failure, {"turned.xyz:2", "third along z"});
+  refuses(folder, "render --trajectory flat.lammpstrj" + volume, failure, {"no z, which a volume needs"});
+  refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
+          {"of a --trajectory"});
+  refuses(folder, "simulate --trajectory a.lammpstrj --size 8x8x8 --statistics a.csv", usage,
+          {"--statistics is for planes"});
+  refuses(folder, "simulate --trajectory a.lammpstrj --size 8x8x8 --method djfa --labels %d.npy", usage,
+          {"djfa is for planes"});
+  for (const std::string of_volumes : {"--bounds 0,0,0,8,8,8", "--periodic xz", "--columns x,y,z"}) {
+    refuses(folder, "render --points p.csv --size 8x8 --labels a.npy " + of_volumes, usage, {"for volumes"});
+  }
+}

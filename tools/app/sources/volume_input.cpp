@@ -1,0 +1,239 @@
+#include "app/sources/volume_input.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/sources/bounds.hpp"
+#include "app/sources/seed_input.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/csv.hpp"
+#include "formats/files.hpp"
+#include "formats/npy.hpp"
+#include "formats/values.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// A stretch of the data along an axis.
+struct Side {
+  double low = 0, high = 0;
+  bool is_periodic = false;
+};
+using Sides = std::array<Side, 3>;
+
+constexpr char names[] = {'x', 'y', 'z'};
+
+std::array<double, 3> coordinates(const Point3& point) { return {point.x, point.y, point.z}; }
+
+Sides bounding_sides(const std::vector<Point3>& points) {
+  Sides sides;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto is_less = [axis](const Point3& a, const Point3& b) {
+      return coordinates(a)[axis] < coordinates(b)[axis];
+    };
+    const auto [least, most] = std::minmax_element(points.begin(), points.end(), is_less);
+    sides[axis] = {coordinates(*least)[axis], coordinates(*most)[axis], false};
+  }
+  return sides;
+}
+
+Sides sides_of(const Box& box) {
+  return {Side{box.x0, box.x1, box.periodic_x}, Side{box.y0, box.y1, box.periodic_y},
+          Side{box.z0, box.z1, box.periodic_z}};
+}
+
+/// The bounds that are given; none without them.
+std::optional<Sides> given_sides(const SeedOptions& options) {
+  if (!options.bounds) return std::nullopt;
+  return Sides{Side{options.bounds->x0, options.bounds->x1, false},
+               Side{options.bounds->y0, options.bounds->y1, false},
+               Side{options.z_bounds->first, options.z_bounds->second, false}};
+}
+
+void take_periodic_axes(const SeedOptions& options, Sides& sides) {
+  if (!options.periodic) return;
+  sides[0].is_periodic = has_x(*options.periodic);
+  sides[1].is_periodic = has_y(*options.periodic);
+  sides[2].is_periodic = options.periodic_z;
+}
+
+Grid grid_of(const SeedOptions& options, const Sides& sides) {
+  const auto axis = [](std::int64_t voxels, const Side& side) {
+    const Axis open(voxels, side.low, side.high);
+    return side.is_periodic ? open.periodic() : open.closed();
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (sides[i].is_periodic && sides[i].low == sides[i].high) {
+      throw Error(fmt::format("there is no extent in {}, which is to be periodic", names[i]));
+    }
+  }
+  return {axis(options.size->width(), sides[0]), axis(options.size->height(), sides[1]),
+          axis(options.depth, sides[2])};
+}
+
+void check_inside(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids,
+                  const Grid& grid) {
+  const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (axes[axis]->covers(coordinates(points[i])[axis])) continue;
+      throw Error(
+          fmt::format("{} {} at ({}, {}, {}) is outside the bounds, in {} from {} to {}; give bounds that "
+                      "hold all points",
+                      ids.empty() ? "point" : "particle", ids.empty() ? i : ids[i], points[i].x, points[i].y,
+                      points[i].z, names[axis], axes[axis]->from(), axes[axis]->to()));
+    }
+  }
+}
+
+/// Warns unless voxels are cubes in data units, to the nearest whole number of voxels.
+void warn_of_voxels(const Grid& grid) {
+  const auto is_square = [](const Axis& a, const Axis& b) {
+    return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
+  };
+  if (is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z())) return;
+  print_warning(fmt::format(
+      "the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
+      "data units; a --size like the bounds keeps voxels cubes",
+      grid.width(), grid.height(), grid.depth()));
+}
+
+std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
+  as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
+  if (extension_of(options.points) == ".csv") return read_csv_of_volume(options.points, options.columns);
+  if (options.columns) throw UsageError("--columns is for .csv files");
+  std::vector<Point3> points = read_npy_points_of_volume(options.points);
+  const auto is_bad = [](const Point3& point) {
+    return !std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z);
+  };
+  const auto bad = std::find_if(points.begin(), points.end(), is_bad);
+  if (bad == points.end()) return points;
+  throw Error(fmt::format("{}: point {} at ({}, {}, {}) is not finite", options.points, bad - points.begin(),
+                          bad->x, bad->y, bad->z));
+}
+
+VolumeInput input_from(const Grid& grid, const std::vector<Point3>& points,
+                       const std::vector<std::uint32_t>& ids) {
+  return {grid, [grid, points](const Device& device) { return Seeds(device, grid, points, Outside::refuse); },
+          ids};
+}
+
+VolumeInput input_from_points(const SeedOptions& options) {
+  const std::vector<Point3> points = read_points_of_volume(options);
+  try {
+    const std::optional<Sides> given = given_sides(options);
+    Sides sides = given ? *given : bounding_sides(points);
+    take_periodic_axes(options, sides);
+    const Grid grid = grid_of(options, sides);
+    check_inside(points, {}, grid);
+    warn_of_voxels(grid);
+    if (!given &&
+        std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
+      print_note("the periods are those of the points' bounding box; --bounds says others");
+    }
+    return input_from(grid, points, {});
+  } catch (const Error& error) {
+    throw Error(options.points + ": " + error.what());
+  }
+}
+
+VolumeInput input_at_random(const SeedOptions& options) {
+  const auto axis = [](std::int64_t voxels, bool is_periodic) {
+    return is_periodic ? Axis(voxels).periodic() : Axis(voxels);
+  };
+  const Periodic periodic = options.periodic.value_or(Periodic::none);
+  const Grid grid(axis(options.size->width(), has_x(periodic)), axis(options.size->height(), has_y(periodic)),
+                  axis(options.depth, options.periodic_z));
+  return {grid,
+          [grid, count = options.random, seed = options.rng_seed](const Device& device) {
+            return Seeds::random(device, grid, count, seed);
+          },
+          {}};
+}
+
+}  // namespace
+
+VolumeFrames::VolumeFrames(const SeedOptions& options, int start)
+    : options_(options), reader_(open_trajectory(options.trajectory, "", Wanted::volume)) {
+  while (number_ < start) {
+    if (!reader_->next(frame_)) {
+      throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
+                              options.trajectory, start, number_));
+    }
+    ++number_;
+  }
+  take_frame();
+}
+
+bool VolumeFrames::next() {
+  if (!reader_->next(frame_)) return false;
+  ++number_;
+  take_frame();
+  return true;
+}
+
+void VolumeFrames::take_frame() {
+  points_.resize(frame_.positions.size());
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    points_[i] = {frame_.positions[i].x, frame_.positions[i].y, frame_.z[i]};
+  }
+  try {
+    const std::optional<Sides> given = given_sides(options_);
+    if (!given && !frame_.box && points_.empty()) {
+      throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
+    }
+    const Sides whole = frame_.box ? sides_of(*frame_.box) : given ? *given : bounding_sides(points_);
+    Sides sides = given ? *given : whole;
+    for (std::size_t i = 0; i < 3; ++i) sides[i].is_periodic = whole[i].is_periodic;
+    take_periodic_axes(options_, sides);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
+      throw Error(
+          fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
+                      names[i], whole[i].low, whole[i].high));
+    }
+    grid_ = grid_of(options_, sides);
+    check_inside(points_, frame_.ids, *grid_);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));
+  }
+  if (!scales_checked_) warn_of_voxels(*grid_);
+  scales_checked_ = true;
+}
+
+void check_volume_options(const SeedOptions& options) {
+  const char* const of_planes = !options.mask.empty()           ? "--mask"
+                                : options.width != 0            ? "--width"
+                                : options.domain                ? "--domain"
+                                : options.outside               ? "--outside"
+                                : options.y_up                  ? "--y-up"
+                                : options.y_down                ? "--y-down"
+                                : options.snap                  ? "--snap"
+                                : options.units                 ? "--units"
+                                : !options.value_column.empty() ? "--color column:NAME"
+                                                                : nullptr;
+  if (of_planes != nullptr) {
+    throw UsageError(std::string(of_planes) + " is for planes, and --size WxHxD asks for a volume");
+  }
+  if (options.bounds && options.random > 0) throw UsageError("--bounds needs --points or --trajectory");
+  if (options.bounds && !options.z_bounds) {
+    throw UsageError("the --bounds of a volume are six numbers: X0,Y0,Z0,X1,Y1,Z1");
+  }
+  if (options.columns && options.columns->z.empty()) {
+    throw UsageError("the --columns of a volume are three: X,Y,Z");
+  }
+}
+
+VolumeInput read_volume_input(const SeedOptions& options) {
+  check_volume_options(options);
+  if (options.random > 0) return input_at_random(options);
+  if (!options.points.empty()) return input_from_points(options);
+  const VolumeFrames frames(options, options.frame);
+  return input_from(frames.grid(), frames.points(), frames.ids());
+}
+
+}  // namespace vorocl::command

@@ -1,0 +1,67 @@
+// The seeds of a volume that a command line asks for, and the grid that they are on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/trajectory/trajectory.hpp"
+#include "vorocl/seeds.hpp"
+
+namespace vorocl::command {
+
+struct SeedOptions;
+
+/// Seeds of a volume that were read and checked, and that a device can now be given.
+struct VolumeInput {
+  Grid grid;
+  std::function<Seeds(const Device&)> place;
+  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
+};
+
+/// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
+/// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
+/// bounding box of the particles.
+class VolumeFrames {
+ public:
+  /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
+  /// or no z, or has a tilted box; warns on standard error where the axes get different scales.
+  explicit VolumeFrames(const SeedOptions& options, int start = 0);
+
+  /// Goes to the next frame; false after the last. Throws as above.
+  bool next();
+
+  const Grid& grid() const { return *grid_; }
+  const std::vector<Point3>& points() const { return points_; }
+
+  /// The particles' ids, by seed.
+  const std::vector<std::uint32_t>& ids() const { return frame_.ids; }
+
+  std::optional<std::int64_t> timestep() const { return frame_.timestep; }
+
+  /// How much of the file lies behind the frame; none where that is not known.
+  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
+
+ private:
+  void take_frame();
+
+  const SeedOptions& options_;
+  std::unique_ptr<TrajectoryReader> reader_;
+  Frame frame_;
+  int number_ = -1;
+  bool scales_checked_ = false;
+  std::optional<Grid> grid_;  // set by the constructor
+  std::vector<Point3> points_;
+};
+
+/// Throws UsageError for options of seeds that volumes do not have.
+void check_volume_options(const SeedOptions& options);
+
+/// Checks the options, and reads and checks the files. Throws UsageError, and Error if a file is bad or a
+/// point is outside the bounds; warns on standard error where the axes get different scales.
+VolumeInput read_volume_input(const SeedOptions& options);
+
+}  // namespace vorocl::command
