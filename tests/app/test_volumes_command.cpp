@@ -204,8 +204,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
   refuses(folder, "cells --random 3 --size 8x8x8", usage,
           {"nothing to write", "--cells, --adjacency, --labels"});
-  for (const std::string other : {"--exact", "--distance b.npy", "--border b.npy", "--cell-columns id",
-                                  "--snap", "--units px"}) {
+  for (const std::string other :
+       {"--exact", "--distance b.npy", "--border b.npy", "--cell-columns id", "--snap", "--units px"}) {
     refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
             {other.substr(0, other.find(' ')) + " is for planes"});
   }
