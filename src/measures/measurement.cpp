@@ -73,7 +73,8 @@ MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
   if (volumes == Volumes::refused) refuse_volume(grid, "this measure");
   const bool is_periodic = grid.periodic() != Periodic::none || grid.z().is_periodic();
   if (volumes == Volumes::not_periodic && grid.is_volume() && is_periodic) {
-    throw Error("the volume has a periodic axis, which this measure cannot take yet; areas and statistics do");
+    throw Error(
+        "the volume has a periodic axis, which this measure cannot take yet; areas and statistics do");
   }
   MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
   if (!state.contents) return measured;

@@ -99,8 +99,8 @@ void run_exact(const Command& command, const CellsOptions& options) {
 
 /// The options that a volume has. Throws UsageError for the others.
 VolumeCells volume_of(const Command& command, const CellsOptions& options) {
-  for (const char* const name : {"--exact", "--distance", "--border", "--cell-columns",
-                                 "--snap", "--no-snap", "--frame", "--units"}) {
+  for (const char* const name :
+       {"--exact", "--distance", "--border", "--cell-columns", "--snap", "--no-snap", "--frame", "--units"}) {
     if (command.has(name))
       throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
   }
