@@ -7,8 +7,8 @@
 // Equal distances rule nothing out, so no proof needs the tie rule.
 //
 // PLACES. Along a periodic axis a seed has images, a period before and behind it, and the candidates are images: a box
-// may have two of one seed. They are seeds like others to all proofs, for the nearest image is as far as the shorter way
-// round. Their places are coordinates that start half a period before the volume (MARGIN_X and so on, 0 along other
+// may have two of one seed. They are seeds like others to all proofs, for the nearest image is as far as the shorter
+// way round. Their places are coordinates that start half a period before the volume (MARGIN_X and so on, 0 along other
 // axes), packed as positions are; an image that is farther from all voxels is none. Boxes are in places.
 
 #ifndef VOROCL_VOLUMES_SEARCH
@@ -368,7 +368,8 @@ static inline int regions_left(const index_t* index, dominators_t* d, nearest_t*
   int kept = 0;
   for (int i = 0; i < count; i += 8) {
     int keep[8];
-    uv low = of_regions(index->low + first, regions, i, count), high = of_regions(index->high + first, regions, i, count);
+    uv low = of_regions(index->low + first, regions, i, count);
+    uv high = of_regions(index->high + first, regions, i, count);
     place_boxes(e, images_of_regions(e, regions, i), &low, &high);
     vstore8(nodes_left(d, low, high), 0, keep);
     for (int lane = 0; lane < 8; ++lane) {
