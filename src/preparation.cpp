@@ -140,9 +140,9 @@ void prepare_at(const Scale& scale, const Device& device, const Specialisation& 
   const std::vector<Point> points = spread_points(scale.seeds, scale.width, scale.height);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
     Seeds seeds(device, grid, points, Outside::count, snap);
-    exact.run(seeds, other, options);
     relax(seeds, diagram, engine(exact, options), 1);
     relax(seeds, diagram, engine(exact, options), 1, {}, by_weight);
+    exact.run(seeds, other, options);
     measure(diagram, other, snap);
   }
 }

@@ -59,6 +59,7 @@ compile() { # TARGET LIBRARY FILE OPTION...
 more_options() { # FILE
   if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
   if [[ $1 == kernels/exact/group/diagram.cl || $1 == kernels/exact/points/pixels.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }
 
 # What the compilers report as lines of: file, kernel, options, GPU, registers, stack, spilled bytes, local memory.
@@ -101,7 +102,8 @@ report_intel() { # FILE OPTION...
     rm -rf "$work/intel"
     LD_LIBRARY_PATH=${libraries:-} "$OCLOC" compile -q -file "$1" -device $device -options "${of_all[*]} ${*:2}" -output kernel \
       -output_no_suffix -out_dir "$work/intel" >"$work/log" 2>&1 || { cat "$work/log" >&2; return 1; }
-    LD_LIBRARY_PATH=${libraries:-} "$OCLOC" disasm -file "$work/intel/kernel" -dump "$work/intel/parts" -device $device >"$work/log" 2>&1
+    LD_LIBRARY_PATH=${libraries:-} "$OCLOC" disasm -file "$work/intel/kernel" -dump "$work/intel/parts" -device $device >"$work/log" 2>&1 ||
+      { cat "$work/log" >&2; return 1; }
     awk -v OFS='\t' -v file="${1#kernels/}" -v options="${*:2}" -v device=$device '
       function digit(hex, at) { return index("123456789abcdef", substr(hex, at, 1)) }
       function byte(hex) { return length(hex) == 2 ? 16 * digit(hex, 1) + digit(hex, 2) : digit(hex, 1) }

@@ -72,7 +72,7 @@ class VOROCL_API AdjacencyResult {
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
 /// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
 /// table on the device, and sorting the pairs; about 200 bytes of device memory per seed, in a volume
-/// 350. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading
+/// 400. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading
 /// the result finds them again in a larger one; it throws Error if the diagram has been filled or written
 /// since. Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little
 /// memory.

@@ -116,6 +116,22 @@ BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
   BOOST_TEST((run(folder, "render " + of_file + "--frame 2 --labels a.npy").exit_code == failure));
 }
 
+BOOST_AUTO_TEST_CASE(what_is_complete_of_a_run_stays) {
+  const TemporaryFolder folder;
+  const std::string whole = dump_frame(8, second, others, true);
+  folder.file("cut.lammpstrj", dump_frame(7, first, some, false) + whole.substr(0, whole.size() - 10));
+  const std::string run_of_it =
+      "simulate --trajectory cut.lammpstrj --size 20x40x12 --method jfa --labels v%d.vti -o a.mp4 --slice "
+      "z=3";
+  const auto result = run(folder, run_of_it);
+  BOOST_TEST((result.exit_code == failure && !content_of(folder / "a.mp4").empty()));
+  BOOST_TEST(result.error.find("; frames complete before that: 1\n") != std::string::npos);
+  BOOST_TEST(content_of(folder / "v.pvd").find("timestep=\"7\" part=\"0\" file=\"v0.vti\"") !=
+             std::string::npos);
+  folder.file("v%d.vti.journal", "of a run");
+  BOOST_TEST(run(folder, run_of_it).error.find("v%d.vti.journal") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
   if (!can_be_exact()) return;
   const TemporaryFolder folder;

@@ -134,7 +134,6 @@ BOOST_AUTO_TEST_CASE(tables_of_cells_are_those_of_the_labels) {
   BOOST_TEST((result["pairs"] == faces.size() && result["mean_volume"] == volumes / 12));
 }
 
-/// Waves that do not reach all voxels, and seeds that share a voxel, are counted.
 BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) {
   const TemporaryFolder folder;
   const std::string crowded = "render --random 40 --size 3x2x2 --method jfa --labels a.npy";
@@ -149,6 +148,12 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) 
              std::string::npos);
   const auto result = nlohmann::json::parse(succeeds(folder, crowded + " --json"));
   BOOST_TEST((result["empty_cells"] == empty && result["unlabelled_voxels"] == 0));
+
+  folder.file("none.lammpstrj",
+              "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n0\nITEM: BOX BOUNDS ff ff ff\n0 8\n0 8\n0 8\n"
+              "ITEM: ATOMS id x y z\n");
+  BOOST_TEST(succeeds(folder, "render --trajectory none.lammpstrj --size 8x8x8 --method jfa --labels a.npy")
+                 .find("512 voxels without a label: there are no seeds") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(pictures_show_slices) {
@@ -212,7 +217,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
           {"16385", "from 1 to 16384 voxels"});
-  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --periodic z", usage,
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --periodic x", usage,
           {"--periodic", "cells of volumes"});
   refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", usage, {"--random seeds"});
   refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,

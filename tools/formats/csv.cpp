@@ -155,13 +155,9 @@ std::string to_csv(const CsvFields& fields) {
   return line;
 }
 
-Columns parse_columns(const std::string& text) {
-  const Columns columns = parse_columns_and_z(text);
-  if (columns.z.empty()) return columns;
-  throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1");
-}
+namespace {
 
-Columns parse_columns_and_z(const std::string& text) {
+Columns columns_of(const std::string& text, std::size_t most, const std::string& what) {
   std::vector<std::string> names;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
@@ -169,11 +165,17 @@ Columns parse_columns_and_z(const std::string& text) {
     begin = comma + 1;
   }
   const bool some_empty = std::find(names.begin(), names.end(), "") != names.end();
-  if (names.size() < 2 || names.size() > 3 || some_empty) {
-    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1, or three of a volume");
+  if (names.size() < 2 || names.size() > most || some_empty) {
+    throw Error("\"" + text + "\" must be two columns, such as x,y or 0,1" + what);
   }
   return {names[0], names[1], names.size() > 2 ? names[2] : ""};
 }
+
+}  // namespace
+
+Columns parse_columns(const std::string& text) { return columns_of(text, 2, ""); }
+
+Columns parse_columns_and_z(const std::string& text) { return columns_of(text, 3, ", or three of a volume"); }
 
 CsvReader::CsvReader(const std::string& path, const std::optional<Columns>& columns,
                      const std::string& value_column, bool has_z)

@@ -128,7 +128,7 @@ void add_cells(CommandLine& line) {
   const auto options = std::make_shared<CellsOptions>();
   Command command =
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
-  add_seed_options(command, options->seeds, 1, false, true);
+  add_seed_options(command, options->seeds, 1, false, VolumesOf::random_seeds);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);

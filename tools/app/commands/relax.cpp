@@ -134,7 +134,8 @@ struct Course {
   std::string trouble;  // what ended it early; empty: nothing
 };
 
-/// A round that cannot be written ends it, as a signal does.
+/// A round that cannot be written ends it, as a signal does: at the latest one round later, for rounds are
+/// written while the next one is made.
 Course run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
                   const Interruption& interruption, FrameWriter* writer, RelaxOptions&& how) {
   Course course;
@@ -179,6 +180,9 @@ std::size_t write_end(const Outputs& outputs, const RelaxCommand& options, const
   if (!course.trouble.empty()) {
     course.trouble +=
         fmt::format(" after {}; the files show the last of them", counted(relaxation.rounds(), "round"));
+    if (outputs.rounds && outputs.rounds->complete() <= relaxation.rounds()) {
+      course.trouble += outputs.rounds->progress();
+    }
   }
   const auto attempt = [&](const auto& write) {
     const std::string trouble = trouble_of(write);

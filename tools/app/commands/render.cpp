@@ -140,7 +140,7 @@ VolumeRendering volume_of(const Command& command, const RenderOptions& options) 
 void add_render(CommandLine& line) {
   const auto options = std::make_shared<RenderOptions>();
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
-  add_seed_options(command, options->seeds, 1, false, true);
+  add_seed_options(command, options->seeds, 1, false, VolumesOf::files_too);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);

@@ -77,12 +77,12 @@ void render_volume(const VolumeRendering& options) {
   Diagram diagram(device, input.grid);
   const Report report = options.method.run(seeds, diagram, options.method_options);
   std::vector<std::uint32_t> labels = diagram.read();
-  if (picture) {
-    write_picture(*picture, draw_slice(*options.slice, options.picture, seeds, labels, input.ids));
-  }
+  cv::Mat slice;
+  if (picture) slice = draw_slice(*options.slice, options.picture, seeds, labels, input.ids);
   const Missing missing = missing_in(labels, seeds);
   name_labels(labels, input.ids);
   if (label_file) write_volume(*label_file, sides, labels);
+  if (picture) write_picture(*picture, slice);
   print_result(options, seeds, diagram, report, missing);
 }
 

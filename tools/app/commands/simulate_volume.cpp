@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
 
 #include "app/commands/volume.hpp"
+#include "app/outputs/frame_files.hpp"
+#include "app/outputs/frame_writer.hpp"
+#include "app/outputs/journal.hpp"
 #include "app/outputs/output_files.hpp"
-#include "app/sources/bounds.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -25,7 +28,7 @@ namespace vorocl::command {
 
 namespace {
 
-const std::string& labels_path(const SimulateOptions& options) { return options.output.files.at(0).path; }
+const FileRequest& labels_of(const SimulateOptions& options) { return options.output.files.at(0); }
 
 bool makes_film(const SimulateOptions& options) {
   return extension_of(options.output.picture_path) == film_extension;
@@ -34,7 +37,8 @@ bool makes_film(const SimulateOptions& options) {
 std::vector<RequestedFile> requested(const SimulateOptions& options) {
   std::vector<std::string> pictures = picture_extensions();
   pictures.push_back(film_extension);
-  return {{"--labels", labels_path(options), volume_extensions(), true},
+  return {{"--labels", labels_of(options).path, volume_extensions(), true},
+          {"--labels", collection_path(labels_of(options)), {".pvd"}},
           {"-o", options.output.picture_path, pictures, !makes_film(options)}};
 }
 
@@ -59,54 +63,105 @@ void check(const Command& command, const SimulateOptions& options, const std::op
 class Files {
  public:
   explicit Files(const SimulateOptions& options) {
-    if (!labels_path(options).empty()) labels_.emplace(labels_path(options));
-    if (options.output.picture_path.empty()) return;
+    const std::string &labels = labels_of(options).path, &pictures = options.output.picture_path;
+    refuse_journal(journal_path(labels.empty() ? pictures : labels));
+    if (!labels.empty()) labels_.emplace(labels);
+    const std::string collection = collection_path(labels_of(options));
+    if (!collection.empty()) collection_.emplace(collection);
+    if (pictures.empty()) return;
     if (makes_film(options)) {
-      film_.emplace(options.output.picture_path, options.output.frames_per_second);
+      film_.emplace(pictures, options.output.frames_per_second);
     } else {
-      pictures_.emplace(options.output.picture_path);
+      pictures_.emplace(pictures);
     }
   }
 
   bool draw() const { return film_ || pictures_; }
 
   void add_picture(int frame, const cv::Mat& picture) {
-    film_ ? film_->add(picture) : write_picture(pictures_->file(frame), picture);
+    if (pictures_) return write_picture(pictures_->file(frame), picture);
+    film_->add(picture);
+    if (film_->pictures() == 1) note_of_size(*film_, picture.size());
   }
 
-  void add_labels(int frame, const VolumeSize& sides, const std::vector<std::uint32_t>& labels) const {
-    if (labels_) write_volume(labels_->file(frame), sides, labels);
+  void add_labels(int frame, std::int64_t time, const VolumeSize& sides,
+                  const std::vector<std::uint32_t>& labels) {
+    if (!labels_) return;
+    write_volume(labels_->file(frame), sides, labels);
+    listed_.push_back({time, std::filesystem::path(labels_->path(frame)).filename().string()});
   }
 
   void finish() {
+    if (collection_) write_pvd(*collection_, listed_);
     if (film_) film_->finish();
   }
 
  private:
   std::optional<NumberedFiles> labels_, pictures_;
+  std::optional<OutputFile> collection_;
+  std::vector<TimedFile> listed_;
   std::optional<Film> film_;
 };
 
 void print_result(const SimulateOptions& options, const Seeds& seeds, int frames, double milliseconds) {
-  const Grid& grid = seeds.grid();
   if (options.json) {
-    print_json(Json{{"method", options.method.name},
-                    {"metric", to_string(options.method_options.metric)},
-                    {"device", seeds.device().name()},
-                    {"width", grid.width()},
-                    {"height", grid.height()},
-                    {"depth", grid.depth()},
-                    {"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
-                    {"seeds", seeds.alive()},
-                    {"frames", frames},
-                    {"milliseconds", milliseconds / frames}});
+    Json json = json_of_volume(options.method, seeds, options.method_options.metric);
+    json.update(Json{{"frames", frames}, {"milliseconds", milliseconds / frames}});
+    print_json(json);
     return;
   }
+  const Grid& grid = seeds.grid();
   print("{}: {} of {} x {} x {} voxels, {} in the last, {:.1f} ms per frame, on {}\n", options.method.name,
         counted(static_cast<std::uint64_t>(frames), "frame"), grid.width(), grid.height(), grid.depth(),
         counted(seeds.alive(), "seed"), milliseconds / frames, seeds.device().name());
   print_written(requested(options));
 }
+
+/// A run, frame by frame.
+class Run {
+ public:
+  Run(const SimulateOptions& options, const VolumeSlice* slice, const Device& device, VolumeFrames& source,
+      Files& files)
+      : options_(options),
+        slice_(slice),
+        source_(source),
+        files_(files),
+        seeds_(device, source.grid(), source.points(), Outside::refuse) {}
+
+  const Seeds& seeds() const { return seeds_; }
+  int frames() const { return frame_; }
+  double milliseconds() const { return milliseconds_; }
+
+  void add_frame() {
+    if (frame_ > 0) seeds_.move_to(source_.grid(), source_.points());
+    if (!diagram_ || diagram_->window().grid() != source_.grid())
+      diagram_.emplace(seeds_.device(), source_.grid());
+    milliseconds_ += options_.method.run(seeds_, *diagram_, options_.method_options).milliseconds();
+    if (frame_ % options_.output.every == 0) write();
+    ++frame_;
+  }
+
+  bool is_last() const { return options_.motion.frames && frame_ > *options_.motion.frames; }
+
+ private:
+  void write() {
+    std::vector<std::uint32_t> labels = diagram_->read();
+    cv::Mat picture;
+    if (files_.draw()) picture = draw_slice(*slice_, options_.output.picture, seeds_, labels, source_.ids());
+    name_labels(labels, source_.ids());
+    files_.add_labels(frame_, source_.timestep().value_or(frame_), volume_size(options_.seeds), labels);
+    if (files_.draw()) files_.add_picture(frame_, picture);
+  }
+
+  const SimulateOptions& options_;
+  const VolumeSlice* slice_;
+  VolumeFrames& source_;
+  Files& files_;
+  Seeds seeds_;
+  std::optional<Diagram> diagram_;
+  int frame_ = 0;
+  double milliseconds_ = 0;
+};
 
 }  // namespace
 
@@ -119,32 +174,31 @@ void simulate_volume(const Command& command, const SimulateOptions& options,
   VolumeFrames source(options.seeds);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  Seeds seeds(device, source.grid(), source.points(), Outside::refuse);
-  std::optional<Diagram> diagram;
+  Run run(options, slice ? &*slice : nullptr, device, source, files);
   Progress progress;
-  int frame = 0;
-  double milliseconds = 0;
-  for (bool more = true; more; ++frame) {
-    if (frame > 0) seeds.move_to(source.grid(), source.points());
-    if (!diagram || diagram->window().grid() != source.grid()) diagram.emplace(device, source.grid());
-    const Report report = options.method.run(seeds, *diagram, options.method_options);
-    if (frame % options.output.every == 0) {
-      std::vector<std::uint32_t> labels = diagram->read();
-      if (files.draw()) {
-        files.add_picture(frame, draw_slice(*slice, options.output.picture, seeds, labels, source.ids()));
-      }
-      name_labels(labels, source.ids());
-      files.add_labels(frame, sides, labels);
+  std::string trouble;
+  try {
+    for (bool more = true; more; more = !run.is_last() && source.next()) {
+      run.add_frame();
+      progress.show(run.frames(), std::nullopt);
+      if (!interruption.came()) continue;
+      trouble = "interrupted";
+      break;
     }
-    milliseconds += report.milliseconds();
-    progress.show(frame + 1, std::nullopt);
-    if (interruption.came())
-      throw Error(fmt::format("interrupted; frames complete before that: {}", frame + 1));
-    more = (!options.motion.frames || frame < *options.motion.frames) && source.next();
+  } catch (const std::exception& error) {  // the frames so far are kept
+    trouble = message_of(error);
   }
-  files.finish();
   progress.erase();
-  print_result(options, seeds, frame, milliseconds);
+  try {
+    if (run.frames() > 0) files.finish();
+  } catch (const Error& error) {
+    if (trouble.empty()) throw;
+    trouble += fmt::format("; {}", error.what());
+  }
+  if (!trouble.empty()) {
+    throw Error(fmt::format("{}; frames complete before that: {}", trouble, run.frames()));
+  }
+  print_result(options, run.seeds(), run.frames(), run.milliseconds());
 }
 
 }  // namespace vorocl::command

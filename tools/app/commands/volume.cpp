@@ -26,19 +26,24 @@ void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint
   for (std::uint32_t& label : labels) label = label == no_label ? no_label : ids[label];
 }
 
-Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report) {
+Json json_of_volume(const Method& method, const Seeds& seeds, Metric metric) {
   const Grid& grid = seeds.grid();
   return {{"method", method.name},
-          {"metric", to_string(diagram.metric())},
+          {"metric", to_string(metric)},
           {"device", seeds.device().name()},
           {"width", grid.width()},
           {"height", grid.height()},
           {"depth", grid.depth()},
           {"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
-          {"seeds", seeds.alive()},
-          {"waves", report.waves()},
-          {"milliseconds", report.milliseconds()},
-          {"host_milliseconds", report.host_milliseconds()}};
+          {"seeds", seeds.alive()}};
+}
+
+Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report) {
+  Json json = json_of_volume(method, seeds, diagram.metric());
+  json.update(Json{{"waves", report.waves()},
+                   {"milliseconds", report.milliseconds()},
+                   {"host_milliseconds", report.host_milliseconds()}});
+  return json;
 }
 
 void print_volume(const Method& method, const Seeds& seeds, const Report& report) {
@@ -50,7 +55,9 @@ void print_volume(const Method& method, const Seeds& seeds, const Report& report
 
 void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled) {
   if (empty > 0) print("{} of {} seeds own no voxel\n", empty, seeds);
-  if (unlabelled > 0) print("{} without a label: no wave reached them\n", counted(unlabelled, "voxel"));
+  if (unlabelled == 0) return;
+  print("{} without a label: {}\n", counted(unlabelled, "voxel"),
+        seeds == 0 ? "there are no seeds" : "no wave reached them");
 }
 
 }  // namespace vorocl::command

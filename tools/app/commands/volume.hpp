@@ -23,6 +23,7 @@ void check_volume_method(const Method& method);
 void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids);
 
 /// What every command says of the volume that it made.
+Json json_of_volume(const Method& method, const Seeds& seeds, Metric metric);
 Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report);
 void print_volume(const Method& method, const Seeds& seeds, const Report& report);
 

@@ -175,7 +175,9 @@ std::optional<Grid> parse_plane(const std::string& text) {
 
 }  // namespace
 
-void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, bool volumes) {
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move,
+                      VolumesOf volumes_of) {
+  const bool volumes = volumes_of == VolumesOf::files_too;
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
   if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
   constexpr std::size_t most_seeds = Window::max_pixels;
@@ -192,7 +194,9 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   add_columns_option(command, options, volumes).needs(points);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
-      (volumes ? "; with a depth, those of a volume" : "");
+      (volumes                                 ? "; with a depth, those of a volume"
+       : volumes_of == VolumesOf::random_seeds ? "; with a depth, those of a volume of random seeds"
+                                               : "");
   const Option size = command
                           .add(
                               "--size",
@@ -200,7 +204,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
                                 options.size = parse_size_and_depth(text, options.depth);
                               },
                               about_size)
-                          .value_name(volumes ? "WxH[xD]" : "WxH");
+                          .value_name(volumes_of == VolumesOf::nothing ? "WxH" : "WxH[xD]");
   command
       .add_parsed(
           "--width", options.width, parse_width,

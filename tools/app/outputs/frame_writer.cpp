@@ -15,18 +15,6 @@ namespace vorocl::command {
 
 namespace {
 
-/// A film's sides are even.
-void note_of_size(const Film& film, const cv::Size& picture) {
-  const cv::Size size = film_size(picture);
-  if (size == picture) return;
-  print_note(
-      fmt::format("{}: a film's sides are even, so {} x {} has become {} x {} by repeating the last {}",
-                  film.path(), picture.width, picture.height, size.width, size.height,
-                  picture.width % 2 == 0    ? "row"
-                  : picture.height % 2 == 0 ? "column"
-                                            : "row and column"));
-}
-
 /// Those that grow with every frame.
 std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
   std::vector<std::string> tables;
@@ -61,6 +49,17 @@ std::unique_ptr<FrameJournal> open_journal(const FrameWriterOptions& options, co
 }
 
 }  // namespace
+
+void note_of_size(const Film& film, const cv::Size& picture) {
+  const cv::Size size = film_size(picture);
+  if (size == picture) return;
+  print_note(
+      fmt::format("{}: a film's sides are even, so {} x {} has become {} x {} by repeating the last {}",
+                  film.path(), picture.width, picture.height, size.width, size.height,
+                  picture.width % 2 == 0    ? "row"
+                  : picture.height % 2 == 0 ? "column"
+                                            : "row and column"));
+}
 
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   std::vector<RequestedFile> files;

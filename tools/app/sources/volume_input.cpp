@@ -90,16 +90,19 @@ void check_inside(const std::vector<Point3>& points, const std::vector<std::uint
   }
 }
 
-/// Warns unless voxels are cubes in data units, to the nearest whole number of voxels.
-void warn_of_voxels(const Grid& grid) {
+/// Warns unless voxels are cubes in data units, to the nearest whole number of voxels. Returns whether it
+/// did.
+bool warn_of_voxels(const Grid& grid) {
   const auto is_square = [](const Axis& a, const Axis& b) {
     return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
   };
-  if (is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z())) return;
+  if (is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z()))
+    return false;
   print_warning(fmt::format(
       "the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
       "data units; a --size like the bounds keeps voxels cubes",
       grid.width(), grid.height(), grid.depth()));
+  return true;
 }
 
 std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
@@ -201,19 +204,18 @@ void VolumeFrames::take_frame() {
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));
   }
-  if (!scales_checked_) warn_of_voxels(*grid_);
-  scales_checked_ = true;
+  if (!has_warned_) has_warned_ = warn_of_voxels(*grid_);
 }
 
 void check_volume_options(const SeedOptions& options) {
-  const char* const of_planes = !options.mask.empty()           ? "--mask"
-                                : options.width != 0            ? "--width"
-                                : options.domain                ? "--domain"
-                                : options.outside               ? "--outside"
-                                : options.y_up                  ? "--y-up"
-                                : options.y_down                ? "--y-down"
-                                : options.snap                  ? "--snap"
-                                : options.units                 ? "--units"
+  const char* const of_planes = !options.mask.empty() ? "--mask"
+                                : options.width != 0  ? "--width"
+                                : options.domain      ? "--domain"
+                                : options.outside     ? "--outside"
+                                : options.y_up        ? "--y-up"
+                                : options.y_down      ? "--y-down"
+                                : options.snap        ? (*options.snap == Snap::none ? "--no-snap" : "--snap")
+                                : options.units       ? "--units"
                                 : !options.value_column.empty() ? "--color column:NAME"
                                                                 : nullptr;
   if (of_planes != nullptr) {

@@ -42,9 +42,6 @@ class VolumeFrames {
 
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
 
-  /// How much of the file lies behind the frame; none where that is not known.
-  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
-
  private:
   void take_frame();
 
@@ -52,7 +49,7 @@ class VolumeFrames {
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
-  bool scales_checked_ = false;
+  bool has_warned_ = false;  // of voxels that are no cubes
   std::optional<Grid> grid_;  // set by the constructor
   std::vector<Point3> points_;
 };
