@@ -71,10 +71,6 @@ MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
   const DiagramState& state = Internal::state(diagram);
   const Grid& grid = state.window.grid();
   if (volumes == Volumes::refused) refuse_volume(grid, "this measure");
-  const bool is_periodic = grid.periodic() != Periodic::none || grid.z().is_periodic();
-  if (volumes == Volumes::not_periodic && grid.is_volume() && is_periodic) {
-    throw Error("the volume has a periodic axis, which this measure cannot take yet; areas and statistics do");
-  }
   MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
   if (!state.contents) return measured;
   measured.seeds = state.contents->seeds;

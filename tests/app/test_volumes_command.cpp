@@ -212,8 +212,6 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
           {"16385", "from 1 to 16384 voxels"});
-  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --periodic z", usage,
-          {"--periodic", "cells of volumes"});
   refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", usage, {"--random seeds"});
   refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,
           {"vorocl render, cells and simulate make"});
