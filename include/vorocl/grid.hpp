@@ -147,7 +147,7 @@ class VOROCL_API Axis {
 /// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
 /// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(), cell_shapes(),
 /// cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and expand_labels() take
-/// volumes; others throw Error. Any axes may be periodic, but for cell_sums(), cell_shapes() and adjacency().
+/// volumes; others throw Error. Any axes may be periodic.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}

@@ -3,7 +3,7 @@
 #include "measures/runs.cl"
 #include "measures/sums.cl"
 #include "volumes/blocks.cl"
-#include "volumes/position.cl"
+#include "volumes/place.cl"
 
 // HOME SUMS, as in kernels/measures/cells.cl: what the block that holds a cell's seed adds needs no atomics. Here they
 // are a uint4: the voxels, and their columns, rows and slices counted from the block's corner.
@@ -73,6 +73,45 @@ kernel void join_sums(global const uint* restrict positions, uint count, int4 si
   sum_x[id] = joined(sum_x[id], sums.s0, sums.s1, corner.x);
   sum_y[id] = joined(sum_y[id], sums.s0, sums.s2, corner.y);
   sum_z[id] = joined(sum_z[id], sums.s0, sums.s3, corner.z);
+}
+
+// How many periods the voxels of a cell are away, in sum, from where they lie by the rule of place. For volumes with a
+// periodic axis.
+kernel void add_periods(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                        int4 size, int4 bits, global int* restrict periods_x, global int* restrict periods_y,
+                        global int* restrict periods_z) {
+  cuboid_t block;
+  if (!take_cuboid(size, bits, &block)) return;
+  for (int z = block.first.z; z < block.end.z; ++z) {
+    for (int y = block.first.y; y < block.end.y; ++y) {
+      global const uint* const row = row_of(labels, y, z, size);
+      walk_t walk = begin_walk(row, row, block.first.x, block.end.x);
+      while (next_run(&walk)) {
+        const uint label = run_label(&walk);
+        if (label >= count) continue;
+        const uint seed = positions[label];
+        const int length = walk.to - walk.from;
+        const int x = PERIODIC_X ? periods_away(walk.from, walk.to, x_of(seed), size.x) : 0;
+        const int of_row_y = PERIODIC_Y ? periods_away(y, y + 1, y_of(seed), size.y) : 0;
+        const int of_row_z = PERIODIC_Z ? periods_away(z, z + 1, z_of(seed), size.z) : 0;
+        if (x != 0) atomic_add(periods_x + label, x);
+        if (of_row_y != 0) atomic_add(periods_y + label, of_row_y * length);
+        if (of_row_z != 0) atomic_add(periods_z + label, of_row_z * length);
+      }
+    }
+  }
+}
+
+// Moves the sums there.
+kernel void unwrap_sums(uint count, int4 size, global const int* restrict periods_x,
+                        global const int* restrict periods_y, global const int* restrict periods_z,
+                        global const uint* restrict area, global long* restrict sum_x, global long* restrict sum_y,
+                        global long* restrict sum_z) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || area[id] == 0) return;
+  sum_x[id] += (long)periods_x[id] * size.x;
+  sum_y[id] += (long)periods_y[id] * size.y;
+  sum_z[id] += (long)periods_z[id] * size.z;
 }
 
 // The voxels alone, in the same way.

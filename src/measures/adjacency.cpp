@@ -183,7 +183,7 @@ std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
 Report adjacency(const Diagram& diagram, AdjacencyResult& result) {
   Measuring<AdjacencyState> measuring(result);
   AdjacencyState& found = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::not_periodic);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   found.labels = diagram.labels();
   found.fills = Internal::state(diagram).fills;
   found.fill_measured = *found.fills;

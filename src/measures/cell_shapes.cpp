@@ -33,7 +33,7 @@ const cl::Buffer& CellShapesResult::largest_distances() const {
 Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   Measuring<CellShapesState> measuring(result);
   CellShapesState& shapes = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::not_periodic);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   const cl_uint count = of.count();
   const bool is_volume = of.grid.is_volume();
   cl::Buffer& words = of.is_far() ? shapes.upper_words : shapes.distances;
@@ -70,7 +70,7 @@ namespace {
 bool touches_border(const CellShape& cell, const PixelGrid& grid) {
   return (!grid.periodic_x() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
          (!grid.periodic_y() && (cell.top == 0 || cell.bottom == grid.height() - 1)) ||
-         (grid.is_volume() && (cell.front == 0 || cell.back == grid.depth() - 1));
+         (grid.is_volume() && !grid.periodic_z() && (cell.front == 0 || cell.back == grid.depth() - 1));
 }
 
 /// Those of empty cells are negative.

@@ -1,5 +1,6 @@
 #include "measures/cell_sums.hpp"
 
+#include <initializer_list>
 #include <limits>
 #include <utility>
 
@@ -33,6 +34,14 @@ namespace {
 /// The first command and the last one.
 using Enqueued = std::pair<cl::Event, cl::Event>;
 
+/// What add_periods of the kernels adds to, with one number per cell.
+void clear_periods(const Device& device, std::initializer_list<cl::Buffer*> buffers, cl_uint count) {
+  for (cl::Buffer* const periods : buffers) {
+    make_room(*periods, device, count * sizeof(cl_int));
+    fill(device, *periods, cl_int{0}, count);
+  }
+}
+
 Enqueued sum_voxels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Buffer& labels) {
   const cl_uint count = of.count();
   make_room(sums.sum_z, of.device, count * sizeof(cl_long));
@@ -49,7 +58,15 @@ Enqueued sum_voxels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
   const cl::Event added =
       blocks.run(sums.kernels, file, "add_sums", options, labels, count, blocks.size(), blocks.bits(),
                  sums.area, sums.sum_x, sums.sum_y, sums.sum_z, sums.home, sums.home_sums);
-  const cl::Event last = run_over_cells("join_sums");
+  cl::Event last = run_over_cells("join_sums");
+  if ((of.grid.periodic() != Periodic::none || of.grid.periodic_z()) && count > 0) {
+    clear_periods(of.device, {&sums.periods_x, &sums.periods_y, &sums.periods_z}, count);
+    blocks.run(sums.kernels, file, "add_periods", options, labels, of.positions(), count, blocks.size(),
+               blocks.bits(), sums.periods_x, sums.periods_y, sums.periods_z);
+    last = sums.kernels.get(of.device, file, "unwrap_sums", of.grid, options)
+               .over_items(count, count, blocks.size(), sums.periods_x, sums.periods_y, sums.periods_z,
+                           sums.area, sums.sum_x, sums.sum_y, sums.sum_z);
+  }
   return count > 0 ? Enqueued(first, last) : Enqueued(added, added);
 }
 
@@ -71,10 +88,7 @@ Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
   cl::Event last = run_over_cells("join_sums", of.positions(), count, width, wide, high, sums.area,
                                   sums.sum_x, sums.sum_y, sums.home, sums.home_sums);
   if (of.grid.periodic() != Periodic::none && count > 0) {
-    for (cl::Buffer* const periods : {&sums.periods_x, &sums.periods_y}) {
-      make_room(*periods, of.device, count * sizeof(cl_int));
-      fill(of.device, *periods, cl_int{0}, count);
-    }
+    clear_periods(of.device, {&sums.periods_x, &sums.periods_y}, count);
     // Only in a tilted grid the metric says where a pixel lies.
     const KernelOptions of_places = of.window.grid().is_tilted() ? of.options() : options;
     blocks.run(sums.kernels, file, "add_periods", of_places, labels, of.positions(), count, of.periods(),
@@ -90,7 +104,7 @@ Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
 Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
   Measuring<CellSumsState> measuring(result);
   CellSumsState& sums = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::not_periodic);
+  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   const cl_uint count = of.count();
   make_room(sums.area, of.device, count * sizeof(cl_uint));
   make_room(sums.sum_x, of.device, count * sizeof(cl_long));

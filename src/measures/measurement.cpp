@@ -69,13 +69,7 @@ const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& l
 
 MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
   const DiagramState& state = Internal::state(diagram);
-  const Grid& grid = state.window.grid();
-  if (volumes == Volumes::refused) refuse_volume(grid, "this measure");
-  const bool is_periodic = grid.periodic() != Periodic::none || grid.z().is_periodic();
-  if (volumes == Volumes::not_periodic && grid.is_volume() && is_periodic) {
-    throw Error(
-        "the volume has a periodic axis, which this measure cannot take yet; areas and statistics do");
-  }
+  if (volumes == Volumes::refused) refuse_volume(state.window.grid(), "this measure");
   MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
   if (!state.contents) return measured;
   measured.seeds = state.contents->seeds;

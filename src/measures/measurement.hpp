@@ -75,7 +75,7 @@ struct MeasuredDiagram {
 const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
 
 /// Which volumes a measure takes.
-enum class Volumes { refused, not_periodic, taken };
+enum class Volumes { refused, taken };
 
 /// A diagram for a measure that looks at labels alone. Throws Error if it is a volume that is refused.
 MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes = Volumes::refused);

@@ -77,6 +77,23 @@ std::vector<std::vector<double>> rows_of(const std::string& table) {
   return rows;
 }
 
+/// How many faces two cells share, by their ids.
+using Faces = std::map<std::pair<double, double>, double>;
+Faces faces_of(const Labels& labels, bool periodic) {
+  Faces faces;
+  const int sides[] = {width, height, depth}, strides[] = {1, width, width * height};
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int at = static_cast<int>(i) / strides[axis] % sides[axis];
+      if (!periodic && at + 1 == sides[axis]) continue;
+      const int step = ((at + 1) % sides[axis] - at) * strides[axis];
+      const std::uint32_t a = labels[i], b = labels[static_cast<std::size_t>(static_cast<int>(i) + step)];
+      if (a != b) ++faces[std::minmax(double(a), double(b))];
+    }
+  }
+  return faces;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(tables_of_cells_are_those_of_the_labels) {
@@ -95,16 +112,7 @@ BOOST_AUTO_TEST_CASE(tables_of_cells_are_those_of_the_labels) {
   BOOST_TEST((content_of(folder / "a.npy") ==
               command::npy_header<std::uint32_t>({depth, height, width}) + bytes_of(labels)));
 
-  std::map<std::pair<double, double>, double> faces;
-  const int sides[] = {width, height, depth}, strides[] = {1, width, width * height};
-  for (std::size_t i = 0; i < labels.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const int at = static_cast<int>(i) / strides[axis] % sides[axis];
-      if (at + 1 == sides[axis]) continue;
-      const std::uint32_t a = labels[i], b = labels[i + static_cast<std::size_t>(strides[axis])];
-      if (a != b) ++faces[std::minmax(double(a), double(b))];
-    }
-  }
+  Faces faces = faces_of(labels, false);
   const auto found_pairs = rows_of(pairs);
   BOOST_TEST_REQUIRE(found_pairs.size() == faces.size());
   for (const auto& row : found_pairs) BOOST_TEST((faces[{row[0], row[1]}] == row[2]));
@@ -132,6 +140,27 @@ BOOST_AUTO_TEST_CASE(tables_of_cells_are_those_of_the_labels) {
   }
   BOOST_TEST((result["cells"] == 12 && result["empty_cells"] == 0 && result["unlabelled_voxels"] == 0));
   BOOST_TEST((result["pairs"] == faces.size() && result["mean_volume"] == volumes / 12));
+}
+
+BOOST_AUTO_TEST_CASE(tables_of_periodic_cells_go_round) {
+  const TemporaryFolder folder;
+  const Grid grid(Axis(width).periodic(), Axis(height).periodic(), Axis(depth).periodic());
+  Diagram diagram(test_device(), grid);
+  method(method_of_device()).run(Seeds::random(test_device(), grid, 12, 3), diagram, {});
+  Faces faces = faces_of(diagram.read(), true);
+  succeeds(folder,
+           "cells --random 12 --rng-seed 3 --size 24x20x16 --periodic xyz --cells a.csv --adjacency b.csv "
+           "--method " +
+               method_of_device());
+  const auto pairs = rows_of(content_of(folder / "b.csv")), cells = rows_of(content_of(folder / "a.csv"));
+  BOOST_TEST_REQUIRE(pairs.size() == faces.size());
+  for (const auto& row : pairs) BOOST_TEST((faces[{row[0], row[1]}] == row[2]));
+  double least = 0;
+  for (const auto& row : cells) {
+    BOOST_TEST(row.back() == 0);  // no border
+    least = std::min({least, row[8], row[9], row[10]});
+  }
+  BOOST_TEST(least < 0);
 }
 
 BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) {
@@ -217,8 +246,6 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
           {"16385", "from 1 to 16384 voxels"});
-  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --periodic x", usage,
-          {"--periodic", "cells of volumes"});
   refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", usage, {"--random seeds"});
   refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,
           {"vorocl render, cells and simulate make"});

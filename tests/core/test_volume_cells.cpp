@@ -42,6 +42,33 @@ Labels random_labels(const Grid& grid, std::uint32_t cells, unsigned rng_seed) {
   return labels;
 }
 
+/// These axes of a volume, made periodic.
+Grid periodic(const Grid& grid, bool x, bool y, bool z) {
+  return {x ? grid.x().periodic() : grid.x(), y ? grid.y().periodic() : grid.y(),
+          z ? grid.z().periodic() : grid.z()};
+}
+
+/// One cell, lumps of voxels with a common label, and single voxels: along all axes cells go round, and have
+/// voxels half a period away. Some seeds are absent.
+void add_periodic_cases(std::vector<Case>& cases, const Grid& grid) {
+  const std::string name = std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " x " +
+                           std::to_string(grid.depth());
+  std::vector<bool> absent(20);
+  for (std::size_t id = 3; id < absent.size(); id += 7) absent[id] = true;
+  const std::vector<Voxel> seeds = random_voxels(grid, absent.size(), 1);
+  const Labels pieces = random_labels(grid, 20, 2);
+  Labels lumps(grid.pixels());
+  for (std::size_t i = 0; i < lumps.size(); ++i) {
+    const std::size_t width = static_cast<std::size_t>(grid.width()), rows = i / width;
+    const std::size_t row = rows % static_cast<std::size_t>(grid.height()),
+                      slice = rows / static_cast<std::size_t>(grid.height());
+    lumps[i] = pieces[(i % width / 11 + row / 5 * 7 + slice / 4 * 31) % pieces.size()];
+  }
+  cases.push_back({name + ", one cell", grid, random_voxels(grid, 20, 3), {}, Labels(grid.pixels(), 0)});
+  cases.push_back({name + ", lumps", grid, seeds, absent, lumps});
+  cases.push_back({name + ", pieces", grid, seeds, absent, pieces});
+}
+
 std::vector<Case> measured_cases() {
   std::vector<Case> cases;
   const auto add = [&](const std::string& name, const Grid& grid, std::size_t count) {
@@ -51,12 +78,12 @@ std::vector<Case> measured_cases() {
   add("one seed", Grid(17, 5, 3), 1);
   add("few", Grid(70, 40, 37), 9);
   add("some", Grid(70, 40, 37), 300);
-  add("dense", Grid(33, 34, 35), 9000);
+  add("dense", Grid(65, 34, 35), 9000);
   add("flat", Grid(150, 70, 2), 40);
   add("a column of rows", Grid(1, 40, 90), 30);
   add("narrow", Grid(3, 1, 700), 200);
   add("several blocks along each axis", Grid(140, 72, 40), 60);
-  const Grid grid(40, 30, 20);
+  const Grid grid(70, 33, 36);  // as many bits as the grids above have: no programs of its own
   cases.push_back({"pieces", grid, random_voxels(grid, 300, 1), {}, random_labels(grid, 300, 2)});
   cases.push_back({"no labels", grid, random_voxels(grid, 5, 1), {}, Labels(grid.pixels(), no_label)});
   // Labels that name seeds which are absent.
@@ -86,9 +113,23 @@ struct Measured {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> pairs;
 };
 
+/// Where a coordinate lies, seen from a seed's: of its images along a periodic axis the nearest, and of two
+/// the greater.
+int placed(int at, int seed, const Axis& axis) {
+  const auto side = static_cast<int>(axis.pixels());
+  int nearest = at;
+  for (const int image : {at - side, at + side}) {
+    if (!axis.is_periodic()) break;
+    const int apart = std::abs(image - seed), least = std::abs(nearest - seed);
+    if (apart < least || (apart == least && image > nearest)) nearest = image;
+  }
+  return nearest;
+}
+
 /// Voxel by voxel; labels that name an absent seed are none.
 Measured on_host(const Case& test, const Labels& labels, Metric metric) {
   const Grid& grid = test.grid;
+  const std::array<Axis, 3> axes = {grid.x(), grid.y(), grid.z()};
   const std::array<std::int64_t, 3> sides = {grid.width(), grid.height(), grid.depth()};
   const std::array<std::size_t, 3> strides = {1, static_cast<std::size_t>(sides[0]),
                                               static_cast<std::size_t>(sides[0] * sides[1])};
@@ -104,14 +145,17 @@ Measured on_host(const Case& test, const Labels& labels, Metric metric) {
     std::int64_t distance = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(i / strides[axis] % static_cast<std::size_t>(sides[axis]));
-      const std::int64_t way = at - test.seeds[labels[i]][axis];
-      cell.sum[axis] += at;
-      cell.least[axis] = std::min(cell.least[axis], at);
-      cell.greatest[axis] = std::max(cell.greatest[axis], at);
-      cell.touches_border |= at == 0 || at == sides[axis] - 1;
+      const int place = placed(at, test.seeds[labels[i]][axis], axes[axis]);
+      const std::int64_t way = place - test.seeds[labels[i]][axis];
+      const bool is_last = at + 1 == sides[axis];
+      cell.sum[axis] += place;
+      cell.least[axis] = std::min(cell.least[axis], place);
+      cell.greatest[axis] = std::max(cell.greatest[axis], place);
+      cell.touches_border |= !axes[axis].is_periodic() && (at == 0 || is_last);
       distance += metric == Metric::euclidean ? way * way : std::abs(way);
-      if (at + 1 == sides[axis]) continue;
-      const std::uint32_t next = labels[i + strides[axis]];
+      if (is_last && !axes[axis].is_periodic()) continue;
+      const std::uint32_t next =
+          labels[is_last ? i - static_cast<std::size_t>(at) * strides[axis] : i + strides[axis]];
       if (is_cell(next) && next != labels[i]) ++found.pairs[std::minmax({labels[i], next})];
     }
     cell.farthest = std::max(cell.farthest, distance);
@@ -217,12 +261,10 @@ Seeds seeds_of(const Device& device, const Case& test) {
           Points(first, first + 1, first + 2, test.seeds.size(), 3 * sizeof(double)).marked(present.data())};
 }
 
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(all_measures_are_those_of_the_host) {
-  for (const Device& device : shapes()) {
+void check_all(const std::vector<Case>& cases, const std::vector<Device>& devices) {
+  for (const Device& device : devices) {
     Results results;
-    for (const Case& test : measured_cases()) {
+    for (const Case& test : cases) {
       const Seeds seeds = seeds_of(device, test);
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
@@ -234,6 +276,23 @@ BOOST_AUTO_TEST_CASE(all_measures_are_those_of_the_host) {
       check(test, diagram, results);
     }
   }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(all_measures_are_those_of_the_host) { check_all(measured_cases(), shapes()); }
+
+/// Odd sides and even ones, and periods of one voxel and of two. Only the first grids, which share their
+/// programs, are measured in large blocks too: building programs takes most of the time.
+BOOST_AUTO_TEST_CASE(periodic_measures_are_those_of_the_host) {
+  std::vector<Case> all_axes, others;
+  add_periodic_cases(all_axes, periodic(Grid(71, 40, 34), true, true, true));
+  add_periodic_cases(all_axes, periodic(Grid(66, 35, 33), true, true, true));
+  add_periodic_cases(others, periodic(Grid(70, 19, 10), false, false, true));
+  add_periodic_cases(others, periodic(Grid(37, 9, 12), true, true, false));
+  add_periodic_cases(others, periodic(Grid(2, 1, 90), true, true, true));
+  check_all(all_axes, {shapes().front(), shapes().back()});
+  check_all(others, {shapes().back()});
 }
 
 /// One cell of a volume whose coordinates add up to more than 32 bits have.

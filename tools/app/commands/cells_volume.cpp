@@ -31,9 +31,6 @@ void check(const VolumeCells& options) {
   check_volume_options(options.seeds);
   check_volume_method(options.method);
   if (options.seeds.random == 0) throw UsageError("cells of volumes are made of --random seeds");
-  if (options.seeds.periodic.value_or(Periodic::none) != Periodic::none) {
-    throw UsageError("--periodic: cells of volumes are measured without it");
-  }
   if (options.cells.empty() && options.adjacency.empty() && options.labels.empty()) {
     throw UsageError("nothing to write: give at least one of --cells, --adjacency, --labels");
   }

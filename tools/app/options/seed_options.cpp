@@ -234,8 +234,8 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   const std::string about_periodic =
       "Axes along which the plane repeats: distances go the shorter way round, cells reach across the "
       "border, and points outside the domain wrap";
-  (volumes ? add_periodic_option_with_z(command, options, about_periodic)
-           : add_periodic_option(command, options, about_periodic))
+  (volumes_of != VolumesOf::nothing ? add_periodic_option_with_z(command, options, about_periodic)
+                                    : add_periodic_option(command, options, about_periodic))
       .default_text("what a trajectory's file says, else none");
   add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
 }
