@@ -49,7 +49,7 @@ class VolumeFrames {
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
-  bool has_warned_ = false;  // of voxels that are no cubes
+  bool has_warned_ = false;   // of voxels that are no cubes
   std::optional<Grid> grid_;  // set by the constructor
   std::vector<Point3> points_;
 };
