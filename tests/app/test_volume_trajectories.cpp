@@ -113,6 +113,8 @@ BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
   Space told = first;
   told.periodic = {false, true, false};
   BOOST_TEST((content_of(folder / "g/0.npy") == labels_of(told, some)));
+  BOOST_TEST(run(folder, "render " + of_file + "--periodic y --labels a.npy").error ==
+             "vorocl: note: the periodic axes of the file's box are xyz; --periodic y counts instead\n");
   BOOST_TEST((run(folder, "render " + of_file + "--frame 2 --labels a.npy").exit_code == failure));
 }
 

@@ -170,6 +170,13 @@ VolumeFrames::VolumeFrames(const SeedOptions& options, int start)
     ++number_;
   }
   take_frame();
+  if (!frame_.box || !options_.periodic) return;
+  const Box& box = *frame_.box;
+  const std::string of_file = to_string(periodic_along(box.periodic_x, box.periodic_y), box.periodic_z);
+  const std::string told = to_string(*options_.periodic, options_.periodic_z);
+  if (told == of_file) return;
+  print_note(
+      fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead", of_file, told));
 }
 
 bool VolumeFrames::next() {

@@ -28,7 +28,8 @@ struct VolumeInput {
 class VolumeFrames {
  public:
   /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
-  /// or no z, or has a tilted box; warns on standard error where the axes get different scales.
+  /// or no z, or has a tilted box; warns on standard error where the axes get different scales,
+  /// and notes where the file has other periodic axes than are given.
   explicit VolumeFrames(const SeedOptions& options, int start = 0);
 
   /// Goes to the next frame; false after the last. Throws as above.
