@@ -98,7 +98,8 @@ BOOST_AUTO_TEST_CASE(bad_options_are_usage_errors) {
   refuses(folder, points + "--width 32769", usage, {"--width", "32768"});
   refuses(folder, points + "--size 10x10 --bounds 0,0,1", usage, {"--bounds", "X0,Y0,X1,Y1"});
   refuses(folder, points + "--size 10x10 --columns x", usage, {"--columns"});
-  refuses(folder, points + "--size 10x10 --periodic z", usage, {"--periodic", "xy"});
+  refuses(folder, points + "--size 10x10 --periodic z", usage, {"--periodic with z is for volumes"});
+  refuses(folder, points + "--size 10x10 --periodic w", usage, {"--periodic", "xy"});
   refuses(folder, points + "--size 10x10 --bounds 1,0,1,9", usage, {"--bounds", "X0 < X1"});
   refuses(folder, points + "--size 10x10 --domain 0,0,9,9", usage, {"--domain", "--periodic"});
   refuses(folder, points + "--size 10x10 --periodic y --domain 0,0,9,0.4 --bounds 0,0,9,9", failure,
