@@ -9,6 +9,7 @@
 #include "app/commands/exact_cells.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -99,10 +100,8 @@ void run_exact(const Command& command, const CellsOptions& options) {
 
 /// The options that a volume has. Throws UsageError for the others.
 VolumeCells volume_of(const Command& command, const CellsOptions& options) {
-  for (const char* const name :
-       {"--exact", "--distance", "--border", "--cell-columns", "--snap", "--no-snap", "--frame", "--units"}) {
-    if (command.has(name))
-      throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
+  for (const char* const name : {"--exact", "--distance", "--border", "--cell-columns", "--frame"}) {
+    if (command.has(name)) refuse_in_volumes(name);
   }
   return {options.seeds,         options.method,        options.method_options, options.device,
           options.files[0].path, options.files[1].path, options.files[4].path,  options.json};

@@ -38,7 +38,7 @@ struct RelaxCommand {
 
   /// Whether -o asks for the rounds, not for the end alone.
   bool shows_rounds() const {
-    return extension_of(pictures.picture_path) == ".mp4" ||
+    return extension_of(pictures.picture_path) == film_extension ||
            pictures.picture_path.find('%') != std::string::npos;
   }
 };
@@ -278,10 +278,8 @@ void add_relax(CommandLine& line) {
       .add(
           "--density", options->density_path,
           "How dense the seeds shall be, for each pixel of the grid: a picture, whose dark pixels are dense, "
-          "as "
-          "ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
-          "size, and "
-          "draws points by it")
+          "as ink on paper, or numbers in .npy (H, W), of which greater ones are dense; --random takes its "
+          "size, and draws points by it")
       .value_name("IMAGE");
   add_device_option(command, options->device);
   add_film_options(

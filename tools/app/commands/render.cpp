@@ -9,6 +9,7 @@
 #include "app/commands/render_volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -130,7 +131,7 @@ void run(const RenderOptions& options) {
 
 /// The options that a volume has. Throws UsageError for the others.
 VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
-  if (command.has("--waves")) throw UsageError("--waves is for planes, and --size WxHxD asks for a volume");
+  if (command.has("--waves")) refuse_in_volumes("--waves");
   return {options.seeds,       options.method,  options.method_options, options.device, options.picture_path,
           options.labels.path, options.picture, options.slice,          options.json};
 }

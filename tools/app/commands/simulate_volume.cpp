@@ -49,10 +49,8 @@ void check(const Command& command, const SimulateOptions& options, const std::op
   }
   check_volume_options(options.seeds);
   for (const char* const name : {"--compare-with", "--fit", "--cells", "--adjacency", "--distance",
-                                 "--similarity", "--statistics", "--resume", "--snap", "--no-snap"}) {
-    if (command.has(name)) {
-      throw UsageError(std::string(name) + " is for planes, and --size WxHxD asks for a volume");
-    }
+                                 "--similarity", "--statistics", "--resume"}) {
+    if (command.has(name)) refuse_in_volumes(name);
   }
   check_volume_method(options.method);
   check_slice(slice, options.output.picture_path, options.output.picture, sides);

@@ -214,6 +214,10 @@ void VolumeFrames::take_frame() {
   if (!has_warned_) has_warned_ = warn_of_voxels(*grid_);
 }
 
+void refuse_in_volumes(const std::string& option) {
+  throw UsageError(option + " is for planes, and --size WxHxD asks for a volume");
+}
+
 void check_volume_options(const SeedOptions& options) {
   const char* const of_planes = !options.mask.empty() ? "--mask"
                                 : options.width != 0  ? "--width"
@@ -225,9 +229,7 @@ void check_volume_options(const SeedOptions& options) {
                                 : options.units       ? "--units"
                                 : !options.value_column.empty() ? "--color column:NAME"
                                                                 : nullptr;
-  if (of_planes != nullptr) {
-    throw UsageError(std::string(of_planes) + " is for planes, and --size WxHxD asks for a volume");
-  }
+  if (of_planes != nullptr) refuse_in_volumes(of_planes);
   if (options.bounds && options.random > 0) throw UsageError("--bounds needs --points or --trajectory");
   if (options.bounds && !options.z_bounds) {
     throw UsageError("the --bounds of a volume are six numbers: X0,Y0,Z0,X1,Y1,Z1");
@@ -238,7 +240,6 @@ void check_volume_options(const SeedOptions& options) {
 }
 
 VolumeInput read_volume_input(const SeedOptions& options) {
-  check_volume_options(options);
   if (options.random > 0) return input_at_random(options);
   if (!options.points.empty()) return input_from_points(options);
   const VolumeFrames frames(options, options.frame);

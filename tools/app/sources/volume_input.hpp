@@ -55,11 +55,14 @@ class VolumeFrames {
   std::vector<Point3> points_;
 };
 
+/// Throws UsageError: volumes do not have this option.
+[[noreturn]] void refuse_in_volumes(const std::string& option);
+
 /// Throws UsageError for options of seeds that volumes do not have.
 void check_volume_options(const SeedOptions& options);
 
-/// Checks the options, and reads and checks the files. Throws UsageError, and Error if a file is bad or a
-/// point is outside the bounds; warns on standard error where the axes get different scales.
+/// Reads and checks the files of options that have been checked. Throws Error if a file is bad or a point is
+/// outside the bounds; warns on standard error where the axes get different scales.
 VolumeInput read_volume_input(const SeedOptions& options);
 
 }  // namespace vorocl::command
