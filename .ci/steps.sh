@@ -15,6 +15,7 @@ step() {
   else
     printf 'FAILED after %d s; the end of %s:\n' "$((SECONDS - begin))" "$log"
     tail -n 80 "$log"
+    grep -B 2 -A 12 'error: in "' "$log" | tail -n 60 || true # what Boost.Test found, also in the middle
     exit 1
   fi
 }
