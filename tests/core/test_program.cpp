@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <cstdlib>
+#include <utility>
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
@@ -14,7 +15,8 @@ using namespace vorocl;
 
 namespace {
 bool other_driver = false;
-}
+bool build_fails_once = false;
+}  // namespace
 
 /// Stands before the OpenCL loader's function: another device has another driver's version, of the same
 /// length.
@@ -24,6 +26,15 @@ clGetDeviceInfo(cl_device_id device, cl_device_info name, std::size_t size, void
   const cl_int code = next(device, name, size, value, used);
   if (other_driver && name == CL_DRIVER_VERSION && value != nullptr) *static_cast<char*>(value) = '?';
   return code;
+}
+
+/// Fails as PoCL does where another process builds the same program.
+extern "C" __attribute__((visibility("default"))) cl_int CL_API_CALL
+clBuildProgram(cl_program program, cl_uint count, const cl_device_id* devices, const char* options,
+               void(CL_CALLBACK* notify)(cl_program, void*), void* data) {
+  static const auto next = reinterpret_cast<decltype(&clBuildProgram)>(dlsym(RTLD_NEXT, "clBuildProgram"));
+  if (std::exchange(build_fails_once, false)) return CL_BUILD_PROGRAM_FAILURE;
+  return next(program, count, devices, options, notify, data);
 }
 
 namespace {
@@ -101,6 +112,14 @@ BOOST_AUTO_TEST_CASE(build_options_of_the_environment) {
   BOOST_TEST((labels() == true_labels()));
   const Variable options("VOROCL_BUILD_OPTIONS", "-DBROKEN");
   check_error([] { labels(); }, {"BROKEN is defined", "-DBROKEN"});
+}
+
+BOOST_AUTO_TEST_CASE(a_program_that_another_process_builds_too_is_built_again) {
+  if (test_device().platform_name() != "Portable Computing Language") return;
+  const Variable no_binaries("VOROCL_BINARY_CACHE", "0");
+  build_fails_once = true;
+  BOOST_TEST((labels() == true_labels()));
+  BOOST_TEST(!build_fails_once);
 }
 
 BOOST_AUTO_TEST_CASE(programs_are_dumped) {
