@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
       const Seeds seeds(device, test.grid, centres(test.seeds));
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
-      fill_exactly(seeds, diagram, metric);
+      fill(seeds, diagram, metric);
       check_fields(test.name, test.seeds, diagram, metric);
     }
     const Grid grid(97, 53);
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
       const Seeds seeds(device, grid, centres(pixels));
       Diagram diagram(device, grid);
       for (const Metric metric : both_metrics) {
-        fill_exactly(seeds, diagram, metric);
+        fill(seeds, diagram, metric);
         const std::vector<std::uint32_t> labels = diagram.read();
         for (const double most : {0.0, 0.99, 2.5, 5.0, 13.0, 1e300, infinite}) {
           const double bound = metric == Metric::euclidean ? most * most : most;

@@ -12,8 +12,8 @@ namespace {
 
 Report exactly(const Seeds& seeds, Diagram& diagram) { return exact_diagram(seeds, diagram); }
 
-/// The same labels, by an engine that all shapes of measures share.
-Report by_one_engine(const Seeds& seeds, Diagram& diagram) { return fill_exactly(seeds, diagram); }
+/// An engine that all shapes of measures share.
+Report by_one_engine(const Seeds& seeds, Diagram& diagram) { return fill(seeds, diagram); }
 
 /// The weights of pixels, as whole numbers: empty if all weigh 1.
 using Weights = std::vector<std::int64_t>;

@@ -41,12 +41,12 @@ inline bool is_for(const Device& shape, const Grid& grid) {
   return shape.tuning().vector_width == 4 || grid.width() >= shape.tuning().vector_width;
 }
 
-/// Fills a diagram by an engine without vectors, whatever the diagram's device has: one engine's kernels
-/// serve all shapes and widths.
-inline Report fill_exactly(const Seeds& seeds, Diagram& diagram, Metric metric = Metric::euclidean) {
-  Diagram exact(test_device().with_tuning({1, 64, 1}), diagram.window());
-  Report report = exact_diagram(seeds, exact, {metric});
-  diagram.write(exact.labels(), seeds, metric);
+/// Floods a diagram without vectors, whatever its device has: one engine's kernels serve all shapes and
+/// widths.
+inline Report fill(const Seeds& seeds, Diagram& diagram, Metric metric = Metric::euclidean) {
+  Diagram flooded(test_device().with_tuning({1, 64, 1}), diagram.window());
+  Report report = jump_flooding(seeds, flooded, {metric});
+  diagram.write(flooded.labels(), seeds, metric);
   return report;
 }
 
