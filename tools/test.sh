@@ -1,8 +1,13 @@
 #!/usr/bin/env bash
-# Builds everything, passes the whole test suite (under PoCL, unless VOROCL_DEVICE says otherwise), and lists at the end
-# which tests were skipped. Arguments are ctest's: tools/test.sh -R jump
+# Builds everything, passes the tests (under PoCL, unless VOROCL_DEVICE says otherwise), and lists at the end which were
+# skipped: test.sh [--all] [ARGUMENT OF CTEST]...
+#   tools/test.sh            all but the checks
+#   tools/test.sh -R jump    some of them
+#   tools/test.sh --all      the checks, too, as .ci/run does: the Python package, projects that use the library, checkers of
+#                            kernels and of memory, every fault of the command, the documentation
 set -euo pipefail
 cd "$(dirname "$0")/.."
+if [ "${1:-}" = --all ]; then shift; else set -- --label-exclude checks "$@"; fi
 
 tools/setup.sh build test
 cmake --preset release -DVOROCL_BUILD_TESTS=ON >/dev/null

@@ -157,8 +157,9 @@ void measure_volume(const Diagram& diagram) {
   pairs.read_pairs();
 }
 
-/// Volumes of few seeds, and of many in a part of them.
+/// Volumes of few seeds, and of many in a part of them, one of which is measured with vectors.
 void make_volumes(const Device& device, const Grid& grid) {
+  int vector_width = grid.periodic() == Periodic::none ? 1 : 4;
   for (const std::size_t count : {9u, 600u}) {
     const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
     std::vector<Point3> points;
@@ -180,15 +181,14 @@ void make_volumes(const Device& device, const Grid& grid) {
     expand_labels(flooded, 2, near_ones);
     in_a_part.move_to(std::vector<Point3>{{1, 2, 3}});
     if (in_a_part.displacement() == 0) throw Error("the seeds' way is wrong");
-    for (const int vector_width : {1, 4}) {
-      const Device measuring = device.with_tuning({vector_width, 4, 2, Shape::vector, 32});
-      points[1].x = 1000;
-      const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point3));
-      Diagram measured(measuring, grid);
-      jump_flooding(Seeds(measuring, grid, outside, Outside::absent), measured);
-      measure_volume(measured);
-    }
+    const Device measuring = device.with_tuning({vector_width, 4, 2, Shape::vector, 32});
+    points[1].x = 1000;
+    const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point3));
+    Diagram measured(measuring, grid);
+    jump_flooding(Seeds(measuring, grid, outside, Outside::absent), measured);
+    measure_volume(measured);
     device.finish();
+    vector_width = 5 - vector_width;
   }
 }
 
@@ -260,23 +260,24 @@ void cut_exact_cells(const Device& device) {
 
 int main() {
   const Device device = Device::select();
-  for (const int vector_width : {1, 4}) {
-    // Both shapes: of the group shape, which has no vectors, one is enough.
-    const Shape shape = vector_width == 1 ? Shape::group : Shape::vector;
-    const Device shaped = device.with_tuning({vector_width, 4, 2, shape, 32});
-    for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
-      for (const Grid& grid : {Grid(13, 9), Grid(3, 11)}) {
-        make_diagrams(shaped, grid, metric);
-        make_seeds(shaped, grid);
-      }
-      make_exact_diagrams(shaped, Grid(176, 90), metric);
-      make_exact_diagrams(shaped, Grid(176, 90, Periodic::xy), metric);
-      make_windows(shaped, metric);
-      make_diagrams_of_points(shaped, metric);
-      make_tiles(shaped, metric);
-      for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
-        measure(shaped, grid, metric);
+  // With and without vectors. A metric is arithmetic, not another way through memory: each kernel takes one,
+  // and the exact engine each in both shapes and on both kinds of axes.
+  for (const Shape shape : {Shape::group, Shape::vector}) {
+    const bool in_groups = shape == Shape::group;
+    const Device shaped = device.with_tuning({in_groups ? 1 : 4, 4, 2, shape, 32});
+    const Metric metric = in_groups ? Metric::manhattan : Metric::euclidean,
+                 other = in_groups ? Metric::euclidean : Metric::manhattan;
+    for (const Grid& grid : {Grid(13, 9), Grid(3, 11)}) {
+      make_diagrams(shaped, grid, metric);
+      make_seeds(shaped, grid);
     }
+    make_exact_diagrams(shaped, Grid(176, 90), metric);
+    make_exact_diagrams(shaped, Grid(140, 66, Periodic::xy), other);
+    make_windows(shaped, metric);
+    make_diagrams_of_points(shaped, metric);
+    make_tiles(shaped, metric);
+    for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
+      measure(shaped, grid, metric);
   }
   measure_many_cells(device, Grid(13, 9));
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});

@@ -73,11 +73,11 @@ void check_shapes(const std::string& name, const std::vector<Pixel>& pixels, con
 BOOST_AUTO_TEST_CASE(sums_and_shapes_are_those_of_the_host) {
   for (const Device& device : shapes()) {
     CellSumsResult result;  // one for all: its buffers grow, and hold what the last case left
-    for (const Case& test : measured_cases()) {
+    for (const Case& test : measured_cases(device)) {
       const Seeds seeds(device, test.grid, centres(test.seeds));
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
-      jump_flooding(seeds, diagram, {metric});
+      fill(seeds, diagram, metric);
       check_sums(test.name, test.seeds, diagram, result);
       check_shapes(test.name, test.seeds, diagram);
     }
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
   for (const Device& device : shapes()) {
     const Seeds seeds(device, grid, std::vector<Point>{{4000.5, 2000.5}});
     Diagram diagram(device, grid);
-    jump_flooding(seeds, diagram);
+    diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0), seeds, Metric::euclidean);
     CellSumsResult result;
     cell_sums(diagram, result);
     const CellSums cell = result.read().front();

@@ -30,7 +30,7 @@ std::size_t count_labelled(const std::vector<std::uint32_t>& labels) {
 
 BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force_and_a_reference) {
   for (const Metric metric : both_metrics) {
-    for (const Case& c : all_edge_cases()) {
+    for (const Case& c : all_edge_cases(metric)) {
       const auto ground_truth = brute_force(c.grid, c.seeds, metric);
       for (const Neighbourhood neighbourhood : {Neighbourhood::moore, Neighbourhood::von_neumann}) {
         for (const JumpFloodingVariant variant : all_variants) {

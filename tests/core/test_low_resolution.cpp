@@ -21,7 +21,7 @@ Labels labels_of(const Device& device, const Grid& grid, const std::vector<Pixel
 
 BOOST_AUTO_TEST_CASE(edge_cases_against_a_reference) {
   for (const Metric metric : both_metrics) {
-    for (const Case& c : metric == Metric::euclidean ? all_edge_cases() : periodic_cases()) {
+    for (const Case& c : all_edge_cases(metric)) {
       BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric)) {
         const Labels labels = labels_of(test_device(), c.grid, c.seeds, metric);
         BOOST_TEST((labels == reference_low_resolution(c.grid, c.seeds, metric)));

@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
     }
     const Window part(grid, 0, 0, 64, 40);
     const Labels expected = labels_by_definition(part, positions_of(grid, points), Metric::euclidean);
-    for (const Engine& engine : engines()) {
+    for (const Engine& engine : engines_of(Metric::euclidean)) {
       const Labels all = labels_of(engine, grid, points, Metric::euclidean);
       Labels cut;
       for (std::int64_t y = 0; y < part.height(); ++y) {
@@ -219,8 +219,7 @@ BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
     const Labels first = labels_by_definition(Window(grid, 0, 0, 1, 200), positions_of(grid, points), metric);
     Labels expected;
     for (const std::uint32_t label : first) expected.insert(expected.end(), 700, label);
-    for (const Engine& engine : engines()) {
-      if (!engine.is_for(metric)) continue;
+    for (const Engine& engine : engines_of(metric)) {
       BOOST_TEST(count_differences(labels_of(engine, grid, points, metric), expected) == 0u,
                  engine.name << ", " << name_of(metric));
     }
@@ -301,7 +300,7 @@ BOOST_AUTO_TEST_CASE(seeds_are_near_across_the_ends_of_periods_of_any_length) {
         const Window window = along_x ? Window(grid, begin, 0, 40, 24) : Window(grid, 0, begin, 24, 40);
         const auto positions = positions_of(grid, points);
         const Labels expected = labels_by_definition(window, positions, Metric::euclidean);
-        for (const Engine& engine : engines()) {
+        for (const Engine& engine : engines_of(Metric::euclidean)) {
           Diagram diagram(engine.device, window);
           exact_diagram(Seeds(engine.device, grid, points, Outside::count, Snap::none), diagram);
           Field<float> distances;

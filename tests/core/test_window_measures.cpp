@@ -41,15 +41,14 @@ std::vector<MeasuredWindow> measured_windows() {
   return windows;
 }
 
-/// The engines for a window and a metric. Kernels of measures are built anew for the axes along which it
-/// shows one whole period: so only one.
+/// The devices for a window and a metric: measures take vectors of 16, of 4, or none, and each metric has one
+/// of its own. Kernels are built anew for the axes along which the window shows one whole period: so only
+/// one.
 std::vector<Engine> engines_for(const Window& window, Metric metric) {
-  if (window.periodic() != Periodic::none) return {engines()[metric == Metric::euclidean ? 0 : 2]};
-  std::vector<Engine> some;
-  for (const Engine& engine : engines()) {
-    if (engine.is_for(metric)) some.push_back(engine);
-  }
-  return some;
+  const Engine &wide = engines()[0], &narrow = engines()[1], &without_vectors = engines()[2];
+  if (metric == Metric::manhattan) return {without_vectors};
+  if (window.periodic() != Periodic::none) return {wide};
+  return {wide, narrow};
 }
 
 /// Calls a function with the exact diagram of each window, in both metrics and by each engine.

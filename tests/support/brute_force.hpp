@@ -261,4 +261,18 @@ inline std::vector<Case> all_edge_cases() {
   return cases;
 }
 
+/// Grids whose rows are shorter than the longest vector: kernels are built anew for the vectors that they
+/// take.
+inline bool is_narrow(const Grid& grid) { return grid.width() < 16; }
+
+/// Those for a metric: narrow grids with one of both. (In wide grids tests take all vectors with both.)
+inline std::vector<Case> all_edge_cases(Metric metric) {
+  std::vector<Case> cases = all_edge_cases();
+  if (metric == Metric::euclidean) return cases;
+  const auto narrow =
+      std::remove_if(cases.begin(), cases.end(), [](const Case& c) { return is_narrow(c.grid); });
+  cases.erase(narrow, cases.end());
+  return cases;
+}
+
 }  // namespace vorocl

@@ -28,7 +28,29 @@ inline std::vector<Pixel> clusters(const Grid& grid, std::size_t count) {
   return pixels;
 }
 
-inline std::vector<Case> measured_cases() {
+/// The device in the shapes that measurements differ for: large blocks with whole and cut vectors, small
+/// blocks.
+inline std::vector<Device> shapes() {
+  const Device& device = test_device();
+  return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
+}
+
+/// Whether a shape is for a grid. Kernels are built anew for grids that are narrower than their vectors: the
+/// second shape alone takes these.
+inline bool is_for(const Device& shape, const Grid& grid) {
+  return shape.tuning().vector_width == 4 || grid.width() >= shape.tuning().vector_width;
+}
+
+/// Floods a diagram without vectors, whatever its device has: one engine's kernels serve all shapes and
+/// widths.
+inline Report fill(const Seeds& seeds, Diagram& diagram, Metric metric = Metric::euclidean) {
+  Diagram flooded(test_device().with_tuning({1, 64, 1}), diagram.window());
+  Report report = jump_flooding(seeds, flooded, {metric});
+  diagram.write(flooded.labels(), seeds, metric);
+  return report;
+}
+
+inline std::vector<Case> measured_cases(const Device& shape) {
   std::vector<Case> cases = edge_cases();
   const Grid wide(700, 300), tall(130, 1000);
   cases.push_back({"few seeds", wide, random_pixels(wide, 7, 5)});
@@ -43,14 +65,10 @@ inline std::vector<Case> measured_cases() {
   cases.push_back({"tall", tall, random_pixels(tall, 500, 8)});
   cases.push_back({"clusters", wide, clusters(wide, 2000)});
   cases.push_back({"cities", Grid(1440, 720), cities(Grid(1440, 720))});
+  const auto others =
+      std::remove_if(cases.begin(), cases.end(), [&](const Case& c) { return !is_for(shape, c.grid); });
+  cases.erase(others, cases.end());
   return cases;
-}
-
-/// The device in the shapes that measurements differ for: large blocks with whole and cut vectors, small
-/// blocks.
-inline std::vector<Device> shapes() {
-  const Device& device = test_device();
-  return {device.with_tuning({16, 64, 1}), device.with_tuning({4, 8, 1}), device.with_tuning({1, 32, 8})};
 }
 
 /// Labels at random, some of which name no seed: cells in many pieces.

@@ -42,6 +42,14 @@ inline const std::vector<Engine>& engines() {
   return all;
 }
 
+inline std::vector<Engine> engines_of(Metric metric) {
+  std::vector<Engine> some;
+  for (const Engine& engine : engines()) {
+    if (engine.is_for(metric)) some.push_back(engine);
+  }
+  return some;
+}
+
 /// One of those for the metric whose vectors fit in the window's rows: for others kernels would be built
 /// anew.
 inline const Engine& engine_for(const Window& window, Metric metric, std::size_t number) {
