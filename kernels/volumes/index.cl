@@ -191,10 +191,16 @@ kernel void make_bins(global uint* restrict bits, global uint* restrict starts, 
   const uint begin = totals[region], end = totals[region + 1];
   global uint* const own = bits + (size_t)region * BINS * WORDS;
   for (uint i = 0; i < BINS * WORDS; i += 8) vstore8((uv)0, 0, own + i);
+  uint at_word = 0, bits_of_word = 0;  // neighbours share a word, which is not to be loaded for each of them
   for (uint i = begin; i < end; ++i) {
     const uint bit = bit_of((uint)sorted[i]);
-    own[bit / 32] |= 1u << bit % 32;
+    if (bit / 32 != at_word) {
+      own[at_word] |= bits_of_word;
+      at_word = bit / 32, bits_of_word = 0;
+    }
+    bits_of_word |= 1u << bit % 32;
   }
+  own[at_word] |= bits_of_word;
   bounds_t bounds = no_bounds();
   uint of_region = EMPTY, at = begin;
   for (int b = 0; b < BINS; ++b) {

@@ -61,11 +61,25 @@ static inline int wrapped(int at, int size, int periodic) {
   return at < 0 ? at + size : at >= size ? at - size : at;
 }
 
-// The part of an axis in a distance: an integer. The macro takes numbers and vectors.
+// SPACING. How long a voxel is along each axis, in units of distances; where it is no cube, by build options.
+#ifdef VOROCL_SPACING_X
+#define SPACING_X VOROCL_SPACING_X
+#define SPACING_Y VOROCL_SPACING_Y
+#define SPACING_Z VOROCL_SPACING_Z
+#else
+#define SPACING_X 1
+#define SPACING_Y 1
+#define SPACING_Z 1
+#endif
+
+// The part of an axis in a distance, of an offset in voxels: an integer. The macros take numbers and vectors.
 #ifdef VOROCL_MANHATTAN
 #define ALONG(offset) max(offset, -(offset))
 #else
 #define ALONG(offset) ((offset) * (offset))
 #endif
+#define ALONG_X(offset) ALONG((offset) * SPACING_X)
+#define ALONG_Y(offset) ALONG((offset) * SPACING_Y)
+#define ALONG_Z(offset) ALONG((offset) * SPACING_Z)
 
 #endif

@@ -87,6 +87,14 @@ static inline bool is_near_image(extent_t e, box_t b, uint number) {
          has_near_image(number / 9, b.z, b.hz, e.depth, PERIODIC_Z);
 }
 
+// Coordinates from a box's first corner, and its last corner, in units of distances.
+static inline iv from_x(box_t b, uv p) { return (xs_of(p) - b.x) * SPACING_X; }
+static inline iv from_y(box_t b, uv p) { return (ys_of(p) - b.y) * SPACING_Y; }
+static inline iv from_z(box_t b, uv p) { return (zs_of(p) - b.z) * SPACING_Z; }
+static inline int last_x(box_t b) { return b.hx * SPACING_X; }
+static inline int last_y(box_t b) { return b.hy * SPACING_Y; }
+static inline int last_z(box_t b) { return b.hz * SPACING_Z; }
+
 static inline iv is_empty(uv seeds) { return as_int8(seeds) < 0; }
 
 // The places of images of seeds; EMPTY where there is none.
@@ -169,9 +177,9 @@ static inline void begin_nearest(nearest_t* nearest, const dominators_t* d) {
 }
 
 static inline void take_nearest(nearest_t* nearest, box_t b, uv seed) {
-  const iv x = xs_of(seed) - b.x, y = ys_of(seed) - b.y, z = zs_of(seed) - b.z;
+  const iv x = from_x(b, seed), y = from_y(b, seed), z = from_z(b, seed);
   const iv n = (x * x + y * y + z * z) | (is_empty(seed) & 0x3fffffff);  // the squared sides are below that
-  const iv x2 = x * (2 * b.hx), y2 = y * (2 * b.hy), z2 = z * (2 * b.hz);
+  const iv x2 = x * (2 * last_x(b)), y2 = y * (2 * last_y(b)), z2 = z * (2 * last_z(b));
   iv to[PLACES];
   to[1] = n;
   to[2] = n - x2;
@@ -201,7 +209,8 @@ static inline void end_nearest(const nearest_t* nearest, dominators_t* d) {
     bool known = false;
     for (int j = 0; j < i; ++j) known |= d->seed[j] == s;
     if (known) continue;
-    const int x = x_of(s) - d->box.x, y = y_of(s) - d->box.y, z = z_of(s) - d->box.z;
+    const int x = (x_of(s) - d->box.x) * SPACING_X, y = (y_of(s) - d->box.y) * SPACING_Y;
+    const int z = (z_of(s) - d->box.z) * SPACING_Z;
     d->x[d->count] = x, d->y[d->count] = y, d->z[d->count] = z, d->n[d->count] = x * x + y * y + z * z;
     ++d->count;
   }
@@ -217,10 +226,10 @@ static inline void pad(ulong* list, int count) { vstore8((ulong8)EMPTY, 0, list 
 // How far a seed is behind the one that rules it out the most; above 0: it wins nowhere in the box.
 static inline iv greatest_lag(const dominators_t* d, uv seed) {
   const box_t b = d->box;
-  const iv x = xs_of(seed) - b.x, y = ys_of(seed) - b.y, z = zs_of(seed) - b.z;
+  const iv x = from_x(b, seed), y = from_y(b, seed), z = from_z(b, seed);
   const iv n = x * x + y * y + z * z;
   iv lag = select((iv)INT_MIN, (iv)1, is_empty(seed));
-  const int hx = 2 * b.hx, hy = 2 * b.hy, hz = 2 * b.hz;
+  const int hx = 2 * last_x(b), hy = 2 * last_y(b), hz = 2 * last_z(b);
   const iv x2 = x * hx, y2 = y * hy, z2 = z * hz;
   for (int i = 0; i < d->count; ++i) {
     lag = max(lag, n - d->n[i] - max(x2 - d->x[i] * hx, (iv)0) - max(y2 - d->y[i] * hy, (iv)0) -
@@ -256,18 +265,19 @@ static inline void improve(dominators_t* d, const ulong* list, int count) {
 // nearest to either end.
 static inline iv nodes_left(const dominators_t* d, uv low, uv high) {
   const box_t b = d->box;
-  const iv lx = xs_of(low) - b.x, hx = xs_of(high) - b.x, ly = ys_of(low) - b.y, hy = ys_of(high) - b.y;
-  const iv lz = zs_of(low) - b.z, hz = zs_of(high) - b.z;
+  const iv lx = from_x(b, low), hx = from_x(b, high), ly = from_y(b, low), hy = from_y(b, high);
+  const iv lz = from_z(b, low), hz = from_z(b, high);
+  const int ex = last_x(b), ey = last_y(b), ez = last_z(b);
 #define TO(at, l, h) max(max(l - (at), (at) - h), (iv)0)
-  iv x0 = TO(0, lx, hx), x1 = TO(b.hx, lx, hx), y0 = TO(0, ly, hy), y1 = TO(b.hy, ly, hy);
-  iv z0 = TO(0, lz, hz), z1 = TO(b.hz, lz, hz);
+  iv x0 = TO(0, lx, hx), x1 = TO(ex, lx, hx), y0 = TO(0, ly, hy), y1 = TO(ey, ly, hy);
+  iv z0 = TO(0, lz, hz), z1 = TO(ez, lz, hz);
 #undef TO
   x0 *= x0, x1 *= x1, y0 *= y0, y1 *= y1, z0 *= z0, z1 *= z1;
   iv lag = select((iv)INT_MIN, (iv)1, is_empty(low));
   for (int i = 0; i < d->count; ++i) {
     const int x = d->x[i], y = d->y[i], z = d->z[i];
-    lag = max(lag, min(x0 - x * x, x1 - (b.hx - x) * (b.hx - x)) + min(y0 - y * y, y1 - (b.hy - y) * (b.hy - y)) +
-                       min(z0 - z * z, z1 - (b.hz - z) * (b.hz - z)));
+    lag = max(lag, min(x0 - x * x, x1 - (ex - x) * (ex - x)) + min(y0 - y * y, y1 - (ey - y) * (ey - y)) +
+                       min(z0 - z * z, z1 - (ez - z) * (ez - z)));
   }
   return lag <= 0;
 }
@@ -457,7 +467,7 @@ static inline uint distance_to_node(const index_t* index, size_t node, int x, in
   const int dx = way_to(x, x_of(low), x_of(high), e.width, PERIODIC_X);
   const int dy = way_to(y, y_of(low), y_of(high), e.height, PERIODIC_Y);
   const int dz = way_to(z, z_of(low), z_of(high), e.depth, PERIODIC_Z);
-  return (uint)(dx * dx + dy * dy + dz * dz);
+  return (uint)(ALONG_X(dx) + ALONG_Y(dy) + ALONG_Z(dz));
 }
 
 // The nearest seed of a voxel, without lists that could overflow: walks through all nodes that may be as near as the
@@ -479,7 +489,7 @@ static inline void search_bin(const index_t* index, uint bin, int x, int y, int 
     const int dx = SHORTER(inside_x, index->extent.width, PERIODIC_X);
     const int dy = SHORTER(inside_y, index->extent.height, PERIODIC_Y);
     const int dz = SHORTER(inside_z, index->extent.depth, PERIODIC_Z);
-    const uint distance = (uint)(dx * dx + dy * dy + dz * dz);
+    const uint distance = (uint)(ALONG_X(dx) + ALONG_Y(dy) + ALONG_Z(dz));
     if (distance > nearest->distance) continue;
     if (distance == nearest->distance && (uint)seed > (uint)nearest->seed) continue;
     nearest->distance = distance;
