@@ -235,8 +235,8 @@ class VOROCL_API Window {
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
   static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
-  /// Of a volume: its sides, in units of the spacing; and the bits of the whole numbers below its voxels along
-  /// each of them, added up. A periodic side counts twice.
+  /// Of a volume: its sides, in units of the spacing; and the bits of the whole numbers below its voxels
+  /// along each of them, added up. A periodic side counts twice.
   static constexpr std::int64_t max_side_of_volume = 16384;
   static constexpr int max_bits_of_volume = 31;  ///< such as 2048 x 1024 x 1024 voxels
 

@@ -7,6 +7,7 @@
 #define VOROCL_VOLUMES_KEYS
 
 #include "volumes/search.cl"
+#include "volumes/search_voxel.cl"
 
 // Candidates: ranks of 8 bits leave 23 and a sign for differences of squared distances in a box of 16 x 8 x 8. Where
 // voxels are longer than 1, by up to 16, there are 24.

@@ -528,7 +528,8 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
   Random random(19);
   const Grid open(50, 40, 30);
   for (const auto& [grid, metric] : {std::pair(open, Metric::euclidean), std::pair(open, Metric::manhattan),
-                                     std::pair(periodic(open, true, true, true), Metric::euclidean)}) {
+                                     std::pair(periodic(open, true, true, true), Metric::euclidean),
+                                     std::pair(spaced(open, 2, 1, 4), Metric::euclidean)}) {
     const std::vector<At> voxels = random.in(grid, 60);
     const Seeds seeds = seeds_at(test_device(), grid, voxels);
     Diagram flooded(test_device(), grid), exact(test_device(), grid);
@@ -624,9 +625,12 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
                 [&] { Diagram(device, periodic(Grid(2, 2, 8193), false, false, true)); });
   check_refusal("periodic in x and y " + too_large,
                 [&] { Diagram(device, periodic(Grid(2048, 1024, 512), true, true, false)); });
-  check_refusal("3 x 3 x 2000 voxels spaced 1 x 1 x 9 is too large: its sides can have 16384 voxels times their spacing",
-                [&] { Diagram(device, spaced(Grid(3, 3, 2000), 1, 1, 9)); });
-  for (const int spacing : {0, 17}) check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
+  check_refusal(
+      "3 x 3 x 2000 voxels spaced 1 x 1 x 9 is too large: its sides can have 16384 voxels times their "
+      "spacing",
+      [&] { Diagram(device, spaced(Grid(3, 3, 2000), 1, 1, 9)); });
+  for (const int spacing : {0, 17})
+    check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
   const Grid grid(8, 8, 8);
   check_refusal("a window of a part cannot take", [&] { Window(grid, 0, 0, 4, 4); });
   check_refusal("the points have no z", [&] { Seeds(device, grid, {{1, 1}}); });
