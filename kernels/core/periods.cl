@@ -1,5 +1,5 @@
-// Which axes are periodic: the build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z. Their
-// period is the grid's side, and distances go the shorter way round.
+// Which axes are periodic: the build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z.
+// Their period is the grid's side, and distances go the shorter way round.
 
 #ifndef VOROCL_PERIODS
 #define VOROCL_PERIODS

@@ -1,9 +1,10 @@
 // Exact labels where seeds are dense: three passes of minima with 16-bit lanes, one per axis, that look `reach` voxels
 // far. A voxel's key is distance * K^3 + the place of its seed among the K^3 voxels within reach, K = 2 * reach + 1, z
 // above y above x: so the least key is the nearest seed by the tie rule, and says where it stands. A voxel is done if
-// its distance is below that of any seed out of reach, (reach + 1)^2 where voxels have a side of 1. For a reach of 5 that
-// is 36 * 1331 < 65536; greater distances saturate, and passes for which they leave no room are not made. A box with a voxel that is not done is left to boxes.cl; and so is one within reach of an
-// end of a periodic axis, where seeds follow each other in another order than the tie rule's.
+// its distance is below that of any seed out of reach, (reach + 1)^2 where voxels have a side of 1. For a reach of 5
+// that is 36 * 1331 < 65536; greater distances saturate, and passes for which they leave no room are not made. A box
+// with a voxel that is not done is left to boxes.cl; and so is one within reach of an end of a periodic axis, where
+// seeds follow each other in another order than the tie rule's.
 
 #ifndef VOROCL_VOLUMES_DENSE
 #define VOROCL_VOLUMES_DENSE
@@ -117,10 +118,11 @@ static inline void gather_ids(bin_row_t row, global const uchar* bytes, global c
   const int side = REGION + 2 * reach;
   for (int i = 0; i < 6; ++i) {
     if (!row.there[i]) continue;
-    const uint first = row.bin[i] / BINS * (BINS + 1) + row.bin[i] % BINS, begin = starts[first], end = starts[first + 1];
+    const uint first = row.bin[i] / BINS * (BINS + 1) + row.bin[i] % BINS;
+    const uint begin = starts[first], end = starts[first + 1];
     if (end - begin >= CROWDED) {
-      gather_rows(bytes + (size_t)row.bin[i] * (WORDS * 4), list + begin, i * BIN, by * BIN + reach, bz * BIN + reach, side,
-                  around->id);
+      gather_rows(bytes + (size_t)row.bin[i] * (WORDS * 4), list + begin, i * BIN, by * BIN + reach, bz * BIN + reach,
+                  side, around->id);
       continue;
     }
     for (uint j = begin; j < end; ++j) {

@@ -1,8 +1,8 @@
 // Images of seeds across the ends of periodic axes, and the places where they lie.
 //
-// Along a periodic axis a seed has images, a period before and behind it, and the candidates of a box are images: it may
-// have two of one seed. They are seeds like others to all proofs, for the nearest image is as far as the shorter way
-// round. Their places are coordinates that start half a period before the volume (MARGIN_X and so on, 0 along other
+// Along a periodic axis a seed has images, a period before and behind it, and the candidates of a box are images: it
+// may have two of one seed. They are seeds like others to all proofs, for the nearest image is as far as the shorter
+// way round. Their places are coordinates that start half a period before the volume (MARGIN_X and so on, 0 along other
 // axes), packed as positions are; an image that is farther from all voxels is none. Boxes are in places.
 
 #ifndef VOROCL_VOLUMES_IMAGES

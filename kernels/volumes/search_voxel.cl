@@ -22,7 +22,8 @@ static inline uint distance_to_node(const index_t* index, size_t node, int x, in
   return (uint)(ALONG_X(dx) + ALONG_Y(dy) + ALONG_Z(dz));
 }
 
-// The nearest seed so far. The search walks through all nodes that may be as near, and takes only seeds that come before.
+// The nearest seed so far. The search walks through all nodes that may be as near, and takes only seeds that come
+// before.
 typedef struct {
   uint distance;
   ulong seed;
