@@ -3,7 +3,6 @@
 
 #include "measures/pair_table.cl"
 #include "measures/runs.cl"
-#include "volumes/blocks.cl"
 #include "volumes/position.cl"
 
 // Adds the faces between a row and one beside it, and along the row those between its own runs if `along` says so. Of a
@@ -23,20 +22,18 @@ static inline void add_faces(global const uint* row, global const uint* beside, 
   }
 }
 
-// Blocks are as deep as they are high, so that the pairs of a cell are found while they are in a cache.
-kernel void find_faces(global const uint* restrict labels, uint count, int4 size, int4 bits, TABLE_PARAMETERS) {
-  cuboid_t block;
-  if (!take_cuboid(size, bits, &block)) return;
-  const int left = block.first.x, right = block.end.x;
-  for (int z = block.first.z; z < block.end.z; ++z) {
-    const int next_z = z + 1 < size.z ? z + 1 : PERIODIC_Z ? 0 : z;
-    for (int y = block.first.y; y < block.end.y; ++y) {
-      const int next_y = y + 1 < size.y ? y + 1 : PERIODIC_Y ? 0 : y;
-      global const uint* const row = row_of(labels, y, z, size);
-      global const uint* const below = row_of(labels, next_y, z, size);
-      global const uint* const behind = row_of(labels, y, next_z, size);
-      add_faces(row, below, left, right, size.x, true, count, mask, slots_of_cell, table, overflow);
-      add_faces(row, behind, left, right, size.x, false, count, mask, slots_of_cell, table, overflow);
-    }
+// The blocks are those of the image of all rows, slice after slice.
+kernel void find_faces(global const uint* restrict labels, uint count, int width, int height, int rows, int wide,
+                       int high, TABLE_PARAMETERS) {
+  block_t block;
+  if (!take_block(width, rows, wide, high, &block)) return;
+  for (int y = block.top; y < block.bottom; ++y) {
+    const size_t across = (size_t)width, slice = across * (size_t)height;
+    global const uint* const row = labels + (size_t)y * across;
+    global const uint* const below = (y + 1) % height != 0 ? row + across : PERIODIC_Y ? row + across - slice : row;
+    global const uint* const behind =
+        y + height < rows ? row + slice : PERIODIC_Z ? labels + (size_t)(y % height) * across : row;
+    add_faces(row, below, block.left, block.right, width, true, count, mask, slots_of_cell, table, overflow);
+    add_faces(row, behind, block.left, block.right, width, false, count, mask, slots_of_cell, table, overflow);
   }
 }

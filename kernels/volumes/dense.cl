@@ -26,15 +26,19 @@ typedef struct __attribute__((packed)) { near_keys v; } unaligned_keys;
 #define CROWDED (BIN * BIN * BIN * 3 / 4)    // so many seeds of a bin are taken in rows
 #define STRIDE 48                            // of a row in the table of ids: 8 voxels more at both ends
 
-// Regions with so many seeds try a reach: one per 18 voxels, one per 90.
-#define DENSE_FOR_SHORT (REGION * REGION * REGION / 18)
-#define DENSE_FOR_LONG (REGION * REGION * REGION / 90)
-
 // The least key of a seed out of reach, or more than any key.
 #define KEYS_PER_DISTANCE(reach) ((2 * (reach) + 1) * (2 * (reach) + 1) * (2 * (reach) + 1))
 #define LEAST_SPACING min(SPACING_X, min(SPACING_Y, SPACING_Z))
 #define FIRST_FAR_KEY(reach) (ALONG(((reach) + 1) * LEAST_SPACING) * KEYS_PER_DISTANCE(reach))
 #define HAS_ROOM(reach) (FIRST_FAR_KEY(reach) <= NO_KEY)
+
+// Regions with so many seeds try a reach: one per 18 voxels, one per 90; more where voxels are long, of which fewer are
+// nearer than all that is out of reach.
+#define SEEDS_FOR(voxels_per_seed)                                                    \
+  (REGION * REGION * REGION / (voxels_per_seed) * (SPACING_X * SPACING_Y * SPACING_Z) / \
+   (LEAST_SPACING * LEAST_SPACING * LEAST_SPACING))
+#define DENSE_FOR_SHORT SEEDS_FOR(18)
+#define DENSE_FOR_LONG SEEDS_FOR(90)
 
 // The part of an axis in a key, which saturates.
 static inline near_keys part_of_key(int along, int unit, int place) {

@@ -69,13 +69,13 @@ std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diag
     make_room(*numbers, device, count * word);
     if (count > 0) fill(device, *numbers, cl_uint{0}, count);
   }
+  const Blocks blocks(device, grid);
   const auto mask = static_cast<cl_uint>(slot_count - 1), of_cell = static_cast<cl_uint>(slots_of_cell(grid));
   if (grid.is_volume()) {
-    const Cuboids blocks(device, grid);
-    blocks.run(kernels, "volumes/adjacency.cl", "find_faces", options, labels, count, blocks.size(),
-               blocks.bits(), mask, of_cell, table, overflow);
+    blocks.run(kernels, "volumes/adjacency.cl", "find_faces", options, labels, count, grid.width(),
+               grid.height(), static_cast<cl_int>(grid.rows()), blocks.wide(), blocks.high(), mask, of_cell,
+               table, overflow);
   } else {
-    const Blocks blocks(device, grid);
     blocks.run(kernels, file, "find_borders", options, labels, row_behind(diagram, labels, behind), count,
                grid.width(), grid.height(), blocks.wide(), blocks.high(), mask, of_cell, table, overflow);
   }
