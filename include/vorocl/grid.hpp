@@ -57,6 +57,7 @@ constexpr Periodic periodic_along(bool x, bool y) {
 class VOROCL_API Axis {
  public:
   static constexpr std::int64_t max_pixels = 2147483647;  ///< past it a squared distance leaves 63 bits
+  static constexpr int max_spacing = 16;
 
   /// An axis whose unit is the pixel: it covers [0, pixels). Throws Error unless `pixels` is in
   /// [1, max_pixels].
@@ -78,7 +79,13 @@ class VOROCL_API Axis {
   /// stays as it is: `to` is `from` there.
   Axis closed() const;
 
+  /// The same axis with pixels that are so long in distances: `spacing` from each to the next. What counts is
+  /// the ratio to the other axes: slices of a microscope that lie four pixels apart have Axis(90).spaced(4).
+  /// Throws Error unless it is in [1, max_spacing].
+  Axis spaced(int spacing) const;
+
   std::int64_t pixels() const { return pixels_; }
+  int spacing() const { return spacing_; }
   double from() const { return from_; }
   double to() const { return to_; }
   bool is_periodic() const { return periodic_; }
@@ -113,7 +120,8 @@ class VOROCL_API Axis {
 
   friend bool operator==(const Axis& a, const Axis& b) {
     return a.pixels_ == b.pixels_ && a.from_ == b.from_ && a.to_ == b.to_ && a.in_pixels_ == b.in_pixels_ &&
-           a.periodic_ == b.periodic_ && a.reversed_ == b.reversed_ && a.closed_ == b.closed_;
+           a.periodic_ == b.periodic_ && a.reversed_ == b.reversed_ && a.closed_ == b.closed_ &&
+           a.spacing_ == b.spacing_;
   }
   friend bool operator!=(const Axis& a, const Axis& b) { return !(a == b); }
 
@@ -139,6 +147,7 @@ class VOROCL_API Axis {
   double from_, to_;
   bool in_pixels_;  // the unit is the pixel
   bool periodic_ = false, reversed_ = false, closed_ = false;
+  int spacing_ = 1;
 };
 
 /// The pixels that there are: two axes, x to the right and y down, pixel (0, 0) at the top left. It may be
@@ -148,6 +157,9 @@ class VOROCL_API Axis {
 /// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(), cell_shapes(),
 /// cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and expand_labels() take
 /// volumes; others throw Error. Any axes may be periodic.
+///
+/// A grid with an axis that is spaced (Axis::spaced()) is a volume too, be it of one slice. Its distances are
+/// in units of the spacing; measures of cells count voxels.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
@@ -175,7 +187,8 @@ class VOROCL_API Grid {
   std::int64_t width() const { return x_.pixels(); }
   std::int64_t height() const { return y_.pixels(); }
   std::int64_t depth() const { return z_.pixels(); }
-  bool is_volume() const { return depth() > 1; }
+  bool is_volume() const { return depth() > 1 || is_spaced(); }
+  bool is_spaced() const { return x_.spacing() > 1 || y_.spacing() > 1 || z_.spacing() > 1; }
 
   /// The axes of a plane, or of a volume's slices, that are periodic; for z see z().
   Periodic periodic() const { return periodic_along(x_.is_periodic(), y_.is_periodic()); }
@@ -222,8 +235,8 @@ class VOROCL_API Window {
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
   static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
-  /// Of a volume: its sides, and the bits of the whole numbers below each of them, added up. A periodic side
-  /// counts twice.
+  /// Of a volume: its sides, in units of the spacing; and the bits of the whole numbers below its voxels
+  /// along each of them, added up. A periodic side counts twice.
   static constexpr std::int64_t max_side_of_volume = 16384;
   static constexpr int max_bits_of_volume = 31;  ///< such as 2048 x 1024 x 1024 voxels
 

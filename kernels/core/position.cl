@@ -6,6 +6,7 @@
 #ifndef VOROCL_POSITION
 #define VOROCL_POSITION
 
+#include "core/periods.cl"
 #include "core/vector.cl"
 
 #define NO_LABEL 0xffffffffu
@@ -59,22 +60,6 @@ static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES;
 // The distance of two pixels that are (dx, dy) apart.
 static inline uint distance_of_offset(int dx, int dy) { return (uint)(ALONG(dx) + ALONG(dy)); }
 
-// PERIODIC AXES. The build options VOROCL_PERIODIC_X and VOROCL_PERIODIC_Y say which axes are periodic: their period is
-// the grid's side, and distances go the shorter way round.
-#if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y)
-#define VOROCL_PERIODIC
-#endif
-#ifdef VOROCL_PERIODIC_X
-#define PERIODIC_X 1
-#else
-#define PERIODIC_X 0
-#endif
-#ifdef VOROCL_PERIODIC_Y
-#define PERIODIC_Y 1
-#else
-#define PERIODIC_Y 0
-#endif
-
 // The periods of both axes, packed; on an axis that is not periodic it is too long for a way round.
 #define NO_PERIOD 0xffffu
 static inline uint periods(int width, int height) {
@@ -91,11 +76,6 @@ static inline int shorter_way(int inside, int size, int periodic) {
 static inline int shorter_way_x(int inside, int width) { return shorter_way(inside, width, PERIODIC_X); }
 static inline int shorter_way_y(int inside, int height) { return shorter_way(inside, height, PERIODIC_Y); }
 
-// A coordinate that is less than a period outside the grid, brought back into it if the axis is periodic.
-static inline int wrapped(int at, int size, int periodic) {
-  if (!periodic) return at;
-  return at < 0 ? at + size : at >= size ? at - size : at;
-}
 static inline int wrapped_x(int x, int width) { return wrapped(x, width, PERIODIC_X); }
 static inline int wrapped_y(int y, int height) { return wrapped(y, height, PERIODIC_Y); }
 

@@ -1,9 +1,10 @@
 // Exact labels where seeds are dense: three passes of minima with 16-bit lanes, one per axis, that look `reach` voxels
 // far. A voxel's key is distance * K^3 + the place of its seed among the K^3 voxels within reach, K = 2 * reach + 1, z
 // above y above x: so the least key is the nearest seed by the tie rule, and says where it stands. A voxel is done if
-// its distance is below (reach + 1)^2: no seed out of reach is as near. For a reach of 5 that is 36 * 1331 < 65536;
-// greater distances saturate. A box with a voxel that is not done is left to boxes.cl; and so is one within reach of an
-// end of a periodic axis, where seeds follow each other in another order than the tie rule's.
+// its distance is below that of any seed out of reach, (reach + 1)^2 where voxels have a side of 1. For a reach of 5
+// that is 36 * 1331 < 65536; greater distances saturate, and passes for which they leave no room are not made. A box
+// with a voxel that is not done is left to boxes.cl; and so is one within reach of an end of a periodic axis, where
+// seeds follow each other in another order than the tie rule's.
 
 #ifndef VOROCL_VOLUMES_DENSE
 #define VOROCL_VOLUMES_DENSE
@@ -22,11 +23,27 @@ typedef struct __attribute__((packed)) { near_keys v; } unaligned_keys;
 #define SHORT_REACH 3
 #define LONG_SIDE (REGION + 2 * LONG_REACH)  // of a region with what is within reach
 #define STRIP 16                             // columns that the passes take at once
+#define CROWDED (BIN * BIN * BIN * 3 / 4)    // so many seeds of a bin are taken in rows
 #define STRIDE 48                            // of a row in the table of ids: 8 voxels more at both ends
 
-// Regions with so many seeds try a reach: one per 18 voxels, one per 90.
-#define DENSE_FOR_SHORT (REGION * REGION * REGION / 18)
-#define DENSE_FOR_LONG (REGION * REGION * REGION / 90)
+// The least key of a seed out of reach, or more than any key.
+#define KEYS_PER_DISTANCE(reach) ((2 * (reach) + 1) * (2 * (reach) + 1) * (2 * (reach) + 1))
+#define LEAST_SPACING min(SPACING_X, min(SPACING_Y, SPACING_Z))
+#define FIRST_FAR_KEY(reach) (ALONG(((reach) + 1) * LEAST_SPACING) * KEYS_PER_DISTANCE(reach))
+#define HAS_ROOM(reach) (FIRST_FAR_KEY(reach) <= NO_KEY)
+
+// Regions with so many seeds try a reach: one per 18 voxels, one per 90; more where voxels are long, of which fewer are
+// nearer than all that is out of reach.
+#define SEEDS_FOR(voxels_per_seed)                                                    \
+  (REGION * REGION * REGION / (voxels_per_seed) * (SPACING_X * SPACING_Y * SPACING_Z) / \
+   (LEAST_SPACING * LEAST_SPACING * LEAST_SPACING))
+#define DENSE_FOR_SHORT SEEDS_FOR(18)
+#define DENSE_FOR_LONG SEEDS_FOR(90)
+
+// The part of an axis in a key, which saturates.
+static inline near_keys part_of_key(int along, int unit, int place) {
+  return (near_keys)(ushort)min(along * unit + place, NO_KEY);
+}
 
 // Whether voxels are within reach of an end of an axis.
 static inline bool is_near_end(int first, int count, int size, int reach, int periodic) {
@@ -80,13 +97,39 @@ static inline bin_row_t bins_of_row(extent_t e, int4 at, int by, int bz) {
   return row;
 }
 
-static inline void gather_ids(bin_row_t row, global const uint* starts, global const ulong* list, int4 at, int reach,
-                              surroundings_t* around) {
+// The ids of a bin of which most voxels are seeds, row by row: one without a gap is a vector of them. The bin's first
+// voxel is at (x, y, z) in the table.
+static inline void gather_rows(global const uchar* bytes, global const ulong* seeds, int x, int y, int z, int side,
+                               uint* id) {
+  for (int row = 0; row < BIN * BIN; ++row) {
+    const int row_y = y + row % BIN, row_z = z + row / BIN;
+    const uint byte = bytes[row];
+    global const ulong* seed = seeds;
+    seeds += popcount(byte);
+    if ((uint)row_y >= (uint)side || (uint)row_z >= (uint)side) continue;
+    uint* const out = id + (row_z * side + row_y) * STRIDE + x;
+    if (byte == 0xff) {
+      const uint16 both = vload16(0, (global const uint*)seed);
+      vstore8(both.odd, 0, out);
+      continue;
+    }
+    for (uint rest = byte; rest != 0; rest &= rest - 1) out[first_bit(rest)] = (uint)(*seed++ >> 32);
+  }
+}
+
+static inline void gather_ids(bin_row_t row, global const uchar* bytes, global const uint* starts,
+                              global const ulong* list, int4 at, int by, int bz, int reach, surroundings_t* around) {
   const int side = REGION + 2 * reach;
   for (int i = 0; i < 6; ++i) {
     if (!row.there[i]) continue;
-    const uint first = row.bin[i] / BINS * (BINS + 1) + row.bin[i] % BINS, end = starts[first + 1];
-    for (uint j = starts[first]; j < end; ++j) {
+    const uint first = row.bin[i] / BINS * (BINS + 1) + row.bin[i] % BINS;
+    const uint begin = starts[first], end = starts[first + 1];
+    if (end - begin >= CROWDED) {
+      gather_rows(bytes + (size_t)row.bin[i] * (WORDS * 4), list + begin, i * BIN, by * BIN + reach, bz * BIN + reach,
+                  side, around->id);
+      continue;
+    }
+    for (uint j = begin; j < end; ++j) {
       const uint p = (uint)list[j];
       const int x = x_of(p) - at.x + 8, y = y_of(p) - at.y + reach, z = z_of(p) - at.z + reach;
       if ((uint)y < (uint)side && (uint)z < (uint)side) around->id[(z * side + y) * STRIDE + x] = (uint)(list[j] >> 32);
@@ -102,7 +145,7 @@ __attribute__((always_inline)) static inline void gather(const int reach, extent
   for (int bz = -1; bz <= 4; ++bz) {
     for (int by = -1; by <= 4; ++by) {
       const bin_row_t row = bins_of_row(e, at, by, bz);
-      gather_ids(row, starts, list, at, reach, around);
+      gather_ids(row, bytes, starts, list, at, by, bz, reach, around);
       for (int z = max(bz * BIN, -reach); z < min(bz * BIN + BIN, REGION + reach); ++z) {
         for (int y = max(by * BIN, -reach); y < min(by * BIN + BIN, REGION + reach); ++y) {
           uint byte[6];
@@ -121,8 +164,7 @@ __attribute__((always_inline)) static inline void gather(const int reach, extent
 
 // A slice of a strip: the least keys along x of each row, then along y.
 __attribute__((always_inline)) static inline void pass_slice(const int reach, const uint* words, near_keys* after_y) {
-  const int k = 2 * reach + 1, side = REGION + 2 * reach;
-  const uint unit = (uint)(k * k * k);
+  const int k = 2 * reach + 1, side = REGION + 2 * reach, unit = KEYS_PER_DISTANCE(reach);
   ushort absent[LONG_SIDE * 32];  // all ones where there is no seed
   near_keys after_x[LONG_SIDE];
   for (int y = 0; y < side; ++y) {
@@ -135,8 +177,7 @@ __attribute__((always_inline)) static inline void pass_slice(const int reach, co
     near_keys least = (near_keys)NO_KEY;
 #pragma unroll
     for (int dx = -reach; dx <= reach; ++dx) {
-      const uint part = (uint)(dx * dx) * unit + (uint)(dx + reach);
-      least = min(least, LOAD_KEYS(absent + y * 32 + 8 + dx) | (near_keys)(ushort)part);
+      least = min(least, LOAD_KEYS(absent + y * 32 + 8 + dx) | part_of_key(ALONG_X(dx), unit, dx + reach));
     }
     after_x[y] = least;
   }
@@ -144,8 +185,7 @@ __attribute__((always_inline)) static inline void pass_slice(const int reach, co
     near_keys least = (near_keys)NO_KEY;
 #pragma unroll
     for (int dy = 0; dy < k; ++dy) {
-      const uint part = (uint)((dy - reach) * (dy - reach)) * unit + (uint)(dy * k);
-      least = min(least, add_sat(after_x[y + dy], (near_keys)(ushort)part));
+      least = min(least, add_sat(after_x[y + dy], part_of_key(ALONG_Y(dy - reach), unit, dy * k)));
     }
     after_y[y] = least;
   }
@@ -154,13 +194,12 @@ __attribute__((always_inline)) static inline void pass_slice(const int reach, co
 // Stores the labels of a row of a strip whose first voxel has this id; which of them are not done.
 __attribute__((always_inline)) static inline bool store_row(const int reach, near_keys least, const int* offset,
                                                             const uint* id, global uint* out, int columns) {
-  const int k = 2 * reach + 1;
-  const uint unit = (uint)(k * k * k);
-  const near_keys distance = mul_hi(least, (near_keys)(ushort)((65536u + unit - 1) / unit));
+  const int unit = KEYS_PER_DISTANCE(reach);
+  const near_keys distance = mul_hi(least, (near_keys)(ushort)((65536 + unit - 1) / unit));
   near_keys rest = least - distance * (ushort)unit;
   const short16 over = as_short16(rest) < (short16)0;  // the reciprocal is a little too great
   rest += select((near_keys)0, (near_keys)(ushort)unit, over);
-  const short16 far = least >= (near_keys)(ushort)((uint)((reach + 1) * (reach + 1)) * unit);
+  const short16 far = least >= (near_keys)(ushort)FIRST_FAR_KEY(reach);
   ushort place[STRIP];
   STORE_KEYS(rest, place);
   if (columns >= STRIP) {
@@ -185,8 +224,7 @@ __attribute__((always_inline)) static inline bool store_row(const int reach, nea
 __attribute__((always_inline)) static inline uint label_by_passes(const int reach, extent_t e, global const uint* bits,
                                                                   global const uint* starts, global const ulong* list,
                                                                   int4 at, global uint* labels) {
-  const int k = 2 * reach + 1, side = REGION + 2 * reach;
-  const uint unit = (uint)(k * k * k);
+  const int k = 2 * reach + 1, side = REGION + 2 * reach, unit = KEYS_PER_DISTANCE(reach);
   surroundings_t around;
   gather(reach, e, bits, starts, list, at, &around);
   int offset[(2 * LONG_REACH + 1) * (2 * LONG_REACH + 1) * (2 * LONG_REACH + 1)];  // in the table, of a place in reach
@@ -205,8 +243,8 @@ __attribute__((always_inline)) static inline uint label_by_passes(const int reac
         near_keys least = (near_keys)NO_KEY;
 #pragma unroll
         for (int dz = 0; dz < k; ++dz) {
-          const uint part = (uint)((dz - reach) * (dz - reach)) * unit + (uint)(dz * k * k);
-          least = min(least, add_sat(after_y[(z + dz) * REGION + y], (near_keys)(ushort)part));
+          const near_keys part = part_of_key(ALONG_Z(dz - reach), unit, dz * k * k);
+          least = min(least, add_sat(after_y[(z + dz) * REGION + y], part));
         }
         const size_t row = (size_t)(at.z + z) * (size_t)e.height + (size_t)(at.y + y);
         const uint* const id = around.id + ((z + reach) * side + y + reach) * STRIDE + strip * STRIP + 8;
@@ -238,9 +276,9 @@ kernel void label_dense(global const uint* restrict bits, global const uint* res
   const int4 at = (int4)(region % e.rx * REGION, region / e.rx % e.ry * REGION, region / e.rx / e.ry * REGION, 0);
   const uint first = (uint)region * (BINS + 1), seeds = starts[first + BINS] - starts[first];
   uint left = ALL_LEFT;
-  if (seeds >= DENSE_FOR_SHORT) {
+  if (HAS_ROOM(SHORT_REACH) && seeds >= DENSE_FOR_SHORT) {
     left = label_near(e, bits, starts, list, at, labels);
-  } else if (seeds >= DENSE_FOR_LONG) {
+  } else if (HAS_ROOM(LONG_REACH) && seeds >= DENSE_FOR_LONG) {
     left = label_less_near(e, bits, starts, list, at, labels);
   }
   boxes_left[region] = left;

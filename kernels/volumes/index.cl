@@ -6,8 +6,8 @@
 // block (the nodes) the index has the box around its seeds and one of them.
 //
 // Seeds are sorted into regions first, chunk by chunk and in their order, as a radix sort does. All else is done region
-// by region in a core's own caches, without atomics. Of the seeds on one voxel the first one, which has the lowest id,
-// is known by the order.
+// by region in a core's own caches, without atomics. Of the seeds on one voxel the first one is listed, which has the
+// lowest id.
 
 #ifndef VOROCL_VOLUMES_INDEX
 #define VOROCL_VOLUMES_INDEX
@@ -191,10 +191,16 @@ kernel void make_bins(global uint* restrict bits, global uint* restrict starts, 
   const uint begin = totals[region], end = totals[region + 1];
   global uint* const own = bits + (size_t)region * BINS * WORDS;
   for (uint i = 0; i < BINS * WORDS; i += 8) vstore8((uv)0, 0, own + i);
+  uint at_word = 0, bits_of_word = 0;  // neighbours share a word, which is not to be loaded for each of them
   for (uint i = begin; i < end; ++i) {
     const uint bit = bit_of((uint)sorted[i]);
-    own[bit / 32] |= 1u << bit % 32;
+    if (bit / 32 != at_word) {
+      own[at_word] |= bits_of_word;
+      at_word = bit / 32, bits_of_word = 0;
+    }
+    bits_of_word |= 1u << bit % 32;
   }
+  own[at_word] |= bits_of_word;
   bounds_t bounds = no_bounds();
   uint of_region = EMPTY, at = begin;
   for (int b = 0; b < BINS; ++b) {
@@ -212,19 +218,15 @@ kernel void make_bins(global uint* restrict bits, global uint* restrict starts, 
   starts[region * (BINS + 1) + BINS] = at;
   store_node(low, high, seed, regions * BINS + region, &bounds, of_region);
   if (begin == end) return;
-  // Seeds before each word, and the bits whose seeds are listed.
-  uint before[BINS * WORDS], listed[BINS * WORDS];
+  uint before[BINS * WORDS];  // seeds before each word
   at = begin;
   for (uint i = 0; i < BINS * WORDS; ++i) {
     before[i] = at;
-    listed[i] = 0;
     at += popcount(own[i]);
   }
-  for (uint i = begin; i < end; ++i) {
-    const uint bit = bit_of((uint)sorted[i]), mask = 1u << bit % 32;
-    if (listed[bit / 32] & mask) continue;  // one voxel, a higher id
-    listed[bit / 32] |= mask;
-    list[before[bit / 32] + popcount(own[bit / 32] & (mask - 1))] = sorted[i];
+  for (uint i = end; i-- > begin;) {  // backwards: of the seeds on one voxel the lowest id is the last one, and stays
+    const uint bit = bit_of((uint)sorted[i]);
+    list[before[bit / 32] + popcount(own[bit / 32] & ((1u << bit % 32) - 1))] = sorted[i];
   }
 }
 
@@ -252,5 +254,15 @@ kernel void make_blocks(global uint* restrict low, global uint* restrict high, g
   }
   store_node(low, high, seed, regions * (BINS + 1) + (uint)block, &bounds, of_block);
 }
+
+// What searches read of the index.
+typedef struct {
+  extent_t extent;
+  global const uint* starts;
+  global const uint* low;
+  global const uint* high;
+  global const uint* seed;
+  global const ulong* list;
+} index_t;
 
 #endif

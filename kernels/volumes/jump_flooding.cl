@@ -50,7 +50,7 @@ static inline uint_v best_position(global const uint* image, place_t p, int step
         const int_v inside_z = AS_INT_V(position >> SHIFT_Z & MASK_Z) - p.z;
         const int_v way_y = SHORTER(inside_y, p.height, PERIODIC_Y), way_z = SHORTER(inside_z, p.depth, PERIODIC_Z);
         const uint_v distance =
-            AS_UINT_V(ALONG(way_x) + ALONG(way_y) + ALONG(way_z)) | (position & EMPTY);
+            AS_UINT_V(ALONG_X(way_x) + ALONG_Y(way_y) + ALONG_Z(way_z)) | (position & EMPTY);
         best = select(best, position, distance < least || (distance == least && position < best));
         least = min(least, distance);
       }

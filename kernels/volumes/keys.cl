@@ -7,10 +7,16 @@
 #define VOROCL_VOLUMES_KEYS
 
 #include "volumes/search.cl"
+#include "volumes/search_voxel.cl"
 
+// Candidates: ranks of 8 bits leave 23 and a sign for differences of squared distances in a box of 16 x 8 x 8. Where
+// voxels are longer than 1, by up to 16, there are 24.
 #ifndef MOST_OF_KEYS
-// Candidates: ranks of 8 bits leave 23 and a sign for differences of squared distances in a box of 16 x 8 x 8.
+#if SPACING_X == 1 && SPACING_Y == 1 && SPACING_Z == 1
 #define MOST_OF_KEYS 256
+#else
+#define MOST_OF_KEYS 128
+#endif
 #endif
 #define BOX_X 16
 #define BOX_Y 8
@@ -105,14 +111,14 @@ static inline void make_keys(extent_t e, const dominators_t* d, const ulong* lis
   keys->rank_mask = (uv)((1u << rank_bits) - 1);
   const uint base = d->seed[0];
   const iv x0 = LANES_8 + b.x, x1 = x0 + 8, y0 = LANES_8 + b.y, z0 = LANES_8 + b.z;
-  const iv base_x0 = ALONG(x0 - x_of(base)), base_x1 = ALONG(x1 - x_of(base));
-  const iv base_y = ALONG(y0 - y_of(base)), base_z = ALONG(z0 - z_of(base));
+  const iv base_x0 = ALONG_X(x0 - x_of(base)), base_x1 = ALONG_X(x1 - x_of(base));
+  const iv base_y = ALONG_Y(y0 - y_of(base)), base_z = ALONG_Z(z0 - z_of(base));
   for (int i = 0; i < count; ++i) {
     const int x = x_of(seed[i]), y = y_of(seed[i]), z = z_of(seed[i]);
-    keys->of_column[2 * i] = (as_uint8(ALONG(x0 - x) - base_x0) << rank_bits) + rank[i];
-    keys->of_column[2 * i + 1] = (as_uint8(ALONG(x1 - x) - base_x1) << rank_bits) + rank[i];
-    keys->of_y[i] = as_uint8(ALONG(y0 - y) - base_y) << rank_bits;
-    vstore8(as_uint8(ALONG(z0 - z) - base_z) << rank_bits, (size_t)i, keys->of_z);
+    keys->of_column[2 * i] = (as_uint8(ALONG_X(x0 - x) - base_x0) << rank_bits) + rank[i];
+    keys->of_column[2 * i + 1] = (as_uint8(ALONG_X(x1 - x) - base_x1) << rank_bits) + rank[i];
+    keys->of_y[i] = as_uint8(ALONG_Y(y0 - y) - base_y) << rank_bits;
+    vstore8(as_uint8(ALONG_Z(z0 - z) - base_z) << rank_bits, (size_t)i, keys->of_z);
   }
 }
 
@@ -179,7 +185,7 @@ static inline void label_plainly(const index_t* index, box_t b, const ulong* lis
           const uint seed = (uint)list[i];
           const iv dx = LANES_8 + (x - x_of(seed));
           const int dy = y - y_of(seed), dz = z - z_of(seed);
-          const iv distance = dx * dx + (dy * dy + dz * dz);
+          const iv distance = ALONG_X(dx) + (ALONG_Y(dy) + ALONG_Z(dz));
           const uv position = positions_of(e, (uv)seed);
           const iv wins = (distance < least) | ((distance == least) & as_int8(position < best));
           least = min(least, distance);

@@ -11,7 +11,7 @@ static inline uint distance_to(uint position, uint x, uint y, uint z, int4 size)
   const int inside_x = x_of(position) - (int)x, inside_y = y_of(position) - (int)y, inside_z = z_of(position) - (int)z;
   const int way_x = SHORTER(inside_x, size.x, PERIODIC_X), way_y = SHORTER(inside_y, size.y, PERIODIC_Y);
   const int way_z = SHORTER(inside_z, size.z, PERIODIC_Z);
-  return (uint)(ALONG(way_x) + ALONG(way_y) + ALONG(way_z));
+  return (uint)(ALONG_X(way_x) + ALONG_Y(way_y) + ALONG_Z(way_z));
 }
 
 // The distance of a row's voxel to the seed of its label.

@@ -3,11 +3,12 @@
 // A voxel's position is x | y << VOROCL_BITS_X | z << (VOROCL_BITS_X + VOROCL_BITS_Y), in at most 31 bits. Its unsigned
 // order is the tie rule: z, then y, then x. The shifts are build options, so that long volumes fit as well as deep
 // ones. The sign bit says that there is no seed (EMPTY). Along a periodic axis there is room for half a period more at
-// both ends: see search.cl.
+// both ends: see images.cl.
 
 #ifndef VOROCL_VOLUMES_POSITION
 #define VOROCL_VOLUMES_POSITION
 
+#include "core/periods.cl"
 #include "core/vector.cl"
 
 #define NO_LABEL 0xffffffffu
@@ -29,43 +30,30 @@ static inline uint voxel_index(uint position, int width, int height) {
   return ((uint)z_of(position) * (uint)height + (uint)y_of(position)) * (uint)width + (uint)x_of(position);
 }
 
-// PERIODIC AXES. The build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and VOROCL_PERIODIC_Z say which axes are
-// periodic: their period is the volume's side, and distances go the shorter way round.
-#if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y) || defined(VOROCL_PERIODIC_Z)
-#define VOROCL_PERIODIC
-#endif
-#ifdef VOROCL_PERIODIC_X
-#define PERIODIC_X 1
-#else
-#define PERIODIC_X 0
-#endif
-#ifdef VOROCL_PERIODIC_Y
-#define PERIODIC_Y 1
-#else
-#define PERIODIC_Y 0
-#endif
-#ifdef VOROCL_PERIODIC_Z
-#define PERIODIC_Z 1
-#else
-#define PERIODIC_Z 0
-#endif
-
 // How long the way between two coordinates of an axis is, given that inside the volume. The macro takes numbers and
 // vectors.
 #define SHORTER(inside, size, periodic) \
   ((periodic) ? min(max(inside, -(inside)), (size) - max(inside, -(inside))) : (inside))
 
-// A coordinate that is less than a period outside the volume, brought back into it if the axis is periodic.
-static inline int wrapped(int at, int size, int periodic) {
-  if (!periodic) return at;
-  return at < 0 ? at + size : at >= size ? at - size : at;
-}
+// SPACING. How long a voxel is along each axis, in units of distances; where it is no cube, by build options.
+#ifdef VOROCL_SPACING_X
+#define SPACING_X VOROCL_SPACING_X
+#define SPACING_Y VOROCL_SPACING_Y
+#define SPACING_Z VOROCL_SPACING_Z
+#else
+#define SPACING_X 1
+#define SPACING_Y 1
+#define SPACING_Z 1
+#endif
 
-// The part of an axis in a distance: an integer. The macro takes numbers and vectors.
+// The part of an axis in a distance, of an offset in voxels: an integer. The macros take numbers and vectors.
 #ifdef VOROCL_MANHATTAN
 #define ALONG(offset) max(offset, -(offset))
 #else
 #define ALONG(offset) ((offset) * (offset))
 #endif
+#define ALONG_X(offset) ALONG((offset) * SPACING_X)
+#define ALONG_Y(offset) ALONG((offset) * SPACING_Y)
+#define ALONG_Z(offset) ALONG((offset) * SPACING_Z)
 
 #endif

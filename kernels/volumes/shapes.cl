@@ -42,7 +42,7 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
       const uint seed = positions[label];
       const int way_y = way_to(y, y_of(seed), height, PERIODIC_Y), way_z = way_to(z, z_of(seed), depth, PERIODIC_Z);
       const int place_y = y_of(seed) + way_y, place_z = z_of(seed) + way_z;
-      const int beside = ALONG(way_y) + ALONG(way_z);
+      const int beside = ALONG_Y(way_y) + ALONG_Z(way_z);
       const bool has_above = goes_on(y, -1, way_y, height, PERIODIC_Y);
       const bool has_below = goes_on(y, 1, way_y, height, PERIODIC_Y);
       const bool has_front = goes_on(z, -1, way_z, depth, PERIODIC_Z);
@@ -75,10 +75,10 @@ kernel void add_shapes(global const uint* restrict labels, global const uint* re
         if (!has_below || below[middle] != label) atomic_max(box + 4, place_y);
         if (!has_back || back[middle] != label) atomic_max(box + 5, place_z);
         if ((ends_y || away_y[first] != label) && (ends_z || away_z[first] != label)) {
-          atomic_max(distances + label, beside + ALONG(first_way));
+          atomic_max(distances + label, beside + ALONG_X(first_way));
         }
         if ((ends_y || away_y[last] != label) && (ends_z || away_z[last] != label)) {
-          atomic_max(distances + label, beside + ALONG(last_way));
+          atomic_max(distances + label, beside + ALONG_X(last_way));
         }
       }
     }

@@ -83,7 +83,7 @@ template <typename T>
 T* pixels_of(const Diagram& diagram, const Array<T>& image) {
   const Window& window = diagram.window();
   std::vector<std::int64_t> sides = {window.height(), window.width()};
-  if (window.grid().is_volume()) sides.insert(sides.begin(), window.depth());
+  if (window.depth() > 1) sides.insert(sides.begin(), window.depth());
   bool fits = image.ndim() == sides.size();
   for (std::size_t axis = 0; fits && axis < sides.size(); ++axis) {
     fits = image.shape(axis) == static_cast<std::size_t>(sides[axis]);

@@ -69,7 +69,7 @@ WRONG = {
     "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
-WRONG["sampling"] = ["x", [], (1, 2), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
+WRONG["sampling"] = ["x", [], (1, 17), (1, np.pi), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
 WRONG["spacing"] = WRONG["sampling"]
 WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import reprlib
-from typing import Any, Literal, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, List, Literal, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,7 @@ Truth = Literal["snapped", "true"]
 
 Sampling = Union[None, float, Sequence[float]]
 
+MOST_SPACING = 16  # the library's limit, in which ratios are looked for
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
 
@@ -185,19 +186,26 @@ def to_number(value: float, name: str) -> float:
         raise BadArgument(f"{name} must be a number; this is {shown(value)}") from None
 
 
-def to_sampling(sampling: Sampling, axes: int, name: str) -> float:
-    """The size of a pixel, which must be the same along all axes."""
+def to_sampling(sampling: Sampling, axes: int, name: str) -> Tuple[float, List[int]]:
+    """The sizes of a pixel along the axes: their greatest common measure, and how often each has it."""
     if sampling is None:
-        return 1.0
+        return 1.0, [1] * axes
     try:
         sizes = [float(size) for size in np.broadcast_to(np.asarray(sampling, np.float64), (axes,))]
     except (TypeError, ValueError):
         raise BadArgument(f"{name} must be a number, or {axes} of them; this is {shown(sampling)}") from None
     if not all(math.isfinite(size) and size > 0 for size in sizes):
         raise BadArgument(f"{name} must be above 0 and finite; this is {shown(sampling)}")
-    if min(sizes) != max(sizes):
-        raise BadArgument(f"{name} must be the same along all axes, for pixels are squares here; this is {shown(sampling)}")
-    return sizes[0]
+    for times in range(1, MOST_SPACING + 1):
+        measure = min(sizes) / times
+        counts = [round(size / measure) for size in sizes] if max(sizes) <= (MOST_SPACING + 1) * measure else []
+        if counts and all(math.isclose(size, count * measure, rel_tol=1e-12) for size, count in zip(sizes, counts)):
+            if max(counts) <= MOST_SPACING:
+                return measure, counts
+    raise BadArgument(
+        f"{name} must be whole multiples, up to {MOST_SPACING}, of one size, such as (2, 1.5), which are 4 and 3 times 0.5; "
+        f"this is {shown(sampling)}"
+    )
 
 
 def to_count(value: int, name: str) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import threading
-from typing import Any, NamedTuple, Optional, Tuple
+from typing import Any, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -180,12 +180,19 @@ def diagram(
 
 
 def _of_mask(
-    mask: NDArray[Any], periodic: Periodic, device: Optional[Device], method: Method, metric: Metric
+    mask: NDArray[Any],
+    periodic: Periodic,
+    device: Optional[Device],
+    method: Method,
+    metric: Metric,
+    spacing: Sequence[int] = (1,),
 ) -> Diagram:
     """The diagram of the non-zero pixels of an image; one of a single slice is a plane's."""
     mask = mask[0] if mask.ndim == 3 and len(mask) == 1 else mask
     shape: Any = mask.shape
     grid = to_grid(shape, periodic)
+    if max(spacing) > 1:
+        grid = grid.spaced(spacing[-1], spacing[-2], spacing[0] if mask.ndim == 3 else 1)
     made = Diagram(shape, periodic=periodic, device=device)
     pixels = np.ascontiguousarray(mask != 0).view(np.uint8)
     seeds = _vorocl.Seeds.from_mask(made.device._device, grid, pixels)
@@ -267,7 +274,8 @@ def expand_labels(
         How far regions grow, in pixels or in units of `spacing`: as far as this and no farther. Without it, until no
         background is left. (scikit-image grows by 1 without it.)
     spacing : float or sequence of float, optional
-        The size of a pixel, the same along all axes: a number, or one for each. Others are refused.
+        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes that
+        differ need a CPU.
     <device>
 
     Returns
@@ -293,8 +301,8 @@ def expand_labels(
     farthest = math.inf if distance is None else to_number(distance, "distance")
     if not farthest >= 0:
         raise BadArgument(f"distance must be at least 0; this is {shown(distance)}")
-    size = to_sampling(spacing, image.ndim, "spacing")
-    made = _of_mask(image, (False, False), device, "exact", "euclidean")
+    size, multiples = to_sampling(spacing, image.ndim, "spacing")
+    made = _of_mask(image, (False, False), device, "exact", "euclidean", multiples)
     if distance is None:
         nearest = made.read()
     else:
@@ -326,7 +334,8 @@ def distance_transform_edt(
     mask : array_like
         Shape (H, W) or (D, H, W), of numbers or booleans. One pixel at least must be zero.
     sampling : float or sequence of float, optional
-        The size of a pixel, the same along all axes: a number, or one for each. Others are refused.
+        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes that
+        differ need a CPU.
     return_distances, return_indices : bool, optional
         What is wanted: one of them or both.
     <device>
@@ -353,7 +362,7 @@ def distance_transform_edt(
     image = to_image(mask, "mask")
     if image.dtype.kind not in "biuf":
         raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
-    size = to_sampling(sampling, image.ndim, "sampling")
+    size, multiples = to_sampling(sampling, image.ndim, "sampling")
     wants_distances = to_flag(return_distances, "return_distances")
     wants_indices = to_flag(return_indices, "return_indices")
     if not (wants_distances or wants_indices):
@@ -361,7 +370,7 @@ def distance_transform_edt(
     zeros = image == 0
     if not zeros.any():
         raise BadArgument("mask has no zero that distances could be to")
-    made = _of_mask(zeros, (False, False), device, "exact", "euclidean")
+    made = _of_mask(zeros, (False, False), device, "exact", "euclidean", multiples)
     results = []
     if wants_distances:
         squared = np.empty(made.shape, np.int32)

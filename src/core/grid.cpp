@@ -93,6 +93,16 @@ Axis Axis::closed() const {
   return axis;
 }
 
+Axis Axis::spaced(int spacing) const {
+  if (spacing < 1 || spacing > max_spacing) {
+    throw Error("a spacing of " + std::to_string(spacing) + " is not possible; it must be from 1 to " +
+                std::to_string(max_spacing));
+  }
+  Axis axis = *this;
+  axis.spacing_ = spacing;
+  return axis;
+}
+
 bool Axis::covers(double coordinate) const {
   return periodic_ ? std::isfinite(coordinate) : coordinate >= from_ && coordinate <= to_;
 }
@@ -220,9 +230,15 @@ int checked_side(std::int64_t side, const char* name) {
               " pixels: take a window of the grid, or tiles");
 }
 
+std::string triple_text(std::int64_t x, std::int64_t y, std::int64_t z) {
+  return std::to_string(x) + " x " + std::to_string(y) + " x " + std::to_string(z);
+}
+
+/// "8 x 8 x 3 voxels", and how they are spaced.
 std::string voxels_text(const Grid& grid) {
-  return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) + " x " +
-         std::to_string(grid.depth());
+  const std::string voxels = triple_text(grid.width(), grid.height(), grid.depth()) + " voxels";
+  if (!grid.is_spaced()) return voxels;
+  return voxels + " spaced " + triple_text(grid.x().spacing(), grid.y().spacing(), grid.z().spacing());
 }
 
 /// The bits of the whole numbers below this one.
@@ -241,7 +257,7 @@ int bits_of(const Axis& axis) { return bits_of(axis.pixels(), axis.is_periodic()
 bool fits_in_a_volume(const Grid& grid) {
   const auto is_short = [](const Axis& axis) {
     const std::int64_t most = Window::max_side_of_volume;
-    return axis.pixels() <= (axis.is_periodic() ? most / 2 : most);
+    return axis.pixels() * axis.spacing() <= (axis.is_periodic() ? most / 2 : most);
   };
   return is_short(grid.x()) && is_short(grid.y()) && is_short(grid.z()) &&
          bits_of(grid.x()) + bits_of(grid.y()) + bits_of(grid.z()) <= Window::max_bits_of_volume;
@@ -249,11 +265,12 @@ bool fits_in_a_volume(const Grid& grid) {
 
 void check_volume(const Grid& grid) {
   if (fits_in_a_volume(grid)) return;
-  throw Error(
-      "a volume of " + voxels_text(grid) + " voxels" + periodic_text(grid) +
-      " is too large: its sides can have 16384 voxels, and a voxel's place must fit in 31 bits, as in "
-      "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
-      "voxels, or cut the volume into parts that overlap");
+  throw Error("a volume of " + voxels_text(grid) + periodic_text(grid) +
+              " is too large: its sides can have 16384 voxels" +
+              (grid.is_spaced() ? " times their spacing" : "") +
+              ", and a voxel's place must fit in 31 bits, as in "
+              "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
+              "voxels, or cut the volume into parts that overlap");
 }
 
 }  // namespace
@@ -265,6 +282,7 @@ PixelGrid::PixelGrid(const Window& window)
     check_volume(window.grid());
     depth_ = static_cast<int>(window.depth());
     periodic_z_ = window.grid().z().is_periodic();
+    spacing_ = {window.grid().x().spacing(), window.grid().y().spacing(), window.grid().z().spacing()};
   } else if (window.pixels() > Window::max_pixels) {
     throw Error("a diagram of " + std::to_string(width_) + " x " + std::to_string(height_) +
                 " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
@@ -290,7 +308,7 @@ bool fits_in_a_diagram(const Grid& grid) {
 
 void refuse_volume(const Grid& grid, const char* what) {
   if (!grid.is_volume()) return;
-  throw Error("the grid is a volume of " + voxels_text(grid) + " voxels, which " + what +
+  throw Error("the grid is a volume of " + voxels_text(grid) + ", which " + what +
               " cannot take; exact diagrams and jump flooding do");
 }
 
@@ -317,7 +335,7 @@ std::string periodic_text(const Grid& grid) {
 
 std::string size_text(const PixelGrid& pixels) {
   return std::to_string(pixels.width()) + " x " + std::to_string(pixels.height()) +
-         (pixels.is_volume() ? " x " + std::to_string(pixels.depth()) : "") +
+         (pixels.depth() > 1 ? " x " + std::to_string(pixels.depth()) : "") +
          periodic_text(pixels.periodic_x(), pixels.periodic_y(), pixels.periodic_z());
 }
 

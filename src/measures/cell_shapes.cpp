@@ -70,7 +70,7 @@ namespace {
 bool touches_border(const CellShape& cell, const PixelGrid& grid) {
   return (!grid.periodic_x() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
          (!grid.periodic_y() && (cell.top == 0 || cell.bottom == grid.height() - 1)) ||
-         (grid.is_volume() && !grid.periodic_z() && (cell.front == 0 || cell.back == grid.depth() - 1));
+         (grid.depth() > 1 && !grid.periodic_z() && (cell.front == 0 || cell.back == grid.depth() - 1));
 }
 
 /// Those of empty cells are negative.

@@ -24,6 +24,13 @@ bool has_short_period(const PixelGrid& grid) {
          (grid.periodic_y() && grid.height() < surroundings);
 }
 
+std::string spacing_of_volume(const PixelGrid& grid) {
+  if (!grid.is_spaced()) return "";
+  const auto [x, y, z] = grid.spacing();
+  return " -DVOROCL_SPACING_X=" + std::to_string(x) + " -DVOROCL_SPACING_Y=" + std::to_string(y) +
+         " -DVOROCL_SPACING_Z=" + std::to_string(z);
+}
+
 std::string bits_of_volume(const PixelGrid& grid) {
   if (!grid.is_volume()) return "";
   const VoxelBits bits(grid);
@@ -42,7 +49,8 @@ std::string build_options(int vector_width, const PixelGrid& grid, const KernelO
          (grid.periodic_x() ? " -DVOROCL_PERIODIC_X" : "") +
          (grid.periodic_y() ? " -DVOROCL_PERIODIC_Y" : "") +
          (grid.periodic_z() ? " -DVOROCL_PERIODIC_Z" : "") +
-         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid);
+         (has_short_period(grid) ? " -DVOROCL_SHORT_PERIOD" : "") + bits_of_volume(grid) +
+         spacing_of_volume(grid);
 }
 
 std::size_t round_up(std::size_t count, std::size_t multiple) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,7 +12,7 @@
 namespace vorocl {
 
 /// Rows of pixels, and along which axes their ends meet; in a volume slices of rows. Kernels are built for
-/// the periodic axes, for vectors no longer than a row, and in a volume for its VoxelBits.
+/// the periodic axes, for vectors no longer than a row, and in a volume for its VoxelBits and its spacing.
 class PixelGrid {
  public:
   PixelGrid(int width, int height, Periodic periodic = Periodic::none)
@@ -26,7 +27,9 @@ class PixelGrid {
   int width() const { return width_; }
   int height() const { return height_; }
   int depth() const { return depth_; }
-  bool is_volume() const { return depth_ > 1; }
+  bool is_volume() const { return depth_ > 1 || is_spaced(); }
+  bool is_spaced() const { return spacing_ != std::array<int, 3>{1, 1, 1}; }
+  const std::array<int, 3>& spacing() const { return spacing_; }  ///< of x, y and z
   Periodic periodic() const { return periodic_; }
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
@@ -37,7 +40,7 @@ class PixelGrid {
 
   friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
     return a.width_ == b.width_ && a.height_ == b.height_ && a.depth_ == b.depth_ &&
-           a.periodic_ == b.periodic_ && a.periodic_z_ == b.periodic_z_;
+           a.periodic_ == b.periodic_ && a.periodic_z_ == b.periodic_z_ && a.spacing_ == b.spacing_;
   }
   friend bool operator!=(const PixelGrid& a, const PixelGrid& b) { return !(a == b); }
 
@@ -45,6 +48,7 @@ class PixelGrid {
   int width_, height_, depth_ = 1;
   Periodic periodic_;
   bool periodic_z_ = false;  // of a volume
+  std::array<int, 3> spacing_ = {1, 1, 1};
 };
 
 /// How a voxel's coordinates lie in its position: x in the lowest bits, then y, then z, so that positions are

@@ -63,10 +63,14 @@ Grid periodic(const Grid& grid, bool x, bool y, bool z) {
           z ? grid.z().periodic() : grid.z()};
 }
 
-/// From one coordinate to another: the shorter way round along a periodic axis.
+/// From one coordinate to another, as long as distances have it: the shorter way round along a periodic axis.
 std::int64_t way(const Axis& axis, std::int64_t from, std::int64_t to) {
   const std::int64_t inside = std::abs(from - to);
-  return axis.is_periodic() ? std::min(inside, axis.pixels() - inside) : inside;
+  return axis.spacing() * (axis.is_periodic() ? std::min(inside, axis.pixels() - inside) : inside);
+}
+
+Grid spaced(const Grid& grid, int x, int y, int z) {
+  return {grid.x().spaced(x), grid.y().spaced(y), grid.z().spaced(z)};
 }
 
 std::int64_t squared_distance(const Grid& grid, const At& a, const At& b) {
@@ -278,6 +282,46 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
   }
 }
 
+/// Of these spacings one leaves room for the shorter reach of passes where seeds are dense, one for both,
+/// and one for none.
+BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
+  if (!can_be_exact()) return;
+  Random random(21);
+  for (const auto& spacing : {At{16, 3, 7}, At{2, 1, 4}, At{14, 15, 16}}) {
+    if (spacing.z == 16 && !long_tests) continue;
+    const auto grid_of = [&](std::int64_t width, std::int64_t height, std::int64_t depth) {
+      const bool ends_meet = spacing.z == 4;
+      const Grid grid = periodic(Grid(width, height, depth), ends_meet, ends_meet, ends_meet);
+      return spaced(grid, spacing.x, spacing.y, spacing.z);
+    };
+    for (const Grid& grid : {grid_of(70, 44, 37), grid_of(90, 70, 1), grid_of(500, 3, 2)}) {
+      for (const Case& c : hurtful_cases(grid)) {
+        check_exact(c, line_by_line(c.grid, c.seeds), test_device(), "spaced");
+      }
+    }
+    for (int i = 0; i < (long_tests ? 20000 : 300); ++i) {
+      const Grid grid = grid_of(1 + random.below(40), 1 + random.below(40), 1 + random.below(24));
+      const double magnitude = std::log(static_cast<double>(grid.pixels()) + 1);
+      const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
+      const std::vector<At> seeds = random.in(grid, count);
+      const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
+      BOOST_TEST_REQUIRE(wrong == 0, "volume " << i << ", " << size_text(PixelGrid(grid)) << " with " << count
+                                               << " seeds: " << wrong << " wrong voxels");
+    }
+  }
+}
+
+/// A side has at most 16,384 units.
+BOOST_AUTO_TEST_CASE(the_longest_spaced_volumes_are_right) {
+  if (!can_be_exact()) return;
+  Random random(23);
+  const Grid grid = spaced(Grid(1024, 64, 2), 16, 3, 7);
+  for (const std::size_t count : {3u, 300u}) {
+    const std::vector<At> seeds = random.in(grid, count);
+    check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, 2000));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(long_volumes_pack_positions_in_their_own_way) {
   if (!can_be_exact()) return;
   const Grid grid(3, 5, 2100);
@@ -484,7 +528,8 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
   Random random(19);
   const Grid open(50, 40, 30);
   for (const auto& [grid, metric] : {std::pair(open, Metric::euclidean), std::pair(open, Metric::manhattan),
-                                     std::pair(periodic(open, true, true, true), Metric::euclidean)}) {
+                                     std::pair(periodic(open, true, true, true), Metric::euclidean),
+                                     std::pair(spaced(open, 2, 1, 4), Metric::euclidean)}) {
     const std::vector<At> voxels = random.in(grid, 60);
     const Seeds seeds = seeds_at(test_device(), grid, voxels);
     Diagram flooded(test_device(), grid), exact(test_device(), grid);
@@ -580,6 +625,12 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
                 [&] { Diagram(device, periodic(Grid(2, 2, 8193), false, false, true)); });
   check_refusal("periodic in x and y " + too_large,
                 [&] { Diagram(device, periodic(Grid(2048, 1024, 512), true, true, false)); });
+  check_refusal(
+      "3 x 3 x 2000 voxels spaced 1 x 1 x 9 is too large: its sides can have 16384 voxels times their "
+      "spacing",
+      [&] { Diagram(device, spaced(Grid(3, 3, 2000), 1, 1, 9)); });
+  for (const int spacing : {0, 17})
+    check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
   const Grid grid(8, 8, 8);
   check_refusal("a window of a part cannot take", [&] { Window(grid, 0, 0, 4, 4); });
   check_refusal("the points have no z", [&] { Seeds(device, grid, {{1, 1}}); });

@@ -1,0 +1,32 @@
+// Which axes are periodic: the build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z.
+// Their period is the grid's side, and distances go the shorter way round.
+
+#ifndef VOROCL_PERIODS
+#define VOROCL_PERIODS
+
+#if defined(VOROCL_PERIODIC_X) || defined(VOROCL_PERIODIC_Y) || defined(VOROCL_PERIODIC_Z)
+#define VOROCL_PERIODIC
+#endif
+#ifdef VOROCL_PERIODIC_X
+#define PERIODIC_X 1
+#else
+#define PERIODIC_X 0
+#endif
+#ifdef VOROCL_PERIODIC_Y
+#define PERIODIC_Y 1
+#else
+#define PERIODIC_Y 0
+#endif
+#ifdef VOROCL_PERIODIC_Z
+#define PERIODIC_Z 1
+#else
+#define PERIODIC_Z 0
+#endif
+
+// A coordinate that is less than a period outside the grid, brought back into it if the axis is periodic.
+static inline int wrapped(int at, int size, int periodic) {
+  if (!periodic) return at;
+  return at < 0 ? at + size : at >= size ? at - size : at;
+}
+
+#endif
