@@ -1,23 +1,18 @@
-// The tables of a volume's cells, in voxels.
+// The kinds of files that a volume and its measures are written to: see diagram_files.hpp.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "formats/output_file.hpp"
-#include "vorocl/adjacency.hpp"
-#include "vorocl/diagram.hpp"
-#include "vorocl/seeds.hpp"
+#include "app/outputs/diagram_files.hpp"
 
 namespace vorocl::command {
 
-/// One row per cell with its seed, volume, centroid, extent, surface, neighbours, largest distance and
-/// whether it touches a border. Measures what it needs. Throws Error if a measurement fails or the file
-/// cannot be written.
-void write_volume_cells(const OutputFile& file, const Seeds& seeds, const Diagram& diagram,
-                        const AdjacencyResult& pairs);
+/// Labels by id, and distances to the nearest seed (float): .npy or .vti.
+const FileKind& volume_labels_kind();
+const FileKind& volume_distance_kind();
 
-/// One row per pair of cells that touch: their ids and the voxel faces that they share. Throws likewise.
-void write_volume_pairs(const OutputFile& file, const AdjacencyResult& pairs);
+/// One row per cell with its seed, volume, centroid, extent, surface, neighbours, largest distance and
+/// whether it touches a border; one row per pair of cells that touch, with the area of the voxel faces that
+/// they share: .csv.
+const FileKind& volume_cells_kind();
+const FileKind& volume_adjacency_kind();
 
 }  // namespace vorocl::command
