@@ -1,8 +1,11 @@
 /// @file
 /// VoroCL for C, and for whatever calls C: what the C++ headers of the same names do, with status codes.
 ///
-/// Covers devices, seeds and their motion, diagrams of windows, all methods and measures, and Lloyd
-/// relaxation. Plans of waves, simulations, planes in tiles and pictures are for C++ alone.
+/// Covers devices, seeds and their motion, diagrams of windows and of volumes, all methods and measures, and
+/// Lloyd relaxation. Plans of waves, simulations, planes in tiles and pictures are for C++ alone.
+///
+/// A grid with a third axis is a volume, whose pixels are voxels; vorocl::Grid says what takes one. All else
+/// is VOROCL_BAD_ARGUMENT there. What is "row-major" is so slice after slice.
 ///
 /// Every function that can fail returns a status; vorocl_error_message() then says what was wrong and what to
 /// do. What a function finds is stored through its last arguments, and only if it succeeds. One that makes an
@@ -61,8 +64,16 @@ typedef struct vorocl_point {
   double y;
 } vorocl_point;
 
+/// A position in a volume, likewise.
+typedef struct vorocl_point3 {
+  double x;
+  double y;
+  double z;
+} vorocl_point3;
+
 /// The point of the calling thread's last call that failed with VOROCL_BAD_POINT, and its index in the
-/// caller's list. Either may be NULL. VOROCL_BAD_ARGUMENT if there was no such call.
+/// caller's list: of a point in a volume its x and y. Either may be NULL. VOROCL_BAD_ARGUMENT if there was no
+/// such call.
 VOROCL_API vorocl_status vorocl_bad_point(size_t* index, vorocl_point* point);
 
 /// @}
@@ -79,10 +90,17 @@ VOROCL_API const char* vorocl_version(void);
 typedef int vorocl_metric;
 enum { VOROCL_EUCLIDEAN = 0, VOROCL_MANHATTAN = 1 };
 
-/// Which axes of a grid are periodic: see vorocl::Periodic. One of VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_X,
-/// VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY.
+/// Which axes of a grid are periodic. VOROCL_PERIODIC_NONE, or a sum of VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y
+/// and, of a volume, VOROCL_PERIODIC_Z.
 typedef int vorocl_periodic;
-enum { VOROCL_PERIODIC_NONE = 0, VOROCL_PERIODIC_X = 1, VOROCL_PERIODIC_Y = 2, VOROCL_PERIODIC_XY = 3 };
+enum {
+  VOROCL_PERIODIC_NONE = 0,
+  VOROCL_PERIODIC_X = 1,
+  VOROCL_PERIODIC_Y = 2,
+  VOROCL_PERIODIC_XY = 3,
+  VOROCL_PERIODIC_Z = 4,
+  VOROCL_PERIODIC_XYZ = 7
+};
 
 /// @name Axes, grids, windows: see vorocl::Axis, vorocl::Grid, vorocl::Window
 /// Structs of the caller's, which are checked by the functions that take them.
@@ -102,15 +120,16 @@ typedef struct vorocl_axis {
 #define VOROCL_AXIS_OF_PIXELS(pixels) \
   { (pixels), 0, (pixels), 0, 0, 0 }
 
-/// The pixels that there are: x to the right, y down.
+/// The pixels that there are: x to the right, y down, and in a volume z from slice to slice.
 typedef struct vorocl_grid {
   vorocl_axis x, y;
   double
       tilt;  ///< how far the copy of the grid at greater y is shifted along x, in the units of the data; or 0
+  vorocl_axis z;  ///< with 1 pixel, or all zeros as an initialiser leaves it: there is none
 } vorocl_grid;
 
 /// What a diagram covers: `width` x `height` pixels from column x and row y of the grid on. Along a periodic
-/// axis it may begin anywhere.
+/// axis it may begin anywhere. Of a volume it must show all, all slices too.
 typedef struct vorocl_window {
   vorocl_grid grid;
   int64_t x, y, width, height;
@@ -118,6 +137,10 @@ typedef struct vorocl_window {
 
 /// A grid whose unit is the pixel. Never fails: what is wrong is told by the function that takes the grid.
 VOROCL_API vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic);
+
+/// A volume whose unit is the voxel, likewise; of a depth of 1 it is a plane.
+VOROCL_API vorocl_grid vorocl_grid_of_voxels(int64_t width, int64_t height, int64_t depth,
+                                             vorocl_periodic periodic);
 
 /// All pixels of a grid. Never fails, likewise.
 VOROCL_API vorocl_window vorocl_window_of_grid(vorocl_grid grid);
@@ -228,13 +251,20 @@ VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, v
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
                                                   vorocl_seeds** seeds);
 
+/// From points in a volume, all of which lie at the centres of their voxels: VOROCL_SNAP_NONE is refused, and
+/// VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
+VOROCL_API vorocl_status vorocl_seeds_from_points3(const vorocl_device* device, vorocl_grid grid,
+                                                   const vorocl_point3* points, const uint8_t* present,
+                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
+                                                   vorocl_seeds** seeds);
+
 /// What a buffer of points holds: two floats or two doubles per point. One of VOROCL_FLOAT2, VOROCL_DOUBLE2.
 typedef int vorocl_point_format;
 enum { VOROCL_FLOAT2 = 0, VOROCL_DOUBLE2 = 1 };
 
-/// From the caller's buffers. Floats that are snapped stay on the device unless points outside count: it
-/// checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call that waits for what was
-/// made of them.
+/// From the caller's buffers, which hold points of a plane. Floats that are snapped stay on the device unless
+/// points outside count: it checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call
+/// that waits for what was made of them.
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, vorocl_point_format format, cl_mem present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
@@ -277,6 +307,13 @@ VOROCL_API vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_g
                                                    const vorocl_point* points, const uint8_t* present,
                                                    size_t count);
 
+/// As the two above, in a volume.
+VOROCL_API vorocl_status vorocl_seeds_move_to3(vorocl_seeds* seeds, const vorocl_point3* points,
+                                               const uint8_t* present, size_t count);
+VOROCL_API vorocl_status vorocl_seeds_move_to_grid3(vorocl_seeds* seeds, vorocl_grid grid,
+                                                    const vorocl_point3* points, const uint8_t* present,
+                                                    size_t count);
+
 /// As vorocl_seeds_move_to(), from the caller's buffers.
 VOROCL_API vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points,
                                                      vorocl_point_format format, cl_mem present,
@@ -300,6 +337,10 @@ VOROCL_API vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_poi
 VOROCL_API vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points,
                                                   size_t count);
 
+/// The same of seeds in a volume, which the two above refuse: the centres of their voxels.
+VOROCL_API vorocl_status vorocl_seeds_read_voxels(const vorocl_seeds* seeds, vorocl_point3* points,
+                                                  size_t count);
+
 /// Waits until the points of a caller's buffer are checked.
 VOROCL_API vorocl_status vorocl_seeds_check(const vorocl_seeds* seeds);
 
@@ -314,7 +355,8 @@ typedef struct vorocl_diagram vorocl_diagram;
 VOROCL_API vorocl_status vorocl_diagram_create(const vorocl_device* device, vorocl_window window,
                                                vorocl_diagram** diagram);
 
-/// The labels go to the caller's buffer of width * height uint32_t.
+/// The labels go to the caller's buffer of width * height uint32_t, in a volume width * height * depth: so it
+/// is wherever labels are counted.
 VOROCL_API vorocl_status vorocl_diagram_over_buffer(const vorocl_device* device, vorocl_window window,
                                                     cl_mem labels, vorocl_diagram** diagram);
 
@@ -402,6 +444,7 @@ typedef struct vorocl_method_description {
   int exact;         ///< 1 if every pixel gets its nearest seed, else 0
   int continues;     ///< 1 if it goes on from the labels that the diagram holds, else 0
   int windows;       ///< 1 if it takes any window and seeds outside it, else 0: then it refuses them
+  int volumes;       ///< 1 if it takes volumes, else 0: then it refuses them
 } vorocl_method_description;
 
 /// How many methods there are.
@@ -489,19 +532,25 @@ VOROCL_API vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const 
 /// The cells that were measured, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_cell_sums_count(const vorocl_cell_sums* sums, size_t* count);
 
-/// Per cell its area in pixels (uint32_t) and the sums of its pixels' columns and rows (int64_t). Each may
-/// be NULL. The buffers are valid until the next measurement.
+/// Per cell its area in pixels (uint32_t), in a volume its voxels, and the sums of its pixels' columns, rows
+/// and, in a volume alone, slices (int64_t; the buffer is NULL in a plane). Each may be NULL. The buffers are
+/// valid until the next measurement.
 VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, cl_mem* area, cl_mem* sum_x,
-                                                  cl_mem* sum_y);
+                                                  cl_mem* sum_y, cl_mem* sum_z);
 
-/// The same on the host, each into room for `count` cells, which must be all; each may be NULL. Waits.
+/// The same on the host, each into room for `count` cells, which must be all; each may be NULL. In a plane
+/// `sum_z` is all 0. Waits.
 VOROCL_API vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
-                                               int64_t* sum_y, size_t count);
+                                               int64_t* sum_y, int64_t* sum_z, size_t count);
 
 /// The means of the centres of the cells' pixels, in pixels from the window's first one; (NaN, NaN) of an
 /// empty cell. Waits.
 VOROCL_API vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,
                                                     size_t count);
+
+/// The same in a volume; in a plane z is 0.5.
+VOROCL_API vorocl_status vorocl_cell_sums_centroids3(const vorocl_cell_sums* sums, vorocl_point3* centroids,
+                                                     size_t count);
 
 /// As vorocl::CellStatistics. Absent seeds do not count.
 typedef struct vorocl_cell_statistics {
@@ -532,17 +581,20 @@ VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes,
 
 VOROCL_API vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count);
 
-/// Per cell int32_t left, top, right, bottom, and its largest distance (int32_t). Either may be NULL. The
+/// Per cell int32_t left, top, right, bottom, in a volume left, top, front, right, bottom, back; and its
+/// largest distance (int32_t). Either may be NULL. The
 /// buffers are valid until the next measurement. Where a seed lies so far outside the window that distances
 /// may not fit, the second one is NULL: vorocl_cell_shapes_read() tells them.
 VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* shapes, cl_mem* boxes,
                                                     cl_mem* largest_distances);
 
-/// As vorocl::CellShape. An empty cell has right < left, bottom < top and largest_distance -1.
+/// As vorocl::CellShape. An empty cell has right < left, bottom < top, in a volume back < front, and
+/// largest_distance -1.
 typedef struct vorocl_cell_shape {
   int left, top, right, bottom;  ///< the bounding box: first and last columns and rows
   double largest_distance;       ///< of its pixels to its seed, in pixels; squared if Euclidean
   int touches_border;            ///< 1 if it has a pixel next to a border of the window, else 0
+  int front, back;               ///< of the box of a volume's cell: its first and last slices; else 0
 } vorocl_cell_shape;
 
 /// The shapes of all cells: `count` must be their number. Waits.
@@ -562,7 +614,7 @@ VOROCL_API void vorocl_adjacency_free(vorocl_adjacency* adjacency);
 /// Enqueues and returns.
 VOROCL_API vorocl_status vorocl_adjacency_find(vorocl_adjacency* adjacency, const vorocl_diagram* diagram);
 
-/// How many pairs of cells share a pixel edge. Waits.
+/// How many pairs of cells share a pixel edge, in a volume a voxel face. Waits.
 VOROCL_API vorocl_status vorocl_adjacency_pairs(const vorocl_adjacency* adjacency, size_t* pairs);
 
 /// uint32_t a, b, length per pair, and per cell the cells that it shares an edge with and the pixel edges
@@ -574,7 +626,7 @@ VOROCL_API vorocl_status vorocl_adjacency_buffers(const vorocl_adjacency* adjace
 /// As vorocl::CellPair.
 typedef struct vorocl_cell_pair {
   uint32_t a, b;    ///< the ids of two cells, a < b
-  uint32_t length;  ///< the pixel edges they share
+  uint32_t length;  ///< the pixel edges they share; in a volume the faces, an area
 } vorocl_cell_pair;
 
 /// All pairs, sorted by a and then b: `count` must be their number. Waits.

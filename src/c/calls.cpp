@@ -87,6 +87,7 @@ Snap to_snap(vorocl_snap snap) {
 }
 
 vorocl_point to_c(const Point& point) { return {point.x, point.y}; }
+vorocl_point3 to_c(const Point3& point) { return {point.x, point.y, point.z}; }
 
 }  // namespace vorocl
 

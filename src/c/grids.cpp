@@ -25,17 +25,34 @@ vorocl_axis to_c(const Axis& axis) {
       axis.is_closed() ? 1 : 0};
 }
 
-vorocl_axis axis_of_pixels(std::int64_t pixels) { return {pixels, 0, static_cast<double>(pixels), 0, 0, 0}; }
+bool is_zero(const vorocl_axis& axis) {
+  return axis.pixels == 0 && axis.from == 0 && axis.to == 0 && axis.periodic == 0 && axis.reversed == 0 &&
+         axis.closed == 0;
+}
+
+/// What is no choice of axes makes an axis that is refused.
+vorocl_axis axis_of_pixels(std::int64_t pixels, vorocl_periodic periodic, vorocl_periodic axis,
+                           vorocl_periodic all) {
+  const bool is_known = periodic >= VOROCL_PERIODIC_NONE && periodic <= all;
+  const int flag = is_known ? (periodic & axis) / axis : -1;
+  return {pixels, 0, static_cast<double>(pixels), flag, 0, 0};
+}
 
 }  // namespace
 
-Grid to_grid(const vorocl_grid& grid) { return Grid(to_axis(grid.x), to_axis(grid.y)).tilted(grid.tilt); }
-
-Window to_window(const vorocl_window& window) {
-  return {to_grid(window.grid), window.x, window.y, window.width, window.height};
+Grid to_grid(const vorocl_grid& grid) {
+  const Axis z = is_zero(grid.z) ? Axis(1) : to_axis(grid.z);
+  return Grid(to_axis(grid.x), to_axis(grid.y), z).tilted(grid.tilt);
 }
 
-vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y()), grid.tilt()}; }
+Window to_window(const vorocl_window& window) {
+  const Grid grid = to_grid(window.grid);
+  const bool is_whole =
+      window.x == 0 && window.y == 0 && window.width == grid.width() && window.height == grid.height();
+  return is_whole ? Window(grid) : Window(grid, window.x, window.y, window.width, window.height);
+}
+
+vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y()), grid.tilt(), to_c(grid.z())}; }
 
 vorocl_window to_c(const Window& window) {
   return {to_c(window.grid()), window.x(), window.y(), window.width(), window.height()};
@@ -46,12 +63,16 @@ vorocl_window to_c(const Window& window) {
 using namespace vorocl;
 
 vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic) {
-  vorocl_grid grid = {axis_of_pixels(width), axis_of_pixels(height), 0};
-  const bool known = periodic >= VOROCL_PERIODIC_NONE && periodic <= VOROCL_PERIODIC_XY;
-  // What is no choice of axes is no flag either, so that the grid is refused.
-  grid.x.periodic = known ? periodic & VOROCL_PERIODIC_X : -1;
-  grid.y.periodic = known ? (periodic & VOROCL_PERIODIC_Y) / VOROCL_PERIODIC_Y : -1;
-  return grid;
+  return {axis_of_pixels(width, periodic, VOROCL_PERIODIC_X, VOROCL_PERIODIC_XY),
+          axis_of_pixels(height, periodic, VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY), 0,
+          axis_of_pixels(1, VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_Z, VOROCL_PERIODIC_XYZ)};
+}
+
+vorocl_grid vorocl_grid_of_voxels(int64_t width, int64_t height, int64_t depth, vorocl_periodic periodic) {
+  const auto axis = [periodic](std::int64_t voxels, vorocl_periodic its_own) {
+    return axis_of_pixels(voxels, periodic, its_own, VOROCL_PERIODIC_XYZ);
+  };
+  return {axis(width, VOROCL_PERIODIC_X), axis(height, VOROCL_PERIODIC_Y), 0, axis(depth, VOROCL_PERIODIC_Z)};
 }
 
 vorocl_window vorocl_window_of_grid(vorocl_grid grid) { return {grid, 0, 0, grid.x.pixels, grid.y.pixels}; }

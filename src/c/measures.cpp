@@ -29,6 +29,16 @@ const CellShapesResult& of(const vorocl_cell_shapes* shapes) { return given(shap
 AdjacencyResult& of(vorocl_adjacency* adjacency) { return given(adjacency, "adjacency").result; }
 const AdjacencyResult& of(const vorocl_adjacency* adjacency) { return given(adjacency, "adjacency").result; }
 
+template <typename Centroid, typename CPoint>
+vorocl_status read_centroids(const vorocl_cell_sums* sums, Centroid centroid, CPoint* centroids,
+                             std::size_t count) {
+  return guarded([&] {
+    check_count(of(sums).size(), "cells", count);
+    if (count > 0) given(centroids, "centroids");
+    for (const CellSums& cell : of(sums).read()) *centroids++ = to_c((cell.*centroid)());
+  });
+}
+
 }  // namespace
 
 // --- sums ---
@@ -48,17 +58,18 @@ vorocl_status vorocl_cell_sums_count(const vorocl_cell_sums* sums, size_t* count
 }
 
 vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, cl_mem* area, cl_mem* sum_x,
-                                       cl_mem* sum_y) {
+                                       cl_mem* sum_y, cl_mem* sum_z) {
   return guarded([&] {
     const CellSumsResult& from = of(sums);
     store(area, from.area()());
     store(sum_x, from.sum_x()());
     store(sum_y, from.sum_y()());
+    store(sum_z, from.sum_z()());
   });
 }
 
 vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
-                                    int64_t* sum_y, size_t count) {
+                                    int64_t* sum_y, int64_t* sum_z, size_t count) {
   return guarded([&] {
     check_count(of(sums).size(), "cells", count);
     std::size_t id = 0;
@@ -66,6 +77,7 @@ vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area
       if (area != nullptr) area[id] = cell.area;
       if (sum_x != nullptr) sum_x[id] = cell.sum_x;
       if (sum_y != nullptr) sum_y[id] = cell.sum_y;
+      if (sum_z != nullptr) sum_z[id] = cell.sum_z;
       ++id;
     }
   });
@@ -73,11 +85,12 @@ vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area
 
 vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,
                                          size_t count) {
-  return guarded([&] {
-    check_count(of(sums).size(), "cells", count);
-    if (count > 0) given(centroids, "centroids");
-    for (const CellSums& cell : of(sums).read()) *centroids++ = to_c(cell.centroid());
-  });
+  return read_centroids(sums, &CellSums::centroid, centroids, count);
+}
+
+vorocl_status vorocl_cell_sums_centroids3(const vorocl_cell_sums* sums, vorocl_point3* centroids,
+                                          size_t count) {
+  return read_centroids(sums, &CellSums::centroid3, centroids, count);
 }
 
 vorocl_status vorocl_cell_sums_statistics(vorocl_cell_sums* sums, vorocl_cell_statistics* statistics) {
@@ -121,7 +134,8 @@ vorocl_status vorocl_cell_shapes_read(const vorocl_cell_shapes* shapes, vorocl_c
     if (count > 0) given(cells, "cells");
     for (const CellShape& cell : of(shapes).read()) {
       *cells++ = {
-          cell.left, cell.top, cell.right, cell.bottom, cell.largest_distance, cell.touches_border ? 1 : 0};
+          cell.left,  cell.top, cell.right, cell.bottom, cell.largest_distance, cell.touches_border ? 1 : 0,
+          cell.front, cell.back};
     }
   });
 }

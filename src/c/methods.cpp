@@ -50,7 +50,7 @@ vorocl_status vorocl_method_get(size_t index, vorocl_method_description* descrip
   return guarded([&] {
     const Method& from = at(methods(), index, "methods");
     given(description, "description") = {from.name.c_str(), from.exact ? 1 : 0, from.continues ? 1 : 0,
-                                         from.windows ? 1 : 0};
+                                         from.windows ? 1 : 0, from.volumes ? 1 : 0};
   });
 }
 

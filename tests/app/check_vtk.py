@@ -17,13 +17,17 @@ def check(condition, what):
         sys.exit("check_vtk.py: " + what)
 
 
-def read_vti(path):
-    """The name and the values of the cell data, the first row on top."""
+def read_image(path):
     reader = vtkXMLImageDataReader()
     check(reader.CanReadFile(str(path)), f"{path} is no file that VTK can read")
     reader.SetFileName(str(path))
     reader.Update()
-    image = reader.GetOutput()
+    return reader.GetOutput()
+
+
+def read_vti(path):
+    """The name and the values of the cell data, the first row on top."""
+    image = read_image(path)
     check(image.GetBounds() == (0, WIDTH, 0, HEIGHT, 0, 0), f"{path} has the bounds {image.GetBounds()}")
     array = image.GetCellData().GetScalars()
     values = vtk_to_numpy(array).reshape(HEIGHT, WIDTH)
@@ -37,6 +41,22 @@ def check_same(vti, npy, name):
     check(found == name, f"{vti} holds {found}")
     check(values.dtype == expected.dtype, f"{vti} holds {values.dtype}, {npy} {expected.dtype}")
     check(numpy.array_equal(values, expected), f"{vti} and {npy} differ")
+
+
+def check_volume(command, folder):
+    """A volume lies where its data lies."""
+    (folder / "p.csv").write_text("x,y,z\n1,2,3\n4,9,-0.5\n2,7,1\n")
+    for extension in ("vti", "npy"):
+        subprocess.run(
+            [command, "cells", f"--points={folder}/p.csv", "--size", "10x20x12", "--bounds=0,0,-1,5,10,5", "--method", "jfa"] +
+            [f"--{kind}={folder}/volume_{kind}.{extension}" for kind in ("labels", "distance")],
+            check=True, stdout=subprocess.DEVNULL)
+    for kind, array in (("labels", "label"), ("distance", "distance")):
+        image = read_image(folder / f"volume_{kind}.vti")
+        check(image.GetBounds() == (0, 5, 0, 10, -1, 5), f"the volume of {kind} has the bounds {image.GetBounds()}")
+        check(image.GetCellData().GetScalars().GetName() == array, f"the volume of {kind} has another name")
+        values = vtk_to_numpy(image.GetCellData().GetScalars()).reshape(12, 20, 10)
+        check(numpy.array_equal(values, numpy.load(folder / f"volume_{kind}.npy")), f"the volumes of {kind} differ")
 
 
 def main():
@@ -60,6 +80,7 @@ def main():
         for entry in entries:
             path = folder / entry.get("file")
             check_same(path, path.with_suffix(".npy"), "label")
+        check_volume(command, folder)
 
 
 main()

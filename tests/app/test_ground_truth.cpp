@@ -78,7 +78,8 @@ BOOST_AUTO_TEST_CASE(seeds_within_their_pixels_are_judged_where_they_are) {
 BOOST_AUTO_TEST_CASE(missing_and_impossible_labels_are_wrong) {
   const GroundTruth truth(Grid(4, 1), {Point{0.5, 0.5}, std::nullopt}, Metric::euclidean);
   BOOST_TEST(truth.wrong_pixels({0, no_label, 2, 1}) == 3u);
-  check_error([&] { GroundTruth(Grid(4, 1), {}, Metric::euclidean); }, {"without seeds"});
+  check_error([&] { GroundTruth(Grid(4, 1), std::vector<std::optional<Point>>(), Metric::euclidean); },
+              {"without seeds"});
 }
 
 BOOST_AUTO_TEST_CASE(opencv_labels_are_seed_ids) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <tuple>
 
 #include "formats/npy.hpp"
@@ -169,6 +170,145 @@ BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
   BOOST_TEST((content_of(folder / "a.npy") == labels_of(tight, numbered)));
 }
 
+namespace {
+
+/// A table's header, and its rows as numbers; NAN where there is none.
+struct Table {
+  explicit Table(const std::string& text) {
+    std::istringstream lines(text);
+    std::string line, value;
+    std::getline(lines, header);
+    while (std::getline(lines, line)) {
+      std::vector<double>& row = rows.emplace_back();
+      std::istringstream values(line + ",");
+      while (std::getline(values, value, ',')) row.push_back(value.empty() ? NAN : std::stod(value));
+    }
+  }
+
+  std::string header;
+  std::vector<std::vector<double>> rows;
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  const Space box = {{0, 0, -1}, {10, 20, 5}, {false, false, false}};
+  folder.file("a.lammpstrj", dump_frame(6, first, others, false) + dump_frame(7, box, some, false));
+  const std::string file = labels_of(box, some), dump = "--trajectory a.lammpstrj --frame 1 ";
+  std::vector<std::uint32_t> labels(sides[0] * sides[1] * sides[2]);
+  std::memcpy(labels.data(), file.data() + file.size() - labels.size() * 4, labels.size() * 4);
+  const auto json = nlohmann::json::parse(
+      succeeds(folder, "cells " + dump +
+                           "--size 20x40x12 --cells a.csv --adjacency b.csv --labels a.npy --distance d.npy "
+                           "--json"));
+  BOOST_TEST((content_of(folder / "a.npy") == file));
+  BOOST_TEST((json["volume_unit"] == "data" && json["length_unit"] == "data" && json["mean_volume"] == 400));
+
+  const double side = 0.5;  // of a voxel, in data units
+  const Table cells(content_of(folder / "a.csv")), pairs(content_of(folder / "b.csv"));
+  BOOST_TEST_REQUIRE(cells.rows.size() == 3u);
+  double surfaces = 0, areas = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& row = cells.rows[i];
+    const Particle& particle = some[i == 2 ? 0 : i + 1];  // by id
+    BOOST_TEST(row[0] == particle.id);
+    std::array<double, 3> low = {99, 99, 99}, high = {-99, -99, -99}, sum = {}, centre = {};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      centre[axis] = box.low[axis] + (std::floor((particle.at[axis] - box.low[axis]) / side) + 0.5) * side;
+    }
+    double count = 0, farthest = 0;
+    for (std::size_t voxel = 0; voxel < labels.size(); ++voxel) {
+      if (labels[voxel] != particle.id) continue;
+      const std::size_t at[] = {voxel % 20, voxel / 20 % 40, voxel / 800};
+      double distance = 0;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double place = box.low[axis] + (static_cast<double>(at[axis]) + 0.5) * side;
+        low[axis] = std::min(low[axis], place - side / 2);
+        high[axis] = std::max(high[axis], place + side / 2);
+        sum[axis] += place;
+        distance += (place - centre[axis]) * (place - centre[axis]);
+      }
+      farthest = std::max(farthest, distance);
+      ++count;
+    }
+    BOOST_TEST(std::abs(row[4] - count * side * side * side) < 1e-9);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      BOOST_TEST(std::abs(row[1 + axis] - centre[axis]) < 1e-9);
+      BOOST_TEST(std::abs(row[5 + axis] - sum[axis] / count) < 1e-9);
+      BOOST_TEST((row[8 + axis] == low[axis] && row[11 + axis] == high[axis]));
+    }
+    BOOST_TEST(std::abs(row[16] - std::sqrt(farthest)) < 1e-9);
+    surfaces += row[14];
+  }
+  const auto faces = [&] {  // between different labels
+    std::size_t count = 0;
+    const std::size_t steps[] = {1, 20, 800};
+    for (std::size_t voxel = 0; voxel < labels.size(); ++voxel) {
+      const std::size_t at[] = {voxel % 20, voxel / 20 % 40, voxel / 800};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (at[axis] > 0 && labels[voxel] != labels[voxel - steps[axis]]) ++count;
+      }
+    }
+    return static_cast<double>(count);
+  }();
+  for (const auto& pair : pairs.rows) {
+    BOOST_TEST(pair[0] < pair[1]);
+    areas += pair[2];
+  }
+  BOOST_TEST((std::abs(areas - faces * side * side) < 1e-9 && std::abs(surfaces - 2 * areas) < 1e-9));
+
+  // In voxels, and where voxels are no cubes lengths and areas alone.
+  succeeds(folder, "cells " + dump + "--size 20x40x12 --units px --cells px.csv --labels px.vti");
+  const Table in_voxels(content_of(folder / "px.csv"));
+  BOOST_TEST(in_voxels.header == cells.header);
+  for (std::size_t i = 0; i < 3; ++i)
+    BOOST_TEST(std::abs(in_voxels.rows[i][4] / 8 - cells.rows[i][4]) < 1e-9);
+  BOOST_TEST(content_of(folder / "px.vti").find("Origin=\"0 0 0\" Spacing=\"1 1 1\"") != std::string::npos);
+  const auto warned = run(folder, "cells " + dump + "--size 20x40x6 --cells a.csv --adjacency b.csv");
+  BOOST_TEST((warned.exit_code == 0 && warned.error.find("different scales") != std::string::npos));
+  const Table flat(content_of(folder / "a.csv"));
+  BOOST_TEST((flat.header.find(",surface_px,neighbours,largest_distance_px,") != std::string::npos));
+  BOOST_TEST(Table(content_of(folder / "b.csv")).header == "a,b,area_px");
+  BOOST_TEST(std::abs(flat.rows[0][4] + flat.rows[1][4] + flat.rows[2][4] - 1200) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  folder.file("a.lammpstrj", dump_frame(7, first, some, false));
+  const std::string dump = "--trajectory a.lammpstrj --size 20x40x12 ";
+  const std::string place = "Origin=\"0 0 -1\" Spacing=\"0.5 0.5 0.5\"";
+  succeeds(folder, "cells " + dump + "--labels a.vti --distance d.vti");
+  succeeds(folder, "render " + dump + "--labels b.vti");
+  succeeds(folder, "simulate " + dump + "--labels c%d.vti");
+  const std::string labels = content_of(folder / "a.vti"), distances = content_of(folder / "d.vti");
+  BOOST_TEST((labels.find(place) != std::string::npos && distances.find(place) != std::string::npos));
+  BOOST_TEST((content_of(folder / "b.vti") == labels && content_of(folder / "c0.vti") == labels));
+  const std::size_t bytes = 4 * 20 * 40 * 12,
+                    end = distances.find("\n  </AppendedData>", distances.size() - 60);
+  BOOST_TEST(distances.find("type=\"Float32\" Name=\"distance\"") != std::string::npos);
+  std::vector<float> values(bytes / 4);
+  std::memcpy(values.data(), distances.data() + end - bytes, bytes);
+  BOOST_TEST(values[2 + 4 * 20] == 0);                    // particle 90's voxel
+  BOOST_TEST(std::abs(values[3 + 4 * 20] - 0.5) < 1e-6);  // the next one, in data units
+}
+
+BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  folder.file("a.lammpstrj", dump_frame(7, first, some, false));
+  std::string labels = labels_of(first, some);
+  const std::string compare = "compare a.npy --trajectory a.lammpstrj --json";
+  folder.file("a.npy", labels);
+  BOOST_TEST(nlohmann::json::parse(succeeds(folder, compare))["errors"]["wrong_pixels"] == 0u);
+  labels.replace(labels.size() - 8, 8, std::string("\x03\0\0\0\xff\xff\xff\xff", 8));  // none of the file's
+  folder.file("a.npy", labels);
+  const auto judged = nlohmann::json::parse(succeeds(folder, compare));
+  BOOST_TEST((judged["errors"]["wrong_pixels"] == 2u && judged["errors"]["unlabelled_pixels"] == 2u));
+}
+
 BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,y,z\n1,2,3\n4,5,6\n");
@@ -183,6 +323,11 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
                     dump = "render --trajectory a.lammpstrj" + volume;
   refuses(folder, points + "--bounds 0,0,8,8", usage, {"six numbers: X0,Y0,Z0,X1,Y1,Z1"});
   refuses(folder, points + "--bounds 0,0,8,8,8,8", usage, {"Z0 < Z1"});
+  refuses(folder, points + "--bounds 0,0,0,8,8", usage, {"X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1"});
+  for (const std::string domain : {"0,0,9,9", "0,0,0,9,9,9"}) {
+    refuses(folder, points + "--periodic x --domain " + domain, usage,
+            {"the periods of a volume are its --bounds"});
+  }
   refuses(folder, points + "--bounds 0,0,0,8,8,4", failure, {"point 1 at (4, 5, 6)", "in z from 0 to 4"});
   refuses(folder, points + "--columns x,y", usage, {"three: X,Y,Z"});
   refuses(folder, points + "--outside count", usage, {"--outside is for planes"});

@@ -232,23 +232,114 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, "render --points points.csv --size 8x8x8 --labels a.npy", failure, {"no column z"});
   refuses(folder, "render --random 3 --size 8x8 --slice z=1 -o a.png", usage, {"--slice is for volumes"});
   refuses(folder, "render --random 3 --size 8x8x --labels a.npy", usage, {"WxHxD, such as 256x256x256"});
-  refuses(folder, "render --random 3 --size 8x8x0 --labels a.npy", usage,
-          {"the depth is 0", "from 1 to 16384 voxels"});
+  for (const std::string depth : {"0", "1"}) {
+    refuses(folder, "render --random 3 --size 8x8x" + depth + " --labels a.npy", usage,
+            {"the depth is " + depth, "from 2 to 16384 voxels", "--size WxH makes a plane"});
+  }
   refuses(folder, "render --random 3 --size 4096x4096x4096 --labels a.npy", failure,
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
   refuses(folder, "cells --random 3 --size 8x8x8", usage,
-          {"nothing to write", "--cells, --adjacency, --labels"});
-  for (const std::string other :
-       {"--exact", "--distance b.npy", "--border b.npy", "--cell-columns id", "--snap", "--units px"}) {
+          {"nothing to write", "--cells, --adjacency, --distance, --labels"});
+  for (const std::string other : {"--exact", "--border b.npy", "--cell-columns id", "--snap"}) {
     refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
             {other.substr(0, other.find(' ')) + " is for planes"});
   }
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
-          {"16385", "from 1 to 16384 voxels"});
-  refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", usage, {"--random seeds"});
-  refuses(folder, "bench --random 3 --size 8x8x8 --methods jfa", usage,
-          {"vorocl render, cells and simulate make"});
+          {"16385", "from 2 to 16384 voxels"});
+  refuses(folder, "cells --points points.csv --size 8x8x8 --cells a.csv", failure, {"no column z"});
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --units data", usage,
+          {"--units data needs --points"});
+  for (const std::string option : {"--color-bar", "--scale 0,1", "--log"}) {
+    refuses(folder, picture + "--slice z=5 " + option, usage,
+            {option.substr(0, option.find(' ')) + " is for planes"});
+  }
+  const std::string bench = "bench --random 3 --size 8x8x8 --methods ";
+  refuses(folder, bench + "jfa,opencv", usage, {"opencv is for planes; volumes have"});
+  refuses(folder, bench + "jfa --tile 4", usage, {"--tile is for planes"});
+  refuses(folder, bench + "jfa --truth true", usage, {"--truth true is for planes"});
+  folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));
+  refuses(folder, "render --points points.npy --size 8x8 --labels a.npy", failure,
+          {"(1, 3)", "those of a volume, which --size WxHxD asks for, (N, 3)"});
+  // One sentence, whatever makes planes alone.
+  const std::string makers =
+      "WxHxD asks for a volume, which vorocl render, cells, simulate, compare and bench make";
+  refuses(folder, "relax --random 3 --size 8x8x8 --rounds 1 -o a.png", usage, {makers});
+  refuses(folder, "tiles --random 3 --size 8x8x8 --tile 8 --labels a.npy", usage, {makers});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
+}
+
+namespace {
+
+/// Voxels whose label is not at the least distance from a search of all seeds.
+std::size_t wrong_voxels(const Grid& grid, const std::vector<std::optional<Point3>>& seeds,
+                         const Labels& labels) {
+  const auto squared = [&](std::size_t voxel, const Point3& seed) {
+    const double at[] = {static_cast<double>(voxel % width), static_cast<double>(voxel / width % height),
+                         static_cast<double>(voxel / (width * height))};
+    const double of_seed[] = {seed.x, seed.y, seed.z};
+    const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
+    double sum = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      double way = std::abs(at[axis] + 0.5 - of_seed[axis]);
+      if (axes[axis]->is_periodic()) way = std::min(way, static_cast<double>(axes[axis]->pixels()) - way);
+      sum += way * way;
+    }
+    return sum;
+  };
+  std::size_t wrong = 0;
+  for (std::size_t voxel = 0; voxel < labels.size(); ++voxel) {
+    double least = 1e9;
+    for (const auto& seed : seeds) least = std::min(least, squared(voxel, *seed));
+    wrong += squared(voxel, *seeds.at(labels[voxel])) > least ? 1 : 0;
+  }
+  return wrong;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(volumes_are_compared_and_benched) {
+  if (method_of_device() != "exact") return;
+  const TemporaryFolder folder;
+  const std::string seeds = "--random 200 --rng-seed 3 --size 24x20x16 ";
+  for (const bool periodic : {false, true}) {
+    const auto axis = [periodic](int side) { return periodic ? Axis(side).periodic() : Axis(side); };
+    const Grid grid(axis(width), axis(height), axis(depth));
+    const Seeds placed = Seeds::random(test_device(), grid, 200, 3);
+    Diagram exact(test_device(), grid), flooded(test_device(), grid);
+    MethodOptions options;
+    options.neighbourhood = NeighbourhoodMix::von_neumann;  // which goes wrong more often
+    method("exact").run(placed, exact, {});
+    method("jfa").run(placed, flooded, options);
+    const Labels right = exact.read(), labels = flooded.read();
+    const std::size_t wrong = wrong_voxels(grid, placed.read_voxels(), labels);
+    BOOST_TEST((wrong > 0 && wrong_voxels(grid, placed.read_voxels(), right) == 0));
+    std::size_t different = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) different += labels[i] != right[i] ? 1 : 0;
+
+    const std::string axes = periodic ? "--periodic xyz " : "";
+    folder.file("a.npy", command::npy_header<std::uint32_t>({depth, height, width}) + bytes_of(labels));
+    folder.file("b.npy", command::npy_header<std::uint32_t>({depth, height, width}) + bytes_of(right));
+    const auto files = nlohmann::json::parse(succeeds(folder, "compare a.npy b.npy --json"));
+    BOOST_TEST((files["different_pixels"] == different && files["pixels"] == labels.size()));
+    for (const std::string& given : {std::string("--random 200 --rng-seed 3 "), seeds}) {
+      const auto judged = nlohmann::json::parse(succeeds(folder, "compare a.npy " + given + axes + "--json"));
+      BOOST_TEST((judged["errors"]["wrong_pixels"] == wrong && judged["different_pixels"] == different));
+      BOOST_TEST(judged["errors"]["unlabelled_pixels"] == 0u);
+    }
+    BOOST_TEST(succeeds(folder, "compare a.npy " + seeds + axes)
+                   .find(fmt::format("{} of 7680 voxels differ\n{} voxels are wrong", different, wrong)) !=
+               std::string::npos);
+
+    const auto bench = nlohmann::json::parse(succeeds(
+        folder, "bench --methods jfa,exact --repeat 1 --neighbourhood von-neumann --json " + seeds + axes));
+    BOOST_TEST((bench["depth"] == depth && bench["periodic"] == (periodic ? "xyz" : "none")));
+    BOOST_TEST((bench["results"][0]["wrong_pixels"] == wrong && bench["results"][1]["wrong_pixels"] == 0u));
+  }
+  folder.file("plane.npy", command::npy_header<std::uint32_t>({height, width}) + std::string(4 * 480, '\0'));
+  refuses(folder, "compare a.npy plane.npy", failure, {"24 x 20 x 16 voxels", "24 x 20;"});
+  refuses(folder, "compare a.npy " + seeds + "--truth true", usage, {"--truth true is for planes"});
+  refuses(folder, "compare a.npy --random 3 --size 24x20x8", failure, {"24 x 20 x 16", "24 x 20 x 8"});
+  refuses(folder, "compare a.npy --random 3 --metric manhattan", failure, {"are Euclidean"});
 }

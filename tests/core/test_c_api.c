@@ -4,15 +4,15 @@
 
 static const struct {
   const char* name;
-  int exact, continues, windows, waves;
-} some_methods[] = {{"standard-flooding", 0, 0, 0, -1},
-                    {"jfa", 0, 0, 0, 6},
-                    {"jfa+1", 0, 0, 0, 7},
-                    {"jfa+2", 0, 0, 0, 8},
-                    {"1+jfa", 0, 0, 0, 7},
-                    {"djfa", 0, 1, 0, 6},
-                    {"low-resolution", 0, 0, 0, 0},
-                    {"exact", 1, 0, 1, 0}};
+  int exact, continues, windows, volumes, waves;
+} some_methods[] = {{"standard-flooding", 0, 0, 0, 0, -1},
+                    {"jfa", 0, 0, 0, 1, 6},
+                    {"jfa+1", 0, 0, 0, 1, 7},
+                    {"jfa+2", 0, 0, 0, 1, 8},
+                    {"1+jfa", 0, 0, 0, 1, 7},
+                    {"djfa", 0, 1, 0, 0, 6},
+                    {"low-resolution", 0, 0, 0, 0, 0},
+                    {"exact", 1, 0, 1, 1, 0}};
 
 static void test_devices(const vorocl_device* device) {
   vorocl_device_list* list = NULL;
@@ -107,7 +107,7 @@ static void test_methods(const vorocl_device* device) {
     OK(vorocl_method_get(i, &method));
     CHECK(strcmp(method.name, some_methods[i].name) == 0);
     CHECK(method.exact == some_methods[i].exact && method.continues == some_methods[i].continues);
-    CHECK(method.windows == some_methods[i].windows);
+    CHECK(method.windows == some_methods[i].windows && method.volumes == some_methods[i].volumes);
     OK(vorocl_prepare(method.name, device, window, seed_count, VOROCL_SNAP_NONE, NULL));
     OK(vorocl_run(method.name, seeds, diagram, &options));
     OK(vorocl_diagram_report(diagram, &waves, &milliseconds, &host_milliseconds));
@@ -258,7 +258,7 @@ static void test_order_of_freeing(void) {
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_cell_sums_measure(sums, diagram)); /* of seeds that it remembers */
   vorocl_diagram_free(diagram);
-  OK(vorocl_cell_sums_read(sums, area, NULL, NULL, seed_count));
+  OK(vorocl_cell_sums_read(sums, area, NULL, NULL, NULL, seed_count));
   for (int id = 0; id < seed_count; ++id) all += area[id];
   CHECK(all == pixels);
   vorocl_cell_sums_free(sums);

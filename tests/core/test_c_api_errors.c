@@ -251,7 +251,7 @@ static void test_bad_points(const vorocl_device* device) {
   FAILS(vorocl_diagram_wait(diagram), VOROCL_BAD_POINT, "outside the grid");
   FAILS(vorocl_diagram_read(diagram, labels, pixels), VOROCL_BAD_POINT, "point 1");
   FAILS(vorocl_cell_sums_statistics(sums, &statistics), VOROCL_BAD_POINT, "point 1");
-  FAILS(vorocl_cell_sums_read(sums, NULL, NULL, NULL, 3), VOROCL_BAD_POINT, "point 1");
+  FAILS(vorocl_cell_sums_read(sums, NULL, NULL, NULL, NULL, 3), VOROCL_BAD_POINT, "point 1");
   FAILS(vorocl_diagram_wait(NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   OK(vorocl_bad_point(&index, NULL)); /* still that of the last bad point */
   OK(vorocl_bad_point(NULL, &point));

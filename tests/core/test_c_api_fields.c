@@ -309,7 +309,7 @@ static void test_relaxation(const vorocl_device* device) {
   CHECK(energy == energies[relaxation.rounds]);
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_cell_sums_measure(sums, diagram));
-  OK(vorocl_cell_sums_read(sums, area, NULL, NULL, seed_count));
+  OK(vorocl_cell_sums_read(sums, area, NULL, NULL, NULL, seed_count));
   OK(vorocl_cell_sums_centroids(sums, centroids, seed_count));
   OK(vorocl_seeds_read_pixels(seeds, places, seed_count));
   for (int id = 0; id < seed_count; ++id) {

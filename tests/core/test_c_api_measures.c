@@ -26,7 +26,7 @@ static void count_cells(vorocl_metric metric) {
     const int d = distance(pixel, pixel_of(points[labels[pixel]]), metric);
     cell* const here = &cells[labels[pixel]];
     vorocl_cell_shape* const shape = &here->shape;
-    if (here->area++ == 0) *shape = (vorocl_cell_shape){x, y, x, y, d, 0};
+    if (here->area++ == 0) *shape = (vorocl_cell_shape){x, y, x, y, d, 0, 0, 0};
     here->sum_x += x;
     here->sum_y += y;
     if (x < shape->left) shape->left = x;
@@ -57,24 +57,25 @@ static void test_sums(const vorocl_device* device, const vorocl_diagram* diagram
   vorocl_point centroids[seed_count];
   uint32_t area[seed_count];
   int64_t sum_x[seed_count], sum_y[seed_count];
-  cl_mem buffers[3] = {NULL, NULL, NULL}, same[3] = {NULL, NULL, NULL};
+  cl_mem buffers[3] = {NULL, NULL, NULL}, same[3] = {NULL, NULL, NULL}, of_slices = NULL;
   double mean = 0, variance = 0;
   size_t count = 7;
   count_cells(VOROCL_EUCLIDEAN);
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_cell_sums_count(sums, &count));
   CHECK(count == 0);
-  OK(vorocl_cell_sums_read(sums, NULL, NULL, NULL, 0));
+  OK(vorocl_cell_sums_read(sums, NULL, NULL, NULL, NULL, 0));
   OK(vorocl_cell_sums_centroids(sums, NULL, 0));
   OK(vorocl_cell_sums_statistics(sums, &statistics));
   CHECK(statistics.cells == 0 && statistics.pixels == 0 && statistics.mean_area == 0);
-  OK(vorocl_cell_sums_buffers(sums, NULL, NULL, &buffers[2]));
+  OK(vorocl_cell_sums_buffers(sums, NULL, NULL, &buffers[2], NULL));
   CHECK(buffers[2] == NULL);
 
   OK(vorocl_cell_sums_measure(sums, diagram));
   OK(vorocl_cell_sums_count(sums, &count));
   CHECK(count == seed_count);
-  OK(vorocl_cell_sums_buffers(sums, &buffers[0], &buffers[1], &buffers[2]));
+  OK(vorocl_cell_sums_buffers(sums, &buffers[0], &buffers[1], &buffers[2], &of_slices));
+  CHECK(of_slices == NULL);
   read_buffer(device, buffers[0], sizeof area, area);
   read_buffer(device, buffers[1], sizeof sum_x, sum_x);
   read_buffer(device, buffers[2], sizeof sum_y, sum_y);
@@ -83,7 +84,7 @@ static void test_sums(const vorocl_device* device, const vorocl_diagram* diagram
       CHECK(area[id] == cells[id].area && sum_x[id] == cells[id].sum_x && sum_y[id] == cells[id].sum_y);
     }
     memset(area, 0, sizeof area);
-    OK(vorocl_cell_sums_read(sums, area, sum_x, sum_y, seed_count));
+    OK(vorocl_cell_sums_read(sums, area, sum_x, sum_y, NULL, seed_count));
   }
   OK(vorocl_cell_sums_centroids(sums, centroids, seed_count));
   for (int id = 0; id < seed_count; ++id) {
@@ -107,7 +108,7 @@ static void test_sums(const vorocl_device* device, const vorocl_diagram* diagram
 
   /* Another measurement goes to the same buffers. */
   OK(vorocl_cell_sums_measure(sums, diagram));
-  OK(vorocl_cell_sums_buffers(sums, &same[0], &same[1], &same[2]));
+  OK(vorocl_cell_sums_buffers(sums, &same[0], &same[1], &same[2], NULL));
   CHECK(memcmp(same, buffers, sizeof same) == 0);
   vorocl_cell_sums_free(sums);
 }
@@ -214,13 +215,13 @@ static void test_failures(const vorocl_device* device, const vorocl_diagram* dia
   FAILS(vorocl_cell_sums_measure(sums, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_cell_sums_count(NULL, &count), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_count(sums, NULL), VOROCL_NULL_ARGUMENT, "count is NULL");
-  FAILS(vorocl_cell_sums_buffers(NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT, "sums is NULL");
-  FAILS(vorocl_cell_sums_read(NULL, NULL, NULL, NULL, 0), VOROCL_NULL_ARGUMENT, "sums is NULL");
+  FAILS(vorocl_cell_sums_buffers(NULL, NULL, NULL, NULL, NULL), VOROCL_NULL_ARGUMENT, "sums is NULL");
+  FAILS(vorocl_cell_sums_read(NULL, NULL, NULL, NULL, NULL, 0), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_centroids(NULL, centroids, 0), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_statistics(NULL, &statistics), VOROCL_NULL_ARGUMENT, "sums is NULL");
   FAILS(vorocl_cell_sums_statistics(sums, NULL), VOROCL_NULL_ARGUMENT, "statistics is NULL");
   OK(vorocl_cell_sums_measure(sums, diagram));
-  FAILS(vorocl_cell_sums_read(sums, NULL, NULL, NULL, 9), VOROCL_BAD_ARGUMENT, "8 cells");
+  FAILS(vorocl_cell_sums_read(sums, NULL, NULL, NULL, NULL, 9), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_cell_sums_centroids(sums, centroids, 7), VOROCL_BAD_ARGUMENT, "8 cells");
   FAILS(vorocl_cell_sums_centroids(sums, NULL, 8), VOROCL_NULL_ARGUMENT, "centroids is NULL");
   FAILS(vorocl_cell_sums_measure(sums, other), VOROCL_BAD_ARGUMENT, "seeds");

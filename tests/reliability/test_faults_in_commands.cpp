@@ -27,7 +27,7 @@ const std::string subcommands[] = {
      "l.npy"),
     "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
     "tiles --random 9 --size 40x30 --tile 16 --labels l.tif -o p.png --cells c.csv --adjacency a.csv",
-    "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",
+    "bench --random 9 --size 12x10x8 --methods jfa,exact --repeat 1",
     "vorocl-study evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
     "vorocl-study ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
     "devices"};

@@ -161,8 +161,8 @@ NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, std::size_t di
     : path_(path), file_(open_to_read(path)), dimensions_(dimensions) {
   const Header header = read_header(file_, path);
   if (header.shape.size() != 2 || header.shape[1] != dimensions) {
-    throw Error(path + " has the shape " + to_string(header.shape) + "; points need (N, " +
-                std::to_string(dimensions) + ")");
+    throw Error(path + " has the shape " + to_string(header.shape) + "; points of a plane need (N, 2), and " +
+                "those of a volume, which --size WxHxD asks for, (N, 3)");
   }
   size_ = header.shape[0];
   if (size_ == 0) throw Error(path + " holds no points");
@@ -228,11 +228,18 @@ Size size_of_image(const Header& header, bool has_type, const std::string& path,
 
 LabelImage read_npy_labels(const std::string& path) {
   std::ifstream file = open_to_read(path);
-  const Header header = read_header(file, path);
-  LabelImage image{size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)"), {}};
-  find_values(file, header, image.size.pixels(), path);
-  image.labels.resize(image.size.pixels());
-  read_bytes(file, image.labels.data(), image.labels.size() * sizeof no_label, path);
+  Header header = read_header(file, path);
+  const Header whole = header;
+  std::int64_t depth = 1;
+  if (header.shape.size() == 3 && header.shape[0] >= 1 && header.shape[0] <= Window::max_side_of_volume) {
+    depth = static_cast<std::int64_t>(header.shape[0]);
+    header.shape.erase(header.shape.begin());
+  }
+  LabelImage image{size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)"), {}, depth};
+  const std::size_t count = image.size.pixels() * static_cast<std::size_t>(depth);
+  find_values(file, whole, count, path);
+  image.labels.resize(count);
+  read_bytes(file, image.labels.data(), count * sizeof no_label, path);
   return image;
 }
 
@@ -269,11 +276,14 @@ template void write_npy(const OutputFile&, const Size&, const std::vector<std::u
 template void write_npy(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
 template void write_npy(const OutputFile&, const Size&, const std::vector<float>&);
 
-void write_npy_volume(const OutputFile& file, const VolumeSize& size,
-                      const std::vector<std::uint32_t>& labels) {
+template <typename T>
+void write_npy_volume(const OutputFile& file, const VolumeSize& size, const std::vector<T>& values) {
   const auto side = [](std::int64_t voxels) { return static_cast<std::size_t>(voxels); };
-  write_array(file, {side(size.depth), side(size.height), side(size.width)}, labels);
+  write_array(file, {side(size.depth), side(size.height), side(size.width)}, values);
 }
+
+template void write_npy_volume(const OutputFile&, const VolumeSize&, const std::vector<std::uint32_t>&);
+template void write_npy_volume(const OutputFile&, const VolumeSize&, const std::vector<float>&);
 
 template <typename T>
 std::string npy_header(const std::vector<std::size_t>& shape) {

@@ -42,7 +42,8 @@ class NpyPoints {
 std::vector<Point> read_npy_points(const std::string& path);
 std::vector<Point3> read_npy_points_of_volume(const std::string& path);
 
-/// Labels: uint32, shape (height, width). Throws Error if the file is something else.
+/// Labels: uint32, shape (height, width), or (depth, height, width) of a volume. Throws Error if the file is
+/// something else.
 LabelImage read_npy_labels(const std::string& path);
 
 /// Numbers of any type that NpyPoints takes, of shape (height, width). Throws Error if the file is something
@@ -54,9 +55,10 @@ DensityImage read_npy_density(const std::string& path);
 template <typename T>
 void write_npy(const OutputFile& file, const Size& size, const std::vector<T>& values);
 
-/// Labels of a volume, slice after slice, to an array of shape (depth, height, width). Throws as above.
-void write_npy_volume(const OutputFile& file, const VolumeSize& size,
-                      const std::vector<std::uint32_t>& labels);
+/// One value per voxel (uint32 or float), slice after slice, to an array of shape (depth, height, width).
+/// Throws as above.
+template <typename T>
+void write_npy_volume(const OutputFile& file, const VolumeSize& size, const std::vector<T>& values);
 
 /// What stands before the values (uint8, uint32, float or double) of an array of this shape.
 template <typename T>

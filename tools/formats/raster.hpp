@@ -45,6 +45,10 @@ struct VolumeSize {
   std::int64_t width, height, depth;
 
   Grid grid() const { return {width, height, depth}; }
+
+  friend bool operator==(const VolumeSize& a, const VolumeSize& b) {
+    return a.width == b.width && a.height == b.height && a.depth == b.depth;
+  }
 };
 
 /// A rectangle in data units.
@@ -55,10 +59,11 @@ struct Bounds {
   double y1 = 0;
 };
 
-/// An image of labels.
+/// An image of labels, or a volume of them.
 struct LabelImage {
   Size size;
-  std::vector<std::uint32_t> labels;  // row-major
+  std::vector<std::uint32_t> labels;  // row-major, slice after slice
+  std::int64_t depth = 1;             // of a volume more
 };
 
 /// How much each pixel of an image weighs.
@@ -77,6 +82,13 @@ struct Raster {
   Size size;
   Point corner = {0, 0};  ///< the lower left one, where y points up
   Point pixel = {1, 1};   ///< the sides of a pixel
+};
+
+/// The voxels of a volume's file, and where they lie in the data.
+struct VolumeRaster {
+  VolumeSize size;
+  Point3 corner;  ///< of the first voxel, where the coordinates are least
+  Point3 voxel;   ///< its sides
 };
 
 }  // namespace vorocl::command

@@ -22,11 +22,18 @@ const std::vector<std::string>& volume_extensions() {
   return all;
 }
 
-void write_volume(const OutputFile& file, const VolumeSize& size, const std::vector<std::uint32_t>& labels) {
+template <typename T>
+void write_voxels(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
+                  const std::vector<T>& values) {
   check_extension(file.path(), volume_extensions());
-  extension_of(file.path()) == ".npy" ? write_npy_volume(file, size, labels)
-                                      : write_vti_volume(file, size, labels);
+  extension_of(file.path()) == ".npy" ? write_npy_volume(file, raster.size, values)
+                                      : write_vti_volume(file, name, raster, values);
 }
+
+template void write_voxels(const OutputFile&, const std::string&, const VolumeRaster&,
+                           const std::vector<std::uint32_t>&);
+template void write_voxels(const OutputFile&, const std::string&, const VolumeRaster&,
+                           const std::vector<float>&);
 
 LabelImage read_labels(const std::string& path) {
   check_extension(path, readable_label_extensions());

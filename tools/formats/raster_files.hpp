@@ -16,15 +16,19 @@ namespace vorocl::command {
 const std::vector<std::string>& readable_label_extensions();
 const std::vector<std::string>& label_extensions();
 
-/// Throws Error if the file cannot be read or holds something else, or its name ends in no such extension.
+/// Those of a volume from .npy alone. Throws Error if the file cannot be read or holds something else, or its
+/// name ends in no such extension.
 LabelImage read_labels(const std::string& path);
 
-/// The extensions of files that labels of a volume can be written to.
+/// The extensions of files that values of a volume can be written to.
 const std::vector<std::string>& volume_extensions();
 
-/// Labels of a volume, slice after slice. Throws Error if the name ends in no such extension, or the file
-/// cannot be written.
-void write_volume(const OutputFile& file, const VolumeSize& size, const std::vector<std::uint32_t>& labels);
+/// Values of a volume (uint32 or float), slice after slice; a .vti file calls them by the name, and alone
+/// knows where the voxels lie. Throws Error if the name ends in no such extension, or the file cannot be
+/// written.
+template <typename T>
+void write_voxels(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
+                  const std::vector<T>& values);
 
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
@@ -60,10 +64,11 @@ template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
 
-/// Labels of a volume, as above, with the cell data "label" and the origin in its first voxel's corner: what
-/// is at (x, y, z) in voxels is there, for here no row is on top.
-void write_vti_volume(const OutputFile& file, const VolumeSize& size,
-                      const std::vector<std::uint32_t>& labels);
+/// As above, one value per voxel (uint32 or float), with the corner of the first voxel as the origin: what is
+/// at (x, y, z) in the data is there, for here no row is on top.
+template <typename T>
+void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
+                      const std::vector<T>& values);
 
 /// A file of a collection and the time that it shows.
 struct TimedFile {

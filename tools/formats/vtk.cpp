@@ -44,12 +44,12 @@ std::string escaped(const std::string& text) {
 
 /// What stands before the bytes of an image of values: where its cells lie.
 template <typename T>
-std::string start_of_image(const std::string& name, const std::string& extent, const Point& corner,
-                           const Point& cell) {
+std::string start_of_image(const std::string& name, const std::string& extent, const Point3& corner,
+                           const Point3& cell) {
   return fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">
-  <ImageData WholeExtent="{1}" Origin="{4} {5} 0" Spacing="{6} {7} 1">
+  <ImageData WholeExtent="{1}" Origin="{4} {5} {6}" Spacing="{7} {8} {9}">
     <Piece Extent="{1}">
       <CellData Scalars="{2}">
         <DataArray type="{3}" Name="{2}" format="appended" offset="0"/>
@@ -58,7 +58,7 @@ std::string start_of_image(const std::string& name, const std::string& extent, c
   </ImageData>
   <AppendedData encoding="raw">
     _)",
-      byte_order(), extent, name, type_name<T>, corner.x, corner.y, cell.x, cell.y);
+      byte_order(), extent, name, type_name<T>, corner.x, corner.y, corner.z, cell.x, cell.y, cell.z);
 }
 
 constexpr const char* end_of_image = "\n  </AppendedData>\n</VTKFile>\n";
@@ -72,8 +72,8 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   const std::uint64_t bytes = values.size() * sizeof(T);
   const std::size_t row_bytes = static_cast<std::size_t>(size.width()) * sizeof(T);
   GrowingFile image(file);
-  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()), raster.corner,
-                             raster.pixel);
+  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()),
+                             {raster.corner.x, raster.corner.y, 0}, {raster.pixel.x, raster.pixel.y, 1});
   image.write(&bytes, sizeof bytes);
   for (int row = size.height() - 1; row >= 0; --row) {
     const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * size.width();
@@ -83,18 +83,24 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
   image.finish();
 }
 
-void write_vti_volume(const OutputFile& file, const VolumeSize& size,
-                      const std::vector<std::uint32_t>& labels) {
-  const std::uint64_t bytes = labels.size() * sizeof labels[0];
+template <typename T>
+void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
+                      const std::vector<T>& values) {
+  const VolumeSize& size = raster.size;
+  const std::uint64_t bytes = values.size() * sizeof(T);
   GrowingFile image(file);
-  image << start_of_image<std::uint32_t>(
-      "label", fmt::format("0 {} 0 {} 0 {}", size.width, size.height, size.depth), {0, 0}, {1, 1});
+  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 {}", size.width, size.height, size.depth),
+                             raster.corner, raster.voxel);
   image.write(&bytes, sizeof bytes);
-  image.write(labels.data(), bytes);
+  image.write(values.data(), bytes);
   image << end_of_image;
   image.finish();
 }
 
+template void write_vti_volume(const OutputFile&, const std::string&, const VolumeRaster&,
+                               const std::vector<std::uint32_t>&);
+template void write_vti_volume(const OutputFile&, const std::string&, const VolumeRaster&,
+                               const std::vector<float>&);
 template void write_vti(const OutputFile&, const std::string&, const Raster&,
                         const std::vector<std::uint8_t>&);
 template void write_vti(const OutputFile&, const std::string&, const Raster&,

@@ -2,6 +2,7 @@
 // ground truth that shares nothing with the engines, and OpenCV.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <opencv2/core.hpp>
@@ -21,21 +22,23 @@ namespace vorocl::command {
 /// anywhere within their pixels.
 class GroundTruth {
  public:
-  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them. Finds the least distance of every
-  /// pixel: about a microsecond per pixel and core, and 8 bytes per pixel.
+  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them, and of a volume read_voxels().
+  /// Finds the least distance of every pixel: about a microsecond per pixel and core, and 8 bytes per pixel.
   GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
+  GroundTruth(const Grid& grid, const std::vector<std::optional<Point3>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.
   std::size_t wrong_pixels(const std::vector<std::uint32_t>& labels) const;
 
  private:
-  struct Position {
-    std::int64_t x, y;  // in parts of a pixel
-  };
-  std::uint64_t distance(const Position& seed, int x, int y) const;
+  using Position = std::array<std::int64_t, 3>;  // in parts of a pixel
+  std::uint64_t distance(const Position& a, const Position& b) const;
 
-  Size size_;
-  Periodic periodic_;
+  /// Calls visit(index, where its centre is) for each pixel of a row.
+  template <typename Visit>
+  void visit_row(std::int64_t row, const Visit& visit) const;
+
+  Grid grid_;
   Metric metric_;
   std::vector<std::optional<Position>> seeds_;  // by id
   std::vector<std::uint64_t> least_;            // row-major; squared if euclidean

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <nanoflann.hpp>
 #include <opencv2/core/utility.hpp>
-#include <tuple>
 
 #include "trials/benchmark.hpp"
 #include "vorocl/error.hpp"
@@ -15,18 +13,21 @@ namespace {
 
 constexpr std::int64_t parts_of_pixel = 4096;
 
-std::int64_t in_parts(double pixels) { return std::llround(pixels * static_cast<double>(parts_of_pixel)); }
-std::int64_t centre_of(int pixel) { return pixel * parts_of_pixel + parts_of_pixel / 2; }
+/// In double, whose sums of squares are exact for whole pixels, and where they are rounded find a seed that
+/// is as near but for 2^-53 of that.
+using Place = std::array<double, 3>;
 
-/// The seeds' positions in parts of a pixel as nanoflann wants them. In double, whose sums of squares are
-/// exact for whole pixels, and where they are rounded find a seed that is as near but for 2^-53 of that.
+std::int64_t in_parts(double pixels) { return std::llround(pixels * static_cast<double>(parts_of_pixel)); }
+std::int64_t centre_of(std::int64_t pixel) { return pixel * parts_of_pixel + parts_of_pixel / 2; }
+
+std::array<const Axis*, 3> axes_of(const Grid& grid) { return {&grid.x(), &grid.y(), &grid.z()}; }
+
+/// The seeds' positions in parts of a pixel as nanoflann wants them.
 struct Cloud {
-  std::vector<Point> points;
+  std::vector<Place> points;
 
   std::size_t kdtree_get_point_count() const { return points.size(); }
-  double kdtree_get_pt(std::size_t index, std::size_t axis) const {
-    return axis == 0 ? points[index].x : points[index].y;
-  }
+  double kdtree_get_pt(std::size_t index, std::size_t axis) const { return points[index][axis]; }
   template <typename Box>
   bool kdtree_get_bbox(Box&) const {
     return false;
@@ -34,96 +35,121 @@ struct Cloud {
 };
 
 /// Where a pixel is along an axis, and a period before and behind that.
-std::vector<std::int64_t> images(int at, int size, bool periodic) {
-  if (!periodic) return {centre_of(at)};
-  return {centre_of(at - size), centre_of(at), centre_of(at + size)};
+std::vector<double> images(std::int64_t at, const Axis& axis) {
+  const auto here = static_cast<double>(at), period = static_cast<double>(axis.pixels() * parts_of_pixel);
+  if (!axis.is_periodic()) return {here};
+  return {here, here - period, here + period};
 }
 
-/// The length of a way along an axis, round the grid if that is shorter.
-std::int64_t along(std::int64_t offset, int size, bool periodic) {
-  const std::int64_t inside = std::abs(offset);
-  return periodic ? std::min(inside, size * parts_of_pixel - inside) : inside;
-}
+/// The seeds in a k-d tree, for one metric.
+template <template <class, class, class, class> class Distance>
+class Tree {
+ public:
+  explicit Tree(const Cloud& cloud) : cloud_(cloud), tree_(3, cloud) {}
 
-/// Calls found(x, y, where a nearest seed is) for every pixel, from several threads.
-template <template <class, class, class, class> class Distance, typename Found>
-void for_each_nearest(const Size& size, Periodic periodic, const Cloud& cloud, const Found& found) {
-  using Adaptor = Distance<double, Cloud, double, std::uint32_t>;
-  const nanoflann::KDTreeSingleIndexAdaptor<Adaptor, Cloud, 2> tree(2, cloud);
-  cv::parallel_for_(cv::Range(0, size.height()), [&](const cv::Range& rows) {
-    for (int y = rows.start; y < rows.end; ++y) {
-      for (int x = 0; x < size.width(); ++x) {
-        std::uint32_t nearest = 0;
-        double least = std::numeric_limits<double>::infinity();
-        for (const std::int64_t image_y : images(y, size.height(), has_y(periodic))) {
-          for (const std::int64_t image_x : images(x, size.width(), has_x(periodic))) {
-            const double query[2] = {static_cast<double>(image_x), static_cast<double>(image_y)};
-            std::uint32_t index = 0;
-            double distance = 0;
-            tree.knnSearch(query, 1, &index, &distance);
-            if (distance >= least) continue;
-            least = distance;
-            nearest = index;
-          }
+  /// The nearest one to a position, or to an image of it.
+  const Place& nearest(const Grid& grid, const std::array<std::int64_t, 3>& to) const {
+    const auto [x, y, z] = axes_of(grid);
+    std::uint32_t index = 0;
+    double least = 0;
+    nanoflann::KNNResultSet<double, std::uint32_t> found(1);  // of all images: one ends where none is nearer
+    found.init(&index, &least);
+    for (const double image_z : images(to[2], *z)) {
+      for (const double image_y : images(to[1], *y)) {
+        for (const double image_x : images(to[0], *x)) {
+          const Place query = {image_x, image_y, image_z};
+          tree_.findNeighbors(found, query.data(), {});
         }
-        found(x, y, cloud.points[nearest]);
       }
     }
-  });
+    return cloud_.points[index];
+  }
+
+ private:
+  const Cloud& cloud_;
+  nanoflann::KDTreeSingleIndexAdaptor<Distance<double, Cloud, double, std::uint32_t>, Cloud, 3> tree_;
+};
+
+std::vector<std::optional<Point3>> in_a_slice(const std::vector<std::optional<Point>>& seeds) {
+  std::vector<std::optional<Point3>> points;
+  points.reserve(seeds.size());
+  for (const std::optional<Point>& seed : seeds) {
+    points.push_back(seed ? std::optional(Point3{seed->x, seed->y, 0.5}) : std::nullopt);
+  }
+  return points;
 }
 
 }  // namespace
 
 GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
-    : size_(grid), periodic_(grid.periodic()), metric_(metric), seeds_(seeds.size()), least_(size_.pixels()) {
+    : GroundTruth(grid, in_a_slice(seeds), metric) {}
+
+GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point3>>& seeds, Metric metric)
+    : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     if (!seeds[id]) continue;
-    seeds_[id] = Position{in_parts(seeds[id]->x), in_parts(seeds[id]->y)};
-    cloud.points.push_back({static_cast<double>(seeds_[id]->x), static_cast<double>(seeds_[id]->y)});
+    const Position at = {in_parts(seeds[id]->x), in_parts(seeds[id]->y), in_parts(seeds[id]->z)};
+    seeds_[id] = at;
+    cloud.points.push_back(
+        {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
   }
   // Thousands of seeds at one place would make a leaf of the tree that every query goes through.
-  const auto before = [](const Point& a, const Point& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
-  const auto same = [](const Point& a, const Point& b) { return a.x == b.x && a.y == b.y; };
-  std::sort(cloud.points.begin(), cloud.points.end(), before);
-  cloud.points.erase(std::unique(cloud.points.begin(), cloud.points.end(), same), cloud.points.end());
+  std::sort(cloud.points.begin(), cloud.points.end());
+  cloud.points.erase(std::unique(cloud.points.begin(), cloud.points.end()), cloud.points.end());
   if (cloud.points.empty()) throw Error("without seeds no pixel has a true label");
-  const auto found = [&](int x, int y, const Point& nearest) {
-    const auto i =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width()) + static_cast<std::size_t>(x);
-    least_[i] = distance({static_cast<std::int64_t>(nearest.x), static_cast<std::int64_t>(nearest.y)}, x, y);
+  const auto find_all = [&](const auto& tree) {
+    const auto rows = static_cast<int>(grid.height() * grid.depth());
+    cv::parallel_for_(cv::Range(0, rows), [&](const cv::Range& range) {
+      for (int row = range.start; row < range.end; ++row) {
+        visit_row(row, [&](std::size_t i, const Position& at) {
+          const Place& nearest = tree.nearest(grid, at);
+          least_[i] = distance({static_cast<std::int64_t>(nearest[0]), static_cast<std::int64_t>(nearest[1]),
+                                static_cast<std::int64_t>(nearest[2])},
+                               at);
+        });
+      }
+    });
   };
   switch (metric) {
     case Metric::euclidean:
-      for_each_nearest<nanoflann::L2_Simple_Adaptor>(size_, periodic_, cloud, found);
+      find_all(Tree<nanoflann::L2_Simple_Adaptor>(cloud));
       break;
     case Metric::manhattan:
-      for_each_nearest<nanoflann::L1_Adaptor>(size_, periodic_, cloud, found);
+      find_all(Tree<nanoflann::L1_Adaptor>(cloud));
       break;
   }
 }
 
 std::size_t GroundTruth::wrong_pixels(const std::vector<std::uint32_t>& labels) const {
-  std::size_t wrong = 0, i = 0;
-  for (int y = 0; y < size_.height(); ++y) {
-    for (int x = 0; x < size_.width(); ++x, ++i) {
+  std::size_t wrong = 0;
+  for (std::int64_t row = 0; row < grid_.height() * grid_.depth(); ++row) {
+    visit_row(row, [&](std::size_t i, const Position& at) {
       const std::uint32_t label = labels.at(i);
-      if (label >= seeds_.size() || !seeds_[label] || distance(*seeds_[label], x, y) > least_[i]) ++wrong;
-    }
+      if (label >= seeds_.size() || !seeds_[label] || distance(*seeds_[label], at) > least_[i]) ++wrong;
+    });
   }
   return wrong;
 }
 
-std::uint64_t GroundTruth::distance(const Position& seed, int x, int y) const {
-  const std::int64_t dx = along(seed.x - centre_of(x), size_.width(), has_x(periodic_));
-  const std::int64_t dy = along(seed.y - centre_of(y), size_.height(), has_y(periodic_));
-  switch (metric_) {
-    case Metric::euclidean:
-      return static_cast<std::uint64_t>(dx * dx + dy * dy);
-    case Metric::manhattan:
-      break;
+template <typename Visit>
+void GroundTruth::visit_row(std::int64_t row, const Visit& visit) const {
+  auto i = static_cast<std::size_t>(row * grid_.width());
+  for (std::int64_t x = 0; x < grid_.width(); ++x, ++i) {
+    visit(i, {centre_of(x), centre_of(row % grid_.height()), centre_of(row / grid_.height())});
   }
-  return static_cast<std::uint64_t>(dx + dy);
+}
+
+std::uint64_t GroundTruth::distance(const Position& a, const Position& b) const {
+  std::uint64_t sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Axis& along = *axes_of(grid_)[axis];
+    std::int64_t way = std::abs(a[axis] - b[axis]);
+    if (along.is_periodic()) way = std::min(way, along.pixels() * parts_of_pixel - way);
+    const auto length = static_cast<std::uint64_t>(way);
+    sum += metric_ == Metric::euclidean ? length * length : length;
+  }
+  return sum;
 }
 
 }  // namespace vorocl::command

@@ -6,7 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/outputs/measures.hpp"
+#include "app/sources/bounds.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -25,7 +29,7 @@ struct BenchOptions {
   bool json = false;
 };
 
-void print_result(const BenchOptions& options, const Seeds& seeds,
+void print_result(const BenchOptions& options, const Seeds& seeds, const View& view,
                   const std::vector<BenchmarkResult>& results) {
   if (options.json) {
     std::vector<Json> list;
@@ -36,20 +40,24 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
                           {"min_ms", result.milliseconds.least()},
                           {"wrong_pixels", result.wrong_pixels}});
     }
-    print_json({{"metric", to_string(options.benchmark.method.metric)},
-                {"device", seeds.device().name()},
-                {"width", seeds.grid().width()},
-                {"height", seeds.grid().height()},
-                {"periodic", to_string(seeds.grid().periodic())},
-                {"seeds", seeds.alive()},
-                {"repeat", options.benchmark.rounds},
-                {"results", list}});
+    const Grid& grid = seeds.grid();
+    Json json = {{"metric", to_string(options.benchmark.method.metric)},
+                 {"device", seeds.device().name()},
+                 {"width", grid.width()},
+                 {"height", grid.height()}};
+    if (grid.is_volume()) json["depth"] = grid.depth();
+    json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
+                     {"seeds", seeds.alive()},
+                     {"repeat", options.benchmark.rounds},
+                     {"results", list}});
+    print_json(json);
     return;
   }
-  print("{} on {} x {} pixels, {}, {}, on {}\n", counted(seeds.alive(), "seed"), seeds.grid().width(),
-        seeds.grid().height(), to_string(options.benchmark.method.metric),
-        counted(options.benchmark.rounds, "round"), seeds.device().name());
-  print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio", "wrong pixels");
+  print("{} on {}, {}, {}, on {}\n", counted(seeds.alive(), "seed"), size_text(view),
+        to_string(options.benchmark.method.metric), counted(options.benchmark.rounds, "round"),
+        seeds.device().name());
+  print("{:<20}{:>12}{:>12}{:>10}{:>16}\n", "method", "median ms", "least ms", "ratio",
+        seeds.grid().is_volume() ? "wrong voxels" : "wrong pixels");
   const double first_median = results.front().milliseconds.median();
   for (const BenchmarkResult& result : results) {
     const double median = result.milliseconds.median();
@@ -59,12 +67,20 @@ void print_result(const BenchOptions& options, const Seeds& seeds,
 }
 
 void run(const BenchOptions& options) {
-  const Input input = read_input(options.seeds);
+  const bool is_volume = options.seeds.depth > 1;
+  const Input input = is_volume ? read_volume_input(options.seeds) : read_input(options.seeds);
   refuse_window(input, "bench");
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  print_result(options, seeds, benchmark(options.methods, options.benchmark, seeds));
+  print_result(options, seeds, input.view, benchmark(options.methods, options.benchmark, seeds));
+}
+
+/// Throws UsageError for what volumes do not have.
+void check_volume(const BenchOptions& options) {
+  if (options.benchmark.truth == Snap::none) refuse_in_volumes("--truth true");
+  if (options.benchmark.tile != 0) refuse_in_volumes("--tile");
+  for (const Method& method : options.methods) check_volume_method(method);
 }
 
 void add_methods_option(Command& command, std::vector<Method>& methods) {
@@ -81,7 +97,7 @@ void add_methods_option(Command& command, std::vector<Method>& methods) {
 void add_bench(CommandLine& line) {
   const auto options = std::make_shared<BenchOptions>();
   Command command = line.add("bench", "Time methods side by side and count their wrong pixels");
-  add_seed_options(command, options->seeds);
+  add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_truth_option(command, options->benchmark.truth,
                    "What exact makes diagrams of, and all labels are judged by:");
@@ -101,6 +117,7 @@ void add_bench(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   command.set_work([command, options] {
+    if (options->seeds.depth > 1) check_volume(*options);
     check_method_options(command, options->methods, options->benchmark.method);
     options->seeds.keeps_inside = "bench cannot take";
     options->seeds.usual_snap = options->benchmark.truth;

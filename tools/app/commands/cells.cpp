@@ -4,11 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "app/commands/cells_volume.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/exact_cells.hpp"
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
+#include "app/outputs/volume_files.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -18,19 +19,37 @@ namespace vorocl::command {
 
 namespace {
 
+/// The files that may be asked for.
+struct CellsFiles {
+  FileRequest cells = {cells_kind(), ""};
+  FileRequest adjacency = {adjacency_kind(), ""};
+  FileRequest distance = {distance_kind(), ""};
+  FileRequest border = {border_kind(), ""};
+  FileRequest labels = {labels_kind(), ""};
+
+  std::vector<FileRequest> all() const { return {cells, adjacency, distance, border, labels}; }
+
+  /// The same files of a volume, which has no borders.
+  std::vector<FileRequest> of_volume() const {
+    return {{volume_cells_kind(), cells.path},
+            {volume_adjacency_kind(), adjacency.path},
+            {volume_distance_kind(), distance.path},
+            {volume_labels_kind(), labels.path}};
+  }
+};
+
 struct CellsOptions {
   SeedOptions seeds;
   Method method = vorocl::method("exact");
   MethodOptions method_options;
   std::string device;
-  std::vector<FileRequest> files = {{cells_kind(), ""},
-                                    {adjacency_kind(), ""},
-                                    {distance_kind(), ""},
-                                    {border_kind(), ""},
-                                    {labels_kind(), ""}};
+  CellsFiles files;
   bool json = false;
   bool exact = false;
   std::string polygons;
+
+  bool is_volume() const { return seeds.depth > 1; }
+  std::vector<FileRequest> requests() const { return is_volume() ? files.of_volume() : files.all(); }
 };
 
 struct Output {
@@ -40,7 +59,7 @@ struct Output {
 
 std::vector<RequestedFile> requested_files(const CellsOptions& options) {
   std::vector<RequestedFile> files;
-  for (const FileRequest& request : options.files) files.push_back(requested(request));
+  for (const FileRequest& request : options.requests()) files.push_back(requested(request));
   return files;
 }
 
@@ -48,7 +67,7 @@ std::vector<Output> open_outputs(const CellsOptions& options) {
   check_outputs(requested_files(options), options.seeds);
   std::vector<Output> outputs;
   std::string all;
-  for (const FileRequest& request : options.files) {
+  for (const FileRequest& request : options.requests()) {
     all += (all.empty() ? "" : ", ") + request.kind.option;
     if (!request.path.empty()) outputs.push_back({request.kind, OutputFile(request.path)});
   }
@@ -59,28 +78,37 @@ std::vector<Output> open_outputs(const CellsOptions& options) {
 void print_result(const CellsOptions& options, const Seeds& seeds, const Report& report, Measures& measures) {
   const CellStatistics statistics = measures.statistics();
   const View& view = measures.view();
+  const std::size_t unlabelled = view.window.pixels() - statistics.pixels;
   if (options.json) {
     Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
-    result.update(Json{{"cells", statistics.cells},
-                       {"empty_cells", statistics.empty_cells},
-                       {"mean_area", statistics.mean_area},
-                       {"area_deviation", statistics.area_deviation},
-                       {"vertices", measures.vertices()},
-                       {"pairs", measures.pair_count()},
+    result.update(Json{{"cells", statistics.cells}, {"empty_cells", statistics.empty_cells}});
+    if (options.is_volume()) {
+      result.update(Json{{"seeds", seeds.alive()},
+                         {"unlabelled_voxels", unlabelled},
+                         {"mean_volume", statistics.mean_area},
+                         {"volume_deviation", statistics.area_deviation}});
+    } else {
+      result.update(Json{{"mean_area", statistics.mean_area},
+                         {"area_deviation", statistics.area_deviation},
+                         {"vertices", measures.vertices()}});
+    }
+    result.update(Json{{"pairs", measures.pair_count()},
                        {"waves", report.waves()},
                        {"milliseconds", report.milliseconds()},
                        {"host_milliseconds", report.host_milliseconds()}});
     print_json(result);
     return;
   }
-  print("{}: {} on {} x {} pixels in {:.1f} ms, {}, on {}\n", options.method.name,
-        counted(seeds.alive(), "seed"), view.picture.size.width(), view.picture.size.height(),
-        report.milliseconds(), counted(report.waves(), "wave"), seeds.device().name());
-  print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive());
-  print("the mean area is {:.6g}, with a deviation of {:.6g} ({})\n", statistics.mean_area,
-        statistics.area_deviation, view.units.area_title());
-  print("{}, {} of cells that touch\n", counted(measures.vertices(), "vertex", "vertices"),
-        counted(measures.pair_count(), "pair"));
+  print_diagram(options.method, seeds, view, report);
+  if (options.is_volume()) {
+    print_cells_of_volume(statistics.empty_cells, seeds.alive(), unlabelled);
+  } else {
+    print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive());
+  }
+  print("the mean {} is {:.6g}, with a deviation of {:.6g} ({})\n", options.is_volume() ? "volume" : "area",
+        statistics.mean_area, statistics.area_deviation, view.units.area_title());
+  if (!options.is_volume()) print("{}, ", counted(measures.vertices(), "vertex", "vertices"));
+  print("{} of cells that touch\n", counted(measures.pair_count(), "pair"));
   print_written(requested_files(options));
 }
 
@@ -93,23 +121,14 @@ void run_exact(const Command& command, const CellsOptions& options) {
   if (in_pixels(options.seeds)) {
     throw UsageError("--exact measures in the units of the data, and --units px says pixels");
   }
-  const FileRequest& cells = options.files.front();
-  run_exact_cells({options.seeds, options.device, cells.path, options.files[1].path, options.polygons,
-                   cells.kind.table()->columns, options.json});
-}
-
-/// The options that a volume has. Throws UsageError for the others.
-VolumeCells volume_of(const Command& command, const CellsOptions& options) {
-  for (const char* const name : {"--exact", "--distance", "--border", "--cell-columns", "--frame"}) {
-    if (command.has(name)) refuse_in_volumes(name);
-  }
-  return {options.seeds,         options.method,        options.method_options, options.device,
-          options.files[0].path, options.files[1].path, options.files[4].path,  options.json};
+  const CellsFiles& files = options.files;
+  run_exact_cells({options.seeds, options.device, files.cells.path, files.adjacency.path, options.polygons,
+                   files.cells.kind.table()->columns, options.json});
 }
 
 void run(const CellsOptions& options) {
   const std::vector<Output> outputs = open_outputs(options);
-  const Input input = read_input(options.seeds);
+  const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
@@ -127,15 +146,19 @@ void add_cells(CommandLine& line) {
   const auto options = std::make_shared<CellsOptions>();
   Command command =
       line.add("cells", "Measure the cells of one diagram: areas, centroids, neighbours, distances, borders");
-  add_seed_options(command, options->seeds, 1, false, VolumesOf::random_seeds);
+  add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
-  for (FileRequest& request : options->files) add_file_option(command, request);
-  add_cell_columns_option(command, options->files.front());
+  CellsFiles& files = options->files;
+  for (FileRequest* const request :
+       {&files.cells, &files.adjacency, &files.distance, &files.border, &files.labels}) {
+    add_file_option(command, *request);
+  }
+  add_cell_columns_option(command, files.cells);
   add_json_option(command, options->json);
   const Option exact = command.add(
       "--exact", options->exact,
@@ -147,12 +170,16 @@ void add_cells(CommandLine& line) {
       .value_name("FILE")
       .needs(exact);
   command.set_work([command, options] {
-    if (options->seeds.depth > 1) {
-      check_method_options(command, {options->method}, options->method_options);
-      return measure_volume(volume_of(command, *options));
+    if (options->is_volume()) {
+      for (const char* const name : {"--exact", "--border", "--cell-columns"}) {
+        if (command.has(name)) refuse_in_volumes(name);
+      }
+      check_volume_method(options->method);
+    } else if (options->exact) {
+      return run_exact(command, *options);
     }
-    if (options->exact) return run_exact(command, *options);
     check_method_options(command, {options->method}, options->method_options);
+    if (options->is_volume()) return run(*options);
     snap_for(options->method, options->seeds);
     if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);

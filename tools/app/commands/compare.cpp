@@ -11,6 +11,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
@@ -41,41 +42,46 @@ struct CompareOptions {
   }
 };
 
-void check_sizes(const std::string& a, const Size& of_a, const std::string& b, const Size& of_b) {
+std::string to_string(const VolumeSize& size) {
+  return size.depth > 1 ? fmt::format("{} x {} x {}", size.width, size.height, size.depth)
+                        : fmt::format("{} x {}", size.width, size.height);
+}
+
+VolumeSize size_of(const LabelImage& image) { return {image.size.width(), image.size.height(), image.depth}; }
+
+void check_sizes(const std::string& a, const VolumeSize& of_a, const std::string& b, const VolumeSize& of_b) {
   if (of_a == of_b) return;
-  throw Error(fmt::format("{} is {} x {} pixels and {} is {} x {}; only images of one size can be compared",
-                          a, of_a.width(), of_a.height(), b, of_b.width(), of_b.height()));
+  throw Error(fmt::format("{} is {} {} and {} is {}; only images of one size can be compared", a,
+                          to_string(of_a), of_a.depth > 1 ? "voxels" : "pixels", b, to_string(of_b)));
 }
 
 struct Comparison {
   double similarity;
   std::size_t pixels;
   std::size_t different_pixels;
+  bool is_volume;
   std::optional<DistanceErrors> errors;  // against the exact diagram
 };
 
-Comparison compare(const LabelImage& a, const LabelImage& b) {
-  const auto equal = std::inner_product(a.labels.begin(), a.labels.end(), b.labels.begin(), std::size_t{0},
-                                        std::plus<>(), std::equal_to<>());
-  return {similarity(a.labels, b.labels), a.labels.size(), a.labels.size() - equal, {}};
+Comparison compare(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, bool is_volume) {
+  const auto equal =
+      std::inner_product(a.begin(), a.end(), b.begin(), std::size_t{0}, std::plus<>(), std::equal_to<>());
+  return {similarity(a, b), a.size(), a.size() - equal, is_volume, {}};
 }
 
 Comparison compare_files(const CompareOptions& options) {
   const LabelImage a = read_labels(options.a), b = read_labels(options.b);
-  check_sizes(options.a, a.size, options.b, b.size);
-  return compare(a, b);
+  check_sizes(options.a, size_of(a), options.b, size_of(b));
+  return compare(a.labels, b.labels, a.depth > 1);
 }
 
 /// The labels as indices of seeds, where a file's labels carry the ids of its particles; no_label for one
 /// that is no particle's.
 std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
-                                       const std::vector<std::uint32_t>& ids,
-                                       const std::vector<std::optional<Point>>& seeds) {
+                                       const std::vector<std::uint32_t>& ids) {
   if (ids.empty()) return labels;
-  std::unordered_map<std::uint32_t, std::uint32_t> index_of;
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    if (seeds[i]) index_of.emplace(ids.at(i), static_cast<std::uint32_t>(i));
-  }
+  std::unordered_map<std::uint32_t, std::uint32_t> index_of = {{no_label, no_label}};  // of absent particles
+  for (std::size_t i = 0; i < ids.size(); ++i) index_of.emplace(ids[i], static_cast<std::uint32_t>(i));
   for (std::uint32_t& label : labels) {
     const auto found = index_of.find(label);
     label = found == index_of.end() ? no_label : found->second;
@@ -86,11 +92,16 @@ std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
 Comparison compare_with_exact(const CompareOptions& options) {
   const LabelImage image = read_labels(options.a);
   SeedOptions seed_options = options.seeds;
-  if (!seed_options.size && seed_options.width == 0) seed_options.size = image.size;
-  const Input input = read_input(seed_options);
+  if (!seed_options.size && seed_options.width == 0) {
+    seed_options.size = image.size;
+    seed_options.depth = image.depth;
+  }
+  const bool is_volume = seed_options.depth > 1;
+  if (is_volume && seed_options.usual_snap == Snap::none) refuse_in_volumes("--truth true");
+  const Input input = is_volume ? read_volume_input(seed_options) : read_input(seed_options);
   const View& view = input.view;
-  const Size& size = view.picture.size;
-  check_sizes(options.a, image.size, "the diagram of the seeds", size);
+  check_sizes(options.a, size_of(image), "the diagram of the seeds",
+              {view.picture.size.width(), view.picture.size.height(), view.window.depth()});
 
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
@@ -98,11 +109,11 @@ Comparison compare_with_exact(const CompareOptions& options) {
   Diagram exact(device, view.window);
   Diagram diagram(device, view.window);
   exact_diagram(seeds, exact, {options.metric});
-  const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids, seeds.read());
+  const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids);
   diagram.write(view.in_diagram(labels), seeds, options.metric);
   const std::vector<std::uint32_t> truth = exact.read();
   std::vector<std::uint32_t> room;
-  Comparison comparison = compare({size, labels}, {size, view.in_picture(truth, no_label, room)});
+  Comparison comparison = compare(labels, view.in_picture(truth, no_label, room), is_volume);
   DistanceErrorsResult errors;
   distance_errors(diagram, exact, errors);
   comparison.errors = errors.read();
@@ -124,14 +135,15 @@ void print_result(const CompareOptions& options, const Comparison& comparison) {
     print_json(result);
     return;
   }
-  print("similarity {:.6f} %: {} of {} pixels differ\n", comparison.similarity, comparison.different_pixels,
-        comparison.pixels);
+  const char* const pixels = comparison.is_volume ? "voxels" : "pixels";
+  print("similarity {:.6f} %: {} of {} {} differ\n", comparison.similarity, comparison.different_pixels,
+        comparison.pixels, pixels);
   if (errors) {
     print(
-        "{} pixels are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} pixels, "
+        "{} {} are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} {}, "
         "largest {:.3f}\n",
-        errors->wrong_pixels, errors->wrong_percent(), errors->unlabelled_pixels, errors->mean_excess,
-        errors->largest_excess);
+        errors->wrong_pixels, pixels, errors->wrong_percent(), errors->unlabelled_pixels, errors->mean_excess,
+        pixels, errors->largest_excess);
   }
 }
 
@@ -154,8 +166,8 @@ void run(const CompareOptions& options) {
   const Comparison comparison = options.has_seeds() ? compare_with_exact(options) : compare_files(options);
   print_result(options, comparison);
   const bool has_points = !options.seeds.points.empty() || !options.seeds.trajectory.empty();
-  if (has_points && !options.seeds.snap && options.seeds.usual_snap == Snap::to_pixels &&
-      comparison.errors->wrong_pixels > 0) {
+  if (has_points && !comparison.is_volume && !options.seeds.snap &&
+      options.seeds.usual_snap == Snap::to_pixels && comparison.errors->wrong_pixels > 0) {
     print_note(
         "the centres of the points' pixels are the truth here, as methods that flood take them; --truth true "
         "judges by the points themselves");
@@ -169,9 +181,9 @@ void add_compare(CommandLine& line) {
   Command command = line.add("compare",
                              "Similarity of two label files: the share of pixels with "
                              "equal labels; or of one and the exact diagram of seeds");
-  command.add("a", options->a, "Labels, .npy or .tif").required();
+  command.add("a", options->a, "Labels, .npy or .tif; of a volume .npy").required();
   command.add("b", options->b, "Labels of the same size");
-  add_seed_options(command, options->seeds, 0);
+  add_seed_options(command, options->seeds, 0, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_truth_option(command, options->seeds.usual_snap, "What the exact diagram is of:");
   add_metric_option(command, options->metric);

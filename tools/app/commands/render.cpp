@@ -79,9 +79,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
     print_json(result);
     return;
   }
-  print("{}: {} on {} x {} pixels in {:.1f} ms, {}, on {}\n", options.method.name,
-        counted(seeds.alive(), "seed"), view.picture.size.width(), view.picture.size.height(),
-        report.milliseconds(), counted(report.waves(), "wave"), seeds.device().name());
+  print_diagram(options.method, seeds, view, report);
   print_empty_cells(count.empty, count.cells, seeds.alive());
   print_written(requested_files(options));
 }
@@ -141,7 +139,7 @@ VolumeRendering volume_of(const Command& command, const RenderOptions& options) 
 void add_render(CommandLine& line) {
   const auto options = std::make_shared<RenderOptions>();
   Command command = line.add("render", "Make one diagram: a picture, its labels or both");
-  add_seed_options(command, options->seeds, 1, false, VolumesOf::files_too);
+  add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);

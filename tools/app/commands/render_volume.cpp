@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/commands/volume.hpp"
+#include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
@@ -51,14 +52,19 @@ Missing missing_in(const std::vector<std::uint32_t>& labels, const Seeds& seeds)
 }
 
 void print_result(const VolumeRendering& options, const Seeds& seeds, const Diagram& diagram,
-                  const Report& report, const Missing& missing) {
+                  const Report& report, const View& view, const Missing& missing) {
   if (options.json) {
-    Json json = json_of_volume(options.method, seeds, diagram, report);
-    json.update(Json{{"empty_cells", missing.cells}, {"unlabelled_voxels", missing.labels}});
+    Json json = json_of_diagram(options.method, diagram.metric(), seeds, view);
+    json.update(Json{{"seeds", seeds.alive()},
+                     {"empty_cells", missing.cells},
+                     {"unlabelled_voxels", missing.labels},
+                     {"waves", report.waves()},
+                     {"milliseconds", report.milliseconds()},
+                     {"host_milliseconds", report.host_milliseconds()}});
     print_json(json);
     return;
   }
-  print_volume(options.method, seeds, report);
+  print_diagram(options.method, seeds, view, report);
   print_cells_of_volume(missing.cells, seeds.alive(), missing.labels);
   print_written(requested_files(options));
 }
@@ -70,20 +76,20 @@ void render_volume(const VolumeRendering& options) {
   check(options, sides);
   const std::optional<OutputFile> picture = open_output(options.picture_path);
   const std::optional<OutputFile> label_file = open_output(options.labels_path);
-  const VolumeInput input = read_volume_input(options.seeds);
+  const Input input = read_volume_input(options.seeds);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
-  Diagram diagram(device, input.grid);
+  Diagram diagram(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
   std::vector<std::uint32_t> labels = diagram.read();
   cv::Mat slice;
   if (picture) slice = draw_slice(*options.slice, options.picture, seeds, labels, input.ids);
   const Missing missing = missing_in(labels, seeds);
   name_labels(labels, input.ids);
-  if (label_file) write_volume(*label_file, sides, labels);
+  if (label_file) write_voxels(*label_file, "label", input.view.voxels(), labels);
   if (picture) write_picture(*picture, slice);
-  print_result(options, seeds, diagram, report, missing);
+  print_result(options, seeds, diagram, report, input.view, missing);
 }
 
 }  // namespace vorocl::command

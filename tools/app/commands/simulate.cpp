@@ -293,7 +293,7 @@ void add_simulate(CommandLine& line) {
   const auto options = std::make_shared<SimulateOptions>();
   Command command =
       line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
-  add_seed_options(command, options->seeds, 1, true, VolumesOf::files_too);
+  add_seed_options(command, options->seeds, 1, true, Makes::volumes_too);
   add_motion_options(command, options->motion);
   add_units_option(command, options->seeds);
   add_snap_option(command, options->seeds);

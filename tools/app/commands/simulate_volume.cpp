@@ -11,6 +11,7 @@
 #include "app/outputs/frame_files.hpp"
 #include "app/outputs/frame_writer.hpp"
 #include "app/outputs/journal.hpp"
+#include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
@@ -82,10 +83,10 @@ class Files {
     if (film_->pictures() == 1) note_of_size(*film_, picture.size());
   }
 
-  void add_labels(int frame, std::int64_t time, const VolumeSize& sides,
+  void add_labels(int frame, std::int64_t time, const VolumeRaster& raster,
                   const std::vector<std::uint32_t>& labels) {
     if (!labels_) return;
-    write_volume(labels_->file(frame), sides, labels);
+    write_voxels(labels_->file(frame), "label", raster, labels);
     listed_.push_back({time, std::filesystem::path(labels_->path(frame)).filename().string()});
   }
 
@@ -101,17 +102,17 @@ class Files {
   std::optional<Film> film_;
 };
 
-void print_result(const SimulateOptions& options, const Seeds& seeds, int frames, double milliseconds) {
+void print_result(const SimulateOptions& options, const Seeds& seeds, const View& view, int frames,
+                  double milliseconds) {
   if (options.json) {
-    Json json = json_of_volume(options.method, seeds, options.method_options.metric);
-    json.update(Json{{"frames", frames}, {"milliseconds", milliseconds / frames}});
+    Json json = json_of_diagram(options.method, options.method_options.metric, seeds, view);
+    json.update(Json{{"seeds", seeds.alive()}, {"frames", frames}, {"milliseconds", milliseconds / frames}});
     print_json(json);
     return;
   }
-  const Grid& grid = seeds.grid();
-  print("{}: {} of {} x {} x {} voxels, {} in the last, {:.1f} ms per frame, on {}\n", options.method.name,
-        counted(static_cast<std::uint64_t>(frames), "frame"), grid.width(), grid.height(), grid.depth(),
-        counted(seeds.alive(), "seed"), milliseconds / frames, seeds.device().name());
+  print("{}: {} of {}, {} in the last, {:.1f} ms per frame, on {}\n", options.method.name,
+        counted(static_cast<std::uint64_t>(frames), "frame"), size_text(view), counted(seeds.alive(), "seed"),
+        milliseconds / frames, seeds.device().name());
   print_written(requested(options));
 }
 
@@ -147,7 +148,7 @@ class Run {
     cv::Mat picture;
     if (files_.draw()) picture = draw_slice(*slice_, options_.output.picture, seeds_, labels, source_.ids());
     name_labels(labels, source_.ids());
-    files_.add_labels(frame_, source_.timestep().value_or(frame_), volume_size(options_.seeds), labels);
+    files_.add_labels(frame_, source_.timestep().value_or(frame_), source_.view().voxels(), labels);
     if (files_.draw()) files_.add_picture(frame_, picture);
   }
 
@@ -196,7 +197,7 @@ void simulate_volume(const Command& command, const SimulateOptions& options,
   if (!trouble.empty()) {
     throw Error(fmt::format("{}; frames complete before that: {}", trouble, run.frames()));
   }
-  print_result(options, run.seeds(), run.frames(), run.milliseconds());
+  print_result(options, run.seeds(), source.view(), run.frames(), run.milliseconds());
 }
 
 }  // namespace vorocl::command

@@ -6,9 +6,7 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
-#include "app/terminal/console.hpp"
 #include "formats/raster.hpp"
-#include "vorocl/diagram.hpp"
 #include "vorocl/method.hpp"
 
 namespace vorocl::command {
@@ -21,11 +19,6 @@ void check_volume_method(const Method& method);
 
 /// Puts the ids that labels stand for in their place, if there are any.
 void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids);
-
-/// What every command says of the volume that it made.
-Json json_of_volume(const Method& method, const Seeds& seeds, Metric metric);
-Json json_of_volume(const Method& method, const Seeds& seeds, const Diagram& diagram, const Report& report);
-void print_volume(const Method& method, const Seeds& seeds, const Report& report);
 
 /// Says which seeds own no voxel and which voxels no method reached; nothing if there are none.
 void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled);

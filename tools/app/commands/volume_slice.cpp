@@ -89,6 +89,9 @@ void check_slice(const std::optional<VolumeSlice>& slice, const std::string& pic
                                  slice->at, side - 1));
   }
   const char* const of_planes = options.color.quantity != Quantity::id ? "--color"
+                                : options.color_bar                    ? "--color-bar"
+                                : options.scale                        ? "--scale"
+                                : options.logarithmic                  ? "--log"
                                 : options.contours                     ? "--contours"
                                 : options.stamp                        ? "--stamp"
                                                                        : nullptr;

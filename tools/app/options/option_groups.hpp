@@ -20,13 +20,13 @@ Option add_metric_option(Command& command, Metric& metric);
 Option add_device_option(Command& command, std::string& request);
 Option add_json_option(Command& command, bool& json);
 
-/// What a subcommand makes volumes of.
-enum class VolumesOf { nothing, random_seeds, files_too };
+/// What a subcommand makes of seeds.
+enum class Makes { planes, volumes_too };
 
 /// Adds --random, --points, --mask, --trajectory, of which at least so many and at most one must be given,
 /// and what goes with them. Where seeds `move` at random, all of them have a use for the rng seed.
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least = 1, bool move = false,
-                      VolumesOf volumes = VolumesOf::nothing);
+                      Makes makes = Makes::planes);
 
 /// Adds --random and --points, of which one must be given, and what goes with them, for planes.
 void add_plane_options(Command& command, PlaneInputOptions& options);

@@ -69,7 +69,11 @@ void add_bounds_option(Command& command, SeedOptions& options, const std::string
 /// "X0,Y0,X1,Y1", or "X0,Y0,Z0,X1,Y1,Z1" of a volume, whose z is set apart.
 Bounds parse_bounds_and_z(const std::string& text, std::optional<std::pair<double, double>>& z) {
   z.reset();
-  if (std::count(text.begin(), text.end(), ',') != 5) return parse_bounds(text);
+  const auto commas = std::count(text.begin(), text.end(), ',');
+  if (commas == 3) return parse_bounds(text);
+  const Error error("\"" + text + "\" must be X0,Y0,X1,Y1 or, of a volume, X0,Y0,Z0,X1,Y1,Z1: numbers with " +
+                    "X0 < X1, Y0 < Y1 and Z0 < Z1");
+  if (commas != 5) throw error;
   std::vector<std::string> numbers;
   for (std::size_t begin = 0; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
@@ -82,8 +86,15 @@ Bounds parse_bounds_and_z(const std::string& text, std::optional<std::pair<doubl
     z = {along_z.y0, along_z.y1};
     return bounds;
   } catch (const Error&) {
-    throw Error("\"" + text + "\" must be X0,Y0,Z0,X1,Y1,Z1: six numbers with X0 < X1, Y0 < Y1 and Z0 < Z1");
+    throw error;
   }
+}
+
+Bounds parse_domain(const std::string& text) {
+  if (std::count(text.begin(), text.end(), ',') == 5) {
+    throw Error("\"" + text + "\" are six numbers; the periods of a volume are its --bounds");
+  }
+  return parse_bounds(text);
 }
 
 void add_outside_option(Command& command, SeedOptions& options) {
@@ -139,9 +150,9 @@ Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
   if (second == std::string::npos) return parse_size(text);
   const auto slices = parse_number<std::int64_t>(text.substr(second + 1));
   if (!slices) throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
-  if (*slices < 1 || *slices > Window::max_side_of_volume) {
-    throw Error(
-        fmt::format("the depth is {}; it must be from 1 to {} voxels", *slices, Window::max_side_of_volume));
+  if (*slices < 2 || *slices > Window::max_side_of_volume) {
+    throw Error(fmt::format("the depth is {}; it must be from 2 to {} voxels; --size WxH makes a plane",
+                            *slices, Window::max_side_of_volume));
   }
   depth = *slices;
   return parse_size(text.substr(0, second));
@@ -162,6 +173,7 @@ int parse_width(const std::string& text) {
 }
 
 std::optional<Grid> parse_plane(const std::string& text) {
+  if (std::count(text.begin(), text.end(), 'x') == 2) throw Error(volumes_are_for);
   const auto [width, height] = parse_sides(text);
   const auto check = [](const char* name, std::int64_t side) {
     if (side >= 1 && side <= Axis::max_pixels) return;
@@ -175,9 +187,8 @@ std::optional<Grid> parse_plane(const std::string& text) {
 
 }  // namespace
 
-void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move,
-                      VolumesOf volumes_of) {
-  const bool volumes = volumes_of == VolumesOf::files_too;
+void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, Makes makes) {
+  const bool volumes = makes == Makes::volumes_too;
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
   if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
   constexpr std::size_t most_seeds = Window::max_pixels;
@@ -194,9 +205,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   add_columns_option(command, options, volumes).needs(points);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
-      (volumes                                 ? "; with a depth, those of a volume"
-       : volumes_of == VolumesOf::random_seeds ? "; with a depth, those of a volume of random seeds"
-                                               : "");
+      (volumes ? "; with a depth, those of a volume" : "");
   const Option size = command
                           .add(
                               "--size",
@@ -204,7 +213,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
                                 options.size = parse_size_and_depth(text, options.depth);
                               },
                               about_size)
-                          .value_name(volumes_of == VolumesOf::nothing ? "WxH" : "WxH[xD]");
+                          .value_name(volumes ? "WxH[xD]" : "WxH");
   command
       .add_parsed(
           "--width", options.width, parse_width,
@@ -226,7 +235,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   add_outside_option(command, options);
   command
       .add_parsed(
-          "--domain", options.domain, parse_bounds,
+          "--domain", options.domain, parse_domain,
           "Rectangle in data units that repeats along the periodic axes of points; the bounds may be a part "
           "of it")
       .value_name("X0,Y0,X1,Y1")
@@ -234,8 +243,8 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   const std::string about_periodic =
       "Axes along which the plane repeats: distances go the shorter way round, cells reach across the "
       "border, and points outside the domain wrap";
-  (volumes_of != VolumesOf::nothing ? add_periodic_option_with_z(command, options, about_periodic)
-                                    : add_periodic_option(command, options, about_periodic))
+  (volumes ? add_periodic_option_with_z(command, options, about_periodic)
+           : add_periodic_option(command, options, about_periodic))
       .default_text("what a trajectory's file says, else none");
   add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
 }

@@ -21,11 +21,6 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
-/// In pixels, of what CellShape has.
-double distance_of(double distance, Metric metric) {
-  return metric == Metric::euclidean ? std::sqrt(distance) : distance;
-}
-
 /// A cell as its row in a table: pixels of the picture in the view's units. A value may be unknown, of a cell
 /// without pixels.
 class CellRow {
@@ -47,9 +42,7 @@ class CellRow {
   Value bottom() const { return if_full(extent().bottom); }
   Value perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
   Value neighbours() const { return measures_.neighbours()[label_]; }
-  Value largest_distance() const {
-    return if_full(view_.units.length(distance_of(shape().largest_distance, measures_.metric())));
-  }
+  Value largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
   Value touches_border() const { return shape().touches_border ? 1 : 0; }
 
  private:

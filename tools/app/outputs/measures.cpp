@@ -1,5 +1,7 @@
 #include "app/outputs/measures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -50,7 +52,7 @@ const Diagram& Measures::diagram() const {
 
 const std::vector<std::uint32_t>& Measures::labels() {
   if (!has_labels_) {
-    images_.labels.resize(view_.size().pixels());
+    images_.labels.resize(view_.window.pixels());
     diagram().read(images_.labels.data());
   }
   has_labels_ = true;
@@ -60,7 +62,7 @@ const std::vector<std::uint32_t>& Measures::labels() {
 const std::vector<float>& Measures::distances() {
   if (!has_distances_) {
     distance_field(diagram(), buffers_.distances);
-    images_.distances.resize(view_.size().pixels());
+    images_.distances.resize(view_.window.pixels());
     buffers_.distances.read(images_.distances.data());
   }
   has_distances_ = true;
@@ -82,6 +84,13 @@ const std::vector<std::optional<Point>>& Measures::seeds() {
       if (point) point = view_.from_grid(*point);
     }
     return points;
+  });
+}
+
+const std::vector<std::optional<Point3>>& Measures::voxels() {
+  return once(voxels_, [&] {
+    diagram();
+    return seeds_->read_voxels();
   });
 }
 
@@ -179,14 +188,15 @@ std::vector<double> Measures::areas() {
 }
 
 std::vector<std::uint32_t> Measures::cells() {
-  const Size size = view_.size();
-  std::vector<std::uint32_t> cells;
-  cells.reserve(seeds().size());
-  for (std::size_t label = 0; label < seeds().size(); ++label) {
+  const auto is_inside = [this, size = view_.size()](std::size_t label) {
+    if (view_.window.grid().is_volume()) return voxels()[label].has_value();
     const std::optional<Point>& seed = seeds()[label];
-    if (seed && (pixels()[label] > 0 || size.holds(*seed))) {
-      cells.push_back(static_cast<std::uint32_t>(label));
-    }
+    return seed && size.holds(*seed);
+  };
+  std::vector<std::uint32_t> cells;
+  cells.reserve(pixels().size());
+  for (std::size_t label = 0; label < pixels().size(); ++label) {
+    if (pixels()[label] > 0 || is_inside(label)) cells.push_back(static_cast<std::uint32_t>(label));
   }
   const auto by_id = [this](std::uint32_t a, std::uint32_t b) { return id_of(a) < id_of(b); };
   if (!std::is_sorted(cells.begin(), cells.end(), by_id)) std::sort(cells.begin(), cells.end(), by_id);
@@ -228,14 +238,29 @@ const AdjacencyResult& Measures::adjacency_result() {
 }
 
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
-  return {{"method", method.name},
-          {"metric", to_string(metric)},
-          {"device", seeds.device().name()},
-          {"width", view.picture.size.width()},
-          {"height", view.picture.size.height()},
-          {"periodic", to_string(seeds.grid().periodic())},
-          {"area_unit", view.units.of_area()},
-          {"length_unit", view.units.of_length()}};
+  const Grid& grid = seeds.grid();
+  Json json = {{"method", method.name},
+               {"metric", to_string(metric)},
+               {"device", seeds.device().name()},
+               {"width", view.picture.size.width()},
+               {"height", view.picture.size.height()}};
+  if (grid.is_volume()) json["depth"] = grid.depth();
+  json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
+                   {grid.is_volume() ? "volume_unit" : "area_unit", view.units.of_area()},
+                   {"length_unit", view.units.of_length()}});
+  return json;
+}
+
+std::string size_text(const View& view) {
+  const Size& slice = view.picture.size;
+  const std::int64_t depth = view.window.depth();
+  return depth > 1 ? fmt::format("{} x {} x {} voxels", slice.width(), slice.height(), depth)
+                   : fmt::format("{} x {} pixels", slice.width(), slice.height());
+}
+
+void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report) {
+  print("{}: {} on {} in {:.1f} ms, {}, on {}\n", method.name, counted(seeds.alive(), "seed"),
+        size_text(view), report.milliseconds(), counted(report.waves(), "wave"), seeds.device().name());
 }
 
 }  // namespace vorocl::command

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/sources/view.hpp"
@@ -71,13 +73,20 @@ class Measures {
   const std::vector<float>& distances();
   const std::vector<std::uint8_t>& borders();
 
-  /// The centres of the seeds' pixels.
+  /// The centres of the seeds' pixels, and in a volume of their voxels.
   const std::vector<std::optional<Point>>& seeds();
+  const std::vector<std::optional<Point3>>& voxels();
 
   /// The pixels of the cells: alone in less time than their sums, if these were not read before.
   const std::vector<std::uint32_t>& pixels();
   const std::vector<CellSums>& sums();
   const std::vector<CellShape>& shapes();
+
+  /// How far the farthest pixel of a cell is from its seed.
+  double largest_distance(std::size_t label) {
+    const double distance = shapes()[label].largest_distance;
+    return metric_ == Metric::euclidean ? std::sqrt(distance) : distance;
+  }
 
   /// The cells that share a pixel edge with one, and how many edges that is.
   const std::vector<std::uint32_t>& neighbours();
@@ -133,6 +142,7 @@ class Measures {
   const std::vector<std::uint32_t>* ids_in_picture_ = nullptr;
   std::optional<std::vector<std::uint8_t>> borders_;
   std::optional<std::vector<std::optional<Point>>> points_;
+  std::optional<std::vector<std::optional<Point3>>> voxels_;
   std::optional<std::vector<std::uint32_t>> pixels_, neighbours_, perimeters_;
   std::optional<std::vector<CellSums>> sums_;
   std::optional<std::vector<CellShape>> shapes_;
@@ -142,5 +152,11 @@ class Measures {
 
 /// How a diagram of seeds was made, and how it stands in the data.
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
+
+/// "512 x 256 pixels", the picture's; of a volume "64 x 32 x 16 voxels".
+std::string size_text(const View& view);
+
+/// The same on standard output, in a line.
+void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report);
 
 }  // namespace vorocl::command

@@ -124,9 +124,7 @@ CsvPoints read_points(const SeedOptions& options) {
 }
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {
-  if (options.depth > 1) {
-    throw UsageError("--size WxHxD asks for a volume, which vorocl render, cells and simulate make");
-  }
+  if (options.depth > 1) throw UsageError(std::string("--size ") + volumes_are_for);
   const char* const of_volumes = options.z_bounds     ? "--bounds with six numbers"
                                  : options.periodic_z ? "--periodic with z"
                                  : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"

@@ -67,6 +67,10 @@ void check_seed_options(const SeedOptions& options, bool needs_size = true);
 /// Error if the file is bad.
 CsvPoints read_points(const SeedOptions& options);
 
+/// What a command that makes planes alone says of a volume, behind "--size".
+constexpr const char* volumes_are_for =
+    "WxHxD asks for a volume, which vorocl render, cells, simulate, compare and bench make";
+
 /// Whether the data's y axis points up: that of a trajectory does unless the options say otherwise.
 bool points_up(const SeedOptions& options);
 

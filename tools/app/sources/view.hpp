@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -34,43 +35,44 @@ struct Ratio {
   double of(double count) const { return count * data / pixels; }
 };
 
-/// The least rectangle around pixels.
+/// The least rectangle around pixels; in a volume the least box around voxels.
 struct Extent {
   double left, top, right, bottom;
+  double front = 0, back = 0;  ///< of a box
 };
 
 /// Positions, areas and lengths of pixels, in data units where there are bounds. A length has a scale only
-/// where pixels are squares: elsewhere lengths stay in pixels.
+/// where pixels are squares, and voxels cubes: elsewhere lengths stay in pixels.
+///
+/// In a volume an area is the volume of voxels, and a border between cells is an area of their faces.
 class Units {
  public:
   /// Pixels.
   Units() = default;
 
   /// An axis without an extent, has no scale: then all stays in pixels.
-  Units(const AxisScale& x, const AxisScale& y, bool square) {
-    if (x.side_of_pixel() == 0 || y.side_of_pixel() == 0) return;
-    x_ = x;
-    y_ = y;
-    area_ = {x.length() * y.length(), x.pixels() * y.pixels()};
-    area_in_data_ = true;
-    if (!square) return;
-    // The sides differ by the rounding of the picture's height alone.
-    length_ = {std::sqrt(area_.data), std::sqrt(area_.pixels)};
-    length_in_data_ = true;
-  }
+  Units(const AxisScale& x, const AxisScale& y, bool square) : Units({x, y, {}}, square, 2) {}
+  Units(const AxisScale& x, const AxisScale& y, const AxisScale& z, bool cubes)
+      : Units({x, y, z}, cubes, 3) {}
 
   /// Of a position in pixels of the picture.
   Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y)}; }
+  Point3 position(const Point3& voxels) const { return {x_.at(voxels.x), y_.at(voxels.y), z_.at(voxels.z)}; }
+
+  /// The sides of a pixel.
+  Point3 sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
 
   /// The extent of an area from its first column and row to its last: of pixels these, of data the edges of
   /// both.
   Extent extent(const Extent& pixels) const {
     if (!area_in_data_) return pixels;
-    return {x_.at(pixels.left), y_.at(pixels.top), x_.at(pixels.right + 1), y_.at(pixels.bottom + 1)};
+    return {x_.at(pixels.left),       y_.at(pixels.top),   x_.at(pixels.right + 1),
+            y_.at(pixels.bottom + 1), z_.at(pixels.front), z_.at(pixels.back + 1)};
   }
 
   double area(double pixels) const { return area_.of(pixels); }
   double length(double pixels) const { return length_.of(pixels); }
+  double border(double edges) const { return border_.of(edges); }
   std::vector<float> lengths(std::vector<float> pixels) const {
     if (!length_in_data_) return pixels;
     for (float& length : pixels) length = static_cast<float>(this->length(static_cast<double>(length)));
@@ -84,7 +86,9 @@ class Units {
   /// The first line of a table with these columns: where lengths stay in pixels beside positions in data
   /// units, the names of their columns say so.
   std::string header(const std::vector<std::string>& columns) const {
-    static const std::set<std::string> lengths = {"perimeter", "largest_distance", "length"};
+    static const std::set<std::string> of_planes = {"perimeter", "largest_distance", "length"},
+                                       of_volumes = {"surface", "largest_distance", "area"};
+    const std::set<std::string>& lengths = is_volume_ ? of_volumes : of_planes;
     const bool say_so = area_in_data_ && !length_in_data_;
     std::string text;
     for (const std::string& column : columns)
@@ -93,17 +97,36 @@ class Units {
   }
 
   /// The same as titles have them: "data units^2", "px".
-  const char* area_title() const { return area_in_data_ ? "data units^2" : "px"; }
+  const char* area_title() const {
+    return area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : is_volume_ ? "voxels" : "px";
+  }
   const char* length_title() const { return length_in_data_ ? "data units" : "px"; }
 
  private:
-  AxisScale x_, y_;
-  Ratio area_, length_;
-  bool area_in_data_ = false, length_in_data_ = false;
+  Units(const std::array<AxisScale, 3>& axes, bool square, int dimensions) : is_volume_(dimensions == 3) {
+    for (const AxisScale& axis : axes) {
+      if (axis.side_of_pixel() == 0) return;
+    }
+    x_ = axes[0];
+    y_ = axes[1];
+    z_ = axes[2];
+    area_ = {x_.length() * y_.length() * z_.length(), x_.pixels() * y_.pixels() * z_.pixels()};
+    area_in_data_ = true;
+    if (!square) return;
+    // The sides differ by the rounding of the picture's height alone.
+    length_ = is_volume_ ? Ratio{std::cbrt(area_.data), std::cbrt(area_.pixels)}
+                         : Ratio{std::sqrt(area_.data), std::sqrt(area_.pixels)};
+    border_ = is_volume_ ? Ratio{length_.data * length_.data, length_.pixels * length_.pixels} : length_;
+    length_in_data_ = true;
+  }
+
+  AxisScale x_, y_, z_;
+  Ratio area_, length_, border_;
+  bool is_volume_ = false, area_in_data_ = false, length_in_data_ = false;
 };
 
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation
-/// box.
+/// box. The picture of a volume is a slice of it.
 struct View {
   Raster picture;    ///< what files and pictures show
   Window window;     ///< of the diagram
@@ -117,6 +140,12 @@ struct View {
 
   bool fills_picture() const { return size() == picture.size; }
 
+  /// Of a volume.
+  VolumeRaster voxels() const {
+    const VolumeSize sides = {window.width(), window.height(), window.depth()};
+    return {sides, units.position(Point3{0, 0, 0}), units.sides()};
+  }
+
   /// A position in pixels of the grid, in pixels of the diagram.
   Point from_grid(const Point& of_grid) const {
     return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y)};
@@ -124,7 +153,7 @@ struct View {
 
   /// A position in pixels of the diagram, in the view's units.
   Point position(const Point& of_diagram) const {
-    return units.position({of_diagram.x + x, of_diagram.y + y});
+    return units.position(Point{of_diagram.x + x, of_diagram.y + y});
   }
 
   /// The picture of values by pixel of the diagram, with another value beyond them: these values where they

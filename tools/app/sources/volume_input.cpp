@@ -90,14 +90,17 @@ void check_inside(const std::vector<Point3>& points, const std::vector<std::uint
   }
 }
 
-/// Warns unless voxels are cubes in data units, to the nearest whole number of voxels. Returns whether it
-/// did.
-bool warn_of_voxels(const Grid& grid) {
+/// True if voxels are cubes in data units, to the nearest whole number of voxels.
+bool has_cubes(const Grid& grid) {
   const auto is_square = [](const Axis& a, const Axis& b) {
     return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
   };
-  if (is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z()))
-    return false;
+  return is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z());
+}
+
+/// Warns unless voxels are cubes. Returns whether it did.
+bool warn_of_voxels(const Grid& grid) {
+  if (has_cubes(grid)) return false;
   print_warning(fmt::format(
       "the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
       "data units; a --size like the bounds keeps voxels cubes",
@@ -119,13 +122,24 @@ std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
                           bad->x, bad->y, bad->z));
 }
 
-VolumeInput input_from(const Grid& grid, const std::vector<Point3>& points,
-                       const std::vector<std::uint32_t>& ids) {
-  return {grid, [grid, points](const Device& device) { return Seeds(device, grid, points, Outside::refuse); },
-          ids};
+/// How a volume stands in the data, of which a voxel of random seeds knows nothing.
+View view_of(const Grid& grid, bool in_pixels) {
+  View view = {Size(grid.width(), grid.height()), grid};
+  if (!in_pixels) {
+    view.units = Units(AxisScale{grid.x()}, AxisScale{grid.y()}, AxisScale{grid.z()}, has_cubes(grid));
+  }
+  return view;
 }
 
-VolumeInput input_from_points(const SeedOptions& options) {
+Input input_from(const View& view, const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids,
+                 std::optional<std::int64_t> timestep) {
+  const auto place = [grid = view.window.grid(), points](const Device& device) {
+    return Seeds(device, grid, points, Outside::refuse);
+  };
+  return {view, place, ids, {}, false, timestep};
+}
+
+Input input_from_points(const SeedOptions& options) {
   const std::vector<Point3> points = read_points_of_volume(options);
   try {
     const std::optional<Sides> given = given_sides(options);
@@ -138,23 +152,24 @@ VolumeInput input_from_points(const SeedOptions& options) {
         std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    return input_from(grid, points, {});
+    return input_from(view_of(grid, in_pixels(options)), points, {}, {});
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
 }
 
-VolumeInput input_at_random(const SeedOptions& options) {
+Input input_at_random(const SeedOptions& options) {
   const auto axis = [](std::int64_t voxels, bool is_periodic) {
     return is_periodic ? Axis(voxels).periodic() : Axis(voxels);
   };
   const Periodic periodic = options.periodic.value_or(Periodic::none);
   const Grid grid(axis(options.size->width(), has_x(periodic)), axis(options.size->height(), has_y(periodic)),
                   axis(options.depth, options.periodic_z));
-  return {grid,
+  return {view_of(grid, true),
           [grid, count = options.random, seed = options.rng_seed](const Device& device) {
             return Seeds::random(device, grid, count, seed);
           },
+          {},
           {}};
 }
 
@@ -185,6 +200,8 @@ bool VolumeFrames::next() {
   take_frame();
   return true;
 }
+
+View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_)); }
 
 void VolumeFrames::take_frame() {
   points_.resize(frame_.positions.size());
@@ -221,16 +238,20 @@ void refuse_in_volumes(const std::string& option) {
 void check_volume_options(const SeedOptions& options) {
   const char* const of_planes = !options.mask.empty() ? "--mask"
                                 : options.width != 0  ? "--width"
-                                : options.domain      ? "--domain"
                                 : options.outside     ? "--outside"
                                 : options.y_up        ? "--y-up"
                                 : options.y_down      ? "--y-down"
                                 : options.snap        ? (*options.snap == Snap::none ? "--no-snap" : "--snap")
-                                : options.units       ? "--units"
                                 : !options.value_column.empty() ? "--color column:NAME"
                                                                 : nullptr;
   if (of_planes != nullptr) refuse_in_volumes(of_planes);
-  if (options.bounds && options.random > 0) throw UsageError("--bounds needs --points or --trajectory");
+  if (options.domain) throw UsageError("--domain is for planes; the periods of a volume are its --bounds");
+  const char* const of_data = options.bounds                        ? "--bounds"
+                              : options.units == MeasureUnits::data ? "--units data"
+                                                                    : nullptr;
+  if (of_data != nullptr && options.random > 0) {
+    throw UsageError(std::string(of_data) + " needs --points or --trajectory");
+  }
   if (options.bounds && !options.z_bounds) {
     throw UsageError("the --bounds of a volume are six numbers: X0,Y0,Z0,X1,Y1,Z1");
   }
@@ -239,11 +260,12 @@ void check_volume_options(const SeedOptions& options) {
   }
 }
 
-VolumeInput read_volume_input(const SeedOptions& options) {
+Input read_volume_input(const SeedOptions& options) {
+  check_volume_options(options);
   if (options.random > 0) return input_at_random(options);
   if (!options.points.empty()) return input_from_points(options);
   const VolumeFrames frames(options, options.frame);
-  return input_from(frames.grid(), frames.points(), frames.ids());
+  return input_from(frames.view(), frames.points(), frames.ids(), frames.timestep());
 }
 
 }  // namespace vorocl::command

@@ -2,25 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/sources/seed_input.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
-
-struct SeedOptions;
-
-/// Seeds of a volume that were read and checked, and that a device can now be given.
-struct VolumeInput {
-  Grid grid;
-  std::function<Seeds(const Device&)> place;
-  std::vector<std::uint32_t> ids;  // that labels carry, by seed; empty: the seeds' own
-};
 
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
@@ -36,6 +27,7 @@ class VolumeFrames {
   bool next();
 
   const Grid& grid() const { return *grid_; }
+  View view() const;
   const std::vector<Point3>& points() const { return points_; }
 
   /// The particles' ids, by seed.
@@ -61,8 +53,7 @@ class VolumeFrames {
 /// Throws UsageError for options of seeds that volumes do not have.
 void check_volume_options(const SeedOptions& options);
 
-/// Reads and checks the files of options that have been checked. Throws Error if a file is bad or a point is
-/// outside the bounds; warns on standard error where the axes get different scales.
-VolumeInput read_volume_input(const SeedOptions& options);
+/// As read_input(), of a volume. A point outside the bounds is an Error.
+Input read_volume_input(const SeedOptions& options);
 
 }  // namespace vorocl::command

@@ -162,7 +162,7 @@ SimulationBox LammpsDump::read_box(std::string_view title, std::size_t frame_lin
   const BoxAxis x_axis{x[0] - std::min(0.0, tilt), x[1] - std::max(0.0, tilt), sides[0]};
   const BoxAxis y_axis{y[0], y[1], sides[1]};
   if (!is_negligible(y[2], x_axis.length()) || !is_negligible(z[2], y_axis.length())) {
-    throw lines_.error("the box is tilted in z (xz, yz); only a tilt xy can be drawn in the plane");
+    throw lines_.error("the box is tilted in z (xz, yz); planes take a tilt xy alone, and volumes none");
   }
   return SimulationBox(lines_, x_axis, y_axis, {z[0], z[1], sides[2]}, tilt);
 }

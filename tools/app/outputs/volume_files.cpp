@@ -1,0 +1,112 @@
+#include "app/outputs/volume_files.hpp"
+
+#include <fmt/format.h>
+
+#include <initializer_list>
+#include <optional>
+#include <string_view>
+
+#include "app/outputs/table_rows.hpp"
+#include "formats/raster_files.hpp"
+
+namespace vorocl::command {
+
+namespace {
+
+/// A value of a row; none of a cell without voxels.
+using Value = std::optional<double>;
+
+void add_row(fmt::memory_buffer& text, const std::string& first, std::initializer_list<Value> values) {
+  text.append(std::string_view(first));
+  bool is_first = true;
+  for (const Value& value : values) {
+    if (!is_first) text.push_back(',');
+    is_first = false;
+    if (value) add_number(text, *value);
+  }
+  text.push_back('\n');
+}
+
+void read_cells(Measures& measures) {
+  measures.voxels();
+  measures.sums();
+  measures.pixels();  // behind the sums, which have them
+  measures.shapes();
+  measures.neighbours();
+  measures.perimeters();
+}
+
+void add_cells(GrowingFile& table, const std::string& first, Measures& measures) {
+  const Units& units = measures.view().units;
+  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, std::uint32_t label) {
+    const CellSums& sums = measures.sums()[label];
+    const CellShape& shape = measures.shapes()[label];
+    const Point3 seed = units.position(*measures.voxels()[label]),
+                 centroid = units.position(sums.centroid3());
+    const auto side = [](int voxel) { return static_cast<double>(voxel); };
+    const Extent box = units.extent({side(shape.left), side(shape.top), side(shape.right), side(shape.bottom),
+                                     side(shape.front), side(shape.back)});
+    const auto if_full = [&](double value) { return sums.area > 0 ? Value(value) : Value(); };
+    const double farthest = units.length(measures.largest_distance(label));
+    add_row(text, first,
+            {measures.id_of(label), seed.x, seed.y, seed.z, units.area(sums.area), if_full(centroid.x),
+             if_full(centroid.y), if_full(centroid.z), if_full(box.left), if_full(box.top),
+             if_full(box.front), if_full(box.right), if_full(box.bottom), if_full(box.back),
+             units.border(measures.perimeters()[label]), measures.neighbours()[label], if_full(farthest),
+             shape.touches_border ? 1 : 0});
+  });
+}
+
+void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
+  const Units& units = measures.view().units;
+  add_rows(table, measures.pairs_by_id(), [&](fmt::memory_buffer& text, const CellPair& pair) {
+    add_row(text, first, {pair.a, pair.b, units.border(pair.length)});
+  });
+}
+
+void write_labels_of_volume(const OutputFile& file, Measures& measures) {
+  write_voxels(file, "label", measures.view().voxels(), measures.labels_by_id());
+}
+
+void write_distances_of_volume(const OutputFile& file, Measures& measures) {
+  const View& view = measures.view();
+  write_voxels(file, "distance", view.voxels(), view.units.lengths(measures.distances()));
+}
+
+}  // namespace
+
+const FileKind& volume_labels_kind() {
+  static const FileKind kind = {"--labels", "Labels of a volume: .npy (uint32) or .vti", volume_extensions(),
+                                [](Measures& measures) { measures.labels_by_id(); }, write_labels_of_volume};
+  return kind;
+}
+
+const FileKind& volume_distance_kind() {
+  static const FileKind kind = {
+      "--distance", "Distances to the nearest seed in a volume: .npy (float32) or .vti", volume_extensions(),
+      [](Measures& measures) { measures.distances(); }, write_distances_of_volume};
+  return kind;
+}
+
+const FileKind& volume_cells_kind() {
+  static const FileKind kind = {"--cells",
+                                "A .csv file with one row per cell of a volume",
+                                {".csv"},
+                                read_cells,
+                                TableKind{{"id", "x", "y", "z", "volume", "centroid_x", "centroid_y",
+                                           "centroid_z", "left", "top", "front", "right", "bottom", "back",
+                                           "surface", "neighbours", "largest_distance", "touches_border"},
+                                          add_cells}};
+  return kind;
+}
+
+const FileKind& volume_adjacency_kind() {
+  static const FileKind kind = {"--adjacency",
+                                "A .csv file with one row per pair of cells of a volume that touch",
+                                {".csv"},
+                                [](Measures& measures) { measures.pairs(); },
+                                TableKind{{"a", "b", "area"}, add_pairs}};
+  return kind;
+}
+
+}  // namespace vorocl::command
