@@ -7,6 +7,7 @@
 
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
+#include "formats/id_order.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -18,6 +19,19 @@ template <typename T, typename Make>
 const T& once(std::optional<T>& made, const Make& make) {
   if (!made) made = make();
   return *made;
+}
+
+/// By the id of each; those of one id stay in their order.
+template <typename T, typename IdOf>
+std::vector<T> in_order(const std::vector<T>& items, const IdOf& id_of_item) {
+  std::vector<IdAndRow> rows, spare;
+  rows.reserve(items.size());
+  for (const T& item : items) rows.push_back(id_and_row(id_of_item(item), rows.size()));
+  sort_by_id(rows, spare);
+  std::vector<T> sorted;
+  sorted.reserve(items.size());
+  for (const IdAndRow row : rows) sorted.push_back(items[row_of(row)]);
+  return sorted;
 }
 
 }  // namespace
@@ -188,9 +202,8 @@ std::vector<std::uint32_t> Measures::cells() {
       cells.push_back(static_cast<std::uint32_t>(label));
     }
   }
-  const auto by_id = [this](std::uint32_t a, std::uint32_t b) { return id_of(a) < id_of(b); };
-  if (!std::is_sorted(cells.begin(), cells.end(), by_id)) std::sort(cells.begin(), cells.end(), by_id);
-  return cells;
+  if (ids_.empty()) return cells;
+  return in_order(cells, [this](std::uint32_t label) { return id_of(label); });
 }
 
 std::vector<CellPair> Measures::pairs_by_id() {
@@ -199,11 +212,8 @@ std::vector<CellPair> Measures::pairs_by_id() {
   for (CellPair& pair : pairs) {
     std::tie(pair.a, pair.b) = std::minmax({id_of(pair.a), id_of(pair.b)});
   }
-  const auto by_ids = [](const CellPair& p, const CellPair& q) {
-    return std::tie(p.a, p.b) < std::tie(q.a, q.b);
-  };
-  if (!std::is_sorted(pairs.begin(), pairs.end(), by_ids)) std::sort(pairs.begin(), pairs.end(), by_ids);
-  return pairs;
+  return in_order(in_order(pairs, [](const CellPair& pair) { return pair.b; }),
+                  [](const CellPair& pair) { return pair.a; });
 }
 
 CellSumsResult& Measures::sums_result() {
