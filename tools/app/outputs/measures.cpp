@@ -154,16 +154,12 @@ CellCount Measures::cell_count() {
   if (!diagram().window().is_whole() || seeds_->outside() > 0 || !is_copied) {
     return {statistics().cells, statistics().empty_cells};
   }
-  std::vector<bool> has_pixels(seeds_->size());
-  std::size_t count = 0;
-  std::uint32_t last = no_label;
-  for (const std::uint32_t label : labels()) {
-    if (label == last) continue;
-    last = label;
-    if (label == no_label || has_pixels.at(label)) continue;
-    has_pixels[label] = true;
-    ++count;
-  }
+  // To mark a cell for each pixel takes less time than to ask whether the pixel is one of the last one's
+  // cell, which no processor foresees.
+  const auto none = static_cast<std::uint32_t>(seeds_->size());
+  std::vector<std::uint8_t> has_pixels(seeds_->size() + 1);
+  for (const std::uint32_t label : labels()) has_pixels[std::min(label, none)] = 1;
+  const auto count = static_cast<std::size_t>(std::count(has_pixels.begin(), has_pixels.end() - 1, 1));
   return {seeds_->alive(), seeds_->alive() - count};
 }
 
