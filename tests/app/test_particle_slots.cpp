@@ -9,11 +9,23 @@
 #include "app/sources/particles.hpp"
 
 using namespace vorocl::command;
+using vorocl::Point;
+
+namespace {
+
+/// Places that follow each other in the plane.
+std::vector<Point> in_a_row(std::size_t count) {
+  std::vector<Point> places;
+  while (places.size() < count) places.push_back({static_cast<double>(places.size()), 0});
+  return places;
+}
+
+}  // namespace
 
 BOOST_AUTO_TEST_CASE(slots_stay_and_are_given_away_after_a_frame) {
   ParticleSlots slots;
   const auto update = [&](const std::vector<std::uint32_t>& ids) {
-    slots.update(ids);
+    slots.update(ids, in_a_row(ids.size()));
     return slots.of_ids();
   };
   using Slots = std::vector<std::uint32_t>;
@@ -26,6 +38,17 @@ BOOST_AUTO_TEST_CASE(slots_stay_and_are_given_away_after_a_frame) {
   BOOST_TEST(slots.size() <= 6u);
 }
 
+BOOST_AUTO_TEST_CASE(newcomers_have_slots_in_the_order_of_the_plane) {
+  using Slots = std::vector<std::uint32_t>;
+  ParticleSlots slots;
+  slots.update({10, 20, 30, 40}, {{7, 40}, {5, 3}, {4, 15.5}, {4, 16}});
+  BOOST_TEST(slots.of_ids() == (Slots{3, 1, 0, 2}));
+  slots.update({10, 15, 25, 40}, {{0, 0}, {90, 20}, {80, 20}, {1, 0}});  // two stay, and two are new
+  BOOST_TEST(slots.of_ids() == (Slots{3, 5, 4, 2}));
+  slots.update({10, 15, 25, 35, 40, 45}, {{0, 0}, {0, 0}, {0, 0}, {2, 2}, {0, 0}, {-2, -2}});
+  BOOST_TEST(slots.of_ids() == (Slots{3, 5, 4, 1, 2, 0}));  // at one place by id
+}
+
 BOOST_AUTO_TEST_CASE(any_ids_have_the_slots_that_the_words_say) {
   std::mt19937 bits(1);
   ParticleSlots slots;
@@ -36,7 +59,7 @@ BOOST_AUTO_TEST_CASE(any_ids_have_the_slots_that_the_words_say) {
     for (std::uint32_t id = 0; id < 60; ++id) {
       if (bits() % 4 != 0) ids.push_back(id * 1000);
     }
-    slots.update(ids);
+    slots.update(ids, in_a_row(ids.size()));
     const std::map<std::uint32_t, std::uint32_t> before = std::exchange(taken, {});
     std::set<std::uint32_t> used;
     for (std::size_t i = 0; i < ids.size(); ++i) {

@@ -28,9 +28,11 @@ class CellRow {
   using Value = std::optional<double>;
 
   CellRow(Measures& measures, std::uint32_t label)
-      : measures_(measures), view_(measures.view()), label_(label) {}
+      : measures_(measures), view_(measures.view()), label_(label), id_(measures.id_of(label)) {}
 
-  Value id() const { return measures_.id_of(label_); }
+  std::uint32_t label() const { return label_; }
+
+  Value id() const { return id_; }
   Value x() const { return view_.position(*measures_.seeds()[label_]).x; }
   Value y() const { return view_.position(*measures_.seeds()[label_]).y; }
   Value area() const { return view_.units.area(measures_.pixels()[label_]); }
@@ -56,25 +58,38 @@ class CellRow {
 
   Measures& measures_;
   const View& view_;
-  std::uint32_t label_;
+  std::uint32_t label_, id_;
 };
+
+/// Reads what a value is made of, if it was not read before, and says where it lies for a label.
+using Source = const void* (*)(Measures& measures, std::uint32_t label);
 
 struct CellColumn {
   std::string name;
   CellRow::Value (CellRow::*value)() const;
-  void (*read)(Measures& measures);  // what the value is made of, besides seeds and pixels
+  Source source;
 };
 
+const void* seed_of(Measures& measures, std::uint32_t label) { return measures.seeds().data() + label; }
+const void* pixels_of(Measures& measures, std::uint32_t label) { return measures.pixels().data() + label; }
+
 const std::vector<CellColumn>& all_cell_columns() {
-  const auto nothing = [](Measures&) {};
-  const auto sums = [](Measures& measures) { measures.sums(); };
-  const auto shapes = [](Measures& measures) { measures.shapes(); };
-  const auto perimeters = [](Measures& measures) { measures.perimeters(); };
-  const auto neighbours = [](Measures& measures) { measures.neighbours(); };
-  static const std::vector<CellColumn> columns = {{"id", &CellRow::id, nothing},
-                                                  {"x", &CellRow::x, nothing},
-                                                  {"y", &CellRow::y, nothing},
-                                                  {"area", &CellRow::area, nothing},
+  const auto sums = [](Measures& measures, std::uint32_t label) -> const void* {
+    return measures.sums().data() + label;
+  };
+  const auto shapes = [](Measures& measures, std::uint32_t label) -> const void* {
+    return measures.shapes().data() + label;
+  };
+  const auto perimeters = [](Measures& measures, std::uint32_t label) -> const void* {
+    return measures.perimeters().data() + label;
+  };
+  const auto neighbours = [](Measures& measures, std::uint32_t label) -> const void* {
+    return measures.neighbours().data() + label;
+  };
+  static const std::vector<CellColumn> columns = {{"id", &CellRow::id, seed_of},
+                                                  {"x", &CellRow::x, seed_of},
+                                                  {"y", &CellRow::y, seed_of},
+                                                  {"area", &CellRow::area, pixels_of},
                                                   {"centroid_x", &CellRow::centroid_x, sums},
                                                   {"centroid_y", &CellRow::centroid_y, sums},
                                                   {"left", &CellRow::left, shapes},
@@ -88,16 +103,31 @@ const std::vector<CellColumn>& all_cell_columns() {
   return columns;
 }
 
+/// What rows of these columns are made of, each once. The pixels, which say whether a cell is empty, stand
+/// behind the sums, which have them.
+std::vector<Source> sources_of(const std::vector<CellColumn>& columns) {
+  std::vector<Source> sources;
+  const auto add = [&sources](Source source) {
+    if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.push_back(source);
+  };
+  for (const CellColumn& column : columns) {
+    if (column.source != pixels_of) add(column.source);
+  }
+  add(seed_of);
+  add(pixels_of);
+  return sources;
+}
+
 void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
-  for (const CellColumn& column : columns) column.read(measures);
-  measures.seeds();
-  measures.pixels();  // behind the sums, which have them
+  for (const Source source : sources_of(columns)) source(measures, 0);
 }
 
 void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
                Measures& measures) {
-  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, std::uint32_t label) {
-    const CellRow row(measures, label);
+  const std::vector<Source> sources = sources_of(columns);
+  std::vector<CellRow> rows;
+  for (const std::uint32_t label : measures.cells()) rows.emplace_back(measures, label);
+  const auto add = [&](fmt::memory_buffer& text, const CellRow& row) {
     text.append(std::string_view(first));
     bool is_first = true;
     for (const CellColumn& column : columns) {
@@ -106,7 +136,12 @@ void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const
       if (const CellRow::Value value = (row.*column.value)()) add_number(text, *value);
     }
     text.push_back('\n');
-  });
+  };
+  // Ids say nothing of where labels lie.
+  const auto fetch = [&](const CellRow& row) {
+    for (const Source source : sources) __builtin_prefetch(source(measures, row.label()));
+  };
+  add_rows(table, rows, add, fetch);
 }
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {

@@ -29,23 +29,34 @@ inline void add_number(fmt::memory_buffer& text, double value) {
 }
 
 /// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
-template <typename Item, typename Add>
-void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
+/// `fetch` is called for an item some rows before: it may have the processor fetch what the row needs.
+template <typename Item, typename Add, typename Fetch>
+void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add, const Fetch& fetch) {
   constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
+  constexpr std::size_t ahead = 8;                                // a row takes longer than a fetch
   std::vector<fmt::memory_buffer> pieces(most_pieces);
   Workers workers(items.size() / items_of_piece);  // none for few items
   for (std::size_t begin = 0; begin < items.size();) {
     std::size_t count = 0;
     for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
-      workers.add([&items, &add, &piece = pieces[count], begin] {
+      workers.add([&items, &add, &fetch, &piece = pieces[count], begin] {
         piece.clear();
         const std::size_t end = std::min(items.size(), begin + items_of_piece);
-        for (std::size_t i = begin; i < end; ++i) add(piece, items[i]);
+        for (std::size_t i = begin; i < end; ++i) {
+          if (i + ahead < end) fetch(items[i + ahead]);
+          add(piece, items[i]);
+        }
       });
     }
     workers.wait();
     for (std::size_t i = 0; i < count; ++i) table << std::string_view(pieces[i].data(), pieces[i].size());
   }
+}
+
+/// The same where rows need nothing that lies apart.
+template <typename Item, typename Add>
+void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
+  add_rows(table, items, add, [](const Item&) {});
 }
 
 }  // namespace vorocl::command

@@ -3,26 +3,56 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <tuple>
 #include <utility>
 
 namespace vorocl::command {
 
-void ParticleSlots::update(const std::vector<std::uint32_t>& ids) {
-  std::vector<std::uint32_t> slots, vanished;
-  slots.reserve(ids.size());
+namespace {
+
+/// Sorts particles, which ascend, by rows of 16 pixels, and in these from left to right.
+void sort_in_plane(std::vector<std::uint32_t>& particles, const std::vector<Point>& places) {
+  constexpr double height = 16;
+  struct Place {
+    double row, x;
+    std::uint32_t particle;
+  };
+  std::vector<Place> sorted;
+  sorted.reserve(particles.size());
+  for (const std::uint32_t particle : particles) {
+    const Point& at = places[particle];
+    sorted.push_back({std::floor(at.y / height), at.x, particle});
+  }
+  std::sort(sorted.begin(), sorted.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.row, a.x, a.particle) < std::tie(b.row, b.x, b.particle);
+  });
+  std::transform(sorted.begin(), sorted.end(), particles.begin(),
+                 [](const Place& place) { return place.particle; });
+}
+
+}  // namespace
+
+void ParticleSlots::update(const std::vector<std::uint32_t>& ids, const std::vector<Point>& places) {
+  std::vector<std::uint32_t> slots(ids.size()), vanished, newcomers;
   std::size_t last = 0;  // the first of the last ids that is not below the present one
-  for (const std::uint32_t id : ids) {
-    for (; last < ids_.size() && ids_[last] < id; ++last) vanished.push_back(of_ids_[last]);
-    if (last < ids_.size() && ids_[last] == id) {
-      slots.push_back(of_ids_[last++]);
-    } else if (!free_.empty()) {
-      slots.push_back(*free_.begin());
-      free_.erase(free_.begin());
+  for (std::uint32_t i = 0; i < ids.size(); ++i) {
+    for (; last < ids_.size() && ids_[last] < ids[i]; ++last) vanished.push_back(of_ids_[last]);
+    if (last < ids_.size() && ids_[last] == ids[i]) {
+      slots[i] = of_ids_[last++];
     } else {
-      slots.push_back(static_cast<std::uint32_t>(size_++));
+      newcomers.push_back(i);
     }
   }
   for (; last < ids_.size(); ++last) vanished.push_back(of_ids_[last]);
+  sort_in_plane(newcomers, places);
+  for (const std::uint32_t i : newcomers) {
+    if (!free_.empty()) {
+      slots[i] = *free_.begin();
+      free_.erase(free_.begin());
+    } else {
+      slots[i] = static_cast<std::uint32_t>(size_++);
+    }
+  }
   free_.insert(vanished.begin(), vanished.end());
   ids_ = ids;
   of_ids_ = std::move(slots);

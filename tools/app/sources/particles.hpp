@@ -16,8 +16,10 @@ namespace vorocl::command {
 /// grow with that of the frames.
 class ParticleSlots {
  public:
-  /// Goes on to a frame with these ids, ascending. Newcomers get the lowest slots that are free.
-  void update(const std::vector<std::uint32_t>& ids);
+  /// Goes on to a frame of particles with these ids, ascending, at these places. Newcomers get the lowest
+  /// slots that are free, in the order of the plane: what goes through the pixels of a diagram then finds the
+  /// seeds of one part of it together in memory, also where ids say nothing of places.
+  void update(const std::vector<std::uint32_t>& ids, const std::vector<Point>& places);
 
   /// The slots of the ids of the last update, in their order.
   const std::vector<std::uint32_t>& of_ids() const { return of_ids_; }

@@ -245,15 +245,15 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size
   view_ = mapped.view;
   if (bounds) note_of_scales(*bounds, mapped.outside);
   const std::vector<Point>& places = mapped.places;
-  slots_.update(frame_.ids);
+  slots_.update(frame_.ids, places);
   std::vector<std::optional<Point>> points(slots_.size());
+  for (std::size_t i = 0; i < places.size(); ++i) points[slots_.of_ids()[i]] = places[i];
   max_displacement_ = has_other_window ? std::nullopt : std::optional<double>(0);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::uint32_t slot = slots_.of_ids()[i];
-    points[slot] = places[i];
-    // A slot that was taken holds the same particle still.
-    if (max_displacement_ && slot < points_.size() && points_[slot]) {
-      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], places[i], periods));
+  if (max_displacement_) {
+    for (std::size_t slot = 0; slot < std::min(points.size(), points_.size()); ++slot) {
+      // A slot that was taken holds the same particle still.
+      if (!points[slot] || !points_[slot]) continue;
+      max_displacement_ = std::max(*max_displacement_, displacement(*points_[slot], *points[slot], periods));
     }
   }
   points_ = std::move(points);

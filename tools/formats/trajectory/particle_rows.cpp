@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
@@ -46,25 +44,6 @@ double parse_value(const LineReader& lines, std::string_view field) {
   const auto value = parse_number<double>(field);
   if (!value) throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
   return *value;
-}
-
-std::uint32_t id_of(IdAndRow row) { return static_cast<std::uint32_t>(row >> 32); }
-std::uint32_t row_of(IdAndRow row) { return static_cast<std::uint32_t>(row); }
-
-/// By id, digit after digit from the lowest one: rows of one id stay in their order.
-void sort_by_id(std::vector<IdAndRow>& rows, std::vector<IdAndRow>& spare) {
-  constexpr int bits = 11;
-  constexpr std::size_t digits = std::size_t{1} << bits;
-  spare.resize(rows.size());
-  for (int shift = 32; shift < 64; shift += bits) {
-    const auto digit_of = [shift](IdAndRow row) { return row >> shift & (digits - 1); };
-    std::array<std::size_t, digits> begin = {};
-    for (const IdAndRow row : rows) ++begin[digit_of(row)];
-    if (begin[digit_of(rows[0])] == rows.size()) continue;  // all have this one
-    std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), std::size_t{0});
-    for (const IdAndRow row : rows) spare[begin[digit_of(row)]++] = row;
-    rows.swap(spare);
-  }
 }
 
 /// The place of a column among those of a property, if it is one of them.
@@ -201,7 +180,7 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
 void ParticleRows::sort(const LineReader& lines, std::size_t first_line) {
   const auto is_no_later = [](std::uint32_t a, std::uint32_t b) { return a >= b; };
   if (std::adjacent_find(ids_.begin(), ids_.end(), is_no_later) == ids_.end()) return;
-  for (const std::uint32_t id : ids_) order_.push_back(IdAndRow{id} << 32 | order_.size());
+  for (const std::uint32_t id : ids_) order_.push_back(id_and_row(id, order_.size()));
   sort_by_id(order_, spare_);
   const auto is_twin = [](IdAndRow a, IdAndRow b) { return id_of(a) == id_of(b); };
   const auto twin = std::adjacent_find(order_.begin(), order_.end(), is_twin);

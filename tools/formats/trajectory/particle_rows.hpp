@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/id_order.hpp"
 #include "formats/trajectory/line_reader.hpp"
 #include "formats/trajectory/simulation_box.hpp"
 #include "formats/trajectory/trajectory.hpp"
@@ -44,9 +45,6 @@ struct Property {
 /// None if its name is empty. Throws Error, which lists what there is, if it is not there.
 std::optional<std::size_t> find_value_column(const LineReader& lines, const std::vector<Property>& properties,
                                              const std::string& column);
-
-/// A particle's id, and the number of its row from 0 in the lower half.
-using IdAndRow = std::uint64_t;
 
 /// Reads the rows of one frame after another into the same memory.
 class ParticleRows {
