@@ -48,6 +48,7 @@ builds_of() { # KERNEL
       for axes in -DVOROCL_PERIODIC_Z '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; do
         echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 $axes"
       done
+      echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4"
     fi
     if [[ $kernel == kernels/measures/* ]]; then  # of windows that show a whole period, in outer positions
       for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FAR'; do

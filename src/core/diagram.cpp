@@ -15,14 +15,9 @@ namespace {
 
 std::size_t bytes_of(const PixelGrid& grid) { return grid.pixels() * sizeof(std::uint32_t); }
 
-std::string text_of(const Grid& grid) {
-  return std::to_string(grid.width()) + " x " + std::to_string(grid.height()) +
-         (grid.is_volume() ? " x " + std::to_string(grid.depth()) : "") + periodic_text(grid);
-}
-
 /// Why seeds of one grid are not of another.
 std::string difference(const Grid& seeds, const Grid& diagram) {
-  const std::string one = text_of(seeds), other = text_of(diagram);
+  const std::string one = size_text(seeds), other = size_text(diagram);
   if (one != other) return "the seeds' grid is " + one + ", the diagram's " + other;
   return "the seeds' grid and the diagram's have " + one +
          " pixels, but show other stretches of the data; make both of one grid";

@@ -1,6 +1,7 @@
 #include "vorocl/grid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -230,15 +231,27 @@ int checked_side(std::int64_t side, const char* name) {
               " pixels: take a window of the grid, or tiles");
 }
 
-std::string triple_text(std::int64_t x, std::int64_t y, std::int64_t z) {
-  return std::to_string(x) + " x " + std::to_string(y) + " x " + std::to_string(z);
+using Sides = std::array<std::int64_t, 3>;
+
+Sides sides_of(const Grid& grid) { return {grid.width(), grid.height(), grid.depth()}; }
+Sides spacing_of(const Grid& grid) { return {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()}; }
+
+/// "8 x 8 x 3", of a plane "8 x 8".
+std::string sides_text(const Sides& sides) {
+  return std::to_string(sides[0]) + " x " + std::to_string(sides[1]) +
+         (sides[2] > 1 ? " x " + std::to_string(sides[2]) : "");
+}
+
+/// " spaced 1 x 1 x 4"; nothing unless an axis is spaced.
+std::string spacing_text(const Sides& spacing) {
+  if (spacing == Sides{1, 1, 1}) return "";
+  return " spaced " + std::to_string(spacing[0]) + " x " + std::to_string(spacing[1]) + " x " +
+         std::to_string(spacing[2]);
 }
 
 /// "8 x 8 x 3 voxels", and how they are spaced.
 std::string voxels_text(const Grid& grid) {
-  const std::string voxels = triple_text(grid.width(), grid.height(), grid.depth()) + " voxels";
-  if (!grid.is_spaced()) return voxels;
-  return voxels + " spaced " + triple_text(grid.x().spacing(), grid.y().spacing(), grid.z().spacing());
+  return sides_text(sides_of(grid)) + " voxels" + spacing_text(spacing_of(grid));
 }
 
 /// The bits of the whole numbers below this one.
@@ -333,9 +346,13 @@ std::string periodic_text(const Grid& grid) {
   return periodic_text(grid.x().is_periodic(), grid.y().is_periodic(), grid.z().is_periodic());
 }
 
+std::string size_text(const Grid& grid) {
+  return sides_text(sides_of(grid)) + spacing_text(spacing_of(grid)) + periodic_text(grid);
+}
+
 std::string size_text(const PixelGrid& pixels) {
-  return std::to_string(pixels.width()) + " x " + std::to_string(pixels.height()) +
-         (pixels.depth() > 1 ? " x " + std::to_string(pixels.depth()) : "") +
+  const auto [x, y, z] = pixels.spacing();
+  return sides_text({pixels.width(), pixels.height(), pixels.depth()}) + spacing_text({x, y, z}) +
          periodic_text(pixels.periodic_x(), pixels.periodic_y(), pixels.periodic_z());
 }
 

@@ -73,6 +73,7 @@ Enqueued sum_voxels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Bu
 Enqueued sum_pixels(CellSumsState& sums, const MeasuredDiagram& of, const cl::Buffer& labels) {
   const cl_uint count = of.count();
   make_room(sums.home_sums, of.device, count * sizeof(cl_ulong));
+  sums.sum_z = cl::Buffer();  // of a volume that was measured before
   const char* const file = "measures/cells.cl";
   const KernelOptions options = of.options_without_metric();
   const Blocks blocks(of.device, of.grid);

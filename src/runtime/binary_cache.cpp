@@ -73,9 +73,9 @@ std::string binary_folder() {
   return home.empty() ? "" : home + "/.cache/vorocl/binaries";
 }
 
-bool keeps_binaries(const Device& device) {
-  return device.platform_name() == "Portable Computing Language" && !binary_folder().empty();
-}
+bool is_pocl(const Device& device) { return device.platform_name() == "Portable Computing Language"; }
+
+bool keeps_binaries(const Device& device) { return is_pocl(device) && !binary_folder().empty(); }
 
 std::string binary_key(const Device& device, const std::string& source, const std::string& options) {
   if (!keeps_binaries(device)) return "";

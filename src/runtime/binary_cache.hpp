@@ -12,6 +12,8 @@ namespace vorocl {
 /// because there is no such folder or VOROCL_BINARY_CACHE is 0.
 std::string binary_folder();
 
+bool is_pocl(const Device& device);
+
 /// Whether binaries are kept for a device: for PoCL's alone. Other drivers keep them well by themselves; PoCL
 /// preprocesses the sources each time to find one, which takes 34 ms for each program.
 bool keeps_binaries(const Device& device);

@@ -79,5 +79,6 @@ std::string periodic_text(const Grid& grid);
 
 /// "640 x 480, periodic in x".
 std::string size_text(const PixelGrid& pixels);
+std::string size_text(const Grid& grid);
 
 }  // namespace vorocl

@@ -107,11 +107,10 @@ cl::Program from_source(const Device& device, const std::string& file, const std
   const std::string what = "building " + file + " for " + device.name() + " with \"" + options + '"';
   const auto build = [&] { return clBuildProgram(program(), 1, &id, options.c_str(), nullptr, nullptr); };
   code = build();
-  const bool is_pocl = device.platform_name() == "Portable Computing Language";
   // Of two processes that build one program at once each removes files of the other in PoCL's cache.
-  if (code == CL_BUILD_PROGRAM_FAILURE && is_pocl) code = build();
+  if (code == CL_BUILD_PROGRAM_FAILURE && is_pocl(device)) code = build();
   if (code == CL_BUILD_PROGRAM_FAILURE) {
-    const std::string cache = is_pocl ? trouble_with_cache_of_pocl() : "";
+    const std::string cache = is_pocl(device) ? trouble_with_cache_of_pocl() : "";
     if (!cache.empty()) throw Error(what + " failed; " + cache, ErrorKind::kernel_build);
     const auto ask = [id](const cl::Program& of, cl_program_build_info wanted, std::size_t size, void* value,
                           std::size_t* used) {

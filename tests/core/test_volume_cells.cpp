@@ -146,12 +146,13 @@ Measured on_host(const Case& test, const Labels& labels, Metric metric) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto at = static_cast<int>(i / strides[axis] % static_cast<std::size_t>(sides[axis]));
       const int place = placed(at, test.seeds[labels[i]][axis], axes[axis]);
-      const std::int64_t way = place - test.seeds[labels[i]][axis];
+      const std::int64_t way = (place - test.seeds[labels[i]][axis]) * axes[axis].spacing();
       const bool is_last = at + 1 == sides[axis];
       cell.sum[axis] += place;
       cell.least[axis] = std::min(cell.least[axis], place);
       cell.greatest[axis] = std::max(cell.greatest[axis], place);
-      cell.touches_border |= !axes[axis].is_periodic() && (at == 0 || is_last);
+      const bool has_ends = !axes[axis].is_periodic() && (axis < 2 || sides[2] > 1);
+      cell.touches_border |= has_ends && (at == 0 || is_last);
       distance += metric == Metric::euclidean ? way * way : std::abs(way);
       if (is_last && !axes[axis].is_periodic()) continue;
       const std::uint32_t next =
@@ -293,6 +294,28 @@ BOOST_AUTO_TEST_CASE(periodic_measures_are_those_of_the_host) {
   add_periodic_cases(others, periodic(Grid(2, 1, 90), true, true, true));
   check_all(all_axes, {shapes().front(), shapes().back()});
   check_all(others, {shapes().back()});
+}
+
+/// Voxels that are longer along one axis than along another, in a volume and in a plane.
+BOOST_AUTO_TEST_CASE(spaced_measures_are_those_of_the_host) {
+  std::vector<Case> cases;
+  for (const auto depth : {37, 1}) {
+    const Grid grid(Axis(70).spaced(2), Axis(40), Axis(depth).spaced(4));
+    for (const std::size_t count : {9u, 300u})
+      cases.push_back({"spaced", grid, random_voxels(grid, count, 5), {}, {}});
+  }
+  check_all(cases, {shapes().back()});
+}
+
+BOOST_AUTO_TEST_CASE(sums_of_a_plane_have_no_slices_after_those_of_a_volume) {
+  CellSumsResult sums;
+  for (const Grid& grid : {Grid(9, 8, 7), Grid(9, 8)}) {
+    const Seeds seeds = Seeds::random(test_device(), grid, 5, 1);
+    Diagram diagram(test_device(), grid);
+    jump_flooding(seeds, diagram);
+    cell_sums(diagram, sums);
+    BOOST_TEST((sums.sum_z()() != nullptr) == grid.is_volume());
+  }
 }
 
 /// One cell of a volume whose coordinates add up to more than 32 bits have.

@@ -2,8 +2,8 @@
 // N", or "KIND N on" where all later calls of the kind fail as well. KIND is an OpenCL call, "event" (an
 // event that ends with an error), "new" (in the command's own code, while it works), or "open", "write",
 // "pwrite", "fallocate", "fsync" (or of a whole disk) and "rename" of files that are not complete. With
-// "compiler 1" SIGINT comes whenever the driver's compiler completes a file, which is gone then.
-// VOROCL_FAULT_COUNTS names a file for a line "KIND CALLS" of each kind at the end.
+// "compiler 1" SIGINT comes when the driver's compiler first completes a file, and such files are gone from
+// then on. VOROCL_FAULT_COUNTS names a file for a line "KIND CALLS" of each kind at the end.
 #include <fcntl.h>
 #include <link.h>
 #include <unistd.h>
@@ -212,7 +212,8 @@ VOROCL_FAULTY int fsync(int file) {
 VOROCL_FAULTY int rename(const char* from, const char* to) noexcept {
   static const auto next = vorocl::loaders<int(const char*, const char*)>("rename");
   if (std::strcmp(request().kind, "compiler") == 0 && std::strstr(from, ".cl.tmp") != nullptr) {
-    std::raise(SIGINT);
+    static std::atomic<bool> has_come{false};
+    if (!has_come.exchange(true)) std::raise(SIGINT);
     errno = ENOENT;
     return -1;
   }

@@ -27,6 +27,7 @@ const std::string subcommands[] = {
      "l.npy"),
     "relax --random 9 --size 40x30 --rounds 4 -o r.mp4 --relaxed-points p.csv --energy e.csv --labels l.npy",
     "tiles --random 9 --size 40x30 --tile 16 --labels l.tif -o p.png --cells c.csv --adjacency a.csv",
+    "bench --random 9 --size 40x30 --methods jfa,exact --repeat 1",
     "bench --random 9 --size 12x10x8 --methods jfa,exact --repeat 1",
     "vorocl-study evaluate --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
     "vorocl-study ablation --sizes 20 --seeds 5% --frames 1 --timed-frames 1 -o times.csv",
@@ -113,7 +114,7 @@ BOOST_DATA_TEST_CASE(a_call_that_fails_is_an_error_and_leaves_whole_files, data:
 
 // With positions that are freed too early the device writes anywhere.
 BOOST_AUTO_TEST_CASE(what_the_device_still_reads_is_kept_where_waiting_for_it_fails) {
-  const std::string& ablation = subcommands[9];
+  const std::string& ablation = subcommands[10];
   const TemporaryFolder whole;
   run(whole, ablation);
   for (int number = 30; number < 40; number += 3)

@@ -212,32 +212,30 @@ std::vector<Point3> read_npy_points_of_volume(const std::string& path) {
 namespace {
 
 /// The size of an image that a header names. Throws Error if it is none, and says what it had to be.
-Size size_of_image(const Header& header, bool has_type, const std::string& path, const std::string& wanted) {
+/// Of the sides behind the first `skipped` ones.
+Size size_of_image(const Header& header, bool has_type, const std::string& path, const std::string& wanted,
+                   std::size_t skipped = 0) {
   const auto& shape = header.shape;
-  constexpr std::size_t most = Size::max_side;
-  const bool is_image =
-      shape.size() == 2 && shape[0] >= 1 && shape[0] <= most && shape[1] >= 1 && shape[1] <= most;
-  if (!has_type || !is_image) {
+  const auto fits = [](std::size_t side) { return side >= 1 && side <= Size::max_side; };
+  if (!has_type || shape.size() != skipped + 2 || !fits(shape[skipped]) || !fits(shape[skipped + 1])) {
     throw Error(path + " holds " + header.type + " of shape " + to_string(shape) + "; " + wanted +
-                " of shape (height, width), with sides from 1 to " + std::to_string(most));
+                " of shape (height, width), with sides from 1 to " + std::to_string(Size::max_side));
   }
-  return {static_cast<int>(shape[1]), static_cast<int>(shape[0])};
+  return {static_cast<int>(shape[skipped + 1]), static_cast<int>(shape[skipped])};
 }
 
 }  // namespace
 
 LabelImage read_npy_labels(const std::string& path) {
   std::ifstream file = open_to_read(path);
-  Header header = read_header(file, path);
-  const Header whole = header;
-  std::int64_t depth = 1;
-  if (header.shape.size() == 3 && header.shape[0] >= 1 && header.shape[0] <= Window::max_side_of_volume) {
-    depth = static_cast<std::int64_t>(header.shape[0]);
-    header.shape.erase(header.shape.begin());
-  }
-  LabelImage image{size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)"), {}, depth};
-  const std::size_t count = image.size.pixels() * static_cast<std::size_t>(depth);
-  find_values(file, whole, count, path);
+  const Header header = read_header(file, path);
+  const auto& shape = header.shape;
+  const bool is_volume = shape.size() == 3 && shape[0] >= 1 && shape[0] <= Window::max_side_of_volume;
+  LabelImage image{
+      size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)", is_volume ? 1 : 0), {}, 1};
+  if (is_volume) image.depth = static_cast<std::int64_t>(shape[0]);
+  const std::size_t count = image.size.pixels() * static_cast<std::size_t>(image.depth);
+  find_values(file, header, count, path);
   image.labels.resize(count);
   read_bytes(file, image.labels.data(), count * sizeof no_label, path);
   return image;

@@ -1,5 +1,6 @@
 #include "app/commands/render_volume.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -23,7 +24,6 @@ std::vector<RequestedFile> requested_files(const VolumeRendering& options) {
 }
 
 void check(const VolumeRendering& options, const VolumeSize& sides) {
-  check_volume_options(options.seeds);
   check_volume_method(options.method);
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE with --slice z=K, --labels FILE or both");
@@ -32,40 +32,24 @@ void check(const VolumeRendering& options, const VolumeSize& sides) {
   check_outputs(requested_files(options), options.seeds);
 }
 
-/// How many seeds own no voxel, and how many voxels have no label.
-struct Missing {
-  std::size_t cells, labels;
-};
-
-Missing missing_in(const std::vector<std::uint32_t>& labels, const Seeds& seeds) {
-  std::vector<bool> has_voxels(seeds.size());
-  std::size_t cells = 0, unlabelled = 0;
-  for (const std::uint32_t label : labels) {
-    if (label == no_label) {
-      ++unlabelled;
-    } else if (!has_voxels.at(label)) {
-      has_voxels[label] = true;
-      ++cells;
-    }
-  }
-  return {seeds.alive() - cells, unlabelled};
-}
-
-void print_result(const VolumeRendering& options, const Seeds& seeds, const Diagram& diagram,
-                  const Report& report, const View& view, const Missing& missing) {
+void print_result(const VolumeRendering& options, const Seeds& seeds, const Report& report,
+                  Measures& measures) {
+  const std::size_t empty = measures.cell_count().empty;
+  const auto unlabelled =
+      static_cast<std::size_t>(std::count(measures.labels().begin(), measures.labels().end(), no_label));
   if (options.json) {
-    Json json = json_of_diagram(options.method, diagram.metric(), seeds, view);
+    Json json = json_of_diagram(options.method, measures.metric(), seeds, measures.view());
     json.update(Json{{"seeds", seeds.alive()},
-                     {"empty_cells", missing.cells},
-                     {"unlabelled_voxels", missing.labels},
+                     {"empty_cells", empty},
+                     {"unlabelled_voxels", unlabelled},
                      {"waves", report.waves()},
                      {"milliseconds", report.milliseconds()},
                      {"host_milliseconds", report.host_milliseconds()}});
     print_json(json);
     return;
   }
-  print_diagram(options.method, seeds, view, report);
-  print_cells_of_volume(missing.cells, seeds.alive(), missing.labels);
+  print_diagram(options.method, seeds, measures.view(), report);
+  print_cells_of_volume(empty, seeds.alive(), unlabelled);
   print_written(requested_files(options));
 }
 
@@ -82,14 +66,13 @@ void render_volume(const VolumeRendering& options) {
   const Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
-  std::vector<std::uint32_t> labels = diagram.read();
-  cv::Mat slice;
-  if (picture) slice = draw_slice(*options.slice, options.picture, seeds, labels, input.ids);
-  const Missing missing = missing_in(labels, seeds);
-  name_labels(labels, input.ids);
-  if (label_file) write_voxels(*label_file, "label", input.view.voxels(), labels);
-  if (picture) write_picture(*picture, slice);
-  print_result(options, seeds, diagram, report, input.view, missing);
+  MeasureBuffers buffers;
+  Measures measures(seeds, diagram, input.ids, input.view, buffers);
+  if (label_file) write_voxels(*label_file, "label", input.view.voxels(), measures.labels_by_id());
+  if (picture) {
+    write_picture(*picture, draw_slice(*options.slice, options.picture, seeds, measures.labels(), input.ids));
+  }
+  print_result(options, seeds, report, measures);
 }
 
 }  // namespace vorocl::command

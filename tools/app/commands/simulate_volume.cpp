@@ -144,12 +144,12 @@ class Run {
 
  private:
   void write() {
-    std::vector<std::uint32_t> labels = diagram_->read();
-    cv::Mat picture;
-    if (files_.draw()) picture = draw_slice(*slice_, options_.output.picture, seeds_, labels, source_.ids());
-    name_labels(labels, source_.ids());
-    files_.add_labels(frame_, source_.timestep().value_or(frame_), source_.view().voxels(), labels);
-    if (files_.draw()) files_.add_picture(frame_, picture);
+    Measures measures(seeds_, *diagram_, source_.ids(), source_.view(), buffers_);
+    files_.add_labels(frame_, source_.timestep().value_or(frame_), source_.view().voxels(),
+                      measures.labels_by_id());
+    if (!files_.draw()) return;
+    files_.add_picture(
+        frame_, draw_slice(*slice_, options_.output.picture, seeds_, measures.labels(), source_.ids()));
   }
 
   const SimulateOptions& options_;
@@ -158,6 +158,7 @@ class Run {
   Files& files_;
   Seeds seeds_;
   std::optional<Diagram> diagram_;
+  MeasureBuffers buffers_;
   int frame_ = 0;
   double milliseconds_ = 0;
 };

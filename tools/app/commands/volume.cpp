@@ -19,11 +19,6 @@ void check_volume_method(const Method& method) {
   throw UsageError("the method " + method.name + " is for planes; volumes have " + names);
 }
 
-void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids) {
-  if (ids.empty()) return;
-  for (std::uint32_t& label : labels) label = label == no_label ? no_label : ids[label];
-}
-
 void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled) {
   if (empty > 0) print("{} of {} seeds own no voxel\n", empty, seeds);
   if (unlabelled == 0) return;

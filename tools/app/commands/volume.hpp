@@ -17,9 +17,6 @@ VolumeSize volume_size(const SeedOptions& seeds);
 /// Throws UsageError for a method that knows planes alone.
 void check_volume_method(const Method& method);
 
-/// Puts the ids that labels stand for in their place, if there are any.
-void name_labels(std::vector<std::uint32_t>& labels, const std::vector<std::uint32_t>& ids);
-
 /// Says which seeds own no voxel and which voxels no method reached; nothing if there are none.
 void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled);
 

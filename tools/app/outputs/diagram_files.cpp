@@ -61,7 +61,8 @@ class CellRow {
   std::uint32_t label_, id_;
 };
 
-/// Reads what a value is made of, if it was not read before, and says where it lies for a label.
+/// Reads what a value is made of for all labels, if it was not read before, and says where it lies for this
+/// one.
 using Source = const void* (*)(Measures& measures, std::uint32_t label);
 
 struct CellColumn {

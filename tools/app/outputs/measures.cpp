@@ -101,7 +101,7 @@ const std::vector<std::optional<Point>>& Measures::seeds() {
   });
 }
 
-const std::vector<std::optional<Point3>>& Measures::voxels() {
+const std::vector<std::optional<Point3>>& Measures::seed_voxels() {
   return once(voxels_, [&] {
     diagram();
     return seeds_->read_voxels();
@@ -199,7 +199,7 @@ std::vector<double> Measures::areas() {
 
 std::vector<std::uint32_t> Measures::cells() {
   const auto is_inside = [this, size = view_.size()](std::size_t label) {
-    if (view_.window.grid().is_volume()) return voxels()[label].has_value();
+    if (view_.window.grid().is_volume()) return seed_voxels()[label].has_value();
     const std::optional<Point>& seed = seeds()[label];
     return seed && size.holds(*seed);
   };

@@ -75,7 +75,7 @@ class Measures {
 
   /// The centres of the seeds' pixels, and in a volume of their voxels.
   const std::vector<std::optional<Point>>& seeds();
-  const std::vector<std::optional<Point3>>& voxels();
+  const std::vector<std::optional<Point3>>& seed_voxels();
 
   /// The pixels of the cells: alone in less time than their sums, if these were not read before.
   const std::vector<std::uint32_t>& pixels();
@@ -156,7 +156,7 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
 /// "512 x 256 pixels", the picture's; of a volume "64 x 32 x 16 voxels".
 std::string size_text(const View& view);
 
-/// The same on standard output, in a line.
+/// How the diagram was made, on standard output, in a line.
 void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report);
 
 }  // namespace vorocl::command

@@ -28,7 +28,7 @@ void add_row(fmt::memory_buffer& text, const std::string& first, std::initialize
 }
 
 void read_cells(Measures& measures) {
-  measures.voxels();
+  measures.seed_voxels();
   measures.sums();
   measures.pixels();  // behind the sums, which have them
   measures.shapes();
@@ -41,7 +41,7 @@ void add_cells(GrowingFile& table, const std::string& first, Measures& measures)
   add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, std::uint32_t label) {
     const CellSums& sums = measures.sums()[label];
     const CellShape& shape = measures.shapes()[label];
-    const Point3 seed = units.position(*measures.voxels()[label]),
+    const Point3 seed = units.position(*measures.seed_voxels()[label]),
                  centroid = units.position(sums.centroid3());
     const auto side = [](int voxel) { return static_cast<double>(voxel); };
     const Extent box = units.extent({side(shape.left), side(shape.top), side(shape.right), side(shape.bottom),
