@@ -41,7 +41,8 @@ struct CellSums {
 };
 
 /// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, in a volume back <
-/// front, and largest_distance -1.
+/// front, and largest_distance -1. In a grid with an axis that is spaced (Axis::spaced()) that distance is in
+/// units of the spacing.
 struct CellShape {
   int left = 0, top = 0, right = 0,
       bottom = 0;               ///< the bounding box of the pixels, where CellSums counts them

@@ -13,13 +13,14 @@ namespace vorocl {
 struct DistanceErrorsState;
 
 /// What distance_errors() finds. A pixel's excess distance is how much farther the seed of its label is than
-/// its nearest seed, in pixels: 0 where the label is right.
+/// its nearest seed: 0 where the label is right. It is in pixels, or in units of the spacing in a grid with
+/// an axis that is spaced (Axis::spaced()).
 struct DistanceErrors {
   std::size_t pixels = 0;             ///< of the diagram
   std::size_t wrong_pixels = 0;       ///< whose label is not that of a seed at the least distance
   std::size_t unlabelled_pixels = 0;  ///< of these: whose label names no seed; they have no excess distance
   double largest_excess = 0;          ///< of all pixels
-  double mean_excess = 0;  ///< over all pixels, the right ones too; each counts to 1/32768 of a pixel
+  double mean_excess = 0;  ///< over all pixels, the right ones too; each counts to 1/32768 of the unit
 
   double wrong_percent() const {
     return 100.0 * static_cast<double>(wrong_pixels) / static_cast<double>(pixels);

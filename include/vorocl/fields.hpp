@@ -55,14 +55,15 @@ extern template class Field<std::uint8_t>;
 extern template class Field<std::uint32_t>;
 
 /// Each pixel's distance to the seed of its label, between pixel centres, in the diagram's metric: squared if
-/// Euclidean. Exact integers. Enqueues and returns; where a seed lies so far outside the window that a
-/// distance takes more than 31 bits, reading the field throws Error. Throws Error if the diagram knows no
-/// seeds (see Diagram::write()), its labels are of points within their pixels (Snap::none), or the device has
-/// too little memory.
+/// Euclidean. Exact integers: in pixels, or in units of the spacing in a grid with an axis that is spaced
+/// (Axis::spaced()). Enqueues and returns; where a seed lies so far outside the window that a distance takes
+/// more than 31 bits, reading the field throws Error. Throws Error if the diagram knows no seeds (see
+/// Diagram::write()), its labels are of points within their pixels (Snap::none), or the device has too little
+/// memory.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<std::int32_t>& field);
 
-/// As above, in pixels, of any labels: the root of the squared Euclidean distance, within 3 units in the last
-/// place. Of any length.
+/// As above and in the same unit, of any labels: the root of the squared Euclidean distance, within 3 units
+/// in the last place. Of any length.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<float>& field);
 
 /// 1 for each pixel that shares an edge with a pixel of another label, else 0. Enqueues and returns.
@@ -78,9 +79,9 @@ VOROCL_API Report map_labels(const Diagram& diagram, const cl::Buffer& table, Fi
 VOROCL_API Report map_labels(const Diagram& diagram, const std::vector<std::uint32_t>& table,
                              Field<std::uint32_t>& field);
 
-/// The label of each pixel that is at most so many pixels away from its seed, by the diagram's metric (a root
-/// as double has it: std::sqrt(13) takes in what is 2 and 3 pixels away), and no_label farther away: cells
-/// that grow to a width and no farther. Enqueues and returns. Throws Error if
+/// The label of each pixel that is at most so far away from its seed, in the units of distance_field() and by
+/// the diagram's metric (a root as double has it: std::sqrt(13) takes in what is 2 and 3 pixels away), and
+/// no_label farther away: cells that grow to a width and no farther. Enqueues and returns. Throws Error if
 /// the diagram knows no seeds, or the distance is negative or NaN.
 VOROCL_API Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_t>& field);
 

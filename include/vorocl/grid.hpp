@@ -57,7 +57,7 @@ constexpr Periodic periodic_along(bool x, bool y) {
 class VOROCL_API Axis {
  public:
   static constexpr std::int64_t max_pixels = 2147483647;  ///< past it a squared distance leaves 63 bits
-  static constexpr int max_spacing = 16;
+  static constexpr int max_spacing = 16;                  ///< the most units that spaced() takes
 
   /// An axis whose unit is the pixel: it covers [0, pixels). Throws Error unless `pixels` is in
   /// [1, max_pixels].
@@ -79,9 +79,8 @@ class VOROCL_API Axis {
   /// stays as it is: `to` is `from` there.
   Axis closed() const;
 
-  /// The same axis with pixels that are so long in distances: `spacing` from each to the next. What counts is
-  /// the ratio to the other axes: slices of a microscope that lie four pixels apart have Axis(90).spaced(4).
-  /// Throws Error unless it is in [1, max_spacing].
+  /// The same axis, along which distances count each pixel as `spacing` units. Slices of a microscope that
+  /// lie four pixels apart have Axis(90).spaced(4). Throws Error unless `spacing` is in [1, max_spacing].
   Axis spaced(int spacing) const;
 
   std::int64_t pixels() const { return pixels_; }

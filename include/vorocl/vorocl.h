@@ -2,7 +2,8 @@
 /// VoroCL for C, and for whatever calls C: what the C++ headers of the same names do, with status codes.
 ///
 /// Covers devices, seeds and their motion, diagrams of windows and of volumes, all methods and measures, and
-/// Lloyd relaxation. Plans of waves, simulations, planes in tiles and pictures are for C++ alone.
+/// Lloyd relaxation. C has no plans of waves, simulations, planes in tiles, pictures or axes that are spaced
+/// (vorocl::Axis::spaced()).
 ///
 /// A grid with a third axis is a volume, whose pixels are voxels; vorocl::Grid says what takes one. All else
 /// is VOROCL_BAD_ARGUMENT there. What is "row-major" is so slice after slice.
@@ -582,9 +583,9 @@ VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes,
 VOROCL_API vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count);
 
 /// Per cell int32_t left, top, right, bottom, in a volume left, top, front, right, bottom, back; and its
-/// largest distance (int32_t). Either may be NULL. The
-/// buffers are valid until the next measurement. Where a seed lies so far outside the window that distances
-/// may not fit, the second one is NULL: vorocl_cell_shapes_read() tells them.
+/// largest distance (int32_t). Either may be NULL. The buffers are valid until the next measurement. Where a
+/// seed lies so far outside the window that distances may not fit, the second one is NULL:
+/// vorocl_cell_shapes_read() tells them.
 VOROCL_API vorocl_status vorocl_cell_shapes_buffers(const vorocl_cell_shapes* shapes, cl_mem* boxes,
                                                     cl_mem* largest_distances);
 

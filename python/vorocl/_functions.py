@@ -274,8 +274,9 @@ def expand_labels(
         How far regions grow, in pixels or in units of `spacing`: as far as this and no farther. Without it, until no
         background is left. (scikit-image grows by 1 without it.)
     spacing : float or sequence of float, optional
-        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes that
-        differ need a CPU.
+        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes
+        that differ need a CPU, and a side then has at most 16,384 units of that size, such as 1,024 pixels of 16 units.
+        Each new ratio builds the kernels anew, so its first call takes longer.
     <device>
 
     Returns
@@ -326,16 +327,18 @@ def distance_transform_edt(
     """Give every non-zero pixel its distance to the nearest pixel that is zero, as SciPy's function of this name does.
 
     ``from vorocl import distance_transform_edt`` instead of ``from scipy.ndimage import ...`` is what changes. The
-    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Volumes need a CPU. Of several zeros at the least distance SciPy leaves open which one `indices`
-    names; here it is the one that comes first, slice by slice and row by row.
+    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Volumes need a CPU. Of several zeros at
+    the least distance SciPy leaves open which one `indices` names; here it is the one that comes first, slice by slice
+    and row by row.
 
     Parameters
     ----------
     mask : array_like
         Shape (H, W) or (D, H, W), of numbers or booleans. One pixel at least must be zero.
     sampling : float or sequence of float, optional
-        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes that
-        differ need a CPU.
+        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes
+        that differ need a CPU, and a side then has at most 16,384 units of that size, such as 1,024 pixels of 16 units.
+        Each new ratio builds the kernels anew, so its first call takes longer.
     return_distances, return_indices : bool, optional
         What is wanted: one of them or both.
     <device>
