@@ -322,7 +322,7 @@ bool fits_in_a_diagram(const Grid& grid) {
 void refuse_volume(const Grid& grid, const char* what) {
   if (!grid.is_volume()) return;
   throw Error("the grid is a volume of " + voxels_text(grid) + ", which " + what +
-              " cannot take; exact diagrams and jump flooding do");
+              " cannot take: it is for planes");
 }
 
 void refuse_tilted_and_volumes(const Grid& grid, const char* what) {

@@ -219,7 +219,8 @@ Size size_of_image(const Header& header, bool has_type, const std::string& path,
   const auto fits = [](std::size_t side) { return side >= 1 && side <= Size::max_side; };
   if (!has_type || shape.size() != skipped + 2 || !fits(shape[skipped]) || !fits(shape[skipped + 1])) {
     throw Error(path + " holds " + header.type + " of shape " + to_string(shape) + "; " + wanted +
-                " of shape (height, width), with sides from 1 to " + std::to_string(Size::max_side));
+                (skipped > 0 ? " of shape (depth, height, width)" : " of shape (height, width)") +
+                ", with sides from 1 to " + std::to_string(Size::max_side));
   }
   return {static_cast<int>(shape[skipped + 1]), static_cast<int>(shape[skipped])};
 }

@@ -134,23 +134,33 @@ void add_y_options(Command& command, SeedOptions& options, const std::string& ab
       .excludes(up);
 }
 
-/// Both numbers of "WxH".
-std::pair<std::int64_t, std::int64_t> parse_sides(const std::string& text) {
+using Sides = std::pair<std::int64_t, std::int64_t>;
+
+/// Both numbers of "WxH"; none of another text.
+std::optional<Sides> sides_in(const std::string& text) {
   const auto x = text.find('x');
   const auto width = parse_number<std::int64_t>(text.substr(0, x));
   const auto height = x == std::string::npos ? std::nullopt : parse_number<std::int64_t>(text.substr(x + 1));
-  if (!width || !height) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
-  return {*width, *height};
+  if (!width || !height) return std::nullopt;
+  return Sides{*width, *height};
+}
+
+Sides parse_sides(const std::string& text) {
+  const std::optional<Sides> sides = sides_in(text);
+  if (!sides) throw Error("\"" + text + "\" must be WxH, such as 1440x720");
+  return *sides;
 }
 
 /// "WxH", or "WxHxD" of a volume, whose depth is set apart.
 Size parse_size_and_depth(const std::string& text, std::int64_t& depth) {
   const auto x = text.find('x'), second = x == std::string::npos ? x : text.find('x', x + 1);
-  depth = 1;
-  if (second == std::string::npos) return parse_size(text);
-  const auto slices = parse_number<std::int64_t>(text.substr(second + 1));
-  if (!slices) throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
-  if (*slices < 2 || *slices > Window::max_side_of_volume) {
+  const bool has_depth = second != std::string::npos;
+  const std::optional<Sides> sides = sides_in(text.substr(0, second));
+  const auto slices = has_depth ? parse_number<std::int64_t>(text.substr(second + 1)) : 1;
+  if (!sides || !slices) {
+    throw Error("\"" + text + "\" must be WxH, such as 1440x720, or WxHxD, such as 256x256x256");
+  }
+  if (has_depth && (*slices < 2 || *slices > Window::max_side_of_volume)) {
     throw Error(fmt::format("the depth is {}; it must be from 2 to {} voxels; --size WxH makes a plane",
                             *slices, Window::max_side_of_volume));
   }
