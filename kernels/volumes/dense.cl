@@ -274,7 +274,8 @@ kernel void label_dense(global const uint* restrict bits, global const uint* res
   const int region = (int)get_global_id(0);
   if (region >= regions_of(e)) return;
   const int4 at = (int4)(region % e.rx * REGION, region / e.rx % e.ry * REGION, region / e.rx / e.ry * REGION, 0);
-  const uint first = (uint)region * (BINS + 1), seeds = starts[first + BINS] - starts[first];
+  const uint first = (uint)region * (BINS + 1);
+  const int seeds = (int)(starts[first + BINS] - starts[first]);
   uint left = ALL_LEFT;
   if (HAS_ROOM(SHORT_REACH) && seeds >= DENSE_FOR_SHORT) {
     left = label_near(e, bits, starts, list, at, labels);
