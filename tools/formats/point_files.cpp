@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "formats/files.hpp"
+#include "formats/id_order.hpp"
 #include "formats/npy.hpp"
 
 namespace vorocl::command {
@@ -51,14 +52,21 @@ void read_in_blocks(const std::string& path, const std::optional<Columns>& colum
 void write_points(const OutputFile& file, const std::vector<Point>& points,
                   const std::vector<std::uint32_t>& ids) {
   check_extension(file.path(), {".csv", ".npy"});
+  std::vector<IdAndRow> rows, spare;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    rows.push_back(id_and_row(ids.empty() ? static_cast<std::uint32_t>(i) : ids[i], i));
+  sort_by_id(rows, spare);
   if (extension_of(file.path()) == ".npy") {
-    write_npy_points(file, points);
+    std::vector<Point> by_id;
+    for (const IdAndRow row : rows) by_id.push_back(points[row_of(row)]);
+    write_npy_points(file, by_id);
     return;
   }
   GrowingFile table(file);
   table << "id,x,y\n";
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    table << fmt::format("{},{},{}\n", ids.empty() ? i : ids[i], points[i].x, points[i].y);
+  for (const IdAndRow row : rows) {
+    const Point& point = points[row_of(row)];
+    table << fmt::format("{},{},{}\n", id_of(row), point.x, point.y);
   }
   table.finish();
 }

@@ -33,9 +33,9 @@ using UseBlock = std::function<void(std::uint64_t first, const std::vector<Point
 void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
                     const UseBlock& use);
 
-/// Points with their ids, which are their indices if `ids` is empty: a .csv file with the columns id, x and
-/// y, or a .npy array of shape (N, 2) without the ids. Throws Error for another extension, or if the file
-/// cannot be written.
+/// Points in the order of their ids, which are their indices if `ids` is empty: a .csv file with the columns
+/// id, x and y, or a .npy array of shape (N, 2) without the ids. Throws Error for another extension, or if
+/// the file cannot be written.
 void write_points(const OutputFile& file, const std::vector<Point>& points,
                   const std::vector<std::uint32_t>& ids);
 
