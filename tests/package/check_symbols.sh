@@ -13,7 +13,7 @@ exported)
   all=$(nm -DC --defined-only --with-symbol-versions "$2" | sed 's/^[0-9a-f]* . //')
   abi=${3//./\\.}
   cxx="(vorocl::.*|(vtable|typeinfo|typeinfo name) for vorocl::(Error|BadPoint|SeedSource))@@VOROCL_CXX_$abi"
-  c="vorocl_[a-z_]+@@VOROCL_C_$abi"
+  c="vorocl_[a-z_]+3?@@VOROCL_C_$abi"
   nodes="VOROCL_(C|CXX)_$abi(@@VOROCL_(C|CXX)_$abi)?" # the versions themselves
   found=$(grep -Ev "^($cxx|$c|$nodes)$" <<<"$all" || true)
   # The library's own internals are in its namespace too.
