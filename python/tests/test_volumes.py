@@ -229,7 +229,7 @@ WRONG_CALLS = [
     (lambda: vorocl.distance_transform_edt(np.ones((3, 4, 5))), "no zero"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, 17)), "whole multiples, up to 16"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, np.pi)), "whole multiples, up to 16"),
-    (lambda: vorocl.expand_labels(np.ones((3, 6000), int), 1, spacing=(1, 3)), "16384 voxels times their spacing"),
+    (lambda: vorocl.expand_labels(np.ones((3, 6000), int), 1, spacing=(1, 3)), "16384 units of the spacing"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, 1, 1)), "or 2 of them"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=-1), "above 0"),
     (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), return_distances=False), "nothing is wanted"),

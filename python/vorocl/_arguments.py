@@ -199,9 +199,9 @@ def to_sampling(sampling: Sampling, axes: int, name: str) -> Tuple[float, List[i
     for times in range(1, MOST_SPACING + 1):
         measure = min(sizes) / times
         counts = [round(size / measure) for size in sizes] if max(sizes) <= (MOST_SPACING + 1) * measure else []
-        if counts and all(math.isclose(size, count * measure, rel_tol=1e-12) for size, count in zip(sizes, counts)):
-            if max(counts) <= MOST_SPACING:
-                return measure, counts
+        fit = all(math.isclose(size, count * measure, rel_tol=1e-12) for size, count in zip(sizes, counts))
+        if counts and fit and max(counts) <= MOST_SPACING:
+            return measure, counts
     raise BadArgument(
         f"{name} must be whole multiples, up to {MOST_SPACING}, of one size, such as (2, 1.5), which are 4 and 3 times 0.5; "
         f"this is {shown(sampling)}"

@@ -278,12 +278,13 @@ bool fits_in_a_volume(const Grid& grid) {
 
 void check_volume(const Grid& grid) {
   if (fits_in_a_volume(grid)) return;
-  throw Error("a volume of " + voxels_text(grid) + periodic_text(grid) +
-              " is too large: its sides can have 16384 voxels" +
-              (grid.is_spaced() ? " times their spacing" : "") +
-              ", and a voxel's place must fit in 31 bits, as in "
-              "2048 x 1024 x 1024; a periodic side can have 8192 voxels, and takes a bit more; take fewer "
-              "voxels, or cut the volume into parts that overlap");
+  const bool is_spaced = grid.is_spaced();
+  throw Error(
+      "a volume of " + voxels_text(grid) + periodic_text(grid) + " is too large: its sides can have " +
+      (is_spaced ? "16384 units of the spacing" : "16384 voxels") +
+      ", and a voxel's place must fit in 31 bits, as in 2048 x 1024 x 1024; a periodic side can have " +
+      (is_spaced ? "8192 units" : "8192 voxels") +
+      ", and takes a bit more; take fewer voxels, or cut the volume into parts that overlap");
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include <set>
 #include <thread>
 
+#include "formats/npy.hpp"
 #include "formats/raster_files.hpp"
 #include "host_measures.hpp"
 #include "raw_images.hpp"
@@ -165,6 +166,9 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay_and_particles_keep_their_ids) {
   BOOST_TEST_REQUIRE(table.rows.size() == 4u);
   BOOST_TEST(table.rows[0].front().value() == 7);
   BOOST_TEST((table.rows[3] == TableRow{70, 1.5, 1.5}));
+  succeeds(folder, "relax --trajectory t.lammpstrj --y-down --size 10x10 --rounds 1 --relaxed-points p.npy");
+  const std::vector<Point> points = command::read_npy_points(folder / "p.npy");
+  BOOST_TEST((points[3].x == 1.5 && points[3].y == 1.5));  // of 70, the last by id
 }
 
 BOOST_AUTO_TEST_CASE(the_end_or_all_rounds_are_drawn) {

@@ -261,6 +261,20 @@ BOOST_AUTO_TEST_CASE(sets_made_to_hurt_have_no_wrong_voxel) {
   }
 }
 
+namespace {
+
+/// Labels seeds in a part of a volume, of which all orders of magnitude come alike.
+void check_random_seeds(int number, const Grid& grid, const Grid& part, Random& random) {
+  const double magnitude = std::log(static_cast<double>(part.pixels()) + 1);
+  const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
+  const std::vector<At> seeds = random.in(part, count);
+  const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
+  BOOST_TEST_REQUIRE(wrong == 0, "volume " << number << ", " << size_text(grid) << " with " << count
+                                           << " seeds: " << wrong << " wrong voxels");
+}
+
+}  // namespace
+
 BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
   if (!can_be_exact()) return;
   Random random(1);
@@ -270,15 +284,10 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
     // There is a program for each choice, and the long tests have one choice more.
     const bool along_y = i % 2 == 0, along_others = i % 3 == 2 && (along_y || long_tests);
     const Grid grid = periodic(open, along_others, along_y, along_others);
-    // All orders of magnitude alike, in a part of the volume, so that some of it is empty.
+    // In a part of the volume, so that some of it is empty.
     const Grid part(1 + random.below(grid.width()), 1 + random.below(grid.height()),
                     1 + random.below(grid.depth()));
-    const double magnitude = std::log(static_cast<double>(part.pixels()) + 1);
-    const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
-    const std::vector<At> seeds = random.in(part, count);
-    const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
-    BOOST_TEST_REQUIRE(wrong == 0, "volume " << i << ", " << size_text(PixelGrid(grid)) << " with " << count
-                                             << " seeds: " << wrong << " wrong voxels");
+    check_random_seeds(i, grid, part, random);
   }
 }
 
@@ -304,12 +313,7 @@ BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
     }
     for (int i = 0; i < (long_tests ? 20000 : 300); ++i) {
       const Grid grid = grid_of(1 + random.below(40), 1 + random.below(40), 1 + random.below(24));
-      const double magnitude = std::log(static_cast<double>(grid.pixels()) + 1);
-      const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
-      const std::vector<At> seeds = random.in(grid, count);
-      const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
-      BOOST_TEST_REQUIRE(wrong == 0, "volume " << i << ", " << size_text(PixelGrid(grid)) << " with " << count
-                                               << " seeds: " << wrong << " wrong voxels");
+      check_random_seeds(i, grid, grid, random);
     }
   }
 }
@@ -630,9 +634,10 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
   check_refusal("periodic in x and y " + too_large,
                 [&] { Diagram(device, periodic(Grid(2048, 1024, 512), true, true, false)); });
   check_refusal(
-      "3 x 3 x 2000 voxels spaced 1 x 1 x 9 is too large: its sides can have 16384 voxels times their "
-      "spacing",
+      "3 x 3 x 2000 voxels spaced 1 x 1 x 9 is too large: its sides can have 16384 units of the spacing",
       [&] { Diagram(device, spaced(Grid(3, 3, 2000), 1, 1, 9)); });
+  check_refusal("a periodic side can have 8192 units",
+                [&] { Diagram(device, spaced(periodic(Grid(3, 3, 1025), false, false, true), 1, 1, 8)); });
   for (const int spacing : {0, 17})
     check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
   const Grid grid(8, 8, 8);
@@ -647,6 +652,13 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
                   [&] { Seeds(device, grid, outside, count_or_refuse); });
   }
   check_refusal("is not finite", [&] { Seeds(device, grid, not_a_number, Outside::absent); });
+}
+
+BOOST_AUTO_TEST_CASE(seeds_of_another_spacing_are_refused) {
+  const Grid grid(7, 5);
+  Diagram diagram(test_device(), spaced(grid, 2, 1, 1));
+  check_refusal("the seeds' grid is 7 x 5, the diagram's 7 x 5 spaced 2 x 1 x 1",
+                [&] { jump_flooding(Seeds::random(test_device(), grid, 5, 1), diagram); });
 }
 
 BOOST_AUTO_TEST_CASE(what_knows_planes_alone_refuses_volumes_by_name) {

@@ -1,7 +1,5 @@
 #include "formats/raster.hpp"
 
-#include <string>
-
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -22,6 +20,11 @@ Size::Size(std::int64_t width, std::int64_t height)
     throw Error("a grid of " + std::to_string(width) + " x " + std::to_string(height) +
                 " has too many pixels; at most 2^30 (such as 32768 x 32768) are possible");
   }
+}
+
+std::string to_string(const VolumeSize& size) {
+  const std::string slice = std::to_string(size.width) + " x " + std::to_string(size.height);
+  return size.depth > 1 ? slice + " x " + std::to_string(size.depth) : slice;
 }
 
 }  // namespace vorocl::command

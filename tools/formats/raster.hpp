@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "vorocl/grid.hpp"
@@ -50,6 +51,9 @@ struct VolumeSize {
     return a.width == b.width && a.height == b.height && a.depth == b.depth;
   }
 };
+
+/// "64 x 32 x 16"; of one slice "64 x 32".
+std::string to_string(const VolumeSize& size);
 
 /// A rectangle in data units.
 struct Bounds {

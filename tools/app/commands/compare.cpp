@@ -42,11 +42,6 @@ struct CompareOptions {
   }
 };
 
-std::string to_string(const VolumeSize& size) {
-  return size.depth > 1 ? fmt::format("{} x {} x {}", size.width, size.height, size.depth)
-                        : fmt::format("{} x {}", size.width, size.height);
-}
-
 VolumeSize size_of(const LabelImage& image) { return {image.size.width(), image.size.height(), image.depth}; }
 
 void check_sizes(const std::string& a, const VolumeSize& of_a, const std::string& b, const VolumeSize& of_b) {

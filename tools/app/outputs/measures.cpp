@@ -1,7 +1,5 @@
 #include "app/outputs/measures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -258,10 +256,8 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
 }
 
 std::string size_text(const View& view) {
-  const Size& slice = view.picture.size;
-  const std::int64_t depth = view.window.depth();
-  return depth > 1 ? fmt::format("{} x {} x {} voxels", slice.width(), slice.height(), depth)
-                   : fmt::format("{} x {} pixels", slice.width(), slice.height());
+  const VolumeSize size = {view.picture.size.width(), view.picture.size.height(), view.window.depth()};
+  return to_string(size) + (size.depth > 1 ? " voxels" : " pixels");
 }
 
 void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report) {

@@ -101,10 +101,10 @@ bool has_cubes(const Grid& grid) {
 /// Warns unless voxels are cubes. Returns whether it did.
 bool warn_of_voxels(const Grid& grid) {
   if (has_cubes(grid)) return false;
-  print_warning(fmt::format(
-      "the axes get different scales on {} x {} x {} voxels, so the cells are not Voronoi cells in "
-      "data units; a --size like the bounds keeps voxels cubes",
-      grid.width(), grid.height(), grid.depth()));
+  print_warning(
+      fmt::format("the axes get different scales on {} voxels, so the cells are not Voronoi cells in "
+                  "data units; a --size like the bounds keeps voxels cubes",
+                  to_string(VolumeSize{grid.width(), grid.height(), grid.depth()})));
   return true;
 }
 
