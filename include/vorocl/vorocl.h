@@ -2,8 +2,7 @@
 /// VoroCL for C, and for whatever calls C: what the C++ headers of the same names do, with status codes.
 ///
 /// Covers devices, seeds and their motion, diagrams of windows and of volumes, all methods and measures, and
-/// Lloyd relaxation. C has no plans of waves, simulations, planes in tiles, pictures or axes that are spaced
-/// (vorocl::Axis::spaced()).
+/// Lloyd relaxation. C has no plans of waves, simulations, planes in tiles or pictures.
 ///
 /// A grid with a third axis is a volume, whose pixels are voxels; vorocl::Grid says what takes one. All else
 /// is VOROCL_BAD_ARGUMENT there. What is "row-major" is so slice after slice.
@@ -115,11 +114,16 @@ typedef struct vorocl_axis {
   int periodic;     ///< 1 if it repeats, else 0
   int reversed;     ///< 1 if its first pixel is at `to`, else 0
   int closed;       ///< 1 if the coordinate `to` falls in the last pixel and not behind it, else 0
+
+  /// As how many units distances count a pixel: 1 to 16 (vorocl::Axis::spaced()), or 0, as an initialiser
+  /// leaves it, which is 1. Where it is more for an axis, the grid is a volume, be it of one slice, and all
+  /// distances are in these units.
+  int spacing;
 } vorocl_axis;
 
 /// Initialises an axis whose unit is the pixel.
 #define VOROCL_AXIS_OF_PIXELS(pixels) \
-  { (pixels), 0, (pixels), 0, 0, 0 }
+  { (pixels), 0, (pixels), 0, 0, 0, 1 }
 
 /// The pixels that there are: x to the right, y down, and in a volume z from slice to slice.
 typedef struct vorocl_grid {

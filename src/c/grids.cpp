@@ -16,18 +16,23 @@ Axis to_axis(const vorocl_axis& axis) {
   Axis made = in_pixels ? Axis(axis.pixels) : Axis(axis.pixels, axis.from, axis.to);
   if (to_flag(axis.periodic, "periodic")) made = made.periodic();
   if (to_flag(axis.reversed, "reversed")) made = made.reversed();
-  return to_flag(axis.closed, "closed") ? made.closed() : made;
+  if (to_flag(axis.closed, "closed")) made = made.closed();
+  return axis.spacing == 0 ? made : made.spaced(axis.spacing);
 }
 
 vorocl_axis to_c(const Axis& axis) {
-  return {
-      axis.pixels(),           axis.from(), axis.to(), axis.is_periodic() ? 1 : 0, axis.is_reversed() ? 1 : 0,
-      axis.is_closed() ? 1 : 0};
+  return {axis.pixels(),
+          axis.from(),
+          axis.to(),
+          axis.is_periodic() ? 1 : 0,
+          axis.is_reversed() ? 1 : 0,
+          axis.is_closed() ? 1 : 0,
+          axis.spacing()};
 }
 
 bool is_zero(const vorocl_axis& axis) {
   return axis.pixels == 0 && axis.from == 0 && axis.to == 0 && axis.periodic == 0 && axis.reversed == 0 &&
-         axis.closed == 0;
+         axis.closed == 0 && axis.spacing == 0;
 }
 
 /// What is no choice of axes makes an axis that is refused.
@@ -35,7 +40,7 @@ vorocl_axis axis_of_pixels(std::int64_t pixels, vorocl_periodic periodic, vorocl
                            vorocl_periodic all) {
   const bool is_known = periodic >= VOROCL_PERIODIC_NONE && periodic <= all;
   const int flag = is_known ? (periodic & axis) / axis : -1;
-  return {pixels, 0, static_cast<double>(pixels), flag, 0, 0};
+  return {pixels, 0, static_cast<double>(pixels), flag, 0, 0, 1};
 }
 
 }  // namespace

@@ -75,6 +75,40 @@ BOOST_AUTO_TEST_CASE(seeds_within_their_pixels_are_judged_where_they_are) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(axes_count_as_they_are_spaced) {
+  const std::vector<std::optional<Point3>> seeds = {Point3{1.5, 2.5, 0.5}, Point3{5.5, 0.5, 3.5},
+                                                    Point3{3.5, 3.5, 2.5}};
+  const int sides[] = {7, 4, 5}, spacing[] = {1, 2, 5};
+  for (const Metric metric : both_metrics) {
+    const auto labels = [&](const auto& units) {  // z is periodic
+      std::vector<std::uint32_t> nearest;
+      for (int i = 0; i < 7 * 4 * 5; ++i) {
+        const double at[] = {i % 7 + 0.5, i / 7 % 4 + 0.5, i / 28 + 0.5};
+        const auto distance = [&](const Point3& seed) {
+          const double to[] = {seed.x, seed.y, seed.z};
+          double sum = 0;
+          for (int axis = 0; axis < 3; ++axis) {
+            double way = std::abs(at[axis] - to[axis]);
+            if (axis == 2) way = std::min(way, sides[axis] - way);
+            way *= units[axis];
+            sum += metric == Metric::euclidean ? way * way : way;
+          }
+          return sum;
+        };
+        std::uint32_t best = 0;
+        for (std::uint32_t id = 1; id < 3; ++id)
+          if (distance(*seeds[id]) < distance(*seeds[best])) best = id;
+        nearest.push_back(best);
+      }
+      return nearest;
+    };
+    const Grid grid(Axis(7), Axis(4).spaced(2), Axis(5).periodic().spaced(5));
+    const GroundTruth truth(grid, seeds, metric);
+    BOOST_TEST(truth.wrong_pixels(labels(spacing)) == 0u);
+    BOOST_TEST(truth.wrong_pixels(labels(std::array{1, 1, 1})) > 0u);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(missing_and_impossible_labels_are_wrong) {
   const GroundTruth truth(Grid(4, 1), {Point{0.5, 0.5}, std::nullopt}, Metric::euclidean);
   BOOST_TEST(truth.wrong_pixels({0, no_label, 2, 1}) == 3u);

@@ -27,11 +27,14 @@ struct Space {
   std::array<bool, 3> periodic;
 };
 
-constexpr std::array<int, 3> sides = {20, 40, 12};
+constexpr std::array<int, 3> cubes = {20, 40, 12};
 
-/// The file of labels: the id of the nearest voxel that has a particle, ties by z, y, x and id.
-std::string labels_of(const Space& space, const std::vector<Particle>& particles) {
-  std::string bytes = command::npy_header<std::uint32_t>({sides[2], sides[1], sides[0]});
+/// The file of labels: the id of the nearest voxel that has a particle, ties by z, y, x and id. `units` are
+/// the sides of a voxel.
+std::string labels_of(const Space& space, const std::vector<Particle>& particles,
+                      const std::array<int, 3>& sides = cubes, const std::array<int, 3>& units = {1, 1, 1}) {
+  std::string bytes =
+      command::npy_header<std::uint32_t>(std::vector<std::size_t>(sides.rbegin(), sides.rend()));
   std::array<int, 3> voxel = {};
   const auto key = [&](const Particle& particle) {
     std::array<int, 3> of_seed = {};
@@ -44,7 +47,7 @@ std::string labels_of(const Space& space, const std::vector<Particle>& particles
                                            : std::min(at, sides[axis] - 1);
       int way = std::abs(of_seed[axis] - voxel[axis]);
       if (space.periodic[axis]) way = std::min(way, sides[axis] - way);
-      distance += way * way;
+      distance += way * way * units[axis] * units[axis];
     }
     return std::make_tuple(distance, of_seed[2], of_seed[1], of_seed[0], particle.id);
   };
@@ -197,7 +200,7 @@ BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
   const Space box = {{0, 0, -1}, {10, 20, 5}, {false, false, false}};
   folder.file("a.lammpstrj", dump_frame(6, first, others, false) + dump_frame(7, box, some, false));
   const std::string file = labels_of(box, some), dump = "--trajectory a.lammpstrj --frame 1 ";
-  std::vector<std::uint32_t> labels(sides[0] * sides[1] * sides[2]);
+  std::vector<std::uint32_t> labels(cubes[0] * cubes[1] * cubes[2]);
   std::memcpy(labels.data(), file.data() + file.size() - labels.size() * 4, labels.size() * 4);
   const auto json = nlohmann::json::parse(
       succeeds(folder, "cells " + dump +
@@ -259,19 +262,83 @@ BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
   }
   BOOST_TEST((std::abs(areas - faces * side * side) < 1e-9 && std::abs(surfaces - 2 * areas) < 1e-9));
 
-  // In voxels, and where voxels are no cubes lengths and areas alone.
+  // In voxels, and where distances have no scale, lengths and areas alone.
   succeeds(folder, "cells " + dump + "--size 20x40x12 --units px --cells px.csv --labels px.vti");
   const Table in_voxels(content_of(folder / "px.csv"));
   BOOST_TEST(in_voxels.header == cells.header);
   for (std::size_t i = 0; i < 3; ++i)
     BOOST_TEST(std::abs(in_voxels.rows[i][4] / 8 - cells.rows[i][4]) < 1e-9);
   BOOST_TEST(content_of(folder / "px.vti").find("Origin=\"0 0 0\" Spacing=\"1 1 1\"") != std::string::npos);
-  const auto warned = run(folder, "cells " + dump + "--size 20x40x6 --cells a.csv --adjacency b.csv");
+  const auto warned = run(folder, "cells " + dump + "--size 41x40x12 --cells a.csv --adjacency b.csv");
   BOOST_TEST((warned.exit_code == 0 && warned.error.find("different scales") != std::string::npos));
   const Table flat(content_of(folder / "a.csv"));
   BOOST_TEST((flat.header.find(",surface_px,neighbours,largest_distance_px,") != std::string::npos));
   BOOST_TEST(Table(content_of(folder / "b.csv")).header == "a,b,area_px");
   BOOST_TEST(std::abs(flat.rows[0][4] + flat.rows[1][4] + flat.rows[2][4] - 1200) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  Space open = first, moved = second;
+  open.periodic = moved.periodic = {false, false, false};
+  folder.file("a.lammpstrj", dump_frame(7, open, some, false) + dump_frame(8, moved, others, false));
+  folder.file("p.csv", "x,y,z\n1.25,2,-0.75\n9.75,19.5,4.75\n5,5.25,4\n");
+  const std::array<int, 3> sides = {20, 20, 3}, units = {1, 2, 4};
+  const std::string
+      size = " --size 20x20x3 ",
+      points = "--points p.csv --bounds=0,0,-1,10,20,5" + size,
+      note = "vorocl: note: a voxel is 1 x 2 x 4 units of length in the data: distances count it so\n";
+  const auto noted = [&](const std::string& arguments) {
+    const auto result = run(folder, arguments);
+    BOOST_TEST((result.exit_code == 0 && result.error == note), arguments << "\n" << result.error);
+    return result.out;
+  };
+  noted("simulate --trajectory a.lammpstrj" + size + "--labels f%d.npy");
+  BOOST_TEST((content_of(folder / "f0.npy") == labels_of(open, some, sides, units)));
+  BOOST_TEST((content_of(folder / "f1.npy") == labels_of(moved, others, sides, units)));
+  std::vector<Particle> numbered = some;
+  for (std::size_t i = 0; i < numbered.size(); ++i) numbered[i].id = static_cast<std::uint32_t>(i);
+  const auto json = nlohmann::json::parse(
+      noted("cells " + points + "--labels a.npy --distance d.npy --cells a.csv --adjacency b.csv --json"));
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(open, numbered, sides, units)));
+  BOOST_TEST((json["spacing"] == std::vector{1, 2, 4} && json["length_unit"] == "data"));
+
+  // Of each label the farthest voxel, in data units, and its volume; faces stay a number.
+  const Table table(content_of(folder / "a.csv"));
+  BOOST_TEST((table.header.find(",surface_px,neighbours,largest_distance,") != std::string::npos));
+  BOOST_TEST(Table(content_of(folder / "b.csv")).header == "a,b,area_px");
+  const std::string labels = content_of(folder / "a.npy"), distances = content_of(folder / "d.npy");
+  const double voxel[] = {0.5, 1, 2};
+  std::array<double, 3> farthest = {}, volumes = {};
+  for (int i = 0; i < 20 * 20 * 3; ++i) {
+    const int at[] = {i % 20, i / 20 % 20, i / 400};
+    std::uint32_t label = 0;
+    float found = 0;
+    std::memcpy(&label, labels.data() + labels.size() - 4 * (20 * 20 * 3 - i), 4);
+    std::memcpy(&found, distances.data() + distances.size() - 4 * (20 * 20 * 3 - i), 4);
+    double sum = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double seed = std::floor((some[label].at[axis] - first.low[axis]) / voxel[axis]);
+      sum += (at[axis] - seed) * voxel[axis] * (at[axis] - seed) * voxel[axis];
+    }
+    BOOST_TEST_REQUIRE(std::abs(found - std::sqrt(sum)) < 1e-5);
+    farthest[label] = std::max(farthest[label], std::sqrt(sum));
+    volumes[label] += voxel[0] * voxel[1] * voxel[2];
+  }
+  for (std::size_t id = 0; id < 3; ++id) {
+    BOOST_TEST((std::abs(table.rows[id][4] - volumes[id]) < 1e-9));
+    BOOST_TEST((std::abs(table.rows[id][16] - farthest[id]) < 1e-9));
+  }
+
+  // The methods that compare and time take the same distances.
+  noted("render " + points + "--method jfa --labels j.npy");
+  const std::string compare = "compare j.npy " + points;
+  const auto errors = nlohmann::json::parse(noted(compare + "--json"))["errors"];
+  const auto bench =
+      nlohmann::json::parse(noted("bench " + points + "--methods exact,jfa --repeat 1 --json"))["results"];
+  BOOST_TEST((bench[0]["wrong_pixels"] == 0 && bench[1]["wrong_pixels"] == errors["wrong_pixels"]));
+  BOOST_TEST(noted(compare).find("units of the spacing") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {

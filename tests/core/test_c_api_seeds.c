@@ -3,7 +3,7 @@
 
 static int is_axis(const vorocl_axis* a, const vorocl_axis* b) {
   return a->pixels == b->pixels && a->from == b->from && a->to == b->to && a->periodic == b->periodic &&
-         a->reversed == b->reversed && a->closed == b->closed;
+         a->reversed == b->reversed && a->closed == b->closed && a->spacing == b->spacing;
 }
 
 static int is_grid(const vorocl_grid* a, const vorocl_grid* b) {
@@ -167,8 +167,8 @@ static void test_own_buffers(const vorocl_device* device) {
 
 /* The points with other coordinates, along axes that say so, have the same pixels. */
 static void test_axes(const vorocl_device* device) {
-  const vorocl_axis x = {width, -1, 1, 0, 0, 1}, y = {height, 0, 8, 0, 1, 0};
-  const vorocl_grid stretched = {x, y, 0, {0, 0, 0, 0, 0, 0}};
+  const vorocl_axis x = {width, -1, 1, 0, 0, 1, 1}, y = {height, 0, 8, 0, 1, 0, 1};
+  const vorocl_grid stretched = {x, y, 0, {0, 0, 0, 0, 0, 0, 0}};
   vorocl_point list[seed_count], read[seed_count];
   vorocl_seeds* seeds = NULL;
   vorocl_diagram* diagram = NULL;

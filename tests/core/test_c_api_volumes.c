@@ -1,5 +1,6 @@
 /* Volumes by the C functions, from C: labels against a search of every voxel, measures against straight
-   counts on these labels, without periodic axes and along x and z. Also built against an installed copy. */
+   counts on these labels: without periodic axes, along x and z, and with spaced axes. Also built against an
+   installed copy. */
 #include "test_c_api.h"
 
 enum { columns = 13, rows = 10, slices = 7, voxels = columns * rows * slices, volume_seeds = 9 };
@@ -12,8 +13,10 @@ static const uint8_t there[volume_seeds] = {1, 1, 1, 1, 1, 0, 1, 1, 1};
 
 static const int sides[3] = {columns, rows, slices}, steps[3] = {1, columns, columns*rows};
 
-/* What is the same of all cases: the volume's periodic axes, and its labels as a search finds them. */
+/* What is the same of all of a case: the volume's periodic axes and their spacing, and its labels as a search
+   finds them. */
 static vorocl_periodic axes;
+static int spacing[3];
 static uint32_t labels[voxels];
 
 static int is_periodic(int axis) { return (axes >> axis) & 1; }
@@ -32,7 +35,10 @@ static int way_along(int voxel, uint32_t seed, int axis) {
 
 static int squared_distance(int voxel, uint32_t seed) {
   int sum = 0;
-  for (int axis = 0; axis < 3; ++axis) sum += way_along(voxel, seed, axis) * way_along(voxel, seed, axis);
+  for (int axis = 0; axis < 3; ++axis) {
+    const int units = spacing[axis] * way_along(voxel, seed, axis);
+    sum += units * units;
+  }
   return sum;
 }
 
@@ -188,19 +194,24 @@ static void test_fields(const vorocl_diagram* diagram) {
   vorocl_field_free(field);
 }
 
-static void test_volume(const vorocl_device* device, vorocl_periodic periodic) {
-  const vorocl_grid volume = vorocl_grid_of_voxels(columns, rows, slices, periodic);
-  vorocl_grid same;
+static void test_volume(const vorocl_device* device, vorocl_periodic periodic, int of_y, int of_z) {
+  vorocl_grid volume = vorocl_grid_of_voxels(columns, rows, slices, periodic), same;
   vorocl_window all;
   vorocl_seeds* seeds = NULL;
   vorocl_diagram *diagram = NULL, *right = NULL;
   vorocl_point3 read[volume_seeds];
   axes = periodic;
+  spacing[0] = 1;
+  spacing[1] = of_y;
+  spacing[2] = of_z;
+  volume.y.spacing = of_y;
+  volume.z.spacing = of_z;
   search_volume();
   OK(vorocl_seeds_from_points3(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_IS_REFUSED,
                                VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_seeds_grid(seeds, &same));
   CHECK(same.z.pixels == slices && same.z.to == slices && same.z.periodic == (periodic & 4) / 4);
+  CHECK(same.x.spacing == 1 && same.y.spacing == of_y && same.z.spacing == of_z);
   OK(vorocl_seeds_read_voxels(seeds, read, volume_seeds));
   CHECK(read[1].x == 11.5 && read[1].y == 8.5 && read[1].z == 6.5 && isnan(read[5].z));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &diagram));
@@ -229,7 +240,7 @@ static void test_moves(const vorocl_device* device) {
   OK(vorocl_seeds_move_to3(seeds, &outside, NULL, 1)); /* z wraps */
   OK(vorocl_seeds_read_voxels(seeds, read, 1));
   CHECK(read[0].z == slices - 1.5);
-  deep.z = (vorocl_axis){20, -10, 10, 0, 0, 0};
+  deep.z = (vorocl_axis){20, -10, 10, 0, 0, 0, 1};
   OK(vorocl_seeds_move_to_grid3(seeds, deep, &outside, NULL, 1));
   OK(vorocl_seeds_read_voxels(seeds, read, 1));
   CHECK(read[0].z == 8.5);
@@ -266,6 +277,9 @@ static void test_refusals(const vorocl_device* device) {
   FAILS(vorocl_seeds_random(device, unknown, 3, 1, &none), VOROCL_BAD_ARGUMENT, "must be 0 or 1");
   FAILS(vorocl_seeds_random(device, vorocl_grid_of_pixels(9, 9, VOROCL_PERIODIC_Z), 3, 1, &none),
         VOROCL_BAD_ARGUMENT, "must be 0 or 1");
+  flat.x.spacing = 17;
+  FAILS(vorocl_seeds_random(device, flat, 3, 1, &none), VOROCL_BAD_ARGUMENT, "a spacing of 17");
+  flat.x.spacing = 0;
   wrong.z.to = 5;
   FAILS(vorocl_seeds_random(device, wrong, 3, 1, &none), VOROCL_BAD_ARGUMENT, "0 pixels");
   FAILS(vorocl_seeds_read(seeds, read, volume_seeds), VOROCL_BAD_ARGUMENT, "volume");
@@ -295,8 +309,9 @@ int main(void) {
   vorocl_device* device = NULL;
   OK(vorocl_device_select(NULL, &device));
   if (device == NULL) return EXIT_FAILURE;
-  test_volume(device, VOROCL_PERIODIC_NONE);
-  test_volume(device, VOROCL_PERIODIC_X | VOROCL_PERIODIC_Z);
+  test_volume(device, VOROCL_PERIODIC_NONE, 1, 1);
+  test_volume(device, VOROCL_PERIODIC_X | VOROCL_PERIODIC_Z, 1, 1);
+  test_volume(device, VOROCL_PERIODIC_X, 2, 3);
   test_moves(device);
   test_refusals(device);
   vorocl_device_free(device);

@@ -17,8 +17,14 @@ constexpr std::int64_t parts_of_pixel = 4096;
 /// is as near but for 2^-53 of that.
 using Place = std::array<double, 3>;
 
-std::int64_t in_parts(double pixels) { return std::llround(pixels * static_cast<double>(parts_of_pixel)); }
-std::int64_t centre_of(std::int64_t pixel) { return pixel * parts_of_pixel + parts_of_pixel / 2; }
+/// In parts of a unit of distances: of a pixel, or of that by which axes are spaced.
+std::int64_t in_parts(double pixels, const Axis& along) {
+  return along.spacing() * std::llround(pixels * static_cast<double>(parts_of_pixel));
+}
+std::int64_t centre_of(std::int64_t pixel, const Axis& along) {
+  return along.spacing() * (pixel * parts_of_pixel + parts_of_pixel / 2);
+}
+std::int64_t period_of(const Axis& axis) { return axis.spacing() * axis.pixels() * parts_of_pixel; }
 
 std::array<const Axis*, 3> axes_of(const Grid& grid) { return {&grid.x(), &grid.y(), &grid.z()}; }
 
@@ -36,7 +42,7 @@ struct Cloud {
 
 /// Where a pixel is along an axis, and a period before and behind that.
 std::vector<double> images(std::int64_t at, const Axis& axis) {
-  const auto here = static_cast<double>(at), period = static_cast<double>(axis.pixels() * parts_of_pixel);
+  const auto here = static_cast<double>(at), period = static_cast<double>(period_of(axis));
   if (!axis.is_periodic()) return {here};
   return {here, here - period, here + period};
 }
@@ -89,7 +95,8 @@ GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {
     if (!seeds[id]) continue;
-    const Position at = {in_parts(seeds[id]->x), in_parts(seeds[id]->y), in_parts(seeds[id]->z)};
+    const Position at = {in_parts(seeds[id]->x, grid.x()), in_parts(seeds[id]->y, grid.y()),
+                         in_parts(seeds[id]->z, grid.z())};
     seeds_[id] = at;
     cloud.points.push_back(
         {static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])});
@@ -136,7 +143,8 @@ template <typename Visit>
 void GroundTruth::visit_row(std::int64_t row, const Visit& visit) const {
   auto i = static_cast<std::size_t>(row * grid_.width());
   for (std::int64_t x = 0; x < grid_.width(); ++x, ++i) {
-    visit(i, {centre_of(x), centre_of(row % grid_.height()), centre_of(row / grid_.height())});
+    visit(i, {centre_of(x, grid_.x()), centre_of(row % grid_.height(), grid_.y()),
+              centre_of(row / grid_.height(), grid_.z())});
   }
 }
 
@@ -145,7 +153,7 @@ std::uint64_t GroundTruth::distance(const Position& a, const Position& b) const 
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Axis& along = *axes_of(grid_)[axis];
     std::int64_t way = std::abs(a[axis] - b[axis]);
-    if (along.is_periodic()) way = std::min(way, along.pixels() * parts_of_pixel - way);
+    if (along.is_periodic()) way = std::min(way, period_of(along) - way);
     const auto length = static_cast<std::uint64_t>(way);
     sum += metric_ == Metric::euclidean ? length * length : length;
   }

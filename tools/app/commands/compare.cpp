@@ -55,13 +55,14 @@ struct Comparison {
   std::size_t pixels;
   std::size_t different_pixels;
   bool is_volume;
-  std::optional<DistanceErrors> errors;  // against the exact diagram
+  bool is_spaced = false;
+  std::optional<DistanceErrors> errors = {};  // against the exact diagram
 };
 
 Comparison compare(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b, bool is_volume) {
   const auto equal =
       std::inner_product(a.begin(), a.end(), b.begin(), std::size_t{0}, std::plus<>(), std::equal_to<>());
-  return {similarity(a, b), a.size(), a.size() - equal, is_volume, {}};
+  return {similarity(a, b), a.size(), a.size() - equal, is_volume};
 }
 
 Comparison compare_files(const CompareOptions& options) {
@@ -112,6 +113,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   DistanceErrorsResult errors;
   distance_errors(diagram, exact, errors);
   comparison.errors = errors.read();
+  comparison.is_spaced = seeds.grid().is_spaced();
   return comparison;
 }
 
@@ -138,7 +140,7 @@ void print_result(const CompareOptions& options, const Comparison& comparison) {
         "{} {} are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} {}, "
         "largest {:.3f}\n",
         errors->wrong_pixels, pixels, errors->wrong_percent(), errors->unlabelled_pixels, errors->mean_excess,
-        pixels, errors->largest_excess);
+        comparison.is_spaced ? "units of the spacing" : pixels, errors->largest_excess);
   }
 }
 

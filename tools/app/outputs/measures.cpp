@@ -249,6 +249,7 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
                {"width", view.picture.size.width()},
                {"height", view.picture.size.height()}};
   if (grid.is_volume()) json["depth"] = grid.depth();
+  if (grid.is_spaced()) json["spacing"] = {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()};
   json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
                    {grid.is_volume() ? "volume_unit" : "area_unit", view.units.of_area()},
                    {"length_unit", view.units.of_length()}});

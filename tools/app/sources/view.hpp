@@ -42,18 +42,21 @@ struct Extent {
 };
 
 /// Positions, areas and lengths of pixels, in data units where there are bounds. A length has a scale only
-/// where pixels are squares, and voxels cubes: elsewhere lengths stay in pixels.
+/// where pixels are squares, and voxels cubes or spaced as they are long: elsewhere lengths stay in pixels.
 ///
-/// In a volume an area is the volume of voxels, and a border between cells is an area of their faces.
+/// In a volume an area is the volume of voxels, and a border between cells is a number of their faces, which
+/// has a scale where voxels are cubes.
 class Units {
  public:
   /// Pixels.
   Units() = default;
 
   /// An axis without an extent, has no scale: then all stays in pixels.
-  Units(const AxisScale& x, const AxisScale& y, bool square) : Units({x, y, {}}, square, 2) {}
-  Units(const AxisScale& x, const AxisScale& y, const AxisScale& z, bool cubes)
-      : Units({x, y, z}, cubes, 3) {}
+  Units(const AxisScale& x, const AxisScale& y, bool square) : Units({x, y, {}}, square, false) {}
+
+  /// Of a volume, whose distances are one length in data units if it has a scale.
+  Units(const Grid& volume, bool has_scale)
+      : Units({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}}, has_scale, true) {}
 
   /// Of a position in pixels of the picture.
   Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y)}; }
@@ -86,13 +89,15 @@ class Units {
   /// The first line of a table with these columns: where lengths stay in pixels beside positions in data
   /// units, the names of their columns say so.
   std::string header(const std::vector<std::string>& columns) const {
-    static const std::set<std::string> of_planes = {"perimeter", "largest_distance", "length"},
-                                       of_volumes = {"surface", "largest_distance", "area"};
-    const std::set<std::string>& lengths = is_volume_ ? of_volumes : of_planes;
-    const bool say_so = area_in_data_ && !length_in_data_;
+    const std::set<std::string> borders =
+        is_volume_ ? std::set<std::string>{"surface", "area"} : std::set<std::string>{"perimeter", "length"};
+    const auto in_pixels = [&](const std::string& column) {
+      return area_in_data_ && ((borders.count(column) > 0 && !border_in_data_) ||
+                               (column == "largest_distance" && !length_in_data_));
+    };
     std::string text;
     for (const std::string& column : columns)
-      text += (text.empty() ? "" : ",") + column + (say_so && lengths.count(column) > 0 ? "_px" : "");
+      text += (text.empty() ? "" : ",") + column + (in_pixels(column) ? "_px" : "");
     return text + "\n";
   }
 
@@ -103,26 +108,30 @@ class Units {
   const char* length_title() const { return length_in_data_ ? "data units" : "px"; }
 
  private:
-  Units(const std::array<AxisScale, 3>& axes, bool square, int dimensions) : is_volume_(dimensions == 3) {
+  Units(const std::array<AxisScale, 3>& axes, bool has_scale, bool is_volume) : is_volume_(is_volume) {
+    double units = 1;  // of a spacing, in a pixel
     for (const AxisScale& axis : axes) {
       if (axis.side_of_pixel() == 0) return;
+      units *= axis.axis.spacing();
     }
     x_ = axes[0];
     y_ = axes[1];
     z_ = axes[2];
     area_ = {x_.length() * y_.length() * z_.length(), x_.pixels() * y_.pixels() * z_.pixels()};
     area_in_data_ = true;
-    if (!square) return;
+    if (!has_scale) return;
     // The sides differ by the rounding of the picture's height alone.
-    length_ = is_volume_ ? Ratio{std::cbrt(area_.data), std::cbrt(area_.pixels)}
+    length_ = is_volume_ ? Ratio{std::cbrt(area_.data), std::cbrt(area_.pixels * units)}
                          : Ratio{std::sqrt(area_.data), std::sqrt(area_.pixels)};
-    border_ = is_volume_ ? Ratio{length_.data * length_.data, length_.pixels * length_.pixels} : length_;
     length_in_data_ = true;
+    if (units > 1) return;
+    border_ = is_volume_ ? Ratio{length_.data * length_.data, length_.pixels * length_.pixels} : length_;
+    border_in_data_ = true;
   }
 
   AxisScale x_, y_, z_;
   Ratio area_, length_, border_;
-  bool is_volume_ = false, area_in_data_ = false, length_in_data_ = false;
+  bool is_volume_ = false, area_in_data_ = false, length_in_data_ = false, border_in_data_ = false;
 };
 
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation

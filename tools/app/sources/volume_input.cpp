@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/seed_input.hpp"
@@ -90,22 +91,58 @@ void check_inside(const std::vector<Point3>& points, const std::vector<std::uint
   }
 }
 
-/// True if voxels are cubes in data units, to the nearest whole number of voxels.
-bool has_cubes(const Grid& grid) {
-  const auto is_square = [](const Axis& a, const Axis& b) {
-    return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
-  };
-  return is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z());
+Grid with_spacing(const Grid& grid, const std::array<int, 3>& spacing) {
+  return {grid.x().spaced(spacing[0]), grid.y().spaced(spacing[1]), grid.z().spaced(spacing[2])};
 }
 
-/// Warns unless voxels are cubes. Returns whether it did.
+/// Whether the unit of distances is one length in data units: of cubes to the nearest whole number of voxels,
+/// of axes that are spaced to 1/1000. An axis without an extent fits all.
+bool has_scale(const Grid& grid) {
+  if (!grid.is_spaced()) {
+    const auto is_square = [](const Axis& a, const Axis& b) {
+      return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
+    };
+    return is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z());
+  }
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const Axis* axis : {&grid.x(), &grid.y(), &grid.z()}) {
+    const double unit = AxisScale{*axis}.side_of_pixel() / axis->spacing();
+    if (unit == 0) continue;
+    least = std::min(least, unit);
+    most = std::max(most, unit);
+  }
+  return most <= least * 1.001;
+}
+
+/// The least spacing that gives distances a scale; without one voxels count as cubes.
+std::array<int, 3> spacing_of(const Grid& grid) {
+  for (int most = 1; most <= Axis::max_spacing; ++most) {
+    for (int x = 1; x <= most; ++x) {
+      for (int y = 1; y <= most; ++y) {
+        for (int z = x == most || y == most ? 1 : most; z <= most; ++z) {
+          if (has_scale(with_spacing(grid, {x, y, z}))) return {x, y, z};
+        }
+      }
+    }
+  }
+  return {1, 1, 1};
+}
+
+/// Warns unless distances have a scale. Returns whether it did.
 bool warn_of_voxels(const Grid& grid) {
-  if (has_cubes(grid)) return false;
-  print_warning(
-      fmt::format("the axes get different scales on {} voxels, so the cells are not Voronoi cells in "
-                  "data units; a --size like the bounds keeps voxels cubes",
-                  to_string(VolumeSize{grid.width(), grid.height(), grid.depth()})));
+  if (has_scale(grid)) return false;
+  print_warning(fmt::format(
+      "the axes get different scales on {} voxels, and the sides of a voxel are no whole multiples (up to "
+      "{}) of one length, so the cells are not Voronoi cells in data units; a --size like the bounds makes "
+      "voxels cubes",
+      to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), Axis::max_spacing));
   return true;
+}
+
+void note_spacing(const Grid& grid) {
+  if (!grid.is_spaced()) return;
+  print_note(fmt::format("a voxel is {} x {} x {} units of length in the data: distances count it so",
+                         grid.x().spacing(), grid.y().spacing(), grid.z().spacing()));
 }
 
 std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
@@ -126,7 +163,7 @@ std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
 View view_of(const Grid& grid, bool in_pixels) {
   View view = {Size(grid.width(), grid.height()), grid};
   if (!in_pixels) {
-    view.units = Units(AxisScale{grid.x()}, AxisScale{grid.y()}, AxisScale{grid.z()}, has_cubes(grid));
+    view.units = Units(grid, has_scale(grid));
   }
   return view;
 }
@@ -145,9 +182,10 @@ Input input_from_points(const SeedOptions& options) {
     const std::optional<Sides> given = given_sides(options);
     Sides sides = given ? *given : bounding_sides(points);
     take_periodic_axes(options, sides);
-    const Grid grid = grid_of(options, sides);
+    const Grid unspaced = grid_of(options, sides), grid = with_spacing(unspaced, spacing_of(unspaced));
     check_inside(points, {}, grid);
     warn_of_voxels(grid);
+    note_spacing(grid);
     if (!given &&
         std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
@@ -223,7 +261,9 @@ void VolumeFrames::take_frame() {
           fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
                       names[i], whole[i].low, whole[i].high));
     }
-    grid_ = grid_of(options_, sides);
+    const Grid unspaced = grid_of(options_, sides);
+    if (!grid_) note_spacing(with_spacing(unspaced, spacing_ = spacing_of(unspaced)));
+    grid_ = with_spacing(unspaced, spacing_);
     check_inside(points_, frame_.ids, *grid_);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));
