@@ -167,7 +167,7 @@ double Seeds::displacement() const { return state().frame()->way_of_last_move();
 void Seeds::check() const { state().frame()->check(); }
 
 std::vector<std::optional<Point3>> Seeds::read_voxels() const {
-  if (!grid().is_volume()) throw Error("the seeds lie in a plane: read_pixels() gives their pixels");
+  if (!grid().is_volume()) throw Error("the seeds lie in a plane, which has no voxels: read their pixels");
   const std::vector<std::optional<Voxel>> voxels = state().frame()->read_voxels();
   std::vector<std::optional<Point3>> points(voxels.size());
   for (std::size_t id = 0; id < voxels.size(); ++id) {

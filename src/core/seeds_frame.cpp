@@ -176,7 +176,7 @@ std::vector<std::optional<Voxel>> SeedsFrame::read_voxels() const {
 
 std::vector<PlanePosition> SeedsFrame::read_pixels() const {
   if (pixels) return *pixels;
-  refuse_volume(grid, "read_pixels()");
+  refuse_volume(grid, "a list of points (x, y)");
   check();
   std::vector<PlanePosition> read;
   read.reserve(size);

@@ -180,7 +180,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
                                  : "the points have a z, and the grid is no volume");
   }
   if (grid.is_volume()) {
-    if (snap == Snap::none) throw Error("volumes know whole voxels alone: take Snap::to_pixels");
+    if (snap == Snap::none) throw Error("volumes know whole voxels alone: snap the points to pixels");
     return place_in_volume(grid, snap_to_voxels(grid, points));
   }
   const Snapping snapping(grid, outside);

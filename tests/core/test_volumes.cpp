@@ -693,6 +693,6 @@ BOOST_AUTO_TEST_CASE(what_knows_planes_alone_refuses_volumes_by_name) {
   check_refusal(what + "Lloyd relaxation", [&] { relax(seeds, diagram, engine(method("jfa")), 1); });
   check_refusal(what + "tiles", [&] { Tiling(grid, 4); });
   check_refusal(what + "a plane of tiles", [&] { PlaneSeeds{grid}; });
-  check_refusal(what + "read_pixels()", [&] { (void)seeds.read(); });
+  check_refusal(what + "a list of points (x, y)", [&] { (void)seeds.read(); });
   check_refusal("lie in a plane", [&] { (void)Seeds(device, Grid(8, 8), {}).read_voxels(); });
 }

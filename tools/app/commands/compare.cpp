@@ -85,6 +85,18 @@ std::vector<std::uint32_t> without_ids(std::vector<std::uint32_t> labels,
   return labels;
 }
 
+/// Says how many labels of the file name none of the seeds.
+void note_strangers(const std::string& path, const std::vector<std::uint32_t>& of_file,
+                    const std::vector<std::uint32_t>& labels, std::size_t seeds) {
+  std::size_t strangers = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (of_file[i] != no_label && labels[i] >= seeds) ++strangers;
+  }
+  if (strangers == 0) return;
+  print_note(fmt::format("{} of {} labels in {} name none of the seeds: it may be of others", strangers,
+                         labels.size(), path));
+}
+
 Comparison compare_with_exact(const CompareOptions& options) {
   const LabelImage image = read_labels(options.a);
   SeedOptions seed_options = options.seeds;
@@ -106,6 +118,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   Diagram diagram(device, view.window);
   exact_diagram(seeds, exact, {options.metric});
   const std::vector<std::uint32_t> labels = without_ids(image.labels, input.ids);
+  note_strangers(options.a, image.labels, labels, seeds.size());
   diagram.write(view.in_diagram(labels), seeds, options.metric);
   const std::vector<std::uint32_t> truth = exact.read();
   std::vector<std::uint32_t> room;

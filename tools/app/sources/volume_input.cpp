@@ -160,11 +160,9 @@ std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
 }
 
 /// How a volume stands in the data, of which a voxel of random seeds knows nothing.
-View view_of(const Grid& grid, bool in_pixels) {
+View view_of(const Grid& grid, bool in_pixels, bool has_scale) {
   View view = {Size(grid.width(), grid.height()), grid};
-  if (!in_pixels) {
-    view.units = Units(grid, has_scale(grid));
-  }
+  if (!in_pixels) view.units = Units(grid, has_scale);
   return view;
 }
 
@@ -190,7 +188,7 @@ Input input_from_points(const SeedOptions& options) {
         std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    return input_from(view_of(grid, in_pixels(options)), points, {}, {});
+    return input_from(view_of(grid, in_pixels(options), has_scale(grid)), points, {}, {});
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -203,7 +201,7 @@ Input input_at_random(const SeedOptions& options) {
   const Periodic periodic = options.periodic.value_or(Periodic::none);
   const Grid grid(axis(options.size->width(), has_x(periodic)), axis(options.size->height(), has_y(periodic)),
                   axis(options.depth, options.periodic_z));
-  return {view_of(grid, true),
+  return {view_of(grid, true, true),
           [grid, count = options.random, seed = options.rng_seed](const Device& device) {
             return Seeds::random(device, grid, count, seed);
           },
@@ -239,7 +237,7 @@ bool VolumeFrames::next() {
   return true;
 }
 
-View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_)); }
+View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_), has_scale_); }
 
 void VolumeFrames::take_frame() {
   points_.resize(frame_.positions.size());
@@ -262,8 +260,13 @@ void VolumeFrames::take_frame() {
                       names[i], whole[i].low, whole[i].high));
     }
     const Grid unspaced = grid_of(options_, sides);
-    if (!grid_) note_spacing(with_spacing(unspaced, spacing_ = spacing_of(unspaced)));
+    const bool is_first = !grid_;
+    if (is_first) spacing_ = spacing_of(unspaced);
     grid_ = with_spacing(unspaced, spacing_);
+    if (is_first) {
+      has_scale_ = has_scale(*grid_);
+      note_spacing(*grid_);
+    }
     check_inside(points_, frame_.ids, *grid_);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));

@@ -46,6 +46,7 @@ class VolumeFrames {
   int number_ = -1;
   bool has_warned_ = false;                 // of distances without a scale
   std::array<int, 3> spacing_ = {1, 1, 1};  // that of the first frame: seeds keep theirs
+  bool has_scale_ = true;                   // of the first frame: tables have one header for all
   std::optional<Grid> grid_;                // set by the constructor
   std::vector<Point3> points_;
 };
