@@ -3,8 +3,10 @@
 // above y above x: so the least key is the nearest seed by the tie rule, and says where it stands. A voxel is done if
 // its distance is below that of any seed out of reach, (reach + 1)^2 where voxels have a side of 1. For a reach of 5
 // that is 36 * 1331 < 65536; greater distances saturate, and passes for which they leave no room are not made. A box
-// with a voxel that is not done is left to boxes.cl; and so is one within reach of an end of a periodic axis, where
-// seeds follow each other in another order than the tie rule's.
+// with a voxel that is not done is left to boxes.cl.
+//
+// Along a periodic axis the voxels within reach go on behind an end, with images of the seeds at the other one. There
+// the tie rule, which goes by the places in the volume, has them in another order: places turn.
 
 #ifndef VOROCL_VOLUMES_DENSE
 #define VOROCL_VOLUMES_DENSE
@@ -45,29 +47,53 @@ static inline near_keys part_of_key(int along, int unit, int place) {
   return (near_keys)(ushort)min(along * unit + place, NO_KEY);
 }
 
-// Whether voxels are within reach of an end of an axis.
-static inline bool is_near_end(int first, int count, int size, int reach, int periodic) {
-  return periodic && (first < reach || first + count > size - reach);
+#define IS_PERIODIC (PERIODIC_X || PERIODIC_Y || PERIODIC_Z)
+#define MOST_PLACES (2 * LONG_REACH + 1)  // along an axis
+
+// How far the places within reach of a voxel turn, from 0 to all but one: those behind the first voxel of the axis come
+// last, those behind the last one first.
+static inline int turn_at(int at, int size, int reach, int periodic) {
+  if (!periodic) return 0;
+  return at < reach ? reach + 1 + at : max(at + reach + 1 - size, 0) % (2 * reach + 1);
 }
 
-// The boxes of a region within reach of an end of a periodic axis, as bits in the order in which boxes.cl goes through
-// them.
-static inline uint boxes_at_ends(extent_t e, int4 at, int reach) {
-  uint boxes = 0;
-#ifdef VOROCL_PERIODIC
-  for (int i = 0; i < 8 * BOXES; ++i) {
-    const int tile = i / BOXES;
-    const int x = at.x + tile % 2 * TILE, y = at.y + tile / 2 % 2 * TILE + i % 2 * BOX_Y;
-    const int z = at.z + tile / 4 * TILE + i / 2 % 2 * BOX_Z;
-    const bool is_near = is_near_end(x, BOX_X, e.width, reach, PERIODIC_X) ||
-                         is_near_end(y, BOX_Y, e.height, reach, PERIODIC_Y) ||
-                         is_near_end(z, BOX_Z, e.depth, reach, PERIODIC_Z);
-    boxes |= is_near ? 1u << i : 0;
+// Of a region with a periodic axis: how far places turn at its voxels, and the parts of keys that follow from it.
+typedef struct {
+  ushort turn_x[REGION], turn_y[REGION], turn_z[REGION];
+  ushort x[MOST_PLACES * REGION], y[REGION * MOST_PLACES], z[REGION * MOST_PLACES];
+} turns_t;
+
+__attribute__((always_inline)) static inline void find_turns(const int reach, extent_t e, int4 at, turns_t* turns) {
+  const int k = 2 * reach + 1, unit = KEYS_PER_DISTANCE(reach);
+  for (int i = 0; i < REGION; ++i) {
+    const int of_x = turn_at(at.x + i, e.width, reach, PERIODIC_X);
+    const int of_y = turn_at(at.y + i, e.height, reach, PERIODIC_Y);
+    const int of_z = turn_at(at.z + i, e.depth, reach, PERIODIC_Z);
+    turns->turn_x[i] = (ushort)of_x;
+    turns->turn_y[i] = (ushort)of_y;
+    turns->turn_z[i] = (ushort)of_z;
+    for (int j = 0; j < k; ++j) {
+      turns->x[j * REGION + i] = (ushort)min(ALONG_X(j - reach) * unit + (j + of_x) % k, NO_KEY);
+      turns->y[i * k + j] = (ushort)min(ALONG_Y(j - reach) * unit + (j + of_y) % k * k, NO_KEY);
+      turns->z[i * k + j] = (ushort)min(ALONG_Z(j - reach) * unit + (j + of_z) % k * k * k, NO_KEY);
+    }
   }
-#else
-  (void)e, (void)at, (void)reach;
-#endif
-  return boxes;
+}
+
+static inline near_keys turned_back(near_keys place, near_keys turn, ushort k) {
+  return place - turn + select((near_keys)0, (near_keys)k, place < turn);
+}
+
+// Places that have turned, as they are where nothing turns.
+__attribute__((always_inline)) static inline near_keys places_turned_back(const int reach, near_keys place,
+                                                                          const turns_t* turns, int strip, int y,
+                                                                          int z) {
+  const ushort k = (ushort)(2 * reach + 1), area = (ushort)(k * k);
+  const near_keys of_z = mul_hi(place, (near_keys)(ushort)(65536 / area + 1)), in_slice = place - of_z * area;
+  const near_keys of_y = mul_hi(in_slice, (near_keys)(ushort)(65536 / k + 1)), of_x = in_slice - of_y * k;
+  return turned_back(of_z, (near_keys)turns->turn_z[z], k) * area +
+         turned_back(of_y, (near_keys)turns->turn_y[y], k) * k +
+         turned_back(of_x, LOAD_KEYS(turns->turn_x + strip * STRIP), k);
 }
 
 // What is known of the seeds of a region and around it.
@@ -162,8 +188,40 @@ __attribute__((always_inline)) static inline void gather(const int reach, extent
   }
 }
 
+// The images of seeds that lie behind the ends of periodic axes, at most a period away.
+__attribute__((noinline)) static void gather_images(int reach, extent_t e, global const uint* starts,
+                                                    global const ulong* list, int4 at, surroundings_t* around) {
+  const int side = REGION + 2 * reach;
+  for (int image = 0; image < 27; ++image) {
+    const int along_x = image % 3 - 1, along_y = image / 3 % 3 - 1, along_z = image / 9 - 1;
+    if (image == 13 || (along_x != 0 && !PERIODIC_X) || (along_y != 0 && !PERIODIC_Y) || (along_z != 0 && !PERIODIC_Z))
+      continue;
+    // Where the region's surroundings begin, in the volume that the image is of.
+    const int x0 = at.x - reach - along_x * e.width, y0 = at.y - reach - along_y * e.height;
+    const int z0 = at.z - reach - along_z * e.depth;
+    for (int bz = max(z0, 0) / BIN; bz * BIN < min(z0 + side, e.depth); ++bz) {
+      for (int by = max(y0, 0) / BIN; by * BIN < min(y0 + side, e.height); ++by) {
+        for (int bx = max(x0, 0) / BIN; bx * BIN < min(x0 + side, e.width); ++bx) {
+          const uint bin = bin_of(pack(bx * BIN, by * BIN, bz * BIN));
+          const uint first = region_of(pack(bx * BIN, by * BIN, bz * BIN), e) * (BINS + 1) + bin;
+          for (uint j = starts[first]; j < starts[first + 1]; ++j) {
+            const uint p = (uint)list[j];
+            const int x = x_of(p) - x0, y = y_of(p) - y0, z = z_of(p) - z0;
+            if ((uint)x >= (uint)side || (uint)y >= (uint)side || (uint)z >= (uint)side) continue;
+            const int row = z * side + y, column = x + 8 - reach;
+            around->id[row * STRIDE + column] = (uint)(list[j] >> 32);
+            if (column < 32) around->words[row * 2] |= 1u << column;
+            if (column >= STRIP) around->words[row * 2 + 1] |= 1u << (column - STRIP);
+          }
+        }
+      }
+    }
+  }
+}
+
 // A slice of a strip: the least keys along x of each row, then along y.
-__attribute__((always_inline)) static inline void pass_slice(const int reach, const uint* words, near_keys* after_y) {
+__attribute__((always_inline)) static inline void pass_slice(const int reach, const uint* words,
+                                                             const turns_t* turns, int strip, near_keys* after_y) {
   const int k = 2 * reach + 1, side = REGION + 2 * reach, unit = KEYS_PER_DISTANCE(reach);
   ushort absent[LONG_SIDE * 32];  // all ones where there is no seed
   near_keys after_x[LONG_SIDE];
@@ -177,7 +235,10 @@ __attribute__((always_inline)) static inline void pass_slice(const int reach, co
     near_keys least = (near_keys)NO_KEY;
 #pragma unroll
     for (int dx = -reach; dx <= reach; ++dx) {
-      least = min(least, LOAD_KEYS(absent + y * 32 + 8 + dx) | part_of_key(ALONG_X(dx), unit, dx + reach));
+      const near_keys part =
+          IS_PERIODIC ? LOAD_KEYS(turns->x + (dx + reach) * REGION + strip * STRIP)
+                      : part_of_key(ALONG_X(dx), unit, dx + reach);
+      least = min(least, LOAD_KEYS(absent + y * 32 + 8 + dx) | part);
     }
     after_x[y] = least;
   }
@@ -185,15 +246,18 @@ __attribute__((always_inline)) static inline void pass_slice(const int reach, co
     near_keys least = (near_keys)NO_KEY;
 #pragma unroll
     for (int dy = 0; dy < k; ++dy) {
-      least = min(least, add_sat(after_x[y + dy], part_of_key(ALONG_Y(dy - reach), unit, dy * k)));
+      const near_keys part =
+          IS_PERIODIC ? (near_keys)turns->y[y * k + dy] : part_of_key(ALONG_Y(dy - reach), unit, dy * k);
+      least = min(least, add_sat(after_x[y + dy], part));
     }
     after_y[y] = least;
   }
 }
 
-// Stores the labels of a row of a strip whose first voxel has this id; which of them are not done.
-__attribute__((always_inline)) static inline bool store_row(const int reach, near_keys least, const int* offset,
-                                                            const uint* id, global uint* out, int columns) {
+// Stores the labels of row (y, z) of a strip, whose first voxel has this id; whether some of them are not done.
+__attribute__((always_inline)) static inline bool store_row(const int reach, near_keys least, const turns_t* turns,
+                                                            int strip, int y, int z, const int* offset, const uint* id,
+                                                            global uint* out, int columns) {
   const int unit = KEYS_PER_DISTANCE(reach);
   const near_keys distance = mul_hi(least, (near_keys)(ushort)((65536 + unit - 1) / unit));
   near_keys rest = least - distance * (ushort)unit;
@@ -201,7 +265,7 @@ __attribute__((always_inline)) static inline bool store_row(const int reach, nea
   rest += select((near_keys)0, (near_keys)(ushort)unit, over);
   const short16 far = least >= (near_keys)(ushort)FIRST_FAR_KEY(reach);
   ushort place[STRIP];
-  STORE_KEYS(rest, place);
+  STORE_KEYS(IS_PERIODIC ? places_turned_back(reach, rest, turns, strip, y, z) : rest, place);
   if (columns >= STRIP) {
     uint label[STRIP];
 #pragma unroll
@@ -227,14 +291,21 @@ __attribute__((always_inline)) static inline uint label_by_passes(const int reac
   const int k = 2 * reach + 1, side = REGION + 2 * reach, unit = KEYS_PER_DISTANCE(reach);
   surroundings_t around;
   gather(reach, e, bits, starts, list, at, &around);
+  turns_t turns;
+  if (IS_PERIODIC) {
+    gather_images(reach, e, starts, list, at, &around);
+    find_turns(reach, e, at, &turns);
+  }
   int offset[(2 * LONG_REACH + 1) * (2 * LONG_REACH + 1) * (2 * LONG_REACH + 1)];  // in the table, of a place in reach
   for (int i = 0; i < k * k * k; ++i) {
     offset[i] = ((i / (k * k) - reach) * side + i / k % k - reach) * STRIDE + i % k - reach;
   }
   near_keys after_y[LONG_SIDE * REGION];
-  uint left = boxes_at_ends(e, at, reach);
+  uint left = 0;
   for (int strip = 0; strip < 2; ++strip) {
-    for (int z = 0; z < side; ++z) pass_slice(reach, around.words + z * side * 2 + strip, after_y + z * REGION);
+    for (int z = 0; z < side; ++z) {
+      pass_slice(reach, around.words + z * side * 2 + strip, &turns, strip, after_y + z * REGION);
+    }
     // All of a strip has its keys before labels are stored.
     const int x = at.x + strip * STRIP;
     if (x >= e.width) break;
@@ -243,12 +314,14 @@ __attribute__((always_inline)) static inline uint label_by_passes(const int reac
         near_keys least = (near_keys)NO_KEY;
 #pragma unroll
         for (int dz = 0; dz < k; ++dz) {
-          const near_keys part = part_of_key(ALONG_Z(dz - reach), unit, dz * k * k);
+          const near_keys part =
+              IS_PERIODIC ? (near_keys)turns.z[z * k + dz] : part_of_key(ALONG_Z(dz - reach), unit, dz * k * k);
           least = min(least, add_sat(after_y[(z + dz) * REGION + y], part));
         }
         const size_t row = (size_t)(at.z + z) * (size_t)e.height + (size_t)(at.y + y);
         const uint* const id = around.id + ((z + reach) * side + y + reach) * STRIDE + strip * STRIP + 8;
-        const bool some_far = store_row(reach, least, offset, id, labels + row * (size_t)e.width + x, e.width - x);
+        const bool some_far = store_row(reach, least, &turns, strip, y, z, offset, id,
+                                        labels + row * (size_t)e.width + x, e.width - x);
         const int tile = strip | y / TILE << 1 | z / TILE << 2, part = y / BOX_Y % 2 | z / BOX_Z % 2 << 1;
         left |= some_far ? 1u << (tile * BOXES + part) : 0;
       }
@@ -266,6 +339,12 @@ __attribute__((noinline)) static uint label_less_near(extent_t e, global const u
   return label_by_passes(LONG_REACH, e, bits, starts, list, at, labels);
 }
 
+// Whether of each seed one image at most is within reach of a voxel.
+static inline bool has_one_image(extent_t e) {
+  return (!PERIODIC_X || e.width >= MOST_PLACES) && (!PERIODIC_Y || e.height >= MOST_PLACES) &&
+         (!PERIODIC_Z || e.depth >= MOST_PLACES);
+}
+
 // Labels dense regions; says which boxes of each region are left.
 kernel void label_dense(global const uint* restrict bits, global const uint* restrict starts,
                         global const ulong* restrict list, int width, int height, int depth,
@@ -275,7 +354,7 @@ kernel void label_dense(global const uint* restrict bits, global const uint* res
   if (region >= regions_of(e)) return;
   const int4 at = (int4)(region % e.rx * REGION, region / e.rx % e.ry * REGION, region / e.rx / e.ry * REGION, 0);
   const uint first = (uint)region * (BINS + 1);
-  const int seeds = (int)(starts[first + BINS] - starts[first]);
+  const int seeds = has_one_image(e) ? (int)(starts[first + BINS] - starts[first]) : 0;
   uint left = ALL_LEFT;
   if (HAS_ROOM(SHORT_REACH) && seeds >= DENSE_FOR_SHORT) {
     left = label_near(e, bits, starts, list, at, labels);

@@ -291,6 +291,22 @@ BOOST_AUTO_TEST_CASE(small_volumes_have_no_wrong_voxel) {
   }
 }
 
+/// Where seeds are dense, voxels near an end see the seeds at the other one, in another order than the tie
+/// rule's; within a short period more than once.
+BOOST_AUTO_TEST_CASE(dense_seeds_round_the_ends_have_no_wrong_voxel) {
+  if (!can_be_exact()) return;
+  Random random(29);
+  for (const Grid& grid :
+       {periodic(Grid(40, 37, 50), true, true, true), periodic(Grid(4, 32, 33), true, true, true),
+        periodic(Grid(70, 33, 40), false, true, false)}) {
+    for (const std::uint64_t voxels_per_seed : {2u, 6u, 14u, 30u, 80u}) {
+      const std::vector<At> seeds = random.in(grid, grid.pixels() / voxels_per_seed);
+      const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
+      BOOST_TEST(wrong == 0u, size_text(grid) << ", a seed for " << voxels_per_seed << " voxels");
+    }
+  }
+}
+
 /// Of these spacings two leave room for passes where seeds are dense: for both reaches and for the shorter
 /// one. With one that leaves room for none the long tests go on.
 BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
