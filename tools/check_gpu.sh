@@ -117,13 +117,21 @@ report_intel() { # FILE OPTION...
   done
 }
 
+# The report of a maker, once for all options that leave the same source.
+report() { # MAKER FILE OPTION...
+  local source
+  source=$work/$1.$("$CLANG" -E -P -x cl "${of_all[@]}" "${@:3}" "$2" | sha256sum | cut -d ' ' -f 1)
+  [ -e "$source" ] || "report_$1" "${@:2}"
+  touch "$source"
+}
+
 for maker in "$@"; do
   [[ $maker =~ ^(nvidia|amd|intel)$ ]] || { echo "There is no maker \"$maker\", but nvidia, amd and intel." >&2; exit 2; }
   for file in $(kernel_files); do
     for metric in EUCLIDEAN MANHATTAN; do
-      for neighbours in 9 5; do "report_$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours; done
+      for neighbours in 9 5; do report "$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=$neighbours; done
       more_options "$file" | while read -r option; do
-        "report_$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $option
+        report "$maker" "$file" -DVOROCL_$metric -DVOROCL_NEIGHBOURS=9 $option
       done
     done
   done

@@ -30,10 +30,8 @@ builds_of() { # KERNEL
     echo "1 -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
     return
   fi
-  for width in 1 2 4 8 16; do
-    echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"
-    echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"
-  done
+  for width in 1 2 4 8 16; do echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9"; done
+  for width in 1 2 16; do echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS -DVOROCL_FAR"; done
   for width in 1 16; do
     echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9"
     for metric in EUCLIDEAN MANHATTAN; do

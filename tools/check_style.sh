@@ -2,8 +2,14 @@
 # Checks that clang-format (of version 14) and clang-tidy have nothing to say:
 #   check_style.sh format              all sources; of kernels the length of lines alone
 #   check_style.sh lint [FOLDER]...    the sources in the folders, or in all; takes some 10 seconds for each
+#   check_style.sh quick [FOLDER]...   the same, or of src and tools, for a sixth of the time: the sources of a folder as one, and
+#                                      without clang's analyzer
 set -euo pipefail
 cd "$(dirname "$0")/.."
+
+configure() { # FOLDER OPTION...: as Clang compiles it, which cannot read the precompiled headers of another compiler
+  CC=clang CXX=clang++ cmake --preset dev -B "$1" -DVOROCL_MPI=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${@:2}" >/dev/null
+}
 
 case ${1-} in
 format)
@@ -16,13 +22,22 @@ format)
 lint)
   shift
   [ $# -gt 0 ] || set -- src tools tests
-  # As Clang compiles it: it cannot read the precompiled headers of another compiler.
-  CC=clang CXX=clang++ cmake --preset dev -B build-lint -DVOROCL_MPI=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null
+  configure build-lint
   find "$@" -name '*.cpp' -not -path 'tests/package/*' -not -path 'tests/benchmarks/*' -not -path 'tools/simulated_warps/*' |
     xargs --max-procs "$(nproc)" --max-args 1 clang-tidy --quiet -p build-lint
   ;;
+quick)
+  shift
+  [ $# -gt 0 ] || set -- src tools
+  configure build-lint-quick -DCMAKE_UNITY_BUILD=ON -DVOROCL_BUILD_TESTS=OFF
+  # That it includes sources is no mistake of such a file. The longest begin.
+  find build-lint-quick -path '*/Unity/*' -exec grep -lE "\"$PWD/($(IFS='|' && echo "$*"))/" {} + | xargs wc -l | sort -rn |
+    awk '$2 != "total" { print $2 }' |
+    xargs --max-procs "$(nproc)" --max-args 1 clang-tidy --quiet -p build-lint-quick \
+      --checks=-clang-analyzer-*,-bugprone-suspicious-include
+  ;;
 *)
-  echo "check_style.sh format | lint [FOLDER]..." >&2
+  echo "check_style.sh format | lint [FOLDER]... | quick [FOLDER]..." >&2
   exit 2
   ;;
 esac

@@ -16,7 +16,7 @@ rm -rf "$folder"
 python3 -m venv "$folder/environment"
 python=$folder/environment/bin/python
 export PIP_NO_INDEX=1 PIP_FIND_LINKS=$wheels PIP_DISABLE_PIP_VERSION_CHECK=1
-"$python" -m pip install --quiet --requirement python/tests/requirements.txt
+"$python" -m pip install --quiet --no-compile --requirement python/tests/requirements.txt
 "$python" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$folder" >/dev/null
 "$python" -m pip wheel --quiet --no-deps --wheel-dir "$folder" "$folder"/vorocl-*.tar.gz \
   --config-settings cmake.define.VOROCL_WARNINGS_AS_ERRORS=ON

@@ -9,12 +9,16 @@ struct vorocl_exact_cells {
   ExactCellsResult result;
 };
 
+namespace vorocl {
+
 namespace {
 
 ExactCellsResult& of(vorocl_exact_cells* cells) { return given(cells, "cells").result; }
 const ExactCellsResult& of(const vorocl_exact_cells* cells) { return given(cells, "cells").result; }
 
 }  // namespace
+
+}  // namespace vorocl
 
 vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells) {
   return make_object(cells, "cells", [] { return vorocl_exact_cells{}; });

@@ -20,6 +20,8 @@ struct vorocl_adjacency {
   AdjacencyResult result;
 };
 
+namespace vorocl {
+
 namespace {
 
 CellSumsResult& of(vorocl_cell_sums* sums) { return given(sums, "sums").result; }
@@ -40,6 +42,8 @@ vorocl_status read_centroids(const vorocl_cell_sums* sums, Centroid centroid, CP
 }
 
 }  // namespace
+
+}  // namespace vorocl
 
 // --- sums ---
 

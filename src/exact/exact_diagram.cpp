@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::size_t most_lanes = 16;
 static_assert(MOST_CANDIDATES % most_lanes == 0, "the last list is read in whole vectors");
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 /// The engine's working memory.
 struct ExactWorkspace {

@@ -4,6 +4,7 @@
 
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
+#include "runtime/buffer.hpp"
 #include "runtime/device_state.hpp"
 #include "runtime/opencl_info.hpp"
 // Last: it defines macros.
@@ -12,8 +13,6 @@
 namespace vorocl {
 
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 std::size_t patches_along(int pixels) { return (static_cast<std::size_t>(pixels - 1) >> PATCH_BITS) + 1; }
 

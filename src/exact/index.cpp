@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t pixels_of_bin = std::size_t{1} << 2 * BIN_BITS;
 constexpr std::size_t behind_list = 16;                  // lists are read in whole vectors
 constexpr std::size_t most_items_for_duplicates = 4096;  // there are seldom any seeds that share a pixel
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 std::size_t bins_along(int pixels, int level) {
   const int bits = BIN_BITS + FAN_BITS * level;

@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "core/seeds_state.hpp"
+#include "runtime/buffer.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 
 namespace vorocl {
 
 namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
 
 struct OuterWorkspace {
   cl::Buffer lists, counts;  // by box of pixels

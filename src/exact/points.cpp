@@ -13,8 +13,6 @@ namespace {
 
 static_assert(fractions_of_pixel == 1 << FRACTION_BITS);
 
-constexpr std::size_t word = sizeof(std::uint32_t);
-
 struct PointsWorkspace {
   cl::Buffer starts, list, ids;  // the index (kernels/exact/points/index.cl)
 };

@@ -16,7 +16,6 @@ std::size_t slots_of_cell(const PixelGrid& grid) { return grid.is_volume() ? 16 
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
 constexpr std::size_t words_per_pair = 3;
-constexpr std::size_t word = sizeof(cl_uint);
 constexpr cl_uint no_pair = 0xffffffffu;  // NO_PAIR of pair_table.cl
 
 std::size_t first_slots(const MeasuredDiagram& of) {

@@ -16,11 +16,6 @@
 
 namespace vorocl {
 
-namespace {
-
-constexpr std::size_t block_size = 512;
-constexpr std::size_t most_fetched = (std::size_t{64} << 20) / (block_size * sizeof(PlaneSeed));  // blocks
-
 /// A value of some bytes as MPI sends it.
 class ByteType {
  public:
@@ -36,6 +31,11 @@ class ByteType {
  private:
   MPI_Datatype type_ = MPI_DATATYPE_NULL;
 };
+
+namespace {
+
+constexpr std::size_t block_size = 512;
+constexpr std::size_t most_fetched = (std::size_t{64} << 20) / (block_size * sizeof(PlaneSeed));  // blocks
 
 std::vector<int> starts_of(const std::vector<int>& counts) {
   std::vector<int> starts(counts.size(), 0);

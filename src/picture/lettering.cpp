@@ -10,11 +10,11 @@ namespace vorocl {
 namespace {
 
 constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
-constexpr int least_height = 8;
+constexpr int least_text_height = 8;
 
 }  // namespace
 
-int text_height(int rows) { return std::max(least_height, rows / 50); }
+int text_height(int rows) { return std::max(least_text_height, rows / 50); }
 
 Lettering::Lettering(int height)
     : height_(height),

@@ -14,6 +14,9 @@
 
 namespace vorocl {
 
+/// The bytes of a number of 32 bits.
+inline constexpr std::size_t word = sizeof(cl_uint);
+
 /// A buffer of at least `bytes` (and at least 4, for OpenCL has no empty buffers). `held` counts the bytes
 /// that the caller holds already. Throws Error that names the purpose if the device cannot hold it.
 cl::Buffer allocate(const Device& device, std::size_t bytes, const std::string& purpose,

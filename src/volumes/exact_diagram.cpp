@@ -8,7 +8,7 @@ namespace vorocl {
 
 namespace {
 
-constexpr std::size_t word = sizeof(cl_uint), entry = sizeof(cl_ulong), lanes = 8;
+constexpr std::size_t entry = sizeof(cl_ulong), lanes = 8;
 
 /// The engine's working memory.
 struct VolumeWorkspace {

@@ -9,13 +9,13 @@ namespace vorocl::command {
 namespace {
 
 template <typename T>
-constexpr const char* type_name = nullptr;
+constexpr const char* vtk_type = nullptr;
 template <>
-constexpr const char* type_name<std::uint8_t> = "UInt8";
+constexpr const char* vtk_type<std::uint8_t> = "UInt8";
 template <>
-constexpr const char* type_name<std::uint32_t> = "UInt32";
+constexpr const char* vtk_type<std::uint32_t> = "UInt32";
 template <>
-constexpr const char* type_name<float> = "Float32";
+constexpr const char* vtk_type<float> = "Float32";
 
 const char* byte_order() {
   const std::uint16_t one = 1;
@@ -58,7 +58,7 @@ std::string start_of_image(const std::string& name, const std::string& extent, c
   </ImageData>
   <AppendedData encoding="raw">
     _)",
-      byte_order(), extent, name, type_name<T>, corner.x, corner.y, corner.z, cell.x, cell.y, cell.z);
+      byte_order(), extent, name, vtk_type<T>, corner.x, corner.y, corner.z, cell.x, cell.y, cell.z);
 }
 
 constexpr const char* end_of_image = "\n  </AppendedData>\n</VTKFile>\n";

@@ -56,7 +56,7 @@ std::vector<RequestedFile> requested_files(const RelaxCommand& options) {
   return files;
 }
 
-struct Outputs {
+struct RelaxOutputs {
   std::unique_ptr<FrameWriter> rounds;
   std::optional<OutputFile> picture;
   std::optional<OutputFile> labels;
@@ -64,10 +64,10 @@ struct Outputs {
   std::optional<OutputFile> energy;
 };
 
-Outputs open_outputs(const RelaxCommand& options) {
+RelaxOutputs open_outputs(const RelaxCommand& options) {
   check_outputs(requested_files(options), options.seeds, {{"--density", options.density_path, {}}});
   check_picture_options(options.pictures.picture);
-  Outputs outputs;
+  RelaxOutputs outputs;
   if (options.shows_rounds()) {  // first: it makes the folder of numbered pictures
     outputs.rounds = std::make_unique<FrameWriter>(options.pictures);
   } else {
@@ -129,16 +129,16 @@ std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<De
   throw Error(options.density_path + " is 0 everywhere; some pixel must weigh something");
 }
 
-struct Course {
+struct Rounds {
   Relaxation relaxation;
   std::string trouble;  // what ended it early; empty: nothing
 };
 
 /// A round that cannot be written ends it, as a signal does: at the latest one round later, for rounds are
 /// written while the next one is made.
-Course run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
+Rounds run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds, Diagram& diagram,
                   const Interruption& interruption, FrameWriter* writer, RelaxOptions&& how) {
-  Course course;
+  Rounds course;
   Progress progress({"rounds"});
   MeasureBuffers buffers;
   const auto engine = [](const Seeds& at, Diagram& filled) { return exact_diagram(at, filled); };
@@ -172,8 +172,8 @@ Course run_rounds(const RelaxCommand& options, const Input& input, Seeds& seeds,
 
 /// Writes all that can be written, and then returns the number of seeds without a pixel, or throws the first
 /// trouble.
-std::size_t write_end(const Outputs& outputs, const RelaxCommand& options, const Input& input,
-                      const Seeds& seeds, const Diagram& diagram, Course& course) {
+std::size_t write_end(const RelaxOutputs& outputs, const RelaxCommand& options, const Input& input,
+                      const Seeds& seeds, const Diagram& diagram, Rounds& course) {
   const Relaxation& relaxation = course.relaxation;
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
@@ -232,7 +232,7 @@ void print_result(const RelaxCommand& options, const Seeds& seeds, const Relaxat
 
 void run(RelaxCommand& options) {
   const Interruption interruption;  // before there are files
-  const Outputs outputs = open_outputs(options);
+  const RelaxOutputs outputs = open_outputs(options);
   std::optional<DensityImage> density;
   if (!options.density_path.empty()) density = read_density(options.density_path);
   if (density && options.seeds.random > 0 && !options.seeds.size) options.seeds.size = density->size;
@@ -253,7 +253,7 @@ void run(RelaxCommand& options) {
   const FinishAtEnd finish(device);
   Seeds seeds = input.place(device);
   Diagram diagram(device, input.view.window);
-  Course course =
+  Rounds course =
       run_rounds(options, input, seeds, diagram, interruption, outputs.rounds.get(), std::move(how));
   const std::size_t empty_cells = write_end(outputs, options, input, seeds, diagram, course);
   print_result(options, seeds, course.relaxation, empty_cells);

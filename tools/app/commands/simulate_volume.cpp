@@ -117,10 +117,10 @@ void print_result(const SimulateOptions& options, const Seeds& seeds, const View
 }
 
 /// A run, frame by frame.
-class Run {
+class VolumeRun {
  public:
-  Run(const SimulateOptions& options, const VolumeSlice* slice, const Device& device, VolumeFrames& source,
-      Files& files)
+  VolumeRun(const SimulateOptions& options, const VolumeSlice* slice, const Device& device,
+            VolumeFrames& source, Files& files)
       : options_(options),
         slice_(slice),
         source_(source),
@@ -174,7 +174,7 @@ void simulate_volume(const Command& command, const SimulateOptions& options,
   VolumeFrames source(options.seeds);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
-  Run run(options, slice ? &*slice : nullptr, device, source, files);
+  VolumeRun run(options, slice ? &*slice : nullptr, device, source, files);
   Progress progress;
   std::string trouble;
   try {

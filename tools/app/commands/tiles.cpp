@@ -40,7 +40,7 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
   return course;
 }
 
-void run(const TilesOptions& options) {
+void run_tiles(const TilesOptions& options) {
   const Interruption interruption;  // before there are files
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
@@ -61,6 +61,6 @@ void run(const TilesOptions& options) {
 
 }  // namespace
 
-void add_tiles(CommandLine& line) { add_tiles(line, run); }
+void add_tiles(CommandLine& line) { add_tiles(line, run_tiles); }
 
 }  // namespace vorocl::command

@@ -119,12 +119,12 @@ std::vector<Source> sources_of(const std::vector<CellColumn>& columns) {
   return sources;
 }
 
-void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
+void read_plane_cells(const std::vector<CellColumn>& columns, Measures& measures) {
   for (const Source source : sources_of(columns)) source(measures, 0);
 }
 
-void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
-               Measures& measures) {
+void add_plane_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
+                     Measures& measures) {
   const std::vector<Source> sources = sources_of(columns);
   std::vector<CellRow> rows;
   for (const std::uint32_t label : measures.cells()) rows.emplace_back(measures, label);
@@ -145,7 +145,7 @@ void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const
   add_rows(table, rows, add, fetch);
 }
 
-void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
+void add_plane_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
   add_rows(table, measures.pairs_by_id(), [&](fmt::memory_buffer& text, const CellPair& pair) {
     text.append(std::string_view(first));
@@ -212,12 +212,12 @@ FileKind cells_kind(const std::vector<std::string>& names) {
     columns.push_back(*column);
   }
   const auto add_rows = [columns](GrowingFile& table, const std::string& first, Measures& measures) {
-    add_cells(columns, table, first, measures);
+    add_plane_cells(columns, table, first, measures);
   };
   return {"--cells",
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
-          [columns](Measures& measures) { read_cells(columns, measures); },
+          [columns](Measures& measures) { read_plane_cells(columns, measures); },
           TableKind{names, add_rows}};
 }
 
@@ -227,7 +227,7 @@ const FileKind& adjacency_kind() {
       "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
       [](Measures& measures) { measures.pairs(); },
-      TableKind{{"a", "b", "length"}, add_pairs}};
+      TableKind{{"a", "b", "length"}, add_plane_pairs}};
   return kind;
 }
 

@@ -26,10 +26,10 @@ std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
 }
 
 /// Beside the first file that is asked for; "" without files.
-std::string journal_path(const std::vector<RequestedFile>& files) {
+std::string journal_of_frames(const std::vector<RequestedFile>& files) {
   const auto first =
       std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
-  return first == files.end() ? "" : command::journal_path(first->path);
+  return first == files.end() ? "" : journal_path(first->path);
 }
 
 /// That of a run which can go on; none for another, which must not take the place of one that can.
@@ -79,7 +79,7 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
 FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, const std::string& run)
     : options_(options), painter_(options.picture, true) {
   const std::vector<RequestedFile> requested = as_usage([&] { return requested_files(options); });
-  journal_ = open_journal(options, journal_path(requested), run);
+  journal_ = open_journal(options, journal_of_frames(requested), run);
   check_written();
   open_files();
   // The tables behind the journal: one that stays without it would be nobody's.

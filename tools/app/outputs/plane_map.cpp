@@ -16,7 +16,7 @@ namespace vorocl::command {
 namespace {
 
 /// The picture's pixels along an axis.
-struct Samples {
+struct PictureAxis {
   std::int64_t pixels;  // of the plane
   std::int64_t step;
 
@@ -87,7 +87,7 @@ class PlaneMap : public PlaneFile {
  private:
   Window window_;
   std::int64_t step_;
-  Samples x_, y_;
+  PictureAxis x_, y_;
   OutputFile output_;
   PlacedFile labels_;
   bool stays_ = false;

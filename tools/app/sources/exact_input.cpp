@@ -50,7 +50,7 @@ ExactInput input_of(const SeedOptions& options, const std::string& file, const G
           std::move(ids)};
 }
 
-ExactInput input_from_points(const SeedOptions& options) {
+ExactInput exact_input_from_points(const SeedOptions& options) {
   std::vector<Point> points = read_points(options).points;
   try {
     const Bounds repeats = options.domain   ? *options.domain
@@ -85,7 +85,7 @@ ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number) {
   return input;
 }
 
-ExactInput input_from_trajectory(const SeedOptions& options) {
+ExactInput exact_input_from_trajectory(const SeedOptions& options) {
   ExactFrames frames(options);
   for (int number = 0; number < options.frame && frames.skip();) ++number;
   if (std::optional<ExactInput> input = frames.next()) return std::move(*input);
@@ -115,8 +115,8 @@ std::optional<ExactInput> ExactFrames::next() {
 
 ExactInput read_exact_input(const SeedOptions& options) {
   check_seed_options(options, false);
-  if (!options.trajectory.empty()) return input_from_trajectory(options);
-  if (!options.points.empty()) return input_from_points(options);
+  if (!options.trajectory.empty()) return exact_input_from_trajectory(options);
+  if (!options.points.empty()) return exact_input_from_points(options);
   const Input input = read_input(options);
   return {input.view.window.grid(),
           [place = input.place](const Device& device) {

@@ -37,7 +37,7 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   return mapping;
 }
 
-Input input_from_points(const SeedOptions& options) {
+Input plane_from_points(const SeedOptions& options) {
   const auto [points, values] = read_points(options);
   try {
     const Mapping mapping = mapping_of(options, points);
@@ -61,7 +61,7 @@ Input input_from_points(const SeedOptions& options) {
   }
 }
 
-Input input_from_mask(const SeedOptions& options) {
+Input plane_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask);
   if (options.size && *options.size != mask.size) {
     throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough",
@@ -80,7 +80,7 @@ Input input_from_mask(const SeedOptions& options) {
 /// milliseconds to build.
 constexpr std::size_t most_on_host = std::size_t{1} << 20;
 
-Input input_at_random(const SeedOptions& options) {
+Input plane_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
   const Grid grid = options.size->grid(axes_of(options));
   return {{*options.size, grid},
@@ -98,7 +98,7 @@ Input input_at_random(const SeedOptions& options) {
           {}};
 }
 
-Input input_from_trajectory(const SeedOptions& options) {
+Input plane_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const View& view = particles.view();
   return {view,
@@ -181,9 +181,9 @@ bool points_up(const SeedOptions& options) {
 
 Input read_input(const SeedOptions& options) {
   check_seed_options(options);
-  if (!options.trajectory.empty()) return input_from_trajectory(options);
-  if (options.random > 0) return input_at_random(options);
-  return options.mask.empty() ? input_from_points(options) : input_from_mask(options);
+  if (!options.trajectory.empty()) return plane_from_trajectory(options);
+  if (options.random > 0) return plane_at_random(options);
+  return options.mask.empty() ? plane_from_points(options) : plane_from_mask(options);
 }
 
 }  // namespace vorocl::command

@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint64_t most_packed = 1032;
 
 /// The bytes of a file, which may end anywhere: behind the end there are zeros.
-class Bytes {
+class FileBytes {
  public:
-  explicit Bytes(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
+  explicit FileBytes(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}
 
   std::size_t size() const { return bytes_.size(); }
   std::uint8_t at(std::size_t place) const { return place < bytes_.size() ? bytes_[place] : 0; }
@@ -43,20 +43,20 @@ class Bytes {
   const std::vector<std::uint8_t>& bytes_;
 };
 
-bool is_png(const Bytes& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
+bool is_png(const FileBytes& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
 
 /// IHDR, always the first chunk: width, height, bit depth, colour type.
-ImageHeader read_png(const Bytes& bytes) {
+ImageHeader read_png(const FileBytes& bytes) {
   const std::uint8_t color_type = bytes.at(25);
   const std::uint64_t channels = color_type == 2 ? 3 : color_type == 4 ? 2 : color_type == 6 ? 4 : 1;
   return {bytes.big_endian(16, 4), bytes.big_endian(20, 4), bytes.at(24) * channels, true,
           color_type == 0 || color_type == 4};
 }
 
-bool is_bmp(const Bytes& bytes) { return bytes.starts_with("BM"); }
+bool is_bmp(const FileBytes& bytes) { return bytes.starts_with("BM"); }
 
 /// The file header of 14 bytes, then one of two: with sides of 2 bytes, or of 4 and signed.
-ImageHeader read_bmp(const Bytes& bytes) {
+ImageHeader read_bmp(const FileBytes& bytes) {
   constexpr std::size_t info = 14, old_size = 12;
   if (bytes.little_endian(info, 4) == old_size) {
     return {bytes.little_endian(info + 4, 2), bytes.little_endian(info + 6, 2),
@@ -71,10 +71,10 @@ ImageHeader read_bmp(const Bytes& bytes) {
           method == by_run_length_8 || method == by_run_length_4};
 }
 
-bool is_jpeg(const Bytes& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
+bool is_jpeg(const FileBytes& bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 /// The first marker that starts a frame (SOF), behind those of tables and comments.
-ImageHeader read_jpeg(const Bytes& bytes) {
+ImageHeader read_jpeg(const FileBytes& bytes) {
   for (std::size_t place = 2; place + 9 < bytes.size();) {
     const std::uint8_t marker = bytes.at(place + 1);
     if (bytes.at(place) != 0xff) break;
@@ -93,12 +93,12 @@ ImageHeader read_jpeg(const Bytes& bytes) {
   return {};
 }
 
-bool is_pnm(const Bytes& bytes) {
+bool is_pnm(const FileBytes& bytes) {
   return bytes.at(0) == 'P' && bytes.at(1) >= '1' && bytes.at(1) <= '6' && std::isspace(bytes.at(2)) != 0;
 }
 
 /// P1 to P3: numbers as text, each of a digit and a blank at least (bits need no blank); P4 to P6: binary.
-ImageHeader read_pnm(const Bytes& bytes) {
+ImageHeader read_pnm(const FileBytes& bytes) {
   const int kind = bytes.at(1) - '0';
   std::size_t place = 2;
   const auto number = [&]() -> std::int64_t {
@@ -135,13 +135,13 @@ ImageHeader read_pnm(const Bytes& bytes) {
 }  // namespace
 
 void check_is_image(const std::string& path, const std::vector<std::uint8_t>& first_bytes) {
-  const Bytes bytes(first_bytes);
+  const FileBytes bytes(first_bytes);
   if (is_png(bytes) || is_jpeg(bytes) || is_bmp(bytes) || is_tiff(first_bytes) || is_pnm(bytes)) return;
   throw Error(path + " is no image that can be read: it is neither a PNG, JPEG, BMP, TIFF nor PNM file");
 }
 
 ImageHeader read_image_header(const std::string& path, const std::vector<std::uint8_t>& content) {
-  const Bytes bytes(content);
+  const FileBytes bytes(content);
   if (is_png(bytes)) return read_png(bytes);
   if (is_jpeg(bytes)) return read_jpeg(bytes);
   if (is_bmp(bytes)) return read_bmp(bytes);

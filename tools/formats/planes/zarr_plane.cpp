@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int level = 1;                 // higher ones take several times as long, for a few per cent
+constexpr int zlib_level = 1;            // higher ones take several times as long, for a few per cent
 constexpr std::size_t most_workers = 4;  // each has a tile in memory, and what becomes of it
 
 bool is_there(const std::string& path) {
@@ -128,8 +128,8 @@ class ZarrPlane : public PlaneFile {
       const auto bytes = static_cast<uLong>(labels.size() * sizeof no_label);
       uLongf size = compressBound(bytes);
       std::vector<Bytef> compressed(size);
-      if (compress2(compressed.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes, level) !=
-          Z_OK) {
+      if (compress2(compressed.data(), &size, reinterpret_cast<const Bytef*>(labels.data()), bytes,
+                    zlib_level) != Z_OK) {
         throw std::bad_alloc();  // all else that could go wrong is a wrong call
       }
       write_file(path, compressed.data(), size);
@@ -185,7 +185,7 @@ class ZarrPlane : public PlaneFile {
     "zarr_format": 2
 }}
 )",
-        chunk_shape_.height, chunk_shape_.width, level, no_label, tiling_.window().height(),
+        chunk_shape_.height, chunk_shape_.width, zlib_level, no_label, tiling_.window().height(),
         tiling_.window().width());
     write_file(folder_ + "/.zarray", text.data(), text.size());
   }
