@@ -195,6 +195,7 @@ BOOST_AUTO_TEST_CASE(pictures_show_slices) {
     char name;
     int columns, rows;
   };
+  std::size_t shown = 0;
   for (const Axis& axis : {Axis{'z', width, height}, Axis{'y', width, depth}, Axis{'x', height, depth}}) {
     Labels slice;
     for (int row = 0; row < axis.rows; ++row) {
@@ -207,10 +208,23 @@ BOOST_AUTO_TEST_CASE(pictures_show_slices) {
     succeeds(folder,
              volume + "--method " + method_of_device() + fmt::format(" --slice {}=5 -o a.png", axis.name));
     const cv::Mat picture = cv::imread(folder / "a.png");
-    const cv::Mat expected = color_by_id(slice, Grid(axis.columns, axis.rows));
+    cv::Mat expected = color_by_id(slice, Grid(axis.columns, axis.rows));
     BOOST_TEST_REQUIRE((picture.size() == expected.size()), axis.name);
     BOOST_TEST(cv::norm(picture, expected, cv::NORM_INF) == 0, axis.name);
+
+    std::vector<Point> seeds;
+    for (const auto& seed : Seeds::random(test_device(), Grid(width, height, depth), 12, 3).read_voxels()) {
+      if (axis.name == 'z' && seed->z == 5.5) seeds.push_back({seed->x, seed->y});
+      if (axis.name == 'y' && seed->y == 5.5) seeds.push_back({seed->x, seed->z});
+      if (axis.name == 'x' && seed->x == 5.5) seeds.push_back({seed->y, seed->z});
+    }
+    shown += seeds.size();
+    draw_points(expected, seeds);
+    succeeds(folder, volume + "--method " + method_of_device() +
+                         fmt::format(" --slice {}=5 --points-overlay -o a.png", axis.name));
+    BOOST_TEST(cv::norm(cv::imread(folder / "a.png"), expected, cv::NORM_INF) == 0, axis.name);
   }
+  BOOST_TEST(shown > 0);
 }
 
 BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {

@@ -11,6 +11,23 @@ namespace vorocl::command {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+const char* header_of_statistics(bool is_volume) {
+  return is_volume ? "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,"
+                     "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1\n"
+                   : "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
+                     "box_x0,box_y0,box_x1,box_y1\n";
+}
+
+std::string corners_of(const std::optional<Box>& box, bool is_volume) {
+  if (!box) return is_volume ? ",,,,," : ",,,";
+  return is_volume ? fmt::format("{},{},{},{},{},{}", box->x0, box->y0, box->z0, box->x1, box->y1, box->z1)
+                   : fmt::format("{},{},{},{}", box->x0, box->y0, box->x1, box->y1);
+}
+
+}  // namespace
+
 std::string collection_path(const FileRequest& request) {
   if (extension_of(request.path) != ".vti") return {};
   const fs::path pattern(request.path);
@@ -34,8 +51,9 @@ FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : requ
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   if (table_) {
     const TableKind& kind = *request_.kind.table();
-    if (needs_header_) *table_ << "frame,timestep," << measures.view().units.header(kind.columns);
-    needs_header_ = false;
+    if (std::exchange(needs_header_, false)) {
+      *table_ << "frame,timestep," << measures.view().units.header(kind.columns);
+    }
     kind.add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
@@ -53,10 +71,7 @@ void FrameFiles::finish() {
 }
 
 FrameStatistics::FrameStatistics(const std::string& path, FrameJournal* journal)
-    : file_(open_table(path,
-                       "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-                       "box_x0,box_y0,box_x1,box_y1",
-                       journal)) {}
+    : file_(open_table(path, journal)), needs_header_(is_new(journal)) {}
 
 void FrameStatistics::go_on_from(Measures& measures) { last_labels_ = measures.labels_in_picture(); }
 
@@ -66,6 +81,8 @@ void FrameStatistics::read(Measures& measures) {
 }
 
 void FrameStatistics::add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures) {
+  const bool is_volume = measures.view().window.grid().is_volume();
+  if (std::exchange(needs_header_, false)) *file_ << header_of_statistics(is_volume);
   const CellStatistics& statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
   const std::vector<std::uint32_t>& labels = measures.labels_in_picture();
@@ -82,7 +99,7 @@ void FrameStatistics::add(int frame, double milliseconds, const std::optional<Bo
   }
   *file_ << fmt::format("{},{},{},{},{},{},{:.6f},", frame, statistics.cells, statistics.empty_cells,
                         statistics.mean_area, statistics.area_deviation, changed, milliseconds)
-         << (box ? fmt::format("{},{},{},{}\n", box->x0, box->y0, box->x1, box->y1) : ",,,\n");
+         << corners_of(box, is_volume) << "\n";
 }
 
 }  // namespace vorocl::command

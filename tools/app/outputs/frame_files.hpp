@@ -76,6 +76,7 @@ class FrameStatistics {
 
  private:
   std::unique_ptr<GrowingFile> file_;
+  bool needs_header_;
   std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 

@@ -48,8 +48,7 @@ std::unique_ptr<FrameJournal> open_journal(const FrameWriterOptions& options, co
   return std::make_unique<FrameJournal>(path, run);
 }
 
-}  // namespace
-
+/// Says on standard error where a film's sides, which are even, are longer than those of its pictures.
 void note_of_size(const Film& film, const cv::Size& picture) {
   const cv::Size size = film_size(picture);
   if (size == picture) return;
@@ -60,6 +59,8 @@ void note_of_size(const Film& film, const cv::Size& picture) {
                   : picture.height % 2 == 0 ? "column"
                                             : "row and column"));
 }
+
+}  // namespace
 
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   std::vector<RequestedFile> files;

@@ -32,9 +32,6 @@ struct FrameWriterOptions {
 /// number.
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options);
 
-/// Says on standard error where a film's sides, which are even, are longer than those of its pictures.
-void note_of_size(const Film& film, const cv::Size& picture);
-
 /// What a frame is compared with, as a row of a table.
 struct FrameSimilarity {
   double percent = 0;

@@ -35,6 +35,12 @@ class VolumeFrames {
 
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
 
+  // The same as of TrajectorySeeds; volumes have no value columns, and no method that asks for displacements.
+  const std::optional<Box>& box() const { return frame_.box; }
+  const std::vector<double>& values() const { return frame_.values; }
+  std::optional<double> max_displacement() const { return std::nullopt; }
+  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
+
  private:
   void take_frame();
 
