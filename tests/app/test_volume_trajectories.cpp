@@ -363,6 +363,53 @@ BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
   BOOST_TEST((std::isnan(statistics.rows[0][5]) && statistics.rows[1][5] == differences(before, after)));
 }
 
+BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  // Along y the periods are those of each frame; x and z are what both fill, by walls and by particles.
+  Space low = {{0, 0, -1}, {8, 20, 4}, {false, true, false}}, high = {{2, 2, 0}, {10, 23, 5}, low.periodic};
+  const std::vector<Particle> a = {{7, {0.2, 3, 0}}, {8, {7.5, 12, 3}}, {9, {3, 19, 3.5}}},
+                              b = {{7, {2.5, 3, 0.5}}, {9, {9.5, 22, 4.5}}, {8, {4, 12, 3}}};
+  folder.file("a.lammpstrj", dump_frame(1, low, a, false) + dump_frame(2, high, b, true));
+  const std::string simulate = "simulate --trajectory a.lammpstrj --size 20x40x12 ";
+  const auto runs = [&](const std::string& line) {  // scales may differ, of which it warns
+    return run(folder, line).exit_code == 0;
+  };
+  BOOST_TEST(runs(simulate + "--labels own%d.npy --fit frame"));
+  BOOST_TEST((content_of(folder / "own0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "own1.npy") == labels_of(high, b)));
+  BOOST_TEST(runs(simulate + "--labels all%d.npy --cells c%d.csv"));
+  for (Space* const space : {&low, &high}) {
+    space->low = {0, space->low[1], -1};
+    space->high = {10, space->high[1], 5};
+  }
+  BOOST_TEST((content_of(folder / "all0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "all1.npy") == labels_of(high, b)));
+  // Sides that give way hold the particles of all frames.
+  std::string open = dump_frame(1, low, a, false) + dump_frame(2, low, b, false);
+  for (std::size_t at = 0; (at = open.find(" ff pp ff", at)) != std::string::npos;)
+    open.replace(at, 9, " ss pp ss");
+  for (std::size_t at = 0; (at = open.find("\n0 10\n", at)) != std::string::npos;)
+    open.replace(at, 6, "\n1 9\n");
+  folder.file("open.lammpstrj", open);
+  BOOST_TEST(runs("simulate --trajectory open.lammpstrj --size 20x40x12 --labels open%d.npy"));
+  low.low[0] = 0.2;
+  low.high[0] = 9.5;
+  BOOST_TEST((content_of(folder / "open0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "open1.npy") == labels_of(low, b)));
+
+  // Voxels are cubes in the first frame alone: two units cannot share a table.
+  const auto refused = run(folder, simulate + "--cells c.csv");
+  BOOST_TEST(
+      (refused.exit_code == failure && content_of(folder / "c.csv").find("\n1,") == std::string::npos));
+  BOOST_TEST(refused.error.find("frame 1 is measured in other units than the frames before") !=
+             std::string::npos);
+  const std::string first_line =
+      content_of(folder / "c1.csv").substr(0, content_of(folder / "c1.csv").find('\n'));
+  BOOST_TEST(first_line.find("largest_distance_px") != std::string::npos);
+  BOOST_TEST(runs(simulate + "--cells c.csv --units px"));
+}
+
 BOOST_AUTO_TEST_CASE(a_run_goes_on_where_it_stopped) {
   const TemporaryFolder folder, whole;
   const std::string run_of_it =
@@ -504,9 +551,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
   const std::string simulate = "simulate --trajectory a.lammpstrj --size 8x8x8 --labels %d.npy ";
-  for (const std::string option :
-       {"--fit frame", "--truth true --compare-with exact", "--tolerance 1 --compare-with exact",
-        "--cell-columns id --cells c.csv", "--snap"}) {
+  for (const std::string option : {"--truth true --compare-with exact", "--tolerance 1 --compare-with exact",
+                                   "--cell-columns id --cells c.csv", "--snap"}) {
     refuses(folder, simulate + option, usage, {option.substr(0, option.find(' ')) + " is for planes"});
   }
   for (const std::string option : {"--method djfa", "--compare-with djfa"}) {

@@ -198,7 +198,9 @@ class Run {
             stamp_of(frame, source_.timestep()),
             0,
             source_.box(),
-            source_.values()};
+            source_.values(),
+            {},
+            source_.view().units};
   }
 
   /// Adds what the frame's files follow from, besides the options.
@@ -292,7 +294,7 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
     throw UsageError("--size WxHxD: vorocl simulate makes volumes of a --trajectory");
   }
   check_volume_options(seeds);
-  for (const char* const name : {"--fit", "--truth", "--tolerance", "--cell-columns"}) {
+  for (const char* const name : {"--truth", "--tolerance", "--cell-columns"}) {
     if (command.has(name)) refuse_in_volumes(name);
   }
   check_volume_method(options.method);

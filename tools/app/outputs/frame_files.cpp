@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "formats/files.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
@@ -51,17 +53,29 @@ FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : requ
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   if (table_) {
     const TableKind& kind = *request_.kind.table();
-    if (std::exchange(needs_header_, false)) {
-      *table_ << "frame,timestep," << measures.view().units.header(kind.columns);
-    }
+    const std::string header = header_of(frame, measures.view().units);
+    if (std::exchange(needs_header_, false)) *table_ << header;
     kind.add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
   request_.kind.write(files_->file(frame), measures);
-  go_on_from(frame, time);
+  go_on_from(frame, time, measures.view().units);
 }
 
-void FrameFiles::go_on_from(int frame, std::int64_t time) {
+std::string FrameFiles::header_of(int frame, const Units& units) {
+  const std::string header = "frame,timestep," + units.header(request_.kind.table()->columns),
+                    names = fmt::format("{} {}", units.of_area(), units.of_length());
+  if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
+  if (header == header_ && names == units_) return header;
+  throw Error(
+      fmt::format("frame {} is measured in other units than the frames before, because its box has "
+                  "another shape, and {} is one table; give one per frame, such as {}/%05d.csv, or "
+                  "--units px",
+                  frame, request_.path, request_.kind.option.substr(2)));
+}
+
+void FrameFiles::go_on_from(int frame, std::int64_t time, const Units& units) {
+  if (table_) header_of(frame, units);
   if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});
 }
 

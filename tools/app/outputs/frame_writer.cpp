@@ -171,7 +171,7 @@ bool FrameWriter::needs_diagram(int frame) const {
 
 void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures) {
   if (wants_images(facts.frame)) {
-    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time);
+    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time, facts.units);
     if (pictures_ && measures != nullptr && !painter_.is_independent())
       painter_.draw(*measures, facts.values);
     ++frames_;

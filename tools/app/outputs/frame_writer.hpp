@@ -47,6 +47,7 @@ struct FrameFacts {
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
   std::vector<double> values = {};        ///< those that pictures may show, as in Painter::draw()
   std::optional<FrameSimilarity> similarity = std::nullopt;
+  Units units = {};         ///< what the frame is measured in
   std::uint64_t seeds = 0;  ///< what the journal notes of the seeds of all frames so far
 };
 

@@ -147,10 +147,14 @@ class Trajectory : public MovingSeeds {
 
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption) {
-  if (seeds.depth > 1) return std::make_unique<Trajectory<VolumeFrames>>(seeds, motion);
+  const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
+  if (seeds.depth > 1) {
+    return std::make_unique<Trajectory<VolumeFrames>>(
+        seeds, motion,
+        needs_all ? sides_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
+  }
   if (!seeds.trajectory.empty()) {
     check_seed_options(seeds);
-    const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
     return std::make_unique<Trajectory<TrajectorySeeds>>(
         seeds, motion, motion.fit,
         needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);

@@ -1,6 +1,7 @@
 // The seeds of a volume that a command line asks for, and the grid that they are on.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -8,10 +9,23 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
+
+/// A stretch of the data along an axis, and those along all three.
+struct Side {
+  double low = 0, high = 0;
+  bool is_periodic = false;
+};
+using Sides = std::array<Side, 3>;
+
+/// What the boxes of all frames of a trajectory fill, or their particles where there is no box, as
+/// read_all_frames() reads them; none for a pipe.
+std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
+                                         const Interruption& interruption);
 
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
@@ -21,7 +35,10 @@ class VolumeFrames {
   /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
   /// or no z, or has a tilted box; warns on standard error where the axes get different scales,
   /// and notes where the file has other periodic axes than are given.
-  explicit VolumeFrames(const SeedOptions& options, int start = 0);
+  /// `all` is what the volume shows along axes that are not periodic, unless the options have bounds; without
+  /// it each frame's own box.
+  explicit VolumeFrames(const SeedOptions& options, int start = 0,
+                        const std::optional<Sides>& all = std::nullopt);
 
   /// Goes to the next frame; false after the last. Throws as above.
   bool next();
@@ -42,9 +59,11 @@ class VolumeFrames {
   std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
 
  private:
+  Sides sides_of_frame();
   void take_frame();
 
   const SeedOptions& options_;
+  std::optional<Sides> all_;
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
