@@ -387,14 +387,16 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
   BOOST_TEST((content_of(folder / "all1.npy") == labels_of(high, b)));
   // Sides that give way hold the particles of all frames.
   std::string open = dump_frame(1, low, a, false) + dump_frame(2, low, b, false);
-  for (std::size_t at = 0; (at = open.find(" ff pp ff", at)) != std::string::npos;)
-    open.replace(at, 9, " ss pp ss");
-  for (std::size_t at = 0; (at = open.find("\n0 10\n", at)) != std::string::npos;)
-    open.replace(at, 6, "\n1 9\n");
+  for (const auto& [closed, given] :
+       {std::pair(" ff pp ff", " ff pp ss"), std::pair("\n-1 5\n", "\n0 4.1\n")}) {
+    const std::size_t size = std::string(closed).size();
+    for (std::size_t at = 0; (at = open.find(closed, at)) != std::string::npos;)
+      open.replace(at, size, given);
+  }
   folder.file("open.lammpstrj", open);
   BOOST_TEST(runs("simulate --trajectory open.lammpstrj --size 20x40x12 --labels open%d.npy"));
-  low.low[0] = 0.2;
-  low.high[0] = 9.5;
+  low.low[2] = 0;
+  low.high[2] = 4.5;
   BOOST_TEST((content_of(folder / "open0.npy") == labels_of(low, a)));
   BOOST_TEST((content_of(folder / "open1.npy") == labels_of(low, b)));
 
@@ -517,6 +519,17 @@ BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
   folder.file("a.npy", labels);
   const auto judged = nlohmann::json::parse(succeeds(folder, compare));
   BOOST_TEST((judged["errors"]["wrong_pixels"] == 2u && judged["errors"]["unlabelled_pixels"] == 2u));
+}
+
+BOOST_AUTO_TEST_CASE(planes_tell_that_they_leave_out_z) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,Y,Z\n1,2,3\n4,5,6\n");
+  const std::string render = "render --points p.csv --size 8x8 ";
+  const std::string note = "vorocl: note: p.csv: z is left out, which volumes have: --size WxHxD\n";
+  BOOST_TEST(run(folder, render + "--labels a.npy").error == note);
+  BOOST_TEST(run(folder, "cells --exact --points p.csv --cells c.csv").error == note);
+  succeeds(folder, render + "--labels a.npy --columns x,Y");  // which says it
+  succeeds(folder, render + "-o a.png --color column:Z");     // which shows it
 }
 
 BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
