@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <tuple>
@@ -116,7 +117,7 @@ BOOST_AUTO_TEST_CASE(dumps_make_volumes_frame_by_frame) {
   BOOST_TEST(noted.error ==
              "vorocl: note: the periodic axes of the file's box are xyz; --periodic y counts instead\n");
   const auto result = nlohmann::json::parse(noted.out);
-  BOOST_TEST((result["frames"] == 2 && result["periodic"] == "y" && result["depth"] == 12));
+  BOOST_TEST((result["frames"] == 1 && result["periodic"] == "y" && result["depth"] == 12));
   Space told = first;
   told.periodic = {false, true, false};
   BOOST_TEST((content_of(folder / "g/0.npy") == labels_of(told, some)));
@@ -132,7 +133,8 @@ BOOST_AUTO_TEST_CASE(what_is_complete_of_a_run_stays) {
       "z=3";
   const auto result = run(folder, run_of_it);
   BOOST_TEST((result.exit_code == failure && !content_of(folder / "a.mp4").empty()));
-  BOOST_TEST(result.error.find("; frames complete before that: 1\n") != std::string::npos);
+  BOOST_TEST(result.error.find("; frames complete before that: 1, written of them: 1\n") !=
+             std::string::npos);
   BOOST_TEST(content_of(folder / "v.pvd").find("timestep=\"7\" part=\"0\" file=\"v0.vti\"") !=
              std::string::npos);
   folder.file("v%d.vti.journal", "of a run");
@@ -192,6 +194,13 @@ struct Table {
   std::vector<std::vector<double>> rows;
 };
 
+std::vector<std::uint32_t> labels_in(const std::string& file) {
+  const std::size_t header = command::npy_header<std::uint32_t>({cubes[2], cubes[1], cubes[0]}).size();
+  std::vector<std::uint32_t> labels((file.size() - header) / sizeof(std::uint32_t));
+  std::memcpy(labels.data(), file.data() + header, labels.size() * sizeof(std::uint32_t));
+  return labels;
+}
+
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
@@ -200,8 +209,7 @@ BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
   const Space box = {{0, 0, -1}, {10, 20, 5}, {false, false, false}};
   folder.file("a.lammpstrj", dump_frame(6, first, others, false) + dump_frame(7, box, some, false));
   const std::string file = labels_of(box, some), dump = "--trajectory a.lammpstrj --frame 1 ";
-  std::vector<std::uint32_t> labels(cubes[0] * cubes[1] * cubes[2]);
-  std::memcpy(labels.data(), file.data() + file.size() - labels.size() * 4, labels.size() * 4);
+  const std::vector<std::uint32_t> labels = labels_in(file);
   const auto json = nlohmann::json::parse(
       succeeds(folder, "cells " + dump +
                            "--size 20x40x12 --cells a.csv --adjacency b.csv --labels a.npy --distance d.npy "
@@ -341,6 +349,210 @@ BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
   BOOST_TEST(noted(compare).find("units of the spacing") != std::string::npos);
 }
 
+namespace {
+
+/// How many voxels have each label.
+std::map<std::uint32_t, double> counts_of(const std::vector<std::uint32_t>& labels) {
+  std::map<std::uint32_t, double> counts;
+  for (const std::uint32_t label : labels) ++counts[label];
+  return counts;
+}
+
+double differences(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) equal += a[i] == b[i] ? 1 : 0;
+  return static_cast<double>(a.size() - equal);
+}
+
+/// A table of all frames as the tables of each make it: the first lines differ by two columns.
+std::string with_frames(const std::vector<std::pair<std::string, std::string>>& tables) {
+  std::string text;
+  for (const auto& [frame, table] : tables) {
+    std::istringstream lines(table);
+    std::string line;
+    std::getline(lines, line);
+    if (text.empty()) text = "frame,timestep," + line + "\n";
+    while (std::getline(lines, line)) text += frame + line + "\n";
+  }
+  return text;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  folder.file("a.lammpstrj", dump_frame(7, first, some, false) + dump_frame(9, first, others, true));
+  const std::string dump = " --trajectory a.lammpstrj --size 20x40x12 ";
+  succeeds(folder, "simulate" + dump +
+                       "--labels l%d.npy --cells c%d.csv --adjacency a%d.csv --distance d%d.npy --statistics "
+                       "s.csv");
+  succeeds(folder, "simulate" + dump + "--cells c.csv --adjacency a.csv");
+  for (const std::string frame : {"0", "1"}) {
+    succeeds(folder, "cells" + dump + "--frame " + frame +
+                         " --cells one.csv --adjacency two.csv --distance one.npy --labels two.npy");
+    BOOST_TEST((content_of(folder / ("c" + frame + ".csv")) == content_of(folder / "one.csv")));
+    BOOST_TEST((content_of(folder / ("a" + frame + ".csv")) == content_of(folder / "two.csv")));
+    BOOST_TEST((content_of(folder / ("d" + frame + ".npy")) == content_of(folder / "one.npy")));
+    BOOST_TEST((content_of(folder / ("l" + frame + ".npy")) == content_of(folder / "two.npy")));
+  }
+  for (const std::string kind : {"c", "a"}) {
+    BOOST_TEST(content_of(folder / (kind + ".csv")) ==
+               with_frames({{"0,7,", content_of(folder / (kind + "0.csv"))},
+                            {"1,9,", content_of(folder / (kind + "1.csv"))}}));
+  }
+  // By brute force.
+  const std::vector<std::uint32_t> before = labels_in(labels_of(first, some)),
+                                   after = labels_in(labels_of(first, others));
+  const double of_voxel = 0.5 * 0.5 * 0.5;
+  const Table cells(content_of(folder / "c.csv")), statistics(content_of(folder / "s.csv"));
+  BOOST_TEST_REQUIRE((cells.rows.size() == 5u && statistics.rows.size() == 2u));
+  for (const auto& row : cells.rows) {
+    const auto counts = counts_of(row[0] == 0 ? before : after);
+    BOOST_TEST(std::abs(row[6] - counts.at(static_cast<std::uint32_t>(row[2])) * of_voxel) < 1e-9);
+  }
+  BOOST_TEST(statistics.header ==
+             "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,box_x0,box_y0,"
+             "box_z0,box_x1,box_y1,box_z1");
+  for (std::size_t frame = 0; frame < 2; ++frame) {
+    const auto counts = counts_of(frame == 0 ? before : after);
+    const double mean = 1200 / static_cast<double>(counts.size());
+    double squares = 0;
+    for (const auto& [id, count] : counts) squares += std::pow(count * of_voxel - mean, 2);
+    const auto& row = statistics.rows[frame];
+    BOOST_TEST((static_cast<std::size_t>(row[0]) == frame && row[2] == 0));
+    BOOST_TEST(static_cast<std::size_t>(row[1]) == counts.size());
+    BOOST_TEST(std::abs(row[3] - mean) < 1e-9);
+    BOOST_TEST(std::abs(row[4] - std::sqrt(squares / static_cast<double>(counts.size()))) < 1e-9);
+    BOOST_TEST(
+        (row[7] == 0 && row[8] == 0 && row[9] == -1 && row[10] == 10 && row[11] == 20 && row[12] == 5));
+  }
+  BOOST_TEST((std::isnan(statistics.rows[0][5]) && statistics.rows[1][5] == differences(before, after)));
+}
+
+BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  // Along y the periods are those of each frame; x and z are what both fill, by walls and by particles.
+  Space low = {{0, 0, -1}, {8, 20, 4}, {false, true, false}}, high = {{2, 2, 0}, {10, 23, 5}, low.periodic};
+  const std::vector<Particle> a = {{7, {0.2, 3, 0}}, {8, {7.5, 12, 3}}, {9, {3, 19, 3.5}}},
+                              b = {{7, {2.5, 3, 0.5}}, {9, {9.5, 22, 4.5}}, {8, {4, 12, 3}}};
+  folder.file("a.lammpstrj", dump_frame(1, low, a, false) + dump_frame(2, high, b, true));
+  const std::string simulate = "simulate --trajectory a.lammpstrj --size 20x40x12 ";
+  const auto runs = [&](const std::string& line) {  // scales may differ, of which it warns
+    return run(folder, line).exit_code == 0;
+  };
+  BOOST_TEST(runs(simulate + "--labels own%d.npy --fit frame"));
+  BOOST_TEST((content_of(folder / "own0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "own1.npy") == labels_of(high, b)));
+  BOOST_TEST(runs(simulate + "--labels all%d.npy --cells c%d.csv"));
+  for (Space* const space : {&low, &high}) {
+    space->low = {0, space->low[1], -1};
+    space->high = {10, space->high[1], 5};
+  }
+  BOOST_TEST((content_of(folder / "all0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "all1.npy") == labels_of(high, b)));
+  // Sides that give way hold the particles of all frames.
+  std::string open = dump_frame(1, low, a, false) + dump_frame(2, low, b, false);
+  for (const auto& [closed, given] :
+       {std::pair(" ff pp ff", " ff pp ss"), std::pair("\n-1 5\n", "\n0 4.1\n")}) {
+    const std::size_t size = std::string(closed).size();
+    for (std::size_t at = 0; (at = open.find(closed, at)) != std::string::npos;)
+      open.replace(at, size, given);
+  }
+  folder.file("open.lammpstrj", open);
+  BOOST_TEST(runs("simulate --trajectory open.lammpstrj --size 20x40x12 --labels open%d.npy"));
+  low.low[2] = 0;
+  low.high[2] = 4.5;
+  BOOST_TEST((content_of(folder / "open0.npy") == labels_of(low, a)));
+  BOOST_TEST((content_of(folder / "open1.npy") == labels_of(low, b)));
+
+  // Voxels are cubes in the first frame alone: two units cannot share a table.
+  const auto refused = run(folder, simulate + "--cells c.csv");
+  BOOST_TEST(
+      (refused.exit_code == failure && content_of(folder / "c.csv").find("\n1,") == std::string::npos));
+  BOOST_TEST(refused.error.find("frame 1 is measured in other units than the frames before") !=
+             std::string::npos);
+  const std::string first_line =
+      content_of(folder / "c1.csv").substr(0, content_of(folder / "c1.csv").find('\n'));
+  BOOST_TEST(first_line.find("largest_distance_px") != std::string::npos);
+  BOOST_TEST(runs(simulate + "--cells c.csv --units px"));
+}
+
+BOOST_AUTO_TEST_CASE(a_run_goes_on_where_it_stopped) {
+  const TemporaryFolder folder, whole;
+  const std::string run_of_it =
+      "simulate --trajectory a.lammpstrj --size 20x40x12 --method jfa --labels l%d.vti --cells c.csv "
+      "--adjacency a%d.csv -o p%d.png --slice z=3 --points-overlay ";
+  const std::string good = dump_frame(7, first, some, false) + dump_frame(8, first, others, true);
+  whole.file("a.lammpstrj", good);
+  succeeds(whole, run_of_it);
+  folder.file("a.lammpstrj", good.substr(0, good.size() - 10));
+  BOOST_TEST(run(folder, run_of_it + "--resume").error.find("frames complete before that: 1") !=
+             std::string::npos);
+  BOOST_TEST(content_of(folder / "l1.vti").empty());
+  std::vector<Particle> moved = some;
+  moved[0].at[2] += 2;
+  folder.file("a.lammpstrj", dump_frame(7, first, moved, false) + dump_frame(8, first, others, true));
+  refuses(folder, run_of_it + "--resume", failure, {"the seeds of frames 0 to 0 are others"});
+  Space deeper = first;
+  deeper.low[2] -= 0.1;  // each particle is in its voxel still
+  folder.file("a.lammpstrj", dump_frame(7, deeper, some, false) + dump_frame(8, first, others, true));
+  refuses(folder, run_of_it + "--resume", failure, {"the seeds of frames 0 to 0 are others"});
+  folder.file("a.lammpstrj", good);
+  succeeds(folder, run_of_it + "--resume");
+  BOOST_TEST((folder.names() == whole.names()));
+  for (const std::string& name : whole.names()) {
+    if (name != "streams") BOOST_TEST((content_of(folder / name) == content_of(whole / name)), name);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(flooding_is_compared_with_exact_labels) {
+  if (!can_be_exact()) return;
+  const TemporaryFolder folder;
+  constexpr std::size_t side = 48;
+  const std::string melt =
+      "simulate --trajectory " VOROCL_SAMPLES "/lj-melt-3d.lammpstrj --frames 1 --size 48x48x48 ";
+  const auto json = nlohmann::json::parse(succeeds(
+      folder, melt + "--method jfa --compare-with exact --labels f%d.npy --similarity s.csv --json"));
+  succeeds(folder, melt + "--labels e%d.npy --cells c%d.csv --units px");
+  const std::vector<std::uint32_t> flooded = labels_in(content_of(folder / "f1.npy")),
+                                   exact = labels_in(content_of(folder / "e1.npy"));
+  std::map<std::uint32_t, std::array<int, 3>> seeds;
+  for (const auto& row : Table(content_of(folder / "c1.csv")).rows) {
+    seeds[static_cast<std::uint32_t>(row[0])] = {static_cast<int>(row[1]), static_cast<int>(row[2]),
+                                                 static_cast<int>(row[3])};
+  }
+  const auto distance = [&](std::size_t voxel, std::uint32_t label) {
+    const std::size_t at[] = {voxel % side, voxel / side % side, voxel / side / side};
+    int squares = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int straight = std::abs(static_cast<int>(at[axis]) - seeds.at(label)[axis]),
+                way = std::min(straight, static_cast<int>(side) - straight);
+      squares += way * way;
+    }
+    return std::sqrt(squares);
+  };
+  double wrong = 0, largest = 0;
+  BOOST_TEST_REQUIRE((flooded.size() == side * side * side && exact.size() == flooded.size()));
+  for (std::size_t voxel = 0; voxel < exact.size(); ++voxel) {
+    const double excess = distance(voxel, flooded[voxel]) - distance(voxel, exact[voxel]);
+    BOOST_TEST(excess >= 0);
+    wrong += excess > 0 ? 1 : 0;
+    largest = std::max(largest, excess);
+  }
+  const Table table(content_of(folder / "s.csv"));
+  BOOST_TEST(table.header == "frame,similarity,wrong_percent,largest_excess,mean_excess");
+  BOOST_TEST_REQUIRE(table.rows.size() == 1u);
+  const auto& row = table.rows[0];
+  const double all = static_cast<double>(exact.size());
+  BOOST_TEST((wrong > 0 && row[0] == 1));
+  BOOST_TEST(std::abs(row[1] - 100 * (1 - differences(flooded, exact) / all)) < 1e-9);
+  BOOST_TEST(std::abs(row[2] - 100 * wrong / all) < 1e-9);
+  BOOST_TEST(std::abs(row[3] - largest) < 1e-5);
+  BOOST_TEST((json["errors"]["wrong_percent_mean"] == row[2] && json["compare_with"]["method"] == "exact"));
+}
+
 BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {
   if (!can_be_exact()) return;
   const TemporaryFolder folder;
@@ -379,6 +591,17 @@ BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
   BOOST_TEST((judged["errors"]["wrong_pixels"] == 2u && judged["errors"]["unlabelled_pixels"] == 2u));
 }
 
+BOOST_AUTO_TEST_CASE(planes_tell_that_they_leave_out_z) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,Y,Z\n1,2,3\n4,5,6\n");
+  const std::string render = "render --points p.csv --size 8x8 ";
+  const std::string note = "vorocl: note: p.csv: z is left out, which volumes have: --size WxHxD\n";
+  BOOST_TEST(run(folder, render + "--labels a.npy").error == note);
+  BOOST_TEST(run(folder, "cells --exact --points p.csv --cells c.csv").error == note);
+  succeeds(folder, render + "--labels a.npy --columns x,Y");  // which says it
+  succeeds(folder, render + "-o a.png --color column:Z");     // which shows it
+}
+
 BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,y,z\n1,2,3\n4,5,6\n");
@@ -410,10 +633,16 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, "render --trajectory flat.lammpstrj" + volume, failure, {"no z, which a volume needs"});
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
-  refuses(folder, "simulate --trajectory a.lammpstrj --size 8x8x8 --statistics a.csv", usage,
-          {"--statistics is for planes"});
-  refuses(folder, "simulate --trajectory a.lammpstrj --size 8x8x8 --method djfa --labels %d.npy", usage,
-          {"djfa is for planes"});
+  const std::string simulate = "simulate --trajectory a.lammpstrj --size 8x8x8 --labels %d.npy ";
+  for (const std::string option : {"--truth true --compare-with exact", "--tolerance 1 --compare-with exact",
+                                   "--cell-columns id --cells c.csv", "--snap"}) {
+    refuses(folder, simulate + option, usage, {option.substr(0, option.find(' ')) + " is for planes"});
+  }
+  for (const std::string option : {"--method djfa", "--compare-with djfa"}) {
+    refuses(folder, simulate + option, usage, {"djfa is for planes; volumes have"});
+  }
+  refuses(folder, simulate + "-o %d.png", usage, {"-o needs --slice z=K"});
+  refuses(folder, simulate + "-o a.mp4 --slice z=1 --resume", usage, {"--resume cannot go on with a film"});
   for (const std::string of_volumes : {"--bounds 0,0,0,8,8,8", "--periodic xz", "--columns x,y,z"}) {
     refuses(folder, "render --points p.csv --size 8x8 --labels a.npy " + of_volumes, usage, {"for volumes"});
   }

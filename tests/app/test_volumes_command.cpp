@@ -188,28 +188,43 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) 
 BOOST_AUTO_TEST_CASE(pictures_show_slices) {
   const TemporaryFolder folder;
   const Labels labels = expected_labels();
-  const auto at = [&](int x, int y, int z) {
+  const auto label_at = [&](int x, int y, int z) {
     return labels[static_cast<std::size_t>((z * height + y) * width + x)];
   };
+  const auto seeds = Seeds::random(test_device(), Grid(width, height, depth), 12, 3).read_voxels();
+  const auto coordinate = [](const Point3& seed, char axis) {
+    return axis == 'x' ? seed.x : axis == 'y' ? seed.y : seed.z;
+  };
   struct Axis {
-    char name;
+    char name, across, down;
     int columns, rows;
   };
-  for (const Axis& axis : {Axis{'z', width, height}, Axis{'y', width, depth}, Axis{'x', height, depth}}) {
+  for (const Axis& axis : {Axis{'z', 'x', 'y', width, height}, Axis{'y', 'x', 'z', width, depth},
+                           Axis{'x', 'y', 'z', height, depth}}) {
+    const double centre = coordinate(*seeds[0], axis.name);  // a slice with a seed
+    const int at = static_cast<int>(centre);
     Labels slice;
     for (int row = 0; row < axis.rows; ++row) {
       for (int column = 0; column < axis.columns; ++column) {
-        slice.push_back(axis.name == 'z'   ? at(column, row, 5)
-                        : axis.name == 'y' ? at(column, 5, row)
-                                           : at(5, column, row));
+        slice.push_back(axis.name == 'z'   ? label_at(column, row, at)
+                        : axis.name == 'y' ? label_at(column, at, row)
+                                           : label_at(at, column, row));
       }
     }
-    succeeds(folder,
-             volume + "--method " + method_of_device() + fmt::format(" --slice {}=5 -o a.png", axis.name));
-    const cv::Mat picture = cv::imread(folder / "a.png");
-    const cv::Mat expected = color_by_id(slice, Grid(axis.columns, axis.rows));
-    BOOST_TEST_REQUIRE((picture.size() == expected.size()), axis.name);
-    BOOST_TEST(cv::norm(picture, expected, cv::NORM_INF) == 0, axis.name);
+    std::vector<Point> seeds_there;
+    for (const auto& seed : seeds) {
+      if (coordinate(*seed, axis.name) != centre) continue;
+      seeds_there.push_back({coordinate(*seed, axis.across), coordinate(*seed, axis.down)});
+    }
+    cv::Mat expected = color_by_id(slice, Grid(axis.columns, axis.rows));
+    for (const std::string overlay : {"", " --points-overlay"}) {
+      if (!overlay.empty()) draw_points(expected, seeds_there);
+      succeeds(folder, volume + "--method " + method_of_device() +
+                           fmt::format(" --slice {}={} -o a.png", axis.name, at) + overlay);
+      const cv::Mat picture = cv::imread(folder / "a.png");
+      BOOST_TEST_REQUIRE((picture.size() == expected.size()), axis.name);
+      BOOST_TEST(cv::norm(picture, expected, cv::NORM_INF) == 0, axis.name << overlay);
+    }
   }
 }
 

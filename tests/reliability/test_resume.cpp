@@ -27,6 +27,10 @@ const std::string subcommands[] = {
     at_random +
         "--method djfa --refresh-interval 7 --labels l%d.npy --compare-with exact --similarity "
         "similarity.csv",
+    "simulate --trajectory " VOROCL_SAMPLES
+    "/lj-melt-3d.lammpstrj --size 40x40x40 --method jfa --labels l%d.vti --cells cells.csv --adjacency "
+    "a%d.csv "
+    "-o p%d.png --slice z=3 --statistics statistics.csv",
     melt + "--frames 12 --method djfa -o %02d.png --color distance --cells c%d.csv --adjacency adjacency.csv",
 };
 

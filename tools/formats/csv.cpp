@@ -197,6 +197,8 @@ bool CsvReader::next() {
         if (has_z_) indices_->z = 2;
       }
       if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
+      const auto z = has_header && !columns_ && !has_z_ ? index_of(line.fields, "z") : std::nullopt;
+      leaves_out_z_ = z && z != indices_->value;
       columns_there_ = line.fields.size();
       if (has_header) continue;
     }
@@ -223,6 +225,7 @@ CsvPoints read_csv(const std::string& path, const std::optional<Columns>& column
     result.points.push_back(reader.point());
     if (!value_column.empty()) result.values.push_back(reader.value());
   }
+  result.leave_out_z = reader.leaves_out_z();
   return result;
 }
 

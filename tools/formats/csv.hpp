@@ -59,6 +59,9 @@ class CsvReader {
   double z() const { return z_; }          ///< of a volume
   double value() const { return value_; }  ///< of the value column
 
+  /// Whether the header names a z, which is neither asked for nor the value column. Known after next().
+  bool leaves_out_z() const { return leaves_out_z_; }
+
  private:
   std::string path_;
   std::optional<Columns> columns_;
@@ -68,6 +71,7 @@ class CsvReader {
   std::optional<CsvIndices> indices_;
   std::size_t columns_there_ = 0;  // fields of the first line
   bool has_points_ = false;
+  bool leaves_out_z_ = false;
   Point point_;
   double z_ = 0;
   double value_ = 0;
@@ -76,6 +80,7 @@ class CsvReader {
 struct CsvPoints {
   std::vector<Point> points;
   std::vector<double> values;  ///< of the value column, one per point; empty without one
+  bool leave_out_z = false;    ///< see CsvReader::leaves_out_z()
 };
 
 /// All points (x, y, z) of such a file, whose header must name a z too, or whose columns must be three; with

@@ -31,10 +31,8 @@ struct CellsFiles {
 
   /// The same files of a volume, which has no borders.
   std::vector<FileRequest> of_volume() const {
-    return {{volume_cells_kind(), cells.path},
-            {volume_adjacency_kind(), adjacency.path},
-            {volume_distance_kind(), distance.path},
-            {volume_labels_kind(), labels.path}};
+    return {command::of_volume(cells), command::of_volume(adjacency), command::of_volume(distance),
+            command::of_volume(labels)};
   }
 };
 

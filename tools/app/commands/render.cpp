@@ -30,7 +30,6 @@ struct RenderOptions {
   std::string waves_pattern;
   FileRequest labels = {labels_kind(), ""};
   PictureOptions picture;
-  std::optional<VolumeSlice> slice;
   bool json = false;
 
   bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
@@ -130,8 +129,8 @@ void run(const RenderOptions& options) {
 /// The options that a volume has. Throws UsageError for the others.
 VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
   if (command.has("--waves")) refuse_in_volumes("--waves");
-  return {options.seeds,       options.method,  options.method_options, options.device, options.picture_path,
-          options.labels.path, options.picture, options.slice,          options.json};
+  return {options.seeds,        options.method,      options.method_options, options.device,
+          options.picture_path, options.labels.path, options.picture,        options.json};
 }
 
 }  // namespace
@@ -154,18 +153,18 @@ void add_render(CommandLine& line) {
            "Pictures to write of the diagram before the first wave and after every wave, such as "
            "waves/%02d.png; for djfa, the waves of the JFA that makes frame 0")
       .value_name("PICTURES");
-  add_slice_option(command, options->slice);
+  add_slice_option(command, options->picture);
   add_picture_options(command, options->picture);
   add_json_option(command, options->json);
   command.set_work([command, options] {
     if (!options->draws()) refuse_picture_options(command, "-o or --waves");
     check_method_options(command, {options->method}, options->method_options);
-    if (options->seeds.depth > 1) return render_volume(volume_of(command, *options));
-    if (options->slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-    snap_for(options->method, options->seeds);
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }
+    if (options->seeds.depth > 1) return render_volume(volume_of(command, *options));
+    if (options->picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
+    snap_for(options->method, options->seeds);
     options->seeds.value_column = options->picture.color.column;
     if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
     run(*options);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/volume.hpp"
+#include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/outputs/output_files.hpp"
 #include "app/sources/volume_input.hpp"
@@ -28,7 +29,7 @@ void check(const VolumeRendering& options, const VolumeSize& sides) {
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE with --slice z=K, --labels FILE or both");
   }
-  check_slice(options.slice, options.picture_path, options.picture, sides);
+  check_slice(options.picture, options.picture_path, sides);
   check_outputs(requested_files(options), options.seeds);
 }
 
@@ -70,7 +71,8 @@ void render_volume(const VolumeRendering& options) {
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
   if (label_file) write_voxels(*label_file, "label", input.view.voxels(), measures.labels_by_id());
   if (picture) {
-    write_picture(*picture, draw_slice(*options.slice, options.picture, seeds, measures.labels(), input.ids));
+    const std::string stamp = stamp_of(options.seeds.frame, input.timestep);
+    write_picture(*picture, Painter(options.picture).draw(measures, {}, stamp));
   }
   print_result(options, seeds, report, measures);
 }

@@ -1,10 +1,9 @@
 // vorocl render of a volume: its labels, and a picture of a slice of it.
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "app/commands/volume_slice.hpp"
+#include "app/outputs/painter.hpp"
 #include "app/sources/seed_input.hpp"
 #include "vorocl/method.hpp"
 
@@ -18,7 +17,6 @@ struct VolumeRendering {
   std::string picture_path;
   std::string labels_path;
   PictureOptions picture;
-  std::optional<VolumeSlice> slice;
   bool json;
 };
 

@@ -9,8 +9,10 @@
 #include "app/commands/commands.hpp"
 #include "app/commands/exact_frames.hpp"
 #include "app/commands/simulate_course.hpp"
-#include "app/commands/simulate_volume.hpp"
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/outputs/volume_files.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
@@ -196,7 +198,9 @@ class Run {
             stamp_of(frame, source_.timestep()),
             0,
             source_.box(),
-            source_.values()};
+            source_.values(),
+            {},
+            source_.view().units};
   }
 
   /// Adds what the frame's files follow from, besides the options.
@@ -207,19 +211,31 @@ class Run {
       course_.seeds.add(bits);
     };
     const View& view = source_.view();
-    for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
-      const Point point = of_grid ? view.from_grid(*of_grid) : Point{-1, -1};
-      add(point.x);
-      add(point.y);
+    const Grid& grid = view.window.grid();
+    if (grid.is_volume()) {
+      for (const std::optional<Point3>& voxel : simulation_.seeds().read_voxels()) {
+        const Point3 place = voxel.value_or(Point3{-1, -1, -1});
+        for (const double value : {place.x, place.y, place.z}) add(value);
+      }
+      for (const Axis* const axis : {&grid.x(), &grid.y(), &grid.z()}) {
+        for (const double value : {axis->from(), axis->to()}) add(value);
+      }
+    } else {
+      for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
+        const Point point = of_grid ? view.from_grid(*of_grid) : Point{-1, -1};
+        add(point.x);
+        add(point.y);
+      }
+      for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
+        add(value);
+      for (const Point& place : {view.picture.corner, view.picture.pixel}) {
+        add(place.x);
+        add(place.y);
+      }
     }
-    for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
-      add(value);
-    for (const Point& place : {view.picture.corner, view.picture.pixel}) {
-      add(place.x);
-      add(place.y);
-    }
-    add(view.window.grid().tilt());
-    add(static_cast<double>(view.window.grid().periodic()));
+    add(grid.tilt());
+    add(static_cast<double>(grid.periodic()));
+    add(grid.z().is_periodic() ? 1 : 0);
     for (const std::uint32_t id : source_.ids()) course_.seeds.add(id);
     for (const double value : source_.values()) add(value);
     course_.seeds.add(static_cast<std::uint64_t>(source_.timestep().value_or(0)));
@@ -244,7 +260,10 @@ void run(const SimulateOptions& options) {
   check_picture_options(options.output.picture);
   FrameWriter writer(options.output, options.other_is_exact(), options.run);
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
-  check_picture_size(options.output.picture, source->view().picture.size);
+  const View& view = source->view();
+  const std::optional<VolumeSlice>& slice = options.output.picture.slice;
+  check_picture_size(options.output.picture,
+                     slice ? size_of_slice(view.window.grid(), *slice) : view.picture.size);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   Run run(options, *source, device, interruption, writer);
@@ -266,6 +285,37 @@ void run(const SimulateOptions& options) {
   }
   if (!course.trouble.empty()) throw Error(course.trouble + writer.progress() + late);
   print_result(options, *source, run.simulation(), course, *run.measures());
+}
+
+/// Throws UsageError for options that volumes do not have, and asks for the files that they do.
+void prepare_volumes(const Command& command, SimulateOptions& options) {
+  SeedOptions& seeds = options.seeds;
+  if (seeds.trajectory.empty()) {
+    throw UsageError("--size WxHxD: vorocl simulate makes volumes of a --trajectory");
+  }
+  check_volume_options(seeds);
+  for (const char* const name : {"--truth", "--tolerance", "--cell-columns"}) {
+    if (command.has(name)) refuse_in_volumes(name);
+  }
+  check_volume_method(options.method);
+  if (options.compare_with) check_volume_method(*options.compare_with);
+  check_slice(options.output.picture, options.output.picture_path, volume_size(seeds));
+  seeds.usual_snap = Snap::to_pixels;
+  for (FileRequest& request : options.output.files) request = of_volume(request);
+}
+
+/// Throws UsageError for options that planes do not have, or that do not go together there.
+void prepare_planes(const Command& command, SimulateOptions& options) {
+  if (options.output.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
+  snap_for(options.method, options.seeds);
+  const bool judges = !options.method.exact && options.compare_with && options.compare_with->exact;
+  if (judges) options.seeds.usual_snap = options.truth;
+  if (!judges && command.has("--truth")) {
+    throw UsageError("--truth is for a method that floods, with --compare-with exact");
+  }
+  options.seeds.value_column = options.output.picture.color.column;
+  const bool floods = !options.method.windows || (options.compare_with && !options.compare_with->windows);
+  if (floods) options.seeds.keeps_inside = keeps_flooding_inside;
 }
 
 /// The cells of a trajectory without diagrams. Throws UsageError for options that say something of one.
@@ -320,8 +370,7 @@ void add_simulate(CommandLine& line) {
       .value_name("PIXELS")
       .needs(compare_with);
   add_frame_writer_options(command, options->output);
-  const auto slice = std::make_shared<std::optional<VolumeSlice>>();
-  add_slice_option(command, *slice);
+  add_slice_option(command, options->output.picture);
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   const Option exact = command.add("--exact", options->exact,
@@ -335,22 +384,11 @@ void add_simulate(CommandLine& line) {
            "of WKT) or .vtp (ParaView)")
       .value_name("FILES")
       .needs(exact);
-  command.set_work([command, options, slice] {
+  command.set_work([command, options] {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
-    if (options->seeds.depth > 1) return simulate_volume(command, *options, *slice);
-    if (*slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-    snap_for(options->method, options->seeds);
-    const bool judges = !options->method.exact && options->compare_with && options->compare_with->exact;
-    if (judges) options->seeds.usual_snap = options->truth;
-    if (!judges && command.has("--truth")) {
-      throw UsageError("--truth is for a method that floods, with --compare-with exact");
-    }
-    options->seeds.value_column = options->output.picture.color.column;
-    const bool floods =
-        !options->method.windows || (options->compare_with && !options->compare_with->windows);
-    if (floods) options->seeds.keeps_inside = keeps_flooding_inside;
+    options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(command, *options);
     options->run = "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json"});
     run(*options);
   });

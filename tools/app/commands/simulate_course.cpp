@@ -71,13 +71,13 @@ void print_times(const std::string& method, Simulation& simulation, std::size_t 
 void print_text(const SimulateOptions& options, const MovingSeeds& source, Simulation& simulation,
                 const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
-  const Size& picture = source.view().picture.size;
+  const View& view = source.view();
   const auto frames = [](int count) { return counted(count, "frame"); };
-  print("{} after frame 0, {} on {} x {} pixels, on {}\n", frames(simulation.frame()),
-        counted(seeds.alive(), "seed"), picture.width(), picture.height(), seeds.device().name());
+  print("{} after frame 0, {} on {}, on {}\n", frames(simulation.frame()), counted(seeds.alive(), "seed"),
+        size_text(view), seeds.device().name());
   if (course.made_before > 0) print("made before: {}, from frame 0 on\n", frames(course.made_before));
   const CellCount count = measures.cell_count();
-  print_empty_cells(count.empty, count.cells, seeds.alive());
+  print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
   const auto name_of = [&](const Method& method, Metric metric) {
     const bool differs = options.compare_with && options.other_metric() != options.method_options.metric;
     return differs ? fmt::format("{} ({})", method.name, to_string(metric)) : std::string(method.name);
@@ -103,10 +103,10 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
   }
   if (const ErrorSamples& errors = course.errors; !errors.wrong_percent.empty()) {
     print(
-        "wrong pixels: mean {:.4f} %, greatest {:.4f} %; excess distance: mean {:.3g} pixels, largest "
-        "{:.3f}\n",
-        errors.wrong_percent.mean(), errors.wrong_percent.greatest(), errors.mean_excess.mean(),
-        errors.largest_excess.greatest());
+        "wrong {0}s: mean {1:.4f} %, greatest {2:.4f} %; excess distance: mean {3:.3g} {0}s, largest "
+        "{4:.3f}\n",
+        name_of_pixel(view), errors.wrong_percent.mean(), errors.wrong_percent.greatest(),
+        errors.mean_excess.mean(), errors.largest_excess.greatest());
   }
   print_written(requested_files(options.output));
 }

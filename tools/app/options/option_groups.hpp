@@ -72,6 +72,13 @@ void add_picture_options(Command& command, PictureOptions& options);
 /// says that it is of use with `files`.
 void refuse_picture_options(const Command& command, const std::string& files);
 
+/// Adds --slice, for the subcommands that draw volumes.
+void add_slice_option(Command& command, PictureOptions& options);
+
+/// Throws UsageError unless there is a slice of a volume of these sides where there is a picture, and none
+/// where there is none, and for options of pictures that slices do not have.
+void check_slice(const PictureOptions& options, const std::string& picture_path, const VolumeSize& sides);
+
 /// Throws UsageError for options that contradict each other.
 void check_picture_options(const PictureOptions& options);
 

@@ -62,10 +62,12 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
       .value_name("FILE")
       .needs("--compare-with");
   command
-      .add("--statistics", options.statistics_path,
-           "Statistics to write, one row per frame: a .csv file with the numbers of cells and of empty "
-           "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
-           "before, the diagram's milliseconds, and the box of a trajectory")
+      .add(
+          "--statistics", options.statistics_path,
+          "Statistics to write, one row per frame: a .csv file with the numbers of cells and of empty "
+          "cells, the mean and the deviation of their areas, the pixels that changed since the frame "
+          "before, the diagram's milliseconds, and the box of a trajectory; of volumes the same with volumes "
+          "and voxels")
       .value_name("FILE");
   command.add(
       "--resume", options.resume,

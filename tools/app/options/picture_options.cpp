@@ -35,6 +35,14 @@ std::optional<double> parse_interval(const std::string& text) {
   return interval;
 }
 
+/// "z=K" to a slice. Throws Error if it is not that.
+VolumeSlice parse_slice(const std::string& text) {
+  const bool is_of_an_axis = text.size() > 2 && text[1] == '=' && text[0] >= 'x' && text[0] <= 'z';
+  const auto at = is_of_an_axis ? parse_number<std::int64_t>(text.substr(2)) : std::nullopt;
+  if (!at || *at < 0) throw Error("\"" + text + "\" must be z=K, y=K or x=K, such as z=128");
+  return {text[0], *at};
+}
+
 }  // namespace
 
 void add_picture_options(Command& command, PictureOptions& options) {
@@ -94,6 +102,38 @@ void refuse_picture_options(const Command& command, const std::string& files) {
                            "--points-overlay", "--stamp", "--enlarge"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " requires " + files);
   }
+}
+
+void add_slice_option(Command& command, PictureOptions& options) {
+  command
+      .add_parsed("--slice", options.slice, parse_slice,
+                  "Of a volume, the slice that the picture shows, from 0: z=K, or along x or y")
+      .value_name("z=K");
+}
+
+void check_slice(const PictureOptions& options, const std::string& picture_path, const VolumeSize& sides) {
+  const std::optional<VolumeSlice>& slice = options.slice;
+  if (picture_path.empty()) {
+    if (slice) throw UsageError("--slice is of the picture: give -o PICTURE");
+    return;
+  }
+  if (!slice) throw UsageError("-o needs --slice z=K, the slice of the volume that it shows");
+  const std::int64_t slices = slices_along(sides.grid(), slice->axis);
+  if (slice->at >= slices) {
+    throw UsageError(fmt::format("--slice {}={}: the volume has slices from 0 to {} there", slice->axis,
+                                 slice->at, slices - 1));
+  }
+  const char* const of_planes = options.color.quantity != Quantity::id ? "--color"
+                                : options.color_bar                    ? "--color-bar"
+                                : options.scale                        ? "--scale"
+                                : options.logarithmic                  ? "--log"
+                                : options.contours                     ? "--contours"
+                                                                       : nullptr;
+  if (of_planes != nullptr) {
+    throw UsageError(std::string(of_planes) + " is for planes: the picture of a slice shows ids");
+  }
+  check_picture_options(options);
+  check_picture_size(options, size_of_slice(sides.grid(), *slice));
 }
 
 void check_picture_options(const PictureOptions& options) {

@@ -3,13 +3,32 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <tuple>
 #include <utility>
 
 #include "formats/files.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+const char* header_of_statistics(bool is_volume) {
+  return is_volume ? "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,"
+                     "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1\n"
+                   : "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
+                     "box_x0,box_y0,box_x1,box_y1\n";
+}
+
+std::string corners_of(const std::optional<Box>& box, bool is_volume) {
+  if (!box) return is_volume ? ",,,,," : ",,,";
+  return is_volume ? fmt::format("{},{},{},{},{},{}", box->x0, box->y0, box->z0, box->x1, box->y1, box->z1)
+                   : fmt::format("{},{},{},{}", box->x0, box->y0, box->x1, box->y1);
+}
+
+}  // namespace
 
 std::string collection_path(const FileRequest& request) {
   if (extension_of(request.path) != ".vti") return {};
@@ -34,16 +53,29 @@ FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : requ
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   if (table_) {
     const TableKind& kind = *request_.kind.table();
-    if (needs_header_) *table_ << "frame,timestep," << measures.view().units.header(kind.columns);
-    needs_header_ = false;
+    const std::string header = header_of(frame, measures.view().units);
+    if (std::exchange(needs_header_, false)) *table_ << header;
     kind.add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
   request_.kind.write(files_->file(frame), measures);
-  go_on_from(frame, time);
+  go_on_from(frame, time, measures.view().units);
 }
 
-void FrameFiles::go_on_from(int frame, std::int64_t time) {
+std::string FrameFiles::header_of(int frame, const Units& units) {
+  const std::string header = "frame,timestep," + units.header(request_.kind.table()->columns),
+                    names = fmt::format("{} {}", units.of_area(), units.of_length());
+  if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
+  if (header == header_ && names == units_) return header;
+  throw Error(
+      fmt::format("frame {} is measured in other units than the frames before, because its box has "
+                  "another shape, and {} is one table; give one per frame, such as {}/%05d.csv, or "
+                  "--units px",
+                  frame, request_.path, request_.kind.option.substr(2)));
+}
+
+void FrameFiles::go_on_from(int frame, std::int64_t time, const Units& units) {
+  if (table_) header_of(frame, units);
   if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});
 }
 
@@ -53,10 +85,7 @@ void FrameFiles::finish() {
 }
 
 FrameStatistics::FrameStatistics(const std::string& path, FrameJournal* journal)
-    : file_(open_table(path,
-                       "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-                       "box_x0,box_y0,box_x1,box_y1",
-                       journal)) {}
+    : file_(open_table(path, journal)), needs_header_(is_new(journal)) {}
 
 void FrameStatistics::go_on_from(Measures& measures) { last_labels_ = measures.labels_in_picture(); }
 
@@ -66,6 +95,8 @@ void FrameStatistics::read(Measures& measures) {
 }
 
 void FrameStatistics::add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures) {
+  const bool is_volume = measures.view().window.grid().is_volume();
+  if (std::exchange(needs_header_, false)) *file_ << header_of_statistics(is_volume);
   const CellStatistics& statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
   const std::vector<std::uint32_t>& labels = measures.labels_in_picture();
@@ -82,7 +113,7 @@ void FrameStatistics::add(int frame, double milliseconds, const std::optional<Bo
   }
   *file_ << fmt::format("{},{},{},{},{},{},{:.6f},", frame, statistics.cells, statistics.empty_cells,
                         statistics.mean_area, statistics.area_deviation, changed, milliseconds)
-         << (box ? fmt::format("{},{},{},{}\n", box->x0, box->y0, box->x1, box->y1) : ",,,\n");
+         << corners_of(box, is_volume) << "\n";
 }
 
 }  // namespace vorocl::command

@@ -31,11 +31,12 @@ class FrameFiles {
   /// Reads what add() writes, from the device.
   void read(Measures& measures) const { request_.kind.read(measures); }
 
-  /// Writes the file or the rows of a frame, which shows this time.
+  /// Writes the file or the rows of a frame, which shows this time. Throws Error for rows in other units than
+  /// those of the frames before.
   void add(int frame, std::int64_t time, Measures& measures);
 
-  /// As add(), of a frame whose file is there.
-  void go_on_from(int frame, std::int64_t time);
+  /// As add(), of a frame whose file or rows are there.
+  void go_on_from(int frame, std::int64_t time, const Units& units);
 
   /// The table; null where there are numbered files.
   GrowingFile* table() const { return table_.get(); }
@@ -47,10 +48,14 @@ class FrameFiles {
   void finish();
 
  private:
+  /// The first line of a table in these units. Throws as add().
+  std::string header_of(int frame, const Units& units);
+
   FileRequest request_;
   std::optional<NumberedFiles> files_;
   std::unique_ptr<GrowingFile> table_;
-  bool needs_header_ = false;  // of the table, which depends on what the first frame is measured in
+  bool needs_header_ = false;
+  std::string header_, units_;  // of the table, as the first frame is measured; empty before it
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
 };
@@ -76,6 +81,7 @@ class FrameStatistics {
 
  private:
   std::unique_ptr<GrowingFile> file_;
+  bool needs_header_;
   std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 

@@ -48,8 +48,7 @@ std::unique_ptr<FrameJournal> open_journal(const FrameWriterOptions& options, co
   return std::make_unique<FrameJournal>(path, run);
 }
 
-}  // namespace
-
+/// Says on standard error where a film's sides, which are even, are longer than those of its pictures.
 void note_of_size(const Film& film, const cv::Size& picture) {
   const cv::Size size = film_size(picture);
   if (size == picture) return;
@@ -60,6 +59,8 @@ void note_of_size(const Film& film, const cv::Size& picture) {
                   : picture.height % 2 == 0 ? "column"
                                             : "row and column"));
 }
+
+}  // namespace
 
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   std::vector<RequestedFile> files;
@@ -170,7 +171,7 @@ bool FrameWriter::needs_diagram(int frame) const {
 
 void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures) {
   if (wants_images(facts.frame)) {
-    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time);
+    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time, facts.units);
     if (pictures_ && measures != nullptr && !painter_.is_independent())
       painter_.draw(*measures, facts.values);
     ++frames_;

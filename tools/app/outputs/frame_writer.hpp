@@ -32,9 +32,6 @@ struct FrameWriterOptions {
 /// number.
 std::vector<RequestedFile> requested_files(const FrameWriterOptions& options);
 
-/// Says on standard error where a film's sides, which are even, are longer than those of its pictures.
-void note_of_size(const Film& film, const cv::Size& picture);
-
 /// What a frame is compared with, as a row of a table.
 struct FrameSimilarity {
   double percent = 0;
@@ -50,6 +47,7 @@ struct FrameFacts {
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
   std::vector<double> values = {};        ///< those that pictures may show, as in Painter::draw()
   std::optional<FrameSimilarity> similarity = std::nullopt;
+  Units units = {};         ///< what the frame is measured in
   std::uint64_t seeds = 0;  ///< what the journal notes of the seeds of all frames so far
 };
 

@@ -1,9 +1,12 @@
 #include "app/outputs/measures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "app/sources/bounds.hpp"
 #include "app/terminal/console.hpp"
@@ -51,6 +54,21 @@ Measures::Measures(const Seeds& seeds, const Diagram& diagram, const std::vector
       view_(view),
       buffers_(buffers),
       images_(buffers.take_images()) {}
+
+Measures::Measures(const View& view, std::vector<std::uint32_t> labels,
+                   std::vector<std::optional<Point>> seeds, const std::vector<std::uint32_t>& ids,
+                   MeasureBuffers& buffers)
+    : seeds_(nullptr),
+      diagram_(nullptr),
+      metric_(Metric::euclidean),
+      ids_(ids),
+      view_(view),
+      buffers_(buffers),
+      images_(buffers.take_images()),
+      has_labels_(true),
+      points_(std::move(seeds)) {
+  images_.labels = std::move(labels);
+}
 
 void Measures::leave_device() {
   seeds_ = nullptr;
@@ -256,9 +274,11 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
   return json;
 }
 
+const char* name_of_pixel(const View& view) { return view.window.grid().is_volume() ? "voxel" : "pixel"; }
+
 std::string size_text(const View& view) {
   const VolumeSize size = {view.picture.size.width(), view.picture.size.height(), view.window.depth()};
-  return to_string(size) + (size.depth > 1 ? " voxels" : " pixels");
+  return fmt::format("{} {}s", to_string(size), name_of_pixel(view));
 }
 
 void print_diagram(const Method& method, const Seeds& seeds, const View& view, const Report& report) {

@@ -59,6 +59,10 @@ class Measures {
   Measures(const Seeds& seeds, const Diagram& diagram, const std::vector<std::uint32_t>& ids,
            const View& view, MeasureBuffers& buffers);
 
+  /// Those of labels and seeds that were read before, which are all that can be asked for.
+  Measures(const View& view, std::vector<std::uint32_t> labels, std::vector<std::optional<Point>> seeds,
+           const std::vector<std::uint32_t>& ids, MeasureBuffers& buffers);
+
   /// Seeds and diagram may change from here on, and another thread may ask for what was read. What was not
   /// is an error.
   void leave_device();
@@ -152,6 +156,9 @@ class Measures {
 
 /// How a diagram of seeds was made, and how it stands in the data.
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
+
+/// "pixel", of a volume "voxel".
+const char* name_of_pixel(const View& view);
 
 /// "512 x 256 pixels", the picture's; of a volume "64 x 32 x 16 voxels".
 std::string size_text(const View& view);

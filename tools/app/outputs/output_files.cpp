@@ -41,12 +41,12 @@ std::optional<OutputFile> open_output(const std::string& path) {
   return path.empty() ? std::nullopt : std::optional<OutputFile>(path);
 }
 
-void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds) {
+void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds, const std::string& pixel) {
   if (cells < seeds) {
-    print("of these seeds: {} with a cell, {} inside and {} outside that own no pixel\n", cells - empty,
-          empty, seeds - cells);
+    print("of these seeds: {} with a cell, {} inside and {} outside that own no {}\n", cells - empty, empty,
+          seeds - cells, pixel);
   } else if (empty > 0) {
-    print("{} of {} seeds own no pixel\n", empty, seeds);
+    print("{} of {} seeds own no {}\n", empty, seeds, pixel);
   }
 }
 

@@ -29,7 +29,8 @@ std::optional<OutputFile> open_output(const std::string& path);
 
 /// Says on standard output how many of the seeds have no cell, if some do: `empty` of the `cells` that count,
 /// and the seeds outside that are none of these.
-void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds);
+void print_empty_cells(std::size_t empty, std::size_t cells, std::size_t seeds,
+                       const std::string& pixel = "pixel");
 
 /// Says on standard output which files were written.
 void print_written(const std::vector<RequestedFile>& files);

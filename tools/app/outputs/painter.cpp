@@ -105,6 +105,11 @@ Painter::Painter(const PictureOptions& options, bool many)
       contour_interval_(options.contour_interval) {}
 
 void Painter::read(Measures& measures) const {
+  if (options_.slice) {
+    measures.labels();
+    measures.seed_voxels();
+    return;
+  }
   const Quantity quantity = options_.color.quantity;
   if (quantity == Quantity::area) measures.pixels();
   if (quantity == Quantity::neighbours) measures.neighbours();
@@ -114,6 +119,13 @@ void Painter::read(Measures& measures) const {
 }
 
 cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
+  if (!options_.slice) return draw_plane(measures, values, stamp);
+  MeasureBuffers buffers;
+  Measures of_slice = in_slice(measures, *options_.slice, buffers);
+  return draw_plane(of_slice, values, stamp);
+}
+
+cv::Mat Painter::draw_plane(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
   const View& view = measures.view();
   const Size size = view.size();
   // Of a tilted box the last row does not lie on the first one, so that no line is drawn between them.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/outputs/measures.hpp"
+#include "app/outputs/volume_slice.hpp"
 #include "vorocl/picture.hpp"
 
 namespace vorocl::command {
@@ -29,6 +30,7 @@ struct ScaleEnds {
 };
 
 struct PictureOptions {
+  std::optional<VolumeSlice> slice;  // of volumes: what their pictures show
   Coloring color;
   std::optional<Palette> palette;
   std::optional<ScaleEnds> scale;
@@ -63,6 +65,7 @@ class Painter {
   bool is_independent() const;
 
  private:
+  cv::Mat draw_plane(Measures& measures, const std::vector<double>& values, const std::string& stamp);
   cv::Mat color(Measures& measures, const std::vector<double>& values);
   cv::Mat color_by_values(Measures& measures, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <initializer_list>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "app/outputs/table_rows.hpp"
 #include "formats/raster_files.hpp"
@@ -73,40 +75,36 @@ void write_distances_of_volume(const OutputFile& file, Measures& measures) {
   write_voxels(file, "distance", view.voxels(), view.units.lengths(measures.distances()));
 }
 
+/// Labels by id, distances to the nearest seed, one row per cell, one row per pair of cells that touch.
+const std::vector<FileKind>& kinds() {
+  static const std::vector<FileKind> kinds = {
+      {"--labels", "Labels of a volume: .npy (uint32) or .vti", volume_extensions(),
+       [](Measures& measures) { measures.labels_by_id(); }, write_labels_of_volume},
+      {"--distance", "Distances to the nearest seed in a volume: .npy (float32) or .vti", volume_extensions(),
+       [](Measures& measures) { measures.distances(); }, write_distances_of_volume},
+      {"--cells",
+       "A .csv file with one row per cell of a volume",
+       {".csv"},
+       read_cells,
+       TableKind{
+           {"id", "x", "y", "z", "volume", "centroid_x", "centroid_y", "centroid_z", "left", "top", "front",
+            "right", "bottom", "back", "surface", "neighbours", "largest_distance", "touches_border"},
+           add_cells}},
+      {"--adjacency",
+       "A .csv file with one row per pair of cells of a volume that touch",
+       {".csv"},
+       [](Measures& measures) { measures.pairs(); },
+       TableKind{{"a", "b", "area"}, add_pairs}}};
+  return kinds;
+}
+
 }  // namespace
 
-const FileKind& volume_labels_kind() {
-  static const FileKind kind = {"--labels", "Labels of a volume: .npy (uint32) or .vti", volume_extensions(),
-                                [](Measures& measures) { measures.labels_by_id(); }, write_labels_of_volume};
-  return kind;
-}
-
-const FileKind& volume_distance_kind() {
-  static const FileKind kind = {
-      "--distance", "Distances to the nearest seed in a volume: .npy (float32) or .vti", volume_extensions(),
-      [](Measures& measures) { measures.distances(); }, write_distances_of_volume};
-  return kind;
-}
-
-const FileKind& volume_cells_kind() {
-  static const FileKind kind = {"--cells",
-                                "A .csv file with one row per cell of a volume",
-                                {".csv"},
-                                read_cells,
-                                TableKind{{"id", "x", "y", "z", "volume", "centroid_x", "centroid_y",
-                                           "centroid_z", "left", "top", "front", "right", "bottom", "back",
-                                           "surface", "neighbours", "largest_distance", "touches_border"},
-                                          add_cells}};
-  return kind;
-}
-
-const FileKind& volume_adjacency_kind() {
-  static const FileKind kind = {"--adjacency",
-                                "A .csv file with one row per pair of cells of a volume that touch",
-                                {".csv"},
-                                [](Measures& measures) { measures.pairs(); },
-                                TableKind{{"a", "b", "area"}, add_pairs}};
-  return kind;
+FileRequest of_volume(const FileRequest& of_plane) {
+  const auto kind = std::find_if(kinds().begin(), kinds().end(), [&of_plane](const FileKind& any) {
+    return any.option == of_plane.kind.option;
+  });
+  return {*kind, of_plane.path};
 }
 
 }  // namespace vorocl::command

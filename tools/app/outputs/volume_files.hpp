@@ -5,14 +5,10 @@
 
 namespace vorocl::command {
 
-/// Labels by id, and distances to the nearest seed (float): .npy or .vti.
-const FileKind& volume_labels_kind();
-const FileKind& volume_distance_kind();
-
-/// One row per cell with its seed, volume, centroid, extent, surface, neighbours, largest distance and
-/// whether it touches a border; one row per pair of cells that touch, with the area of the voxel faces that
-/// they share: .csv.
-const FileKind& volume_cells_kind();
-const FileKind& volume_adjacency_kind();
+/// What the option of a plane's file asks for where it is given for a volume: --labels and --distance (.npy
+/// or .vti); --cells, with the seed, volume, centroid, extent, surface, neighbours and largest distance of
+/// each cell, and whether it touches a border; --adjacency, with the area of the voxel faces that two cells
+/// share. There are no others.
+FileRequest of_volume(const FileRequest& of_plane);
 
 }  // namespace vorocl::command

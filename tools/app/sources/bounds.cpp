@@ -134,17 +134,16 @@ std::optional<Bounds> bounds_of(const Frame& frame) {
   return bounding_box(frame.positions);
 }
 
-std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optional<int> frames,
-                                           const Interruption& interruption) {
+bool read_all_frames(const std::string& path, Wanted wanted, std::optional<int> frames,
+                     const Interruption& interruption, const std::function<void(const Frame&)>& take) {
   std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
-  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path, "", Wanted::box);
+  if (!std::filesystem::is_regular_file(path, code)) return false;
+  const std::unique_ptr<TrajectoryReader> reader = open_trajectory(path, "", wanted);
   const std::optional<std::uintmax_t> bytes = reader->bytes_left();
   Progress progress({"frames read"});
   Frame frame;
-  std::optional<Bounds> all;
   for (int count = 0; (!frames || count <= *frames) && read(*reader, frame); ++count) {
-    if (const auto bounds = bounds_of(frame)) all = all ? joined(*all, *bounds) : *bounds;
+    take(frame);
     const auto left = reader->bytes_left();
     progress.show(count + 1,
                   bytes && left && *bytes > 0
@@ -152,6 +151,15 @@ std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optiona
                       : std::nullopt);
     if (interruption.came()) throw Error("interrupted before the first frame was made");
   }
+  return true;
+}
+
+std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optional<int> frames,
+                                           const Interruption& interruption) {
+  std::optional<Bounds> all;
+  read_all_frames(path, Wanted::box, frames, interruption, [&all](const Frame& frame) {
+    if (const auto bounds = bounds_of(frame)) all = all ? joined(*all, *bounds) : *bounds;
+  });
   return all;
 }
 

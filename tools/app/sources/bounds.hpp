@@ -1,6 +1,7 @@
 // The bounds of the data: read, written, and chosen where none are given.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,9 +50,13 @@ void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
 /// A frame's box, else the bounding box of its particles; none if it has neither.
 std::optional<Bounds> bounds_of(const Frame& frame);
 
-/// The least bounds that hold those of all frames, or of the first and so many after it: reads the file, with
-/// a progress bar, up to the first frame that is bad. None for a pipe, which cannot be read twice. Throws
-/// Error if it is interrupted, or the file cannot be read.
+/// Reads all frames of a file, or the first and so many after it, with a progress bar, up to the first frame
+/// that is bad. False for a pipe, which cannot be read twice. Throws Error if it is interrupted, or the file
+/// cannot be read.
+bool read_all_frames(const std::string& path, Wanted wanted, std::optional<int> frames,
+                     const Interruption& interruption, const std::function<void(const Frame&)>& take);
+
+/// The least bounds that hold those of all frames that are read so; none for a pipe.
 std::optional<Bounds> bounds_of_all_frames(const std::string& path, std::optional<int> frames,
                                            const Interruption& interruption);
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <future>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/random_seeds.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 
 namespace vorocl::command {
@@ -45,8 +47,9 @@ class RandomWalk : public MovingSeeds {
 };
 
 /// What is known of a frame of a trajectory.
+template <typename Points>
 struct PlacedFrame {
-  std::vector<std::optional<Point>> points;
+  Points points;
   std::vector<std::uint32_t> ids;
   std::vector<double> values;
   std::optional<View> view;  // of every frame
@@ -57,11 +60,14 @@ struct PlacedFrame {
   bool is_there = true;
 };
 
-/// Reads and places the next frame of a file in a thread, while the present one is worked on.
+/// Reads and places the next frame of a file in a thread, while the present one is worked on. The particles
+/// are TrajectorySeeds or VolumeFrames.
+template <typename Particles>
 class Trajectory : public MovingSeeds {
  public:
-  Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const std::optional<Bounds>& bounds)
-      : particles_(seeds, 0, motion.fit, bounds),
+  template <typename... Fitted>
+  Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const Fitted&... fitted)
+      : particles_(seeds, 0, fitted...),
         snap_(seeds.snapping()),
         frames_(motion.frames),
         bytes_(particles_.bytes_left()) {
@@ -74,7 +80,7 @@ class Trajectory : public MovingSeeds {
   }
   bool next() override {
     if (frame_ == frames_) return false;
-    PlacedFrame next = ahead_.valid() ? ahead_.get() : place_next(std::move(room_));
+    Placed next = ahead_.valid() ? ahead_.get() : place_next(std::move(room_));
     if (!next.is_there) return false;
     room_ = std::exchange(present_, std::move(next));
     ++frame_;
@@ -98,7 +104,9 @@ class Trajectory : public MovingSeeds {
   }
 
  private:
-  void take_particles(PlacedFrame& frame) const {
+  using Placed = PlacedFrame<std::decay_t<decltype(std::declval<Particles>().points())>>;
+
+  void take_particles(Placed& frame) const {
     frame.points = particles_.points();
     frame.ids = particles_.ids();
     frame.values = particles_.values();
@@ -109,7 +117,7 @@ class Trajectory : public MovingSeeds {
     frame.bytes_left = particles_.bytes_left();
   }
 
-  PlacedFrame place_next(PlacedFrame room) {
+  Placed place_next(Placed room) {
     room.is_there = particles_.next();
     if (room.is_there) take_particles(room);
     return room;
@@ -126,24 +134,29 @@ class Trajectory : public MovingSeeds {
     }
   }
 
-  TrajectorySeeds particles_;  // those of the frame that was placed last
+  Particles particles_;  // those of the frame that was placed last
   Snap snap_;
   std::optional<int> frames_;
   std::optional<std::uintmax_t> bytes_;  // after frame 0
   int frame_ = 0;
-  PlacedFrame present_, room_;      // and memory for the next one
-  std::future<PlacedFrame> ahead_;  // none: nothing is being placed
+  Placed present_, room_;      // and memory for the next one
+  std::future<Placed> ahead_;  // none: nothing is being placed
 };
 
 }  // namespace
 
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption) {
+  const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
+  if (seeds.depth > 1) {
+    return std::make_unique<Trajectory<VolumeFrames>>(
+        seeds, motion,
+        needs_all ? sides_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
+  }
   if (!seeds.trajectory.empty()) {
     check_seed_options(seeds);
-    const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
-    return std::make_unique<Trajectory>(
-        seeds, motion,
+    return std::make_unique<Trajectory<TrajectorySeeds>>(
+        seeds, motion, motion.fit,
         needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
   }
   if (!motion.frames) throw UsageError("--frames A is required, except with --trajectory");

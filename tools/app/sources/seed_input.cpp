@@ -38,7 +38,8 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
 }
 
 Input plane_from_points(const SeedOptions& options) {
-  const auto [points, values] = read_points(options);
+  const CsvPoints read = read_points(options);
+  const std::vector<Point>& points = read.points;
   try {
     const Mapping mapping = mapping_of(options, points);
     const Size picture = options.size ? *options.size : size_of_width(mapping.bounds, options.width);
@@ -54,7 +55,7 @@ Input plane_from_points(const SeedOptions& options) {
               return Seeds(device, mapped.view.window.grid(), mapped.places, Outside::count, snap);
             },
             {},
-            values,
+            read.values,
             mapped.is_window()};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
@@ -115,7 +116,9 @@ Input plane_from_trajectory(const SeedOptions& options) {
 CsvPoints read_points(const SeedOptions& options) {
   as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
   if (extension_of(options.points) == ".csv") {
-    return read_csv(options.points, options.columns, options.value_column);
+    CsvPoints read = read_csv(options.points, options.columns, options.value_column);
+    if (read.leave_out_z) print_note(options.points + ": z is left out, which volumes have: --size WxHxD");
+    return read;
   }
   if (options.columns) throw UsageError("--columns is for .csv files");
   if (!options.value_column.empty())

@@ -19,16 +19,18 @@ namespace vorocl::command {
 
 namespace {
 
-/// A stretch of the data along an axis.
-struct Side {
-  double low = 0, high = 0;
-  bool is_periodic = false;
-};
-using Sides = std::array<Side, 3>;
-
 constexpr char names[] = {'x', 'y', 'z'};
 
 std::array<double, 3> coordinates(const Point3& point) { return {point.x, point.y, point.z}; }
+
+std::vector<Point3> points_of(const Frame& frame) {
+  std::vector<Point3> points;
+  points.reserve(frame.positions.size());
+  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+    points.push_back({frame.positions[i].x, frame.positions[i].y, frame.z[i]});
+  }
+  return points;
+}
 
 Sides bounding_sides(const std::vector<Point3>& points) {
   Sides sides;
@@ -160,9 +162,9 @@ std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
 }
 
 /// How a volume stands in the data, of which a voxel of random seeds knows nothing.
-View view_of(const Grid& grid, bool in_pixels, bool has_scale) {
+View view_of(const Grid& grid, bool in_pixels) {
   View view = {Size(grid.width(), grid.height()), grid};
-  if (!in_pixels) view.units = Units(grid, has_scale);
+  if (!in_pixels) view.units = Units(grid, has_scale(grid));
   return view;
 }
 
@@ -188,7 +190,7 @@ Input input_from_points(const SeedOptions& options) {
         std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    return input_from(view_of(grid, in_pixels(options), has_scale(grid)), points, {}, {});
+    return input_from(view_of(grid, in_pixels(options)), points, {}, {});
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
@@ -201,7 +203,7 @@ Input input_at_random(const SeedOptions& options) {
   const Periodic periodic = options.periodic.value_or(Periodic::none);
   const Grid grid(axis(options.size->width(), has_x(periodic)), axis(options.size->height(), has_y(periodic)),
                   axis(options.depth, options.periodic_z));
-  return {view_of(grid, true, true),
+  return {view_of(grid, true),
           [grid, count = options.random, seed = options.rng_seed](const Device& device) {
             return Seeds::random(device, grid, count, seed);
           },
@@ -211,8 +213,23 @@ Input input_at_random(const SeedOptions& options) {
 
 }  // namespace
 
-VolumeFrames::VolumeFrames(const SeedOptions& options, int start)
-    : options_(options), reader_(open_trajectory(options.trajectory, "", Wanted::volume)) {
+std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
+                                         const Interruption& interruption) {
+  std::optional<Sides> all;
+  read_all_frames(path, Wanted::box_of_volume, frames, interruption, [&all](const Frame& frame) {
+    if (!frame.box && frame.positions.empty()) return;
+    const Sides sides = frame.box ? sides_of(*frame.box) : bounding_sides(points_of(frame));
+    if (!all) all = sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+      (*all)[i].low = std::min((*all)[i].low, sides[i].low);
+      (*all)[i].high = std::max((*all)[i].high, sides[i].high);
+    }
+  });
+  return all;
+}
+
+VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::optional<Sides>& all)
+    : options_(options), all_(all), reader_(open_trajectory(options.trajectory, "", Wanted::volume)) {
   while (number_ < start) {
     if (!reader_->next(frame_)) {
       throw Error(fmt::format("{}: there is no frame {}; the last one of the file is {}, counted from 0",
@@ -237,36 +254,38 @@ bool VolumeFrames::next() {
   return true;
 }
 
-View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_), has_scale_); }
+View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_)); }
+
+Sides VolumeFrames::sides_of_frame() {
+  const std::optional<Sides> given = given_sides(options_);
+  if (!frame_.box && !given && !all_ && points_.empty()) {
+    throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
+  }
+  Sides whole = frame_.box ? sides_of(*frame_.box) : given ? *given : all_ ? *all_ : bounding_sides(points_);
+  take_periodic_axes(options_, whole);
+  Sides sides = whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (given) {
+      sides[i].low = (*given)[i].low;
+      sides[i].high = (*given)[i].high;
+    } else if (all_ && !sides[i].is_periodic) {
+      sides[i].low = (*all_)[i].low;
+      sides[i].high = (*all_)[i].high;
+    }
+    if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
+    throw Error(
+        fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
+                    names[i], whole[i].low, whole[i].high));
+  }
+  return sides;
+}
 
 void VolumeFrames::take_frame() {
-  points_.resize(frame_.positions.size());
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    points_[i] = {frame_.positions[i].x, frame_.positions[i].y, frame_.z[i]};
-  }
+  points_ = points_of(frame_);
   try {
-    const std::optional<Sides> given = given_sides(options_);
-    if (!given && !frame_.box && points_.empty()) {
-      throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
-    }
-    const Sides whole = frame_.box ? sides_of(*frame_.box) : given ? *given : bounding_sides(points_);
-    Sides sides = given ? *given : whole;
-    for (std::size_t i = 0; i < 3; ++i) sides[i].is_periodic = whole[i].is_periodic;
-    take_periodic_axes(options_, sides);
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
-      throw Error(
-          fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
-                      names[i], whole[i].low, whole[i].high));
-    }
-    const Grid unspaced = grid_of(options_, sides);
-    const bool is_first = !grid_;
-    if (is_first) spacing_ = spacing_of(unspaced);
+    const Grid unspaced = grid_of(options_, sides_of_frame());
+    if (!grid_) note_spacing(with_spacing(unspaced, spacing_ = spacing_of(unspaced)));
     grid_ = with_spacing(unspaced, spacing_);
-    if (is_first) {
-      has_scale_ = has_scale(*grid_);
-      note_spacing(*grid_);
-    }
     check_inside(points_, frame_.ids, *grid_);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));

@@ -9,10 +9,23 @@
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
+#include "app/terminal/end_of_run.hpp"
 #include "formats/trajectory/trajectory.hpp"
 #include "vorocl/seeds.hpp"
 
 namespace vorocl::command {
+
+/// A stretch of the data along an axis, and those along all three.
+struct Side {
+  double low = 0, high = 0;
+  bool is_periodic = false;
+};
+using Sides = std::array<Side, 3>;
+
+/// What the boxes of all frames of a trajectory fill, or their particles where there is no box, as
+/// read_all_frames() reads them; none for a pipe.
+std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
+                                         const Interruption& interruption);
 
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
@@ -23,7 +36,10 @@ class VolumeFrames {
   /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
   /// or no z, or has a tilted box; warns on standard error where the axes get different scales,
   /// and notes where the file has other periodic axes than are given.
-  explicit VolumeFrames(const SeedOptions& options, int start = 0);
+  /// `all` is what the volume shows along axes that are not periodic, unless the options have bounds; without
+  /// it each frame's own box.
+  explicit VolumeFrames(const SeedOptions& options, int start = 0,
+                        const std::optional<Sides>& all = std::nullopt);
 
   /// Goes to the next frame; false after the last. Throws as above.
   bool next();
@@ -37,16 +53,23 @@ class VolumeFrames {
 
   std::optional<std::int64_t> timestep() const { return frame_.timestep; }
 
+  // The same as of TrajectorySeeds; volumes have no value columns, and no method that asks for displacements.
+  const std::optional<Box>& box() const { return frame_.box; }
+  const std::vector<double>& values() const { return frame_.values; }
+  std::optional<double> max_displacement() const { return std::nullopt; }
+  std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
+
  private:
+  Sides sides_of_frame();
   void take_frame();
 
   const SeedOptions& options_;
+  std::optional<Sides> all_;
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
   bool has_warned_ = false;                 // of distances without a scale
   std::array<int, 3> spacing_ = {1, 1, 1};  // that of the first frame: seeds keep theirs
-  bool has_scale_ = true;                   // of the first frame: tables have one header for all
   std::optional<Grid> grid_;                // set by the constructor
   std::vector<Point3> points_;
 };

@@ -102,12 +102,13 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
                         std::optional<SimulationBox>& box, Frame& frame) {
   check_fits(lines, count);
   clear();
-  if (wanted_ == Wanted::volume) {
+  if (is_volume()) {
     if (!layout.z) throw lines.error("the particles have no z, which a volume needs");
     if (box) box->check_volume(lines);
   }
   const std::size_t first_line = lines.number() + 1;
-  if (wanted_ == Wanted::box && box && !box->grows()) {
+  const bool wants_box = wanted_ == Wanted::box || wanted_ == Wanted::box_of_volume;
+  if (wants_box && box && !box->grows(is_volume())) {
     if (!lines.skip(count.value)) throw cut_off(lines, count.line);
   } else {
     while (ids_.size() < count.value) {
@@ -158,7 +159,7 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
   Point position = {real_in(lines, fields_[layout.x], "a finite x"),
                     real_in(lines, fields_[layout.y], "a finite y")};
   double z = 0;
-  if (wanted_ == Wanted::volume) {
+  if (is_volume()) {
     z = real_in(lines, fields_[*layout.z], "a finite z");
     if (box) z = box->place_z(lines, id, z, layout.scaled);
     z_.push_back(z);

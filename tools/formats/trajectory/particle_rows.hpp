@@ -67,6 +67,8 @@ class ParticleRows {
   template <typename T>
   void give(std::vector<T>& of_rows, std::vector<T>& of_frame) const;
 
+  bool is_volume() const { return wanted_ == Wanted::volume || wanted_ == Wanted::box_of_volume; }
+
   Wanted wanted_;
   // Of the rows so far, in the order of the file.
   std::vector<std::uint32_t> ids_;

@@ -51,8 +51,11 @@ class SimulationBox {
 
   double depth() const { return z_.length(); }
 
-  /// Whether a side gives way to particles.
-  bool grows() const { return box_.open_x0 || box_.open_x1 || box_.open_y0 || box_.open_y1; }
+  /// Whether a side gives way to particles, in a volume one of z too.
+  bool grows(bool is_volume) const {
+    const bool along_z = z_.sides.first == Side::open || z_.sides.second == Side::open;
+    return box_.open_x0 || box_.open_x1 || box_.open_y0 || box_.open_y1 || (is_volume && along_z);
+  }
 
   /// The rectangle that holds all particles placed so far.
   const Box& extent() const { return box_; }

@@ -31,8 +31,8 @@ struct Box {
 };
 
 /// One state of the particles, in canonical form: it does not depend on the order of the file's rows nor on
-/// its kind of coordinates. Without Wanted::volume the third dimension is left out: particles are seen along
-/// z.
+/// its kind of coordinates. Unless a volume is wanted the third dimension is left out: particles are seen
+/// along z.
 struct Frame {
   std::optional<std::int64_t> timestep;  ///< none in XYZ
   std::optional<Box> box;                ///< none in an XYZ without a lattice
@@ -64,7 +64,8 @@ class TrajectoryReader {
 enum class Wanted {
   all,
   volume,  ///< all, with z
-  box  ///< and no particles where it does not depend on them: their rows are passed over, whatever they hold
+  box,  ///< and no particles where it does not depend on them: their rows are passed over, whatever they hold
+  box_of_volume  ///< the same with z
 };
 
 /// A reader for the file, whose kind its first line tells, and for the values of one of its columns: a name
