@@ -58,6 +58,7 @@ void write_points(const OutputFile& file, const std::vector<Point>& points,
   sort_by_id(rows, spare);
   if (extension_of(file.path()) == ".npy") {
     std::vector<Point> by_id;
+    by_id.reserve(rows.size());
     for (const IdAndRow row : rows) by_id.push_back(points[row_of(row)]);
     write_npy_points(file, by_id);
     return;
