@@ -388,8 +388,9 @@ BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
                        "--labels l%d.npy --cells c%d.csv --adjacency a%d.csv --distance d%d.npy --statistics "
                        "s.csv");
   succeeds(folder, "simulate" + dump + "--cells c.csv --adjacency a.csv");
+  const std::string cells_of_frame = "cells" + dump + "--frame ";
   for (const std::string frame : {"0", "1"}) {
-    succeeds(folder, "cells" + dump + "--frame " + frame +
+    succeeds(folder, cells_of_frame + frame +
                          " --cells one.csv --adjacency two.csv --distance one.npy --labels two.npy");
     BOOST_TEST((content_of(folder / ("c" + frame + ".csv")) == content_of(folder / "one.csv")));
     BOOST_TEST((content_of(folder / ("a" + frame + ".csv")) == content_of(folder / "two.csv")));

@@ -63,8 +63,8 @@ void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
 }
 
 std::string FrameFiles::header_of(int frame, const Units& units) {
-  const std::string header = "frame,timestep," + units.header(request_.kind.table()->columns),
-                    names = fmt::format("{} {}", units.of_area(), units.of_length());
+  std::string header = "frame,timestep," + units.header(request_.kind.table()->columns),
+              names = fmt::format("{} {}", units.of_area(), units.of_length());
   if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
   if (header == header_ && names == units_) return header;
   throw Error(
