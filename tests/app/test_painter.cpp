@@ -34,11 +34,10 @@ struct Drawn {
   }
 
   /// The next picture of a film, or the only one.
-  cv::Mat by(Painter& painter) const {
+  cv::Mat by(Painter& painter, const std::vector<std::uint32_t>& ids = {}) const {
     MeasureBuffers buffers;
-    const std::vector<std::uint32_t> no_ids;
     const View view = {size, grid};
-    Measures measures(seeds, diagram, no_ids, view, buffers);
+    Measures measures(seeds, diagram, ids, view, buffers);
     return painter.draw(measures, values);
   }
   cv::Mat with(const PictureOptions& options) const {
@@ -117,6 +116,25 @@ Scale range_of_cells(const std::vector<double>& values) {
 }
 
 }  // namespace
+
+BOOST_AUTO_TEST_CASE(each_picture_of_a_film_has_the_colours_of_its_own_ids) {
+  const Drawn drawn(centres(random_pixels(grid, 60, 3)));
+  for (const std::optional<Palette> palette : {std::optional<Palette>(), std::optional(Palette::okabe_ito)}) {
+    PictureOptions options;
+    options.palette = palette;
+    Painter painter(options, true);
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t i = 0; i < drawn.seeds.size(); ++i) ids.push_back(7 * i + 3);
+    for (std::uint32_t frame = 0; frame < 3; ++frame) {
+      std::vector<std::uint32_t> shown = drawn.labels;
+      for (std::uint32_t& label : shown) label = ids.at(label);
+      BOOST_TEST(same(drawn.by(painter, ids),
+                      palette ? color_by_id(shown, grid, *palette) : color_by_id(shown, grid)));
+      std::swap(ids[1], ids[4]);
+      ids[frame] = 100000 + frame;  // a newcomer
+    }
+  }
+}
 
 BOOST_AUTO_TEST_CASE(areas_are_counted) {
   const std::vector<Pixel> pixels = some_pixels(60, 1);

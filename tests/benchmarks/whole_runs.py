@@ -52,6 +52,7 @@ def main():
     parser.add_argument("--repeat", type=int, default=5, help="runs of each, behind one that is not counted")
     parser.add_argument("--particles", type=int, default=200_000)
     parser.add_argument("--frames", type=int, default=10)
+    parser.add_argument("--only", nargs="+", default=[""], help="the runs whose names hold one of these texts")
     options = parser.parse_args()
 
     picture = "render --random 16384 --size 2048x2048"
@@ -74,6 +75,8 @@ def main():
         print("| run |" + "".join(f" {program} |" for program in options.programs))
         print("| --- |" + " --- |" * len(options.programs))
         for title, arguments in cases.items():
+            if not any(text in title for text in options.only):
+                continue
             parts = options.frames if arguments.startswith("simulate") else 1
             walls, processors = ({program: [] for program in options.programs} for _ in range(2))
             for _ in range(options.repeat + 1):

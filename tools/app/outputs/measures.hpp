@@ -113,6 +113,9 @@ class Measures {
   const std::vector<std::uint32_t>& labels_by_id();
   const std::vector<std::uint32_t>& labels_in_picture();
 
+  /// What files call each label; empty: as it is.
+  const std::vector<std::uint32_t>& ids() const { return ids_; }
+
   /// What files call a label.
   std::uint32_t id_of(std::size_t label) const {
     return ids_.empty() ? static_cast<std::uint32_t>(label) : ids_.at(label);

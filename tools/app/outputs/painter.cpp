@@ -170,10 +170,32 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
     case Quantity::column:
       return color_by_values(measures, values);
     default:
-      const std::vector<std::uint32_t>& ids = measures.labels_by_id();
-      return options_.palette ? color_by_id(ids, measures.view().window, palette_)
-                              : color_by_id(ids, measures.view().window);
+      return color_by_id(measures);
   }
+}
+
+cv::Mat Painter::color_by_id(Measures& measures) {
+  const auto color = [this](const std::vector<std::uint32_t>& ids, const Window& window) {
+    return options_.palette ? vorocl::color_by_id(ids, window, palette_) : vorocl::color_by_id(ids, window);
+  };
+  const std::vector<std::uint32_t>& ids = measures.ids();
+  const Window& window = measures.view().window;
+  if (ids.empty()) return color(measures.labels(), window);
+  // A label mostly has the id that it had in the last picture.
+  colored_ids_.resize(ids.size(), no_label);
+  colors_of_ids_.resize(ids.size());
+  std::vector<std::uint32_t> changed, their_ids;
+  for (std::uint32_t label = 0; label < ids.size(); ++label) {
+    if (ids[label] == colored_ids_[label]) continue;
+    changed.push_back(label);
+    their_ids.push_back(ids[label]);
+  }
+  if (!changed.empty()) {
+    const cv::Mat_<cv::Vec3b> row = color(their_ids, Grid(static_cast<std::int64_t>(changed.size()), 1));
+    for (std::size_t i = 0; i < changed.size(); ++i) colors_of_ids_[changed[i]] = row(0, static_cast<int>(i));
+    colored_ids_ = ids;
+  }
+  return color_by_seed(measures.labels(), window, colors_of_ids_);
 }
 
 cv::Mat Painter::color_by_values(Measures& measures, const std::vector<double>& values) {

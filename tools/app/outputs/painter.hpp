@@ -67,6 +67,7 @@ class Painter {
  private:
   cv::Mat draw_plane(Measures& measures, const std::vector<double>& values, const std::string& stamp);
   cv::Mat color(Measures& measures, const std::vector<double>& values);
+  cv::Mat color_by_id(Measures& measures);
   cv::Mat color_by_values(Measures& measures, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
   /// values there.
@@ -80,6 +81,8 @@ class Painter {
   bool omission_noted_ = false;       // what a logarithmic scale leaves out of the first picture
   std::optional<bool> whole_values_;  // whether those of the first picture are
   std::optional<double> contour_interval_;
+  std::vector<std::uint32_t> colored_ids_;  // those of the last picture, by label, and their colours
+  std::vector<cv::Vec3b> colors_of_ids_;
 };
 
 }  // namespace vorocl::command

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <new>
 #include <opencv2/core/mat.hpp>
 #include <string_view>
@@ -34,46 +35,49 @@ void write_chunk(GrowingFile& file, std::string_view type, const Bytes& content)
   file.write(chunk.data(), chunk.size());
 }
 
-/// Rows as PNG has them: the number of the filter "up", and each value, red first, less that above it.
+/// A row as PNG has it: the number of the filter "up", and each value, red first, less that above it.
 template <int channels>
-Bytes filtered(const cv::Mat& picture, int first, int end) {
-  const Bytes nothing(static_cast<std::size_t>(picture.cols) * channels, 0);
-  Bytes rows((nothing.size() + 1) * static_cast<std::size_t>(end - first));
-  std::uint8_t* to = rows.data();
-  for (int y = first; y < end; ++y) {
-    const std::uint8_t* here = picture.ptr(y);
-    const std::uint8_t* above = y > 0 ? picture.ptr(y - 1) : nothing.data();
-    *to++ = 2;
-    for (int x = 0; x < picture.cols; ++x, here += channels, above += channels) {
-      for (int i = channels - 1; i >= 0; --i) *to++ = static_cast<std::uint8_t>(here[i] - above[i]);
-    }
+void filter_row(const std::uint8_t* here, const std::uint8_t* above, Bytes& row) {
+  row[0] = 2;
+  for (std::size_t at = 1; at < row.size(); at += channels, here += channels, above += channels) {
+    for (int i = 0; i < channels; ++i)
+      row[at + i] = static_cast<std::uint8_t>(here[channels - 1 - i] - above[channels - 1 - i]);
   }
-  return rows;
 }
 
 /// Some rows of a picture, compressed: a part of a stream of zlib's.
 struct Strip {
   Bytes deflated;
-  uLong sum = 0;  // of what was deflated, and its bytes
+  uLong sum = 1;  // of what was deflated, and its bytes
   std::size_t bytes = 0;
 };
 
-Strip deflated(Bytes&& rows, int strategy, bool is_last) {
-  constexpr std::size_t flushed = 16;  // bytes at most that end a strip
-  Strip strip{Bytes(compressBound(static_cast<uLong>(rows.size())) + flushed),
-              adler32_z(1, rows.data(), rows.size()), rows.size()};
+/// Row by row, so that a strip needs little memory, which takes time to get.
+template <int channels>
+Strip deflated(const cv::Mat& picture, int first, int end) {
   constexpr int quickly = 1, without_frame = -15, memory_level = 8;
+  constexpr int strategy = channels == 1 ? Z_RLE : Z_DEFAULT_STRATEGY;  // grey ones are masks, of long runs
   z_stream stream = {};
   if (deflateInit2(&stream, quickly, Z_DEFLATED, without_frame, memory_level, strategy) != Z_OK)
     throw std::bad_alloc();
-  stream.next_in = rows.data();
-  stream.avail_in = static_cast<uInt>(rows.size());
-  stream.next_out = strip.deflated.data();
-  stream.avail_out = static_cast<uInt>(strip.deflated.size());
-  deflate(&stream, is_last ? Z_FINISH : Z_SYNC_FLUSH);
-  strip.deflated.resize(strip.deflated.size() - stream.avail_out);
-  strip.deflated.shrink_to_fit();
-  deflateEnd(&stream);
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> ended(&stream, deflateEnd);
+  Strip strip;
+  const Bytes nothing(static_cast<std::size_t>(picture.cols) * channels);
+  Bytes row(nothing.size() + 1), room(std::size_t{1} << 14);
+  for (int y = first; y < end; ++y) {
+    filter_row<channels>(picture.ptr(y), y > 0 ? picture.ptr(y - 1) : nothing.data(), row);
+    strip.sum = adler32_z(strip.sum, row.data(), row.size());
+    strip.bytes += row.size();
+    stream.next_in = row.data();
+    stream.avail_in = static_cast<uInt>(row.size());
+    const int flush = y + 1 < end ? Z_NO_FLUSH : end < picture.rows ? Z_SYNC_FLUSH : Z_FINISH;
+    do {
+      stream.next_out = room.data();
+      stream.avail_out = static_cast<uInt>(room.size());
+      deflate(&stream, flush);
+      strip.deflated.insert(strip.deflated.end(), room.data(), stream.next_out);
+    } while (stream.avail_out == 0);
+  }
   return strip;
 }
 
@@ -89,10 +93,8 @@ void write_png(const OutputFile& file, const cv::Mat& picture) {
   for (int i = 0; i < count; ++i) {
     workers.add([&, i] {
       const int first = i * strip_rows, end = std::min(first + strip_rows, picture.rows);
-      // Grey ones are masks, of long runs.
       strips[static_cast<std::size_t>(i)] =
-          is_grey ? deflated(filtered<1>(picture, first, end), Z_RLE, end == picture.rows)
-                  : deflated(filtered<3>(picture, first, end), Z_DEFAULT_STRATEGY, end == picture.rows);
+          is_grey ? deflated<1>(picture, first, end) : deflated<3>(picture, first, end);
     });
   }
   workers.wait();
