@@ -188,14 +188,17 @@ __attribute__((always_inline)) static inline void gather(const int reach, extent
   }
 }
 
+static inline bool has_images(int along, int periodic) { return along == 0 || periodic; }
+
 // The images of seeds that lie behind the ends of periodic axes, at most a period away.
 __attribute__((noinline)) static void gather_images(int reach, extent_t e, global const uint* starts,
                                                     global const ulong* list, int4 at, surroundings_t* around) {
   const int side = REGION + 2 * reach;
   for (int image = 0; image < 27; ++image) {
     const int along_x = image % 3 - 1, along_y = image / 3 % 3 - 1, along_z = image / 9 - 1;
-    if (image == 13 || (along_x != 0 && !PERIODIC_X) || (along_y != 0 && !PERIODIC_Y) || (along_z != 0 && !PERIODIC_Z))
-      continue;
+    const bool repeats =
+        has_images(along_x, PERIODIC_X) && has_images(along_y, PERIODIC_Y) && has_images(along_z, PERIODIC_Z);
+    if (image == 13 || !repeats) continue;
     // Where the region's surroundings begin, in the volume that the image is of.
     const int x0 = at.x - reach - along_x * e.width, y0 = at.y - reach - along_y * e.height;
     const int z0 = at.z - reach - along_z * e.depth;
@@ -339,11 +342,8 @@ __attribute__((noinline)) static uint label_less_near(extent_t e, global const u
   return label_by_passes(LONG_REACH, e, bits, starts, list, at, labels);
 }
 
-// Whether of each seed one image at most is within reach of a voxel.
-static inline bool has_one_image(extent_t e) {
-  return (!PERIODIC_X || e.width >= MOST_PLACES) && (!PERIODIC_Y || e.height >= MOST_PLACES) &&
-         (!PERIODIC_Z || e.depth >= MOST_PLACES);
-}
+// Whether of each seed one image at most is within reach of a voxel, along an axis.
+static inline bool has_one_image(int size, int periodic) { return !periodic || size >= MOST_PLACES; }
 
 // Labels dense regions; says which boxes of each region are left.
 kernel void label_dense(global const uint* restrict bits, global const uint* restrict starts,
@@ -354,7 +354,9 @@ kernel void label_dense(global const uint* restrict bits, global const uint* res
   if (region >= regions_of(e)) return;
   const int4 at = (int4)(region % e.rx * REGION, region / e.rx % e.ry * REGION, region / e.rx / e.ry * REGION, 0);
   const uint first = (uint)region * (BINS + 1);
-  const int seeds = has_one_image(e) ? (int)(starts[first + BINS] - starts[first]) : 0;
+  const bool one_image = has_one_image(e.width, PERIODIC_X) && has_one_image(e.height, PERIODIC_Y) &&
+                         has_one_image(e.depth, PERIODIC_Z);
+  const int seeds = one_image ? (int)(starts[first + BINS] - starts[first]) : 0;
   uint left = ALL_LEFT;
   if (HAS_ROOM(SHORT_REACH) && seeds >= DENSE_FOR_SHORT) {
     left = label_near(e, bits, starts, list, at, labels);

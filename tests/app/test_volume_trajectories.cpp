@@ -302,7 +302,7 @@ BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
     BOOST_TEST((result.exit_code == 0 && result.error == note), arguments << "\n" << result.error);
     return result.out;
   };
-  noted("simulate --trajectory a.lammpstrj" + size + "--labels f%d.npy");
+  noted("simulate --trajectory a.lammpstrj" + size + "--fit frame --labels f%d.npy");
   BOOST_TEST((content_of(folder / "f0.npy") == labels_of(open, some, sides, units)));
   BOOST_TEST((content_of(folder / "f1.npy") == labels_of(moved, others, sides, units)));
   std::vector<Particle> numbered = some;
@@ -465,8 +465,8 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
   BOOST_TEST(runs("simulate --trajectory open.lammpstrj --size 20x40x12 --labels open%d.npy"));
   low.low[2] = 0;
   low.high[2] = 4.5;
-  BOOST_TEST((content_of(folder / "open0.npy") == labels_of(low, a)));
-  BOOST_TEST((content_of(folder / "open1.npy") == labels_of(low, b)));
+  BOOST_TEST((content_of(folder / "open0.npy") == labels_of(low, a, cubes, {4, 4, 3})));
+  BOOST_TEST((content_of(folder / "open1.npy") == labels_of(low, b, cubes, {4, 4, 3})));
 
   // Voxels are cubes in the first frame alone: two units cannot share a table.
   const auto refused = run(folder, simulate + "--cells c.csv");

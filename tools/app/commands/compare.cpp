@@ -11,6 +11,7 @@
 
 #include "app/commands/commands.hpp"
 #include "app/options/option_groups.hpp"
+#include "app/outputs/measures.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -55,7 +56,7 @@ struct Comparison {
   std::size_t pixels;
   std::size_t different_pixels;
   bool is_volume;
-  bool is_spaced = false;
+  const char* unit_of_distances = "";
   std::optional<DistanceErrors> errors = {};  // against the exact diagram
 };
 
@@ -126,7 +127,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   DistanceErrorsResult errors;
   distance_errors(diagram, exact, errors);
   comparison.errors = errors.read();
-  comparison.is_spaced = seeds.grid().is_spaced();
+  comparison.unit_of_distances = unit_of_distances(seeds.grid());
   return comparison;
 }
 
@@ -153,7 +154,7 @@ void print_result(const CompareOptions& options, const Comparison& comparison) {
         "{} {} are wrong ({:.6f} %), {} of them without a seed; excess distance: mean {:.3g} {}, "
         "largest {:.3f}\n",
         errors->wrong_pixels, pixels, errors->wrong_percent(), errors->unlabelled_pixels, errors->mean_excess,
-        comparison.is_spaced ? "units of the spacing" : pixels, errors->largest_excess);
+        comparison.unit_of_distances, errors->largest_excess);
   }
 }
 

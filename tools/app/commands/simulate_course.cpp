@@ -102,11 +102,9 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
     print("similarity: mean {:.4f} %, least {:.4f} %\n", similarities.mean(), similarities.least());
   }
   if (const ErrorSamples& errors = course.errors; !errors.wrong_percent.empty()) {
-    print(
-        "wrong {0}s: mean {1:.4f} %, greatest {2:.4f} %; excess distance: mean {3:.3g} {0}s, largest "
-        "{4:.3f}\n",
-        name_of_pixel(view), errors.wrong_percent.mean(), errors.wrong_percent.greatest(),
-        errors.mean_excess.mean(), errors.largest_excess.greatest());
+    print("wrong {}s: mean {:.4f} %, greatest {:.4f} %; excess distance: mean {:.3g} {}, largest {:.3f}\n",
+          name_of_pixel(view), errors.wrong_percent.mean(), errors.wrong_percent.greatest(),
+          errors.mean_excess.mean(), unit_of_distances(view.window.grid()), errors.largest_excess.greatest());
   }
   print_written(requested_files(options.output));
 }

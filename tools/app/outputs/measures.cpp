@@ -276,6 +276,10 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
 
 const char* name_of_pixel(const View& view) { return view.window.grid().is_volume() ? "voxel" : "pixel"; }
 
+const char* unit_of_distances(const Grid& grid) {
+  return grid.is_spaced() ? "units of the spacing" : grid.is_volume() ? "voxels" : "pixels";
+}
+
 std::string size_text(const View& view) {
   const VolumeSize size = {view.picture.size.width(), view.picture.size.height(), view.window.depth()};
   return fmt::format("{} {}s", to_string(size), name_of_pixel(view));

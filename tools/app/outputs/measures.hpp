@@ -163,6 +163,9 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
 /// "pixel", of a volume "voxel".
 const char* name_of_pixel(const View& view);
 
+/// What distances are in where they have no data units: "pixels", "voxels", "units of the spacing".
+const char* unit_of_distances(const Grid& grid);
+
 /// "512 x 256 pixels", the picture's; of a volume "64 x 32 x 16 voxels".
 std::string size_text(const View& view);
 
