@@ -29,6 +29,7 @@ lint)
 quick)
   shift
   [ $# -gt 0 ] || set -- src tools
+  rm -rf build-lint-quick  # with what was united before
   configure build-lint-quick -DCMAKE_UNITY_BUILD=ON -DVOROCL_BUILD_TESTS=OFF
   # That it includes sources is no mistake of such a file. The longest begin.
   find build-lint-quick -path '*/Unity/*' -exec grep -lE "\"$PWD/($(IFS='|' && echo "$*"))/" {} + | xargs wc -l | sort -rn |

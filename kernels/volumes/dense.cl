@@ -6,7 +6,9 @@
 // with a voxel that is not done is left to boxes.cl.
 //
 // Along a periodic axis the voxels within reach go on behind an end, with images of the seeds at the other one. There
-// the tie rule, which goes by the places in the volume, has them in another order: places turn.
+// the tie rule, which goes by the places in the volume, has them in another order: the K places along an axis turn, as
+// on a ring, and are turned back before seeds are looked up by them. In a period shorter than the longer reach's K a
+// voxel may see two images of a seed, and there are no passes.
 
 #ifndef VOROCL_VOLUMES_DENSE
 #define VOROCL_VOLUMES_DENSE

@@ -339,6 +339,16 @@ BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
     BOOST_TEST((std::abs(table.rows[id][16] - farthest[id]) < 1e-9));
   }
 
+  // Few slices, a scale that differs by less than 1/1000, and a side that would have too many units.
+  const auto told = [&](const std::string& grid) {
+    return run(folder, "render --points p.csv --method jfa --labels k.npy " + grid).error;
+  };
+  BOOST_TEST(told("--size 50x100x2 --bounds=0,0,-1,10,20,5").find("1 x 1 x 15 units") != std::string::npos);
+  BOOST_TEST(told("--size 1000x20x6 --bounds=0,0,-1,1000.9,20,5").empty());
+  BOOST_TEST(
+      told("--size 1100x20x6 --bounds=0,0,-1,1173.3333,20,5").find("different scales on 1100 x 20 x 6") !=
+      std::string::npos);
+
   // The methods that compare and time take the same distances.
   noted("render " + points + "--method jfa --labels j.npy");
   const std::string compare = "compare j.npy " + points;
@@ -596,7 +606,7 @@ BOOST_AUTO_TEST_CASE(planes_tell_that_they_leave_out_z) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,Y,Z\n1,2,3\n4,5,6\n");
   const std::string render = "render --points p.csv --size 8x8 ";
-  const std::string note = "vorocl: note: p.csv: z is left out, which volumes have: --size WxHxD\n";
+  const std::string note = "vorocl: note: p.csv: z is left out; volumes have it, with --size WxHxD\n";
   BOOST_TEST(run(folder, render + "--labels a.npy").error == note);
   BOOST_TEST(run(folder, "cells --exact --points p.csv --cells c.csv").error == note);
   succeeds(folder, render + "--labels a.npy --columns x,Y");  // which says it

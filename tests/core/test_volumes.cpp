@@ -298,7 +298,8 @@ BOOST_AUTO_TEST_CASE(dense_seeds_round_the_ends_have_no_wrong_voxel) {
   Random random(29);
   for (const Grid& grid :
        {periodic(Grid(40, 37, 50), true, true, true), periodic(Grid(4, 32, 33), true, true, true),
-        periodic(Grid(70, 33, 40), false, true, false)}) {
+        periodic(Grid(70, 33, 40), false, true, false), periodic(Grid(10, 32, 33), true, false, false),
+        periodic(Grid(32, 33, 11), false, false, true)}) {
     for (const std::uint64_t voxels_per_seed : {2u, 6u, 14u, 30u, 80u}) {
       const std::vector<At> seeds = random.in(grid, grid.pixels() / voxels_per_seed);
       const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));

@@ -46,6 +46,7 @@ void print_result(const BenchOptions& options, const Seeds& seeds, const View& v
                  {"width", grid.width()},
                  {"height", grid.height()}};
     if (grid.is_volume()) json["depth"] = grid.depth();
+    if (grid.is_spaced()) json["spacing"] = {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()};
     json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
                      {"seeds", seeds.alive()},
                      {"repeat", options.benchmark.rounds},

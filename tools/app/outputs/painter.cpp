@@ -107,7 +107,7 @@ Painter::Painter(const PictureOptions& options, bool many)
 void Painter::read(Measures& measures) const {
   if (options_.slice) {
     measures.labels();
-    measures.seed_voxels();
+    if (options_.points_overlay) measures.seed_voxels();
     return;
   }
   const Quantity quantity = options_.color.quantity;
@@ -121,7 +121,7 @@ void Painter::read(Measures& measures) const {
 cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
   if (!options_.slice) return draw_plane(measures, values, stamp);
   MeasureBuffers buffers;
-  Measures of_slice = in_slice(measures, *options_.slice, buffers);
+  Measures of_slice = in_slice(measures, *options_.slice, options_.points_overlay, buffers);
   return draw_plane(of_slice, values, stamp);
 }
 

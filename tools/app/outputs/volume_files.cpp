@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <initializer_list>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -104,6 +105,7 @@ FileRequest of_volume(const FileRequest& of_plane) {
   const auto kind = std::find_if(kinds().begin(), kinds().end(), [&of_plane](const FileKind& any) {
     return any.option == of_plane.kind.option;
   });
+  if (kind == kinds().end()) throw std::logic_error("volumes have no file " + of_plane.kind.option);
   return {*kind, of_plane.path};
 }
 

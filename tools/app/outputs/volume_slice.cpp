@@ -63,13 +63,12 @@ std::int64_t slices_along(const Grid& grid, char axis) {
 
 Size size_of_slice(const Grid& grid, const VolumeSlice& slice) { return plane_of(grid, slice).size; }
 
-Measures in_slice(Measures& volume, const VolumeSlice& slice, MeasureBuffers& buffers) {
+Measures in_slice(Measures& volume, const VolumeSlice& slice, bool with_seeds, MeasureBuffers& buffers) {
   const Plane plane = plane_of(volume.view().window.grid(), slice);
-  std::vector<std::optional<Point>> seeds = seeds_in(slice, volume.seed_voxels());
-  std::vector<std::uint32_t> ids;
-  ids.reserve(seeds.size());
-  for (std::size_t label = 0; label < seeds.size(); ++label) ids.push_back(volume.id_of(label));
-  return {{plane.size, plane.grid()}, labels_in(plane, volume.labels()), std::move(seeds), ids, buffers};
+  std::vector<std::optional<Point>> seeds;
+  if (with_seeds) seeds = seeds_in(slice, volume.seed_voxels());
+  return {
+      {plane.size, plane.grid()}, labels_in(plane, volume.labels()), std::move(seeds), volume.ids(), buffers};
 }
 
 }  // namespace vorocl::command

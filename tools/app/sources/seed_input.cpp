@@ -117,7 +117,7 @@ CsvPoints read_points(const SeedOptions& options) {
   as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
   if (extension_of(options.points) == ".csv") {
     CsvPoints read = read_csv(options.points, options.columns, options.value_column);
-    if (read.leave_out_z) print_note(options.points + ": z is left out, which volumes have: --size WxHxD");
+    if (read.leave_out_z) print_note(options.points + ": z is left out; volumes have it, with --size WxHxD");
     return read;
   }
   if (options.columns) throw UsageError("--columns is for .csv files");

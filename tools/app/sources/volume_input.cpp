@@ -32,8 +32,8 @@ std::vector<Point3> points_of(const Frame& frame) {
   return points;
 }
 
-Sides bounding_sides(const std::vector<Point3>& points) {
-  Sides sides;
+VolumeSides bounding_sides(const std::vector<Point3>& points) {
+  VolumeSides sides;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto is_less = [axis](const Point3& a, const Point3& b) {
       return coordinates(a)[axis] < coordinates(b)[axis];
@@ -44,28 +44,28 @@ Sides bounding_sides(const std::vector<Point3>& points) {
   return sides;
 }
 
-Sides sides_of(const Box& box) {
-  return {Side{box.x0, box.x1, box.periodic_x}, Side{box.y0, box.y1, box.periodic_y},
-          Side{box.z0, box.z1, box.periodic_z}};
+VolumeSides sides_of(const Box& box) {
+  return {VolumeSide{box.x0, box.x1, box.periodic_x}, VolumeSide{box.y0, box.y1, box.periodic_y},
+          VolumeSide{box.z0, box.z1, box.periodic_z}};
 }
 
 /// The bounds that are given; none without them.
-std::optional<Sides> given_sides(const SeedOptions& options) {
+std::optional<VolumeSides> given_sides(const SeedOptions& options) {
   if (!options.bounds) return std::nullopt;
-  return Sides{Side{options.bounds->x0, options.bounds->x1, false},
-               Side{options.bounds->y0, options.bounds->y1, false},
-               Side{options.z_bounds->first, options.z_bounds->second, false}};
+  return VolumeSides{VolumeSide{options.bounds->x0, options.bounds->x1, false},
+                     VolumeSide{options.bounds->y0, options.bounds->y1, false},
+                     VolumeSide{options.z_bounds->first, options.z_bounds->second, false}};
 }
 
-void take_periodic_axes(const SeedOptions& options, Sides& sides) {
+void take_periodic_axes(const SeedOptions& options, VolumeSides& sides) {
   if (!options.periodic) return;
   sides[0].is_periodic = has_x(*options.periodic);
   sides[1].is_periodic = has_y(*options.periodic);
   sides[2].is_periodic = options.periodic_z;
 }
 
-Grid grid_of(const SeedOptions& options, const Sides& sides) {
-  const auto axis = [](std::int64_t voxels, const Side& side) {
+Grid grid_of(const SeedOptions& options, const VolumeSides& sides) {
+  const auto axis = [](std::int64_t voxels, const VolumeSide& side) {
     const Axis open(voxels, side.low, side.high);
     return side.is_periodic ? open.periodic() : open.closed();
   };
@@ -97,15 +97,9 @@ Grid with_spacing(const Grid& grid, const std::array<int, 3>& spacing) {
   return {grid.x().spaced(spacing[0]), grid.y().spaced(spacing[1]), grid.z().spaced(spacing[2])};
 }
 
-/// Whether the unit of distances is one length in data units: of cubes to the nearest whole number of voxels,
-/// of axes that are spaced to 1/1000. An axis without an extent fits all.
-bool has_scale(const Grid& grid) {
-  if (!grid.is_spaced()) {
-    const auto is_square = [](const Axis& a, const Axis& b) {
-      return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
-    };
-    return is_square(grid.x(), grid.y()) && is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z());
-  }
+/// Whether the units by which axes are spaced are one length in data units, to 1/1000. An axis without an
+/// extent fits all.
+bool has_one_unit(const Grid& grid) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Axis* axis : {&grid.x(), &grid.y(), &grid.z()}) {
     const double unit = AxisScale{*axis}.side_of_pixel() / axis->spacing();
@@ -116,13 +110,30 @@ bool has_scale(const Grid& grid) {
   return most <= least * 1.001;
 }
 
-/// The least spacing that gives distances a scale; without one voxels count as cubes.
+/// Whether distances have a scale in data units: by the spacing, or because voxels are cubes to the nearest
+/// whole number of voxels.
+bool has_scale(const Grid& grid) {
+  const auto is_square = [](const Axis& a, const Axis& b) {
+    return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
+  };
+  return has_one_unit(grid) || (!grid.is_spaced() && is_square(grid.x(), grid.y()) &&
+                                is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z()));
+}
+
+bool is_short_enough(const Axis& axis) {
+  return axis.pixels() * axis.spacing() <= Window::max_side_of_volume / (axis.is_periodic() ? 2 : 1);
+}
+
+/// The least spacing with one unit that a volume can have; none counts voxels as cubes.
 std::array<int, 3> spacing_of(const Grid& grid) {
   for (int most = 1; most <= Axis::max_spacing; ++most) {
     for (int x = 1; x <= most; ++x) {
       for (int y = 1; y <= most; ++y) {
         for (int z = x == most || y == most ? 1 : most; z <= most; ++z) {
-          if (has_scale(with_spacing(grid, {x, y, z}))) return {x, y, z};
+          const Grid spaced = with_spacing(grid, {x, y, z});
+          const bool fits =
+              is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
+          if (fits && has_one_unit(spaced)) return {x, y, z};
         }
       }
     }
@@ -133,11 +144,14 @@ std::array<int, 3> spacing_of(const Grid& grid) {
 /// Warns unless distances have a scale. Returns whether it did.
 bool warn_of_voxels(const Grid& grid) {
   if (has_scale(grid)) return false;
-  print_warning(fmt::format(
-      "the axes get different scales on {} voxels, and the sides of a voxel are no whole multiples (up to "
-      "{}) of one length, so the cells are not Voronoi cells in data units; a --size like the bounds makes "
-      "voxels cubes",
-      to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), Axis::max_spacing));
+  const std::string spacing = grid.is_spaced()
+                                  ? fmt::format(", which count as {} x {} x {} units of length,",
+                                                grid.x().spacing(), grid.y().spacing(), grid.z().spacing())
+                                  : "";
+  print_warning(
+      fmt::format("the axes get different scales on {} voxels{}, so the cells are not Voronoi cells in "
+                  "data units; a --size like the bounds makes voxels cubes",
+                  to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), spacing));
   return true;
 }
 
@@ -179,15 +193,15 @@ Input input_from(const View& view, const std::vector<Point3>& points, const std:
 Input input_from_points(const SeedOptions& options) {
   const std::vector<Point3> points = read_points_of_volume(options);
   try {
-    const std::optional<Sides> given = given_sides(options);
-    Sides sides = given ? *given : bounding_sides(points);
+    const std::optional<VolumeSides> given = given_sides(options);
+    VolumeSides sides = given ? *given : bounding_sides(points);
     take_periodic_axes(options, sides);
     const Grid unspaced = grid_of(options, sides), grid = with_spacing(unspaced, spacing_of(unspaced));
     check_inside(points, {}, grid);
     warn_of_voxels(grid);
     note_spacing(grid);
     if (!given &&
-        std::any_of(sides.begin(), sides.end(), [](const Side& side) { return side.is_periodic; })) {
+        std::any_of(sides.begin(), sides.end(), [](const VolumeSide& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
     return input_from(view_of(grid, in_pixels(options)), points, {}, {});
@@ -213,12 +227,12 @@ Input input_at_random(const SeedOptions& options) {
 
 }  // namespace
 
-std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
-                                         const Interruption& interruption) {
-  std::optional<Sides> all;
+std::optional<VolumeSides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
+                                               const Interruption& interruption) {
+  std::optional<VolumeSides> all;
   read_all_frames(path, Wanted::box_of_volume, frames, interruption, [&all](const Frame& frame) {
     if (!frame.box && frame.positions.empty()) return;
-    const Sides sides = frame.box ? sides_of(*frame.box) : bounding_sides(points_of(frame));
+    const VolumeSides sides = frame.box ? sides_of(*frame.box) : bounding_sides(points_of(frame));
     if (!all) all = sides;
     for (std::size_t i = 0; i < 3; ++i) {
       (*all)[i].low = std::min((*all)[i].low, sides[i].low);
@@ -228,7 +242,7 @@ std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<
   return all;
 }
 
-VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::optional<Sides>& all)
+VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::optional<VolumeSides>& all)
     : options_(options), all_(all), reader_(open_trajectory(options.trajectory, "", Wanted::volume)) {
   while (number_ < start) {
     if (!reader_->next(frame_)) {
@@ -256,14 +270,17 @@ bool VolumeFrames::next() {
 
 View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_)); }
 
-Sides VolumeFrames::sides_of_frame() {
-  const std::optional<Sides> given = given_sides(options_);
+VolumeSides VolumeFrames::sides_of_frame() {
+  const std::optional<VolumeSides> given = given_sides(options_);
   if (!frame_.box && !given && !all_ && points_.empty()) {
     throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
   }
-  Sides whole = frame_.box ? sides_of(*frame_.box) : given ? *given : all_ ? *all_ : bounding_sides(points_);
+  VolumeSides whole = frame_.box ? sides_of(*frame_.box)
+                      : given    ? *given
+                      : all_     ? *all_
+                                 : bounding_sides(points_);
   take_periodic_axes(options_, whole);
-  Sides sides = whole;
+  VolumeSides sides = whole;
   for (std::size_t i = 0; i < 3; ++i) {
     if (given) {
       sides[i].low = (*given)[i].low;

@@ -16,16 +16,16 @@
 namespace vorocl::command {
 
 /// A stretch of the data along an axis, and those along all three.
-struct Side {
+struct VolumeSide {
   double low = 0, high = 0;
   bool is_periodic = false;
 };
-using Sides = std::array<Side, 3>;
+using VolumeSides = std::array<VolumeSide, 3>;
 
 /// What the boxes of all frames of a trajectory fill, or their particles where there is no box, as
 /// read_all_frames() reads them; none for a pipe.
-std::optional<Sides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
-                                         const Interruption& interruption);
+std::optional<VolumeSides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
+                                               const Interruption& interruption);
 
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
@@ -39,12 +39,11 @@ class VolumeFrames {
   /// `all` is what the volume shows along axes that are not periodic, unless the options have bounds; without
   /// it each frame's own box.
   explicit VolumeFrames(const SeedOptions& options, int start = 0,
-                        const std::optional<Sides>& all = std::nullopt);
+                        const std::optional<VolumeSides>& all = std::nullopt);
 
   /// Goes to the next frame; false after the last. Throws as above.
   bool next();
 
-  const Grid& grid() const { return *grid_; }
   View view() const;
   const std::vector<Point3>& points() const { return points_; }
 
@@ -60,11 +59,11 @@ class VolumeFrames {
   std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
 
  private:
-  Sides sides_of_frame();
+  VolumeSides sides_of_frame();
   void take_frame();
 
   const SeedOptions& options_;
-  std::optional<Sides> all_;
+  std::optional<VolumeSides> all_;
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
