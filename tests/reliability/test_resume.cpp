@@ -266,6 +266,9 @@ BOOST_AUTO_TEST_CASE(two_runs_at_once_are_refused) {
     for (int tries = 0; tries < 4000 && !std::filesystem::exists(path); ++tries)
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     kill(process, SIGSTOP);
+    int status = 0;
+    waitpid(process, &status, WUNTRACED);  // until it writes no more
+    BOOST_TEST_REQUIRE(WIFSTOPPED(status));
     const auto before = contents_of(folder);
     const Result result = run(folder, subcommand + " --resume");
     BOOST_TEST(result.exit_code == failure);
@@ -273,7 +276,6 @@ BOOST_AUTO_TEST_CASE(two_runs_at_once_are_refused) {
                result.error);
     BOOST_TEST((contents_of(folder) == before));
     kill(process, SIGKILL);
-    int status = 0;
     waitpid(process, &status, 0);
     BOOST_TEST(WIFSIGNALED(status));
   }

@@ -58,6 +58,14 @@ class Units {
   Units(const Grid& volume, bool has_scale)
       : Units({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}}, has_scale, true) {}
 
+  /// Voxels, and for distances the units by which axes are spaced.
+  static Units of_voxels(const Grid& volume) {
+    Units units;
+    units.length_unit_ =
+        unit_of_distances({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}});
+    return units;
+  }
+
   /// Of a position in pixels of the picture.
   Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y)}; }
   Point3 position(const Point3& voxels) const { return {x_.at(voxels.x), y_.at(voxels.y), z_.at(voxels.z)}; }
@@ -82,9 +90,9 @@ class Units {
     return pixels;
   }
 
-  /// "data" or "px".
+  /// "data" or "px"; of lengths in a volume whose axes are spaced "spacing 1:1:4".
   const char* of_area() const { return area_in_data_ ? "data" : "px"; }
-  const char* of_length() const { return length_in_data_ ? "data" : "px"; }
+  const char* of_length() const { return length_unit_.c_str(); }
 
   /// The first line of a table with these columns: where lengths stay in pixels beside positions in data
   /// units, the names of their columns say so.
@@ -105,10 +113,18 @@ class Units {
   const char* area_title() const {
     return area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : is_volume_ ? "voxels" : "px";
   }
-  const char* length_title() const { return length_in_data_ ? "data units" : "px"; }
+  const char* length_title() const { return length_in_data_ ? "data units" : of_length(); }
 
  private:
-  Units(const std::array<AxisScale, 3>& axes, bool has_scale, bool is_volume) : is_volume_(is_volume) {
+  static std::string unit_of_distances(const std::array<AxisScale, 3>& axes) {
+    std::string text;
+    for (const AxisScale& axis : axes)
+      text += (text.empty() ? "spacing " : ":") + std::to_string(axis.axis.spacing());
+    return text == "spacing 1:1:1" ? "px" : text;
+  }
+
+  Units(const std::array<AxisScale, 3>& axes, bool has_scale, bool is_volume)
+      : is_volume_(is_volume), length_unit_(unit_of_distances(axes)) {
     double units = 1;  // of a spacing, in a pixel
     for (const AxisScale& axis : axes) {
       if (axis.side_of_pixel() == 0) return;
@@ -124,6 +140,7 @@ class Units {
     length_ = is_volume_ ? Ratio{std::cbrt(area_.data), std::cbrt(area_.pixels * units)}
                          : Ratio{std::sqrt(area_.data), std::sqrt(area_.pixels)};
     length_in_data_ = true;
+    length_unit_ = "data";
     if (units > 1) return;
     border_ = is_volume_ ? Ratio{length_.data * length_.data, length_.pixels * length_.pixels} : length_;
     border_in_data_ = true;
@@ -132,6 +149,7 @@ class Units {
   AxisScale x_, y_, z_;
   Ratio area_, length_, border_;
   bool is_volume_ = false, area_in_data_ = false, length_in_data_ = false, border_in_data_ = false;
+  std::string length_unit_ = "px";
 };
 
 /// A diagram has the pixels of the picture in which there are labels: all of them, or those of a simulation

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/seed_input.hpp"
@@ -97,9 +98,9 @@ Grid with_spacing(const Grid& grid, const std::array<int, 3>& spacing) {
   return {grid.x().spaced(spacing[0]), grid.y().spaced(spacing[1]), grid.z().spaced(spacing[2])};
 }
 
-/// Whether the units by which axes are spaced are one length in data units, to 1/1000. An axis without an
-/// extent fits all.
-bool has_one_unit(const Grid& grid) {
+/// By how much the units by which axes are spaced differ in length in data units: 1 where they do not. An
+/// axis without an extent fits all.
+double spread_of_units(const Grid& grid) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   for (const Axis* axis : {&grid.x(), &grid.y(), &grid.z()}) {
     const double unit = AxisScale{*axis}.side_of_pixel() / axis->spacing();
@@ -107,33 +108,30 @@ bool has_one_unit(const Grid& grid) {
     least = std::min(least, unit);
     most = std::max(most, unit);
   }
-  return most <= least * 1.001;
+  return most > 0 ? most / least : 1;
 }
 
-/// Whether distances have a scale in data units: by the spacing, or because voxels are cubes to the nearest
-/// whole number of voxels.
-bool has_scale(const Grid& grid) {
-  const auto is_square = [](const Axis& a, const Axis& b) {
-    return has_square_pixels({a.from(), b.from(), a.to(), b.to()}, Grid(a.pixels(), b.pixels()));
-  };
-  return has_one_unit(grid) || (!grid.is_spaced() && is_square(grid.x(), grid.y()) &&
-                                is_square(grid.x(), grid.z()) && is_square(grid.y(), grid.z()));
-}
+constexpr double exact = 1.001, rounded = 1.01;  // as the number of voxels of a side is, which are whole
+
+bool has_scale(const Grid& grid) { return spread_of_units(grid) <= rounded; }
 
 bool is_short_enough(const Axis& axis) {
   return axis.pixels() * axis.spacing() <= Window::max_side_of_volume / (axis.is_periodic() ? 2 : 1);
 }
 
-/// The least spacing with one unit that a volume can have; none counts voxels as cubes.
+/// The least spacing that gives distances a scale and that a volume can have; none counts voxels as cubes.
 std::array<int, 3> spacing_of(const Grid& grid) {
-  for (int most = 1; most <= Axis::max_spacing; ++most) {
-    for (int x = 1; x <= most; ++x) {
-      for (int y = 1; y <= most; ++y) {
-        for (int z = x == most || y == most ? 1 : most; z <= most; ++z) {
-          const Grid spaced = with_spacing(grid, {x, y, z});
-          const bool fits =
-              is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
-          if (fits && has_one_unit(spaced)) return {x, y, z};
+  for (const double spread : {exact, rounded}) {
+    for (int most = 1; most <= Axis::max_spacing; ++most) {
+      for (int x = 1; x <= most; ++x) {
+        for (int y = 1; y <= most; ++y) {
+          for (int z = x == most || y == most ? 1 : most; z <= most; ++z) {
+            if (std::gcd(std::gcd(x, y), z) > 1) continue;
+            const Grid spaced = with_spacing(grid, {x, y, z});
+            const bool fits =
+                is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
+            if (fits && spread_of_units(spaced) <= spread) return {x, y, z};
+          }
         }
       }
     }
@@ -141,24 +139,31 @@ std::array<int, 3> spacing_of(const Grid& grid) {
   return {1, 1, 1};
 }
 
-/// Warns unless distances have a scale. Returns whether it did.
-bool warn_of_voxels(const Grid& grid) {
+/// Where the volume of `where` ("frame 3: ") is no picture of the data to scale, a warning says so. Returns
+/// whether it did.
+bool warn_of_voxels(const Grid& grid, const std::string& where) {
   if (has_scale(grid)) return false;
-  const std::string spacing = grid.is_spaced()
-                                  ? fmt::format(", which count as {} x {} x {} units of length,",
-                                                grid.x().spacing(), grid.y().spacing(), grid.z().spacing())
-                                  : "";
-  print_warning(
-      fmt::format("the axes get different scales on {} voxels{}, so the cells are not Voronoi cells in "
-                  "data units; a --size like the bounds makes voxels cubes",
-                  to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), spacing));
+  print_warning(fmt::format(
+      "{}the axes get different scales on {} voxels, so the cells are not Voronoi cells in data units; a "
+      "--size "
+      "like the bounds makes voxels cubes, and others whose sides are as whole numbers up to {} do as well",
+      where, to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), Axis::max_spacing));
   return true;
 }
 
-void note_spacing(const Grid& grid) {
-  if (!grid.is_spaced()) return;
-  print_note(fmt::format("a voxel is {} x {} x {} units of length in the data: distances count it so",
-                         grid.x().spacing(), grid.y().spacing(), grid.z().spacing()));
+/// Says what may surprise: distances that count voxels as they are long, and data without an extent.
+void note_scales(const Grid& grid) {
+  if (grid.is_spaced()) {
+    print_note(
+        fmt::format("the sides of a voxel are as {} : {} : {} in the data, and distances count them so",
+                    grid.x().spacing(), grid.y().spacing(), grid.z().spacing()));
+  }
+  const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (axes[i]->from() < axes[i]->to()) continue;
+    return print_note(fmt::format(
+        "the data have no extent in {}, so all measures stay in voxels; --bounds can give one", names[i]));
+  }
 }
 
 std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
@@ -178,7 +183,7 @@ std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
 /// How a volume stands in the data, of which a voxel of random seeds knows nothing.
 View view_of(const Grid& grid, bool in_pixels) {
   View view = {Size(grid.width(), grid.height()), grid};
-  if (!in_pixels) view.units = Units(grid, has_scale(grid));
+  view.units = in_pixels ? Units::of_voxels(grid) : Units(grid, has_scale(grid));
   return view;
 }
 
@@ -198,8 +203,8 @@ Input input_from_points(const SeedOptions& options) {
     take_periodic_axes(options, sides);
     const Grid unspaced = grid_of(options, sides), grid = with_spacing(unspaced, spacing_of(unspaced));
     check_inside(points, {}, grid);
-    warn_of_voxels(grid);
-    note_spacing(grid);
+    warn_of_voxels(grid, "");
+    note_scales(grid);
     if (!given &&
         std::any_of(sides.begin(), sides.end(), [](const VolumeSide& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
@@ -301,17 +306,18 @@ void VolumeFrames::take_frame() {
   points_ = points_of(frame_);
   try {
     const Grid unspaced = grid_of(options_, sides_of_frame());
-    if (!grid_) note_spacing(with_spacing(unspaced, spacing_ = spacing_of(unspaced)));
-    grid_ = with_spacing(unspaced, spacing_);
+    const bool is_first = !grid_;
+    grid_ = with_spacing(unspaced, spacing_of(unspaced));
+    if (is_first) note_scales(*grid_);
     check_inside(points_, frame_.ids, *grid_);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));
   }
-  if (!has_warned_) has_warned_ = warn_of_voxels(*grid_);
+  if (!has_warned_) has_warned_ = warn_of_voxels(*grid_, fmt::format("frame {}: ", number_));
 }
 
 void refuse_in_volumes(const std::string& option) {
-  throw UsageError(option + " is for planes, and --size WxHxD asks for a volume");
+  throw UsageError(option + " is for planes, not for volumes");
 }
 
 void check_volume_options(const SeedOptions& options) {

@@ -29,8 +29,8 @@ std::optional<VolumeSides> sides_of_all_frames(const std::string& path, std::opt
 
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
-/// bounding box of the particles. Where the sides of the first frame's voxels are whole multiples of one
-/// length in data units, up to 16, the axes of all frames are spaced so.
+/// bounding box of the particles. Where the sides of a frame's voxels are whole multiples of one length in
+/// data units, up to 16, its axes are spaced so.
 class VolumeFrames {
  public:
   /// Reads the first frames, up to the one to start from. Throws Error if the file is bad, has fewer frames
@@ -67,9 +67,8 @@ class VolumeFrames {
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int number_ = -1;
-  bool has_warned_ = false;                 // of distances without a scale
-  std::array<int, 3> spacing_ = {1, 1, 1};  // that of the first frame: seeds keep theirs
-  std::optional<Grid> grid_;                // set by the constructor
+  bool has_warned_ = false;   // of distances without a scale
+  std::optional<Grid> grid_;  // set by the constructor
   std::vector<Point3> points_;
 };
 
