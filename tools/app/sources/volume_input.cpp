@@ -119,21 +119,31 @@ bool is_short_enough(const Axis& axis) {
   return axis.pixels() * axis.spacing() <= Window::max_side_of_volume / (axis.is_periodic() ? 2 : 1);
 }
 
+/// All spacings that are no multiples of others, the least numbers first.
+std::vector<std::array<int, 3>> all_spacings() {
+  std::vector<std::array<int, 3>> spacings;
+  for (int x = 1; x <= Axis::max_spacing; ++x) {
+    for (int y = 1; y <= Axis::max_spacing; ++y) {
+      for (int z = 1; z <= Axis::max_spacing; ++z) {
+        if (std::gcd(std::gcd(x, y), z) == 1) spacings.push_back({x, y, z});
+      }
+    }
+  }
+  std::stable_sort(spacings.begin(), spacings.end(), [](const auto& a, const auto& b) {
+    return *std::max_element(a.begin(), a.end()) < *std::max_element(b.begin(), b.end());
+  });
+  return spacings;
+}
+
 /// The least spacing that gives distances a scale and that a volume can have; none counts voxels as cubes.
 std::array<int, 3> spacing_of(const Grid& grid) {
+  static const std::vector<std::array<int, 3>> spacings = all_spacings();
   for (const double spread : {exact, rounded}) {
-    for (int most = 1; most <= Axis::max_spacing; ++most) {
-      for (int x = 1; x <= most; ++x) {
-        for (int y = 1; y <= most; ++y) {
-          for (int z = x == most || y == most ? 1 : most; z <= most; ++z) {
-            if (std::gcd(std::gcd(x, y), z) > 1) continue;
-            const Grid spaced = with_spacing(grid, {x, y, z});
-            const bool fits =
-                is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
-            if (fits && spread_of_units(spaced) <= spread) return {x, y, z};
-          }
-        }
-      }
+    for (const std::array<int, 3>& spacing : spacings) {
+      const Grid spaced = with_spacing(grid, spacing);
+      const bool fits =
+          is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
+      if (fits && spread_of_units(spaced) <= spread) return spacing;
     }
   }
   return {1, 1, 1};
@@ -145,8 +155,8 @@ bool warn_of_voxels(const Grid& grid, const std::string& where) {
   if (has_scale(grid)) return false;
   print_warning(fmt::format(
       "{}the axes get different scales on {} voxels, so the cells are not Voronoi cells in data units; a "
-      "--size "
-      "like the bounds makes voxels cubes, and others whose sides are as whole numbers up to {} do as well",
+      "--size like the bounds makes voxels cubes, and others whose sides are as whole numbers up to {} do as "
+      "well",
       where, to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), Axis::max_spacing));
   return true;
 }
