@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "app/outputs/table_rows.hpp"
 #include "formats/files.hpp"
@@ -21,140 +25,127 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
-/// A cell as its row in a table: pixels of the picture in the view's units. A value may be unknown, of a cell
-/// without pixels.
+/// A cell as its row in a table: pixels of the picture in the view's units. What is unknown of a cell without
+/// pixels is NaN.
 class CellRow {
  public:
-  using Value = std::optional<double>;
-
   CellRow(Measures& measures, std::uint32_t label)
-      : measures_(measures), view_(measures.view()), label_(label), id_(measures.id_of(label)) {}
+      : measures_(measures), view_(measures.view()), label_(label) {}
 
-  std::uint32_t label() const { return label_; }
-
-  Value id() const { return id_; }
-  Value x() const { return view_.position(*measures_.seeds()[label_]).x; }
-  Value y() const { return view_.position(*measures_.seeds()[label_]).y; }
-  Value area() const { return view_.units.area(measures_.pixels()[label_]); }
-  Value centroid_x() const { return if_full(centroid().x); }
-  Value centroid_y() const { return if_full(centroid().y); }
-  Value left() const { return if_full(extent().left); }
-  Value top() const { return if_full(extent().top); }
-  Value right() const { return if_full(extent().right); }
-  Value bottom() const { return if_full(extent().bottom); }
-  Value perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
-  Value neighbours() const { return measures_.neighbours()[label_]; }
-  Value largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
-  Value touches_border() const { return shape().touches_border ? 1 : 0; }
+  double id() const { return measures_.id_of(label_); }
+  double x() const { return x_at(measures_.seeds()[label_]->x); }
+  double y() const { return y_at(measures_.seeds()[label_]->y); }
+  double area() const { return view_.units.area(measures_.pixels()[label_]); }
+  double centroid_x() const { return if_full(x_at(centroid().x)); }
+  double centroid_y() const { return if_full(y_at(centroid().y)); }
+  double left() const { return if_full(x_at(shape().left)); }
+  double top() const { return if_full(y_at(shape().top)); }
+  double right() const { return if_full(view_.units.x_behind(shape().right + view_.x)); }
+  double bottom() const { return if_full(view_.units.y_behind(shape().bottom + view_.y)); }
+  double perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
+  double neighbours() const { return measures_.neighbours()[label_]; }
+  double largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
+  double touches_border() const { return shape().touches_border ? 1 : 0; }
 
  private:
-  Point centroid() const { return view_.position(measures_.sums()[label_].centroid()); }
+  double x_at(double of_diagram) const { return view_.units.x(of_diagram + view_.x); }
+  double y_at(double of_diagram) const { return view_.units.y(of_diagram + view_.y); }
+  Point centroid() const { return measures_.sums()[label_].centroid(); }
   const CellShape& shape() const { return measures_.shapes()[label_]; }
-  Extent extent() const {
-    const double x = view_.x, y = view_.y;
-    return view_.units.extent({shape().left + x, shape().top + y, shape().right + x, shape().bottom + y});
+  double if_full(double value) const {
+    return measures_.pixels()[label_] > 0 ? value : std::numeric_limits<double>::quiet_NaN();
   }
-  Value if_full(double value) const { return measures_.pixels()[label_] > 0 ? Value(value) : Value(); }
 
   Measures& measures_;
   const View& view_;
-  std::uint32_t label_, id_;
+  std::uint32_t label_;
 };
 
 /// Reads what a value is made of for all labels, if it was not read before, and says where it lies for this
 /// one.
 using Source = const void* (*)(Measures& measures, std::uint32_t label);
 
+template <typename T, const std::vector<T>& (Measures::*all)()>
+const void* entry_of(Measures& measures, std::uint32_t label) {
+  return (measures.*all)().data() + label;
+}
+constexpr Source seed = entry_of<std::optional<Point>, &Measures::seeds>,
+                 pixels = entry_of<std::uint32_t, &Measures::pixels>,
+                 sums = entry_of<CellSums, &Measures::sums>, shape = entry_of<CellShape, &Measures::shapes>,
+                 perimeter = entry_of<std::uint32_t, &Measures::perimeters>,
+                 neighbours = entry_of<std::uint32_t, &Measures::neighbours>;
+
 struct CellColumn {
   std::string name;
-  CellRow::Value (CellRow::*value)() const;
   Source source;
+  /// Finds the values of the labels [begin, end).
+  void (*find)(Measures& measures, const std::uint32_t* begin, const std::uint32_t* end, double* values);
 };
 
-const void* seed_of(Measures& measures, std::uint32_t label) { return measures.seeds().data() + label; }
-const void* pixels_of(Measures& measures, std::uint32_t label) { return measures.pixels().data() + label; }
+template <Source source, double (CellRow::*value)() const>
+CellColumn column(const char* name) {
+  const auto find = [](Measures& measures, const std::uint32_t* begin, const std::uint32_t* end,
+                       double* values) {
+    constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
+    for (const std::uint32_t* label = begin; label != end; ++label) {
+      if (end - label > ahead) __builtin_prefetch(source(measures, label[ahead]));
+      *values++ = (CellRow(measures, *label).*value)();
+    }
+  };
+  return {name, source, find};
+}
 
 const std::vector<CellColumn>& all_cell_columns() {
-  const auto sums = [](Measures& measures, std::uint32_t label) -> const void* {
-    return measures.sums().data() + label;
-  };
-  const auto shapes = [](Measures& measures, std::uint32_t label) -> const void* {
-    return measures.shapes().data() + label;
-  };
-  const auto perimeters = [](Measures& measures, std::uint32_t label) -> const void* {
-    return measures.perimeters().data() + label;
-  };
-  const auto neighbours = [](Measures& measures, std::uint32_t label) -> const void* {
-    return measures.neighbours().data() + label;
-  };
-  static const std::vector<CellColumn> columns = {{"id", &CellRow::id, seed_of},
-                                                  {"x", &CellRow::x, seed_of},
-                                                  {"y", &CellRow::y, seed_of},
-                                                  {"area", &CellRow::area, pixels_of},
-                                                  {"centroid_x", &CellRow::centroid_x, sums},
-                                                  {"centroid_y", &CellRow::centroid_y, sums},
-                                                  {"left", &CellRow::left, shapes},
-                                                  {"top", &CellRow::top, shapes},
-                                                  {"right", &CellRow::right, shapes},
-                                                  {"bottom", &CellRow::bottom, shapes},
-                                                  {"perimeter", &CellRow::perimeter, perimeters},
-                                                  {"neighbours", &CellRow::neighbours, neighbours},
-                                                  {"largest_distance", &CellRow::largest_distance, shapes},
-                                                  {"touches_border", &CellRow::touches_border, shapes}};
+  static const std::vector<CellColumn> columns = {
+      column<seed, &CellRow::id>("id"),
+      column<seed, &CellRow::x>("x"),
+      column<seed, &CellRow::y>("y"),
+      column<pixels, &CellRow::area>("area"),
+      column<sums, &CellRow::centroid_x>("centroid_x"),
+      column<sums, &CellRow::centroid_y>("centroid_y"),
+      column<shape, &CellRow::left>("left"),
+      column<shape, &CellRow::top>("top"),
+      column<shape, &CellRow::right>("right"),
+      column<shape, &CellRow::bottom>("bottom"),
+      column<perimeter, &CellRow::perimeter>("perimeter"),
+      column<neighbours, &CellRow::neighbours>("neighbours"),
+      column<shape, &CellRow::largest_distance>("largest_distance"),
+      column<shape, &CellRow::touches_border>("touches_border")};
   return columns;
 }
 
-/// What rows of these columns are made of, each once. The pixels, which say whether a cell is empty, stand
-/// behind the sums, which have them.
-std::vector<Source> sources_of(const std::vector<CellColumn>& columns) {
-  std::vector<Source> sources;
-  const auto add = [&sources](Source source) {
-    if (std::find(sources.begin(), sources.end(), source) == sources.end()) sources.push_back(source);
-  };
-  for (const CellColumn& column : columns) {
-    if (column.source != pixels_of) add(column.source);
-  }
-  add(seed_of);
-  add(pixels_of);
-  return sources;
-}
-
 void read_plane_cells(const std::vector<CellColumn>& columns, Measures& measures) {
-  for (const Source source : sources_of(columns)) source(measures, 0);
+  for (const CellColumn& column : columns) {
+    if (column.source != pixels) column.source(measures, 0);
+  }
+  seed(measures, 0);    // these and the pixels say which cells have rows
+  pixels(measures, 0);  // behind the sums, which have them
 }
 
 void add_plane_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
                      Measures& measures) {
-  const std::vector<Source> sources = sources_of(columns);
-  std::vector<CellRow> rows;
-  for (const std::uint32_t label : measures.cells()) rows.emplace_back(measures, label);
-  const auto add = [&](fmt::memory_buffer& text, const CellRow& row) {
-    text.append(std::string_view(first));
-    bool is_first = true;
-    for (const CellColumn& column : columns) {
-      if (!is_first) text.push_back(',');
-      is_first = false;
-      if (const CellRow::Value value = (row.*column.value)()) add_number(text, *value);
+  // A column after the other for some rows, so that each is a short loop; then row by row the text.
+  constexpr std::ptrdiff_t most_rows = 256;
+  const auto add = [&](RowText& text, const std::uint32_t* begin, const std::uint32_t* end) {
+    std::vector<std::array<double, most_rows>> values(columns.size());
+    for (std::ptrdiff_t rows = 0; begin < end; begin += rows) {
+      rows = std::min(end - begin, most_rows);
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        columns[i].find(measures, begin, begin + rows, values[i].data());
+      for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+        text.begin_row();
+        for (const auto& column : values) text.add(column[row]);
+        text.end_row();
+      }
     }
-    text.push_back('\n');
   };
-  // Ids say nothing of where labels lie.
-  const auto fetch = [&](const CellRow& row) {
-    for (const Source source : sources) __builtin_prefetch(source(measures, row.label()));
-  };
-  add_rows(table, rows, add, fetch);
+  add_pieces(table, first, measures.cells(), add);
 }
 
 void add_plane_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
-  add_rows(table, measures.pairs_by_id(), [&](fmt::memory_buffer& text, const CellPair& pair) {
-    text.append(std::string_view(first));
-    add_number(text, pair.a);
-    text.push_back(',');
-    add_number(text, pair.b);
-    text.push_back(',');
-    add_number(text, units.length(pair.length));
-    text.push_back('\n');
+  add_rows(table, first, measures.pairs_by_id(), [&units](RowText& text, const CellPair& pair) {
+    text.add(pair.a, pair.b, units.length(pair.length));
   });
 }
 

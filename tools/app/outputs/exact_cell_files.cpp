@@ -119,24 +119,16 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
   const bool need_polygons =
       std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_polygon; });
   const ExactPolygons* const polygons = need_polygons ? &this->polygons() : nullptr;
-  add_rows(table, order_, [&](fmt::memory_buffer& text, std::size_t seed) {
+  add_rows(table, first, order_, [&](RowText& text, std::size_t seed) {
     const Ring ring = polygons != nullptr ? ring_of(*polygons, seed) : Ring();
     const Row row = {id_of(seed), *points_[seed], cells_[seed], ring, y_up_};
-    text.append(std::string_view(first));
-    bool is_first = true;
-    for (const Column& column : columns) {
-      if (!is_first) text.push_back(',');
-      is_first = false;
-      if (const Value value = column.value(row)) add_number(text, *value);
-    }
-    text.push_back('\n');
+    for (const Column& column : columns) text.add(column.value(row));
   });
 }
 
 void ExactCellRows::add_pairs(GrowingFile& table, const std::string& first) {
-  add_rows(table, pairs(), [&first](fmt::memory_buffer& text, const ExactPair& pair) {
-    fmt::format_to(fmt::appender(text), FMT_COMPILE("{}{},{},{},{},{}\n"), first, pair.a, pair.b, pair.length,
-                   pair.midpoint.x, pair.midpoint.y);
+  add_rows(table, first, pairs(), [](RowText& text, const ExactPair& pair) {
+    text.add(pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y);
   });
 }
 

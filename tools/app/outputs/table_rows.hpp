@@ -8,7 +8,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/output_file.hpp"
@@ -16,47 +20,89 @@
 
 namespace vorocl::command {
 
-/// Adds a number as "{}" writes it. Most numbers of tables are whole, for which there is a shorter way.
-inline void add_number(fmt::memory_buffer& text, double value) {
-  constexpr double most = 1e15;  // of those that "{}" writes without an exponent
-  const bool is_whole = std::fabs(value) < most && value == std::trunc(value);
-  if (is_whole && !(value == 0 && std::signbit(value))) {
-    const fmt::format_int digits(static_cast<std::int64_t>(value));
-    text.append(digits.data(), digits.data() + digits.size());
-  } else {
-    fmt::format_to(fmt::appender(text), FMT_COMPILE("{}"), value);
-  }
-}
+/// The text of some rows.
+class RowText {
+ public:
+  /// `first` stands before the values of each row.
+  explicit RowText(std::string first) : first_(std::move(first)) {}
 
-/// Adds the rows of items that `add` appends to a text: threads make pieces of it, which are added in order.
-/// `fetch` is called for an item some rows before: it may have the processor fetch what the row needs.
-template <typename Item, typename Add, typename Fetch>
-void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add, const Fetch& fetch) {
+  void begin_row() { text_.append(std::string_view(first_)); }
+
+  /// Adds a number as "{}" writes it, and nothing where there is none, which NaN says.
+  void add(double value) {
+    constexpr std::size_t longest = 32;  // of a number with the comma behind it
+    const std::size_t size = text_.size();
+    text_.resize(size + longest);
+    char* const begin = text_.data() + size;
+    char* const end = std::isnan(value) ? begin : write(begin, value);
+    *end = ',';
+    text_.resize(size + static_cast<std::size_t>(end - begin) + 1);
+  }
+
+  void add(const std::optional<double>& value) {
+    add(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  }
+
+  template <typename... Values>
+  void add(double first, double second, const Values&... others) {
+    add(first);
+    add(second);
+    (add(others), ...);
+  }
+
+  /// Behind one value or more.
+  void end_row() { text_[text_.size() - 1] = '\n'; }
+
+  void clear() { text_.clear(); }
+  std::string_view text() const { return {text_.data(), text_.size()}; }
+
+ private:
+  /// Most numbers of tables are whole, for which there is a shorter way.
+  static char* write(char* to, double value) {
+    constexpr double most = 1e15;  // of those that "{}" writes without an exponent
+    if (std::fabs(value) < most && !(value == 0 && std::signbit(value))) {
+      const auto whole = static_cast<std::int64_t>(value);
+      if (static_cast<double>(whole) == value) return fmt::format_to(to, FMT_COMPILE("{}"), whole);
+    }
+    return fmt::format_to(to, FMT_COMPILE("{}"), value);
+  }
+
+  std::string first_;
+  fmt::memory_buffer text_;
+};
+
+/// Adds the rows of items, with `first` before each: `add` appends those of the items [begin, end) to a text.
+/// Threads make pieces, which are added in order.
+template <typename Item, typename Add>
+void add_pieces(GrowingFile& table, const std::string& first, const std::vector<Item>& items,
+                const Add& add) {
   constexpr std::size_t items_of_piece = 4096, most_pieces = 16;  // held at once
-  constexpr std::size_t ahead = 8;                                // a row takes longer than a fetch
-  std::vector<fmt::memory_buffer> pieces(most_pieces);
+  std::vector<RowText> pieces;
+  for (std::size_t i = 0; i < most_pieces; ++i) pieces.emplace_back(first);
   Workers workers(items.size() / items_of_piece);  // none for few items
   for (std::size_t begin = 0; begin < items.size();) {
     std::size_t count = 0;
     for (; count < most_pieces && begin < items.size(); ++count, begin += items_of_piece) {
-      workers.add([&items, &add, &fetch, &piece = pieces[count], begin] {
+      workers.add([&items, &add, &piece = pieces[count], begin] {
         piece.clear();
-        const std::size_t end = std::min(items.size(), begin + items_of_piece);
-        for (std::size_t i = begin; i < end; ++i) {
-          if (i + ahead < end) fetch(items[i + ahead]);
-          add(piece, items[i]);
-        }
+        add(piece, items.data() + begin, items.data() + std::min(items.size(), begin + items_of_piece));
       });
     }
     workers.wait();
-    for (std::size_t i = 0; i < count; ++i) table << std::string_view(pieces[i].data(), pieces[i].size());
+    for (std::size_t i = 0; i < count; ++i) table << pieces[i].text();
   }
 }
 
-/// The same where rows need nothing that lies apart.
+/// The same where `add` appends the values of one item.
 template <typename Item, typename Add>
-void add_rows(GrowingFile& table, const std::vector<Item>& items, const Add& add) {
-  add_rows(table, items, add, [](const Item&) {});
+void add_rows(GrowingFile& table, const std::string& first, const std::vector<Item>& items, const Add& add) {
+  add_pieces(table, first, items, [&add](RowText& text, const Item* begin, const Item* end) {
+    for (const Item* item = begin; item != end; ++item) {
+      text.begin_row();
+      add(text, *item);
+      text.end_row();
+    }
+  });
 }
 
 }  // namespace vorocl::command

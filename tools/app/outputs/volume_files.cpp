@@ -1,12 +1,8 @@
 #include "app/outputs/volume_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <initializer_list>
-#include <optional>
+#include <limits>
 #include <stdexcept>
-#include <string_view>
 #include <vector>
 
 #include "app/outputs/table_rows.hpp"
@@ -15,20 +11,6 @@
 namespace vorocl::command {
 
 namespace {
-
-/// A value of a row; none of a cell without voxels.
-using Value = std::optional<double>;
-
-void add_row(fmt::memory_buffer& text, const std::string& first, std::initializer_list<Value> values) {
-  text.append(std::string_view(first));
-  bool is_first = true;
-  for (const Value& value : values) {
-    if (!is_first) text.push_back(',');
-    is_first = false;
-    if (value) add_number(text, *value);
-  }
-  text.push_back('\n');
-}
 
 void read_cells(Measures& measures) {
   measures.seed_voxels();
@@ -41,7 +23,7 @@ void read_cells(Measures& measures) {
 
 void add_cells(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
-  add_rows(table, measures.cells(), [&](fmt::memory_buffer& text, std::uint32_t label) {
+  add_rows(table, first, measures.cells(), [&](RowText& text, std::uint32_t label) {
     const CellSums& sums = measures.sums()[label];
     const CellShape& shape = measures.shapes()[label];
     const Point3 seed = units.position(*measures.seed_voxels()[label]),
@@ -49,21 +31,22 @@ void add_cells(GrowingFile& table, const std::string& first, Measures& measures)
     const auto side = [](int voxel) { return static_cast<double>(voxel); };
     const Extent box = units.extent({side(shape.left), side(shape.top), side(shape.right), side(shape.bottom),
                                      side(shape.front), side(shape.back)});
-    const auto if_full = [&](double value) { return sums.area > 0 ? Value(value) : Value(); };
+    const auto if_full = [&](double value) {
+      return sums.area > 0 ? value : std::numeric_limits<double>::quiet_NaN();
+    };
     const double farthest = units.length(measures.largest_distance(label));
-    add_row(text, first,
-            {measures.id_of(label), seed.x, seed.y, seed.z, units.area(sums.area), if_full(centroid.x),
+    text.add(measures.id_of(label), seed.x, seed.y, seed.z, units.area(sums.area), if_full(centroid.x),
              if_full(centroid.y), if_full(centroid.z), if_full(box.left), if_full(box.top),
              if_full(box.front), if_full(box.right), if_full(box.bottom), if_full(box.back),
              units.border(measures.perimeters()[label]), measures.neighbours()[label], if_full(farthest),
-             shape.touches_border ? 1 : 0});
+             shape.touches_border ? 1 : 0);
   });
 }
 
 void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
-  add_rows(table, measures.pairs_by_id(), [&](fmt::memory_buffer& text, const CellPair& pair) {
-    add_row(text, first, {pair.a, pair.b, units.border(pair.length)});
+  add_rows(table, first, measures.pairs_by_id(), [&units](RowText& text, const CellPair& pair) {
+    text.add(pair.a, pair.b, units.border(pair.length));
   });
 }
 

@@ -67,18 +67,23 @@ class Units {
   }
 
   /// Of a position in pixels of the picture.
-  Point position(const Point& pixels) const { return {x_.at(pixels.x), y_.at(pixels.y)}; }
+  double x(double pixels) const { return x_.at(pixels); }
+  double y(double pixels) const { return y_.at(pixels); }
+  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y)}; }
   Point3 position(const Point3& voxels) const { return {x_.at(voxels.x), y_.at(voxels.y), z_.at(voxels.z)}; }
 
   /// The sides of a pixel.
   Point3 sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
 
-  /// The extent of an area from its first column and row to its last: of pixels these, of data the edges of
-  /// both.
+  /// Where an area ends behind its last column, row or slice: of pixels this one, of data the edge behind it.
+  double x_behind(double last) const { return x_.at(last + behind()); }
+  double y_behind(double last) const { return y_.at(last + behind()); }
+  double z_behind(double last) const { return z_.at(last + behind()); }
+
+  /// The extent of an area from its first column and row to behind its last.
   Extent extent(const Extent& pixels) const {
-    if (!area_in_data_) return pixels;
-    return {x_.at(pixels.left),       y_.at(pixels.top),   x_.at(pixels.right + 1),
-            y_.at(pixels.bottom + 1), z_.at(pixels.front), z_.at(pixels.back + 1)};
+    return {x_.at(pixels.left),      y_.at(pixels.top),   x_behind(pixels.right),
+            y_behind(pixels.bottom), z_.at(pixels.front), z_behind(pixels.back)};
   }
 
   double area(double pixels) const { return area_.of(pixels); }
@@ -116,6 +121,8 @@ class Units {
   const char* length_title() const { return length_in_data_ ? "data units" : of_length(); }
 
  private:
+  double behind() const { return area_in_data_ ? 1 : 0; }
+
   static std::string unit_of_distances(const std::array<AxisScale, 3>& axes) {
     std::string text;
     for (const AxisScale& axis : axes)
