@@ -99,16 +99,21 @@ class VOROCL_API Axis {
   /// pixel. Counted from the other end if reversed, brought into [0, pixels) if periodic; else it may lie
   /// outside. NaN or infinite if the coordinate is.
   double pixel(double coordinate) const {
-    return is_plain() ? floor_of(coordinate) : mapped_pixel(coordinate);
+    return is_position(coordinate) ? floor_of(coordinate) : mapped_pixel(coordinate);
   }
 
   /// The position of a coordinate in pixels, of which pixel() is the floor but for what rounding does at a
   /// pixel's ends: the middle of the axis if its ends are equal. NaN or infinite if the coordinate is.
-  double position(double coordinate) const;
+  double position(double coordinate) const {
+    return is_position(coordinate) ? coordinate : mapped_position(coordinate);
+  }
 
   /// As position(), rounded to 1/4096 of a pixel as exact diagrams take points (Snap::none), and never out of
   /// the pixel of the coordinate.
   double rounded_position(double coordinate) const;
+
+  /// What rounded_position() adds to `pixel`, that of the coordinate, as a whole number of 1/4096 of it.
+  double fraction_in(double pixel, double coordinate) const;
 
   /// How many periods a coordinate lies beyond [from, to): floor((coordinate - from) / (to - from)), as its
   /// pixel is found. 0 if the axis is not periodic.
@@ -125,8 +130,10 @@ class VOROCL_API Axis {
   friend bool operator!=(const Axis& a, const Axis& b) { return !(a == b); }
 
  private:
-  /// Whether a coordinate's pixel is its floor.
-  bool is_plain() const { return in_pixels_ && !periodic_ && !reversed_ && !closed_; }
+  /// Whether a coordinate is the position, as most are where the unit is the pixel.
+  bool is_position(double coordinate) const {
+    return in_pixels_ && !reversed_ && coordinate >= 0 && coordinate < to_;
+  }
 
   /// std::floor() without a call, which it is where the processor is not known.
   static double floor_of(double number) {
@@ -138,6 +145,7 @@ class VOROCL_API Axis {
   }
 
   double mapped_pixel(double coordinate) const;
+  double mapped_position(double coordinate) const;
   double unreversed_pixel(double coordinate) const;
   double offset_in_period(double coordinate) const;
   double position_in_period(double coordinate) const;

@@ -150,7 +150,7 @@ double Axis::mapped_pixel(double coordinate) const {
   return reversed_ ? static_cast<double>(pixels_ - 1) - pixel : pixel;
 }
 
-double Axis::position(double coordinate) const {
+double Axis::mapped_position(double coordinate) const {
   const auto count = static_cast<double>(pixels_);
   double along = coordinate;
   if (periodic_) {
@@ -164,10 +164,13 @@ double Axis::position(double coordinate) const {
 }
 
 double Axis::rounded_position(double coordinate) const {
-  constexpr double parts_of_pixel = fractions_of_pixel;
-  const double first = pixel(coordinate),
-               parts = std::nearbyint((position(coordinate) - first) * parts_of_pixel);
-  return first + std::clamp(parts, 0.0, parts_of_pixel - 1) / parts_of_pixel;
+  const double first = pixel(coordinate);
+  return first + fraction_in(first, coordinate) / fractions_of_pixel;
+}
+
+double Axis::fraction_in(double pixel, double coordinate) const {
+  const double parts = std::nearbyint((position(coordinate) - pixel) * fractions_of_pixel);
+  return std::clamp(parts, 0.0, fractions_of_pixel - 1.0);
 }
 
 double Axis::coordinate(double position) const {

@@ -60,8 +60,7 @@ class Snapping {
 
  private:
   static std::uint16_t fraction_of(const Axis& axis, double coordinate, cl_int pixel) {
-    return static_cast<std::uint16_t>((axis.rounded_position(coordinate) - static_cast<double>(pixel)) *
-                                      fractions_of_pixel);
+    return static_cast<std::uint16_t>(axis.fraction_in(pixel, coordinate));
   }
 
   /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.

@@ -97,7 +97,7 @@ MappedPoints map_points(const std::vector<Point>& points, const Mapping& mapping
       throw Error(fmt::format("{} at ({}, {}) is {}", name, point.x, point.y, why));
     };
     if (!std::isfinite(point.x) || !std::isfinite(point.y)) refuse("not finite");
-    const double x = point.x - mapping.tilt * axes.y.periods_beyond(point.y);
+    const double x = point.x - (mapping.tilt == 0 ? 0 : mapping.tilt * axes.y.periods_beyond(point.y));
     Point place = {axes.x.place(x, mapping.snap), axes.y.place(point.y, mapping.snap)};
     if (std::max(std::abs(place.x), std::abs(place.y)) >= plane_side - Size::max_side) {
       refuse("2^31 pixels or more away from the bounds " + to_string(bounds));

@@ -78,7 +78,7 @@ Periods periods_in_pixels(const Box& box, const Bounds& bounds, const Size& pict
 
 double displacement(const Point& from, const Point& to, const Periods& periods) {
   const double dx = to.x - from.x, dy = to.y - from.y;
-  if (periods.y <= 0) return std::max(shortest(dx, periods.x), std::abs(dy));
+  if (periods.y <= 0 || periods.tilt == 0) return std::max(shortest(dx, periods.x), shortest(dy, periods.y));
   // Once round in y shifts x by the tilt.
   const double turns = std::round(dy / periods.y);
   double least = INFINITY;
