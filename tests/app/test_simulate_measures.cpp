@@ -220,6 +220,7 @@ BOOST_AUTO_TEST_CASE(bad_outputs_are_refused_before_the_work) {
   const std::string simulate =
       "simulate --random 5 --size 10x10 --frames 3 --step-length 1 --method djfa --device none ";
   refuses(folder, simulate + "--distance d.npy", usage, {"d.npy", "%05d.npy"});
+  refuses(folder, simulate + "--labels f/l.vti", usage, {"f/l.vti", "%05d.vti"});
   refuses(folder, simulate + "--cells c%d.txt", usage, {"c%d.txt", ".csv"});
   refuses(folder, simulate + "--adjacency a%d.npy", usage, {"a%d.npy", ".csv"});
   refuses(folder, simulate + "--distance d%d.png", usage, {"d%d.png", ".npy, .tif, .tiff, .vti"});

@@ -492,6 +492,14 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
       content_of(folder / "c1.csv").substr(0, content_of(folder / "c1.csv").find('\n'));
   BOOST_TEST(first_line.find("largest_distance_px") != std::string::npos);
   BOOST_TEST(runs(simulate + "--cells c.csv --units px"));
+
+  // Where voxels are spaced otherwise distances alone have other units, which pairs of cells do not have.
+  Space flat = {{0, 0, 0}, {20, 40, 24}, low.periodic}, deep = {{0, 0, 0}, {20, 40, 48}, low.periodic};
+  folder.file("a.lammpstrj", dump_frame(1, flat, a, false) + dump_frame(2, deep, a, false));
+  const std::string spaced = simulate + "--fit frame --units px ";
+  BOOST_TEST(runs(spaced + "--adjacency pairs.csv"));
+  BOOST_TEST(content_of(folder / "pairs.csv").find("\n1,") != std::string::npos);
+  BOOST_TEST(run(folder, spaced + "--cells c.csv").error.find("other units") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_goes_on_where_it_stopped) {

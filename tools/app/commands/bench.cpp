@@ -81,7 +81,7 @@ void run(const BenchOptions& options) {
 void check_volume(const BenchOptions& options) {
   if (options.benchmark.truth == Snap::none) refuse_in_volumes("--truth true");
   if (options.benchmark.tile != 0) refuse_in_volumes("--tile");
-  for (const Method& method : options.methods) check_volume_method(method);
+  for (const Method& method : options.methods) check_volume_method(method, options.benchmark.method.metric);
 }
 
 void add_methods_option(Command& command, std::vector<Method>& methods) {

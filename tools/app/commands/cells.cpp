@@ -172,7 +172,7 @@ void add_cells(CommandLine& line) {
       for (const char* const name : {"--exact", "--border", "--cell-columns"}) {
         if (command.has(name)) refuse_in_volumes(name);
       }
-      check_volume_method(options->method);
+      check_volume_method(options->method, options->method_options.metric);
     } else if (options->exact) {
       return run_exact(command, *options);
     }

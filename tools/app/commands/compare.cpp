@@ -10,6 +10,7 @@
 #include <unordered_map>
 
 #include "app/commands/commands.hpp"
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/sources/volume_input.hpp"
@@ -20,6 +21,7 @@
 #include "formats/raster_files.hpp"
 #include "vorocl/distance_errors.hpp"
 #include "vorocl/exact_diagram.hpp"
+#include "vorocl/method.hpp"
 #include "vorocl/similarity.hpp"
 
 namespace vorocl::command {
@@ -107,6 +109,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
   }
   const bool is_volume = seed_options.depth > 1;
   if (is_volume && seed_options.usual_snap == Snap::none) refuse_in_volumes("--truth true");
+  if (is_volume) check_volume_method(method("exact"), options.metric);
   const Input input = is_volume ? read_volume_input(seed_options) : read_input(seed_options);
   const View& view = input.view;
   check_sizes(options.a, size_of(image), "the diagram of the seeds",

@@ -25,7 +25,7 @@ std::vector<RequestedFile> requested_files(const VolumeRendering& options) {
 }
 
 void check(const VolumeRendering& options, const VolumeSize& sides) {
-  check_volume_method(options.method);
+  check_volume_method(options.method, options.method_options.metric);
   if (options.picture_path.empty() && options.labels_path.empty()) {
     throw UsageError("nothing to write: give -o PICTURE with --slice z=K, --labels FILE or both");
   }

@@ -297,8 +297,8 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
   for (const char* const name : {"--truth", "--tolerance", "--cell-columns"}) {
     if (command.has(name)) refuse_in_volumes(name);
   }
-  check_volume_method(options.method);
-  if (options.compare_with) check_volume_method(*options.compare_with);
+  check_volume_method(options.method, options.method_options.metric);
+  if (options.compare_with) check_volume_method(*options.compare_with, options.other_metric());
   check_slice(options.output.picture, options.output.picture_path, volume_size(seeds));
   seeds.usual_snap = Snap::to_pixels;
   for (FileRequest& request : options.output.files) request = of_volume(request);

@@ -10,7 +10,10 @@ VolumeSize volume_size(const SeedOptions& seeds) {
   return {seeds.size->width(), seeds.size->height(), seeds.depth};
 }
 
-void check_volume_method(const Method& method) {
+void check_volume_method(const Method& method, Metric metric) {
+  if (method.exact && metric == Metric::manhattan) {
+    throw UsageError("exact diagrams of volumes are Euclidean; jump flooding takes --metric manhattan");
+  }
   if (method.volumes) return;
   std::string names;
   for (const Method& other : methods()) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <tuple>
 #include <utility>
@@ -31,12 +32,14 @@ std::string corners_of(const std::optional<Box>& box, bool is_volume) {
 }  // namespace
 
 std::string collection_path(const FileRequest& request) {
-  if (extension_of(request.path) != ".vti") return {};
-  const fs::path pattern(request.path);
-  const NumberedName stem(pattern.stem().string());
-  std::string name = stem.before.substr(0, stem.before.find_last_not_of("-_.") + 1) + stem.after;
-  if (name.empty()) name = request.kind.option.substr(2);
-  return (pattern.parent_path() / (name + ".pvd")).string();
+  const std::string extension = extension_of(request.path);
+  if (extension != ".vti") return {};
+  const NumberedName numbered(request.path);
+  const fs::path before(numbered.before);
+  const std::string stem = before.filename().string();
+  const std::string name = stem.substr(0, stem.find_last_not_of("-_.") + 1) +
+                           numbered.after.substr(0, numbered.after.size() - extension.size());
+  return (before.parent_path() / ((name.empty() ? request.kind.option.substr(2) : name) + ".pvd")).string();
 }
 
 FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : request_(request) {
@@ -63,8 +66,10 @@ void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
 }
 
 std::string FrameFiles::header_of(int frame, const Units& units) {
-  std::string header = "frame,timestep," + units.header(request_.kind.table()->columns),
-              names = fmt::format("{} {}", units.of_area(), units.of_length());
+  const std::vector<std::string>& columns = request_.kind.table()->columns;
+  std::string header = "frame,timestep," + units.header(columns), names = units.of_area();
+  if (std::find(columns.begin(), columns.end(), "largest_distance") != columns.end())
+    names += units.of_length();
   if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
   if (header == header_ && names == units_) return header;
   throw Error(fmt::format(
