@@ -41,16 +41,8 @@ void print_result(const BenchOptions& options, const Seeds& seeds, const View& v
                           {"wrong_pixels", result.wrong_pixels}});
     }
     const Grid& grid = seeds.grid();
-    Json json = {{"metric", to_string(options.benchmark.method.metric)},
-                 {"device", seeds.device().name()},
-                 {"width", grid.width()},
-                 {"height", grid.height()}};
-    if (grid.is_volume()) json["depth"] = grid.depth();
-    if (grid.is_spaced()) json["spacing"] = {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()};
-    json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
-                     {"seeds", seeds.alive()},
-                     {"repeat", options.benchmark.rounds},
-                     {"results", list}});
+    Json json = json_of_grid(options.benchmark.method.metric, seeds, grid.width(), grid.height());
+    json.update(Json{{"seeds", seeds.alive()}, {"repeat", options.benchmark.rounds}, {"results", list}});
     print_json(json);
     return;
   }

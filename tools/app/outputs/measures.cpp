@@ -259,17 +259,21 @@ const AdjacencyResult& Measures::adjacency_result() {
   return buffers_.adjacency;
 }
 
-Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
+Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height) {
   const Grid& grid = seeds.grid();
-  Json json = {{"method", method.name},
-               {"metric", to_string(metric)},
-               {"device", seeds.device().name()},
-               {"width", view.picture.size.width()},
-               {"height", view.picture.size.height()}};
+  Json json = {
+      {"metric", to_string(metric)}, {"device", seeds.device().name()}, {"width", width}, {"height", height}};
   if (grid.is_volume()) json["depth"] = grid.depth();
   if (grid.is_spaced()) json["spacing"] = {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()};
-  json.update(Json{{"periodic", to_string(grid.periodic(), grid.z().is_periodic())},
-                   {grid.is_volume() ? "volume_unit" : "area_unit", view.units.of_area()},
+  json["periodic"] = to_string(grid.periodic(), grid.z().is_periodic());
+  return json;
+}
+
+Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view) {
+  const Size& size = view.picture.size;
+  Json json = {{"method", method.name}};
+  json.update(json_of_grid(metric, seeds, size.width(), size.height()));
+  json.update(Json{{seeds.grid().is_volume() ? "volume_unit" : "area_unit", view.units.of_area()},
                    {"length_unit", view.units.of_length()}});
   return json;
 }

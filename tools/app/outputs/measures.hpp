@@ -157,6 +157,9 @@ class Measures {
   std::optional<CellStatistics> statistics_;
 };
 
+/// What diagrams of these seeds are of, with so many pixels.
+Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height);
+
 /// How a diagram of seeds was made, and how it stands in the data.
 Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, const View& view);
 

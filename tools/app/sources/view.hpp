@@ -61,8 +61,7 @@ class Units {
   /// Voxels, and for distances the units by which axes are spaced.
   static Units of_voxels(const Grid& volume) {
     Units units;
-    units.length_unit_ =
-        unit_of_distances({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}});
+    units.length_unit_ = spacing_unit({AxisScale{volume.x()}, AxisScale{volume.y()}, AxisScale{volume.z()}});
     return units;
   }
 
@@ -123,7 +122,7 @@ class Units {
  private:
   double behind() const { return area_in_data_ ? 1 : 0; }
 
-  static std::string unit_of_distances(const std::array<AxisScale, 3>& axes) {
+  static std::string spacing_unit(const std::array<AxisScale, 3>& axes) {
     std::string text;
     for (const AxisScale& axis : axes)
       text += (text.empty() ? "spacing " : ":") + std::to_string(axis.axis.spacing());
@@ -131,7 +130,7 @@ class Units {
   }
 
   Units(const std::array<AxisScale, 3>& axes, bool has_scale, bool is_volume)
-      : is_volume_(is_volume), length_unit_(unit_of_distances(axes)) {
+      : is_volume_(is_volume), length_unit_(spacing_unit(axes)) {
     double units = 1;  // of a spacing, in a pixel
     for (const AxisScale& axis : axes) {
       if (axis.side_of_pixel() == 0) return;
