@@ -104,6 +104,18 @@ T entry_of(std::uint32_t label, const std::vector<T>& entries, const char* name)
               std::to_string(entries.size()));
 }
 
+/// A picture with the colour that each label has in a table, and black where there is no label. To look up
+/// each pixel takes less time than to foresee where the next run begins.
+cv::Mat color_by_entry(const std::vector<std::uint32_t>& labels, const Window& window,
+                       const std::vector<cv::Vec3b>& colors, const char* name) {
+  check_count(labels.size(), "labels", columns_of(window), rows_of(window));
+  cv::Mat picture = empty_picture(window);
+  std::transform(labels.begin(), labels.end(), picture.ptr<cv::Vec3b>(), [&](std::uint32_t label) {
+    return label == no_label ? black : entry_of(label, colors, name);
+  });
+  return picture;
+}
+
 double value_of(std::uint32_t label, const std::vector<double>& values) {
   return entry_of(label, values, "value");
 }
@@ -228,14 +240,14 @@ cv::Mat color_by_id(const std::vector<std::uint32_t>& labels, const Window& wind
 
 cv::Mat color_by_seed(const std::vector<std::uint32_t>& labels, const Window& window,
                       const std::vector<cv::Vec3b>& colors) {
-  return color_by_label(labels, window,
-                        [&colors](std::uint32_t label) { return entry_of(label, colors, "colour"); });
+  return color_by_entry(labels, window, colors, "colour");
 }
 
 cv::Mat color_by_value(const std::vector<std::uint32_t>& labels, const Window& window,
                        const std::vector<double>& values, const Scale& scale, Palette palette) {
-  const Colors colors(scale, palette);
-  return color_by_label(labels, window, [&](std::uint32_t label) { return colors(value_of(label, values)); });
+  std::vector<cv::Vec3b> colors(values.size());
+  std::transform(values.begin(), values.end(), colors.begin(), Colors(scale, palette));
+  return color_by_entry(labels, window, colors, "value");
 }
 
 cv::Mat color_by_distance(const std::vector<float>& distances, const Window& window, const Scale& scale,
