@@ -1,9 +1,9 @@
-// Homes: the block that holds a cell's seed holds most of its pixels. What those add to the cell needs no atomics, for no
-// other work-item adds to the same place: what they add is kept apart, and joined with the rest at the end.
+// Homes: the block that holds a cell's seed holds most of its pixels. What those add to the cell needs no atomics, for
+// no other work-item adds to the same place: it is kept apart, and joined with the rest at the end.
 //
-// With many cells the time goes into waiting for memory: so homes are kept by themselves, and of a block's index 16 bits.
-// With small blocks on a large grid they may belong to another block; then that one is the cell's home: the results stay
-// right, but fewer atomics are saved.
+// With many cells the time goes into waiting for memory: so homes are kept by themselves, and of a block's index 16
+// bits. With small blocks on a large grid they may belong to another block; then that one is the cell's home: the
+// results stay right, but fewer atomics are saved.
 
 #ifndef VOROCL_HOME
 #define VOROCL_HOME

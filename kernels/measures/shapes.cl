@@ -7,8 +7,8 @@
 #define INVERTED(box) ((int4)((box).s0, (box).s1, ~(box).s2, ~(box).s3))
 #define NO_BOX ((int4)INT_MAX)
 
-// The pixels at home have a box of their own and their largest distance. Of the others there is another box and, for a
-// distance may take 64 bits, which have no atomics, the farthest pixel, packed.
+// The pixels at home have a box of their own and their largest distance. The others have another box and, because a
+// distance may take 64 bits, which have no atomics, their farthest pixel, packed.
 kernel void clear_shapes(SEED_PARAMETERS, int wide, int high, global ushort* restrict home, global int4* restrict boxes,
                          global LENGTH* restrict distances, global int4* restrict other_boxes,
                          global uint* restrict farthest) {
@@ -102,8 +102,8 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
   }
 }
 
-// Joins what the pixels at home and the others have found. Seeds that are absent own nothing, whatever labels name them.
-// (To ask before every addition would cost a tenth.)
+// Joins what the pixels at home and the others have found. Seeds that are absent own nothing, whatever labels name
+// them. (To ask before every addition would cost a tenth.)
 kernel void join_shapes(SEED_PARAMETERS, global int4* restrict boxes, global LENGTH* restrict distances,
                         global const int4* restrict other_boxes, global const uint* restrict farthest) {
   const uint id = (uint)get_global_id(0);
