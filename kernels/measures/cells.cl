@@ -1,26 +1,15 @@
 // Sums over the pixels of each cell: area and coordinates, which give the centroid; and statistics of the areas.
 
-#include "measures/runs.cl"
-#include "measures/seed_place.cl"
+#include "measures/home.cl"
 #include "measures/sums.cl"
 
-// Home sums: the block that holds a cell's seed, its home, holds most of its pixels. What those add to the cell needs
-// no atomics, for no other work-item adds to the same place. Blocks are so small that three sums fit in 64 bits
-// (src/measures/measurement.cpp asserts it): the pixels, and their columns and rows counted from the block's corner.
-// They and the homes are kept small and apart from the rest, because with many cells the time goes into waiting for
-// memory: of the home's index 16 bits are kept. With small blocks on a large grid they may belong to another block;
-// then that one is the cell's home: the sums stay right, but fewer atomics are saved.
+// What the pixels at home add. Blocks are so small that three sums fit in 64 bits (src/measures/measurement.cpp asserts
+// it): the pixels, and their columns and rows counted from the block's corner.
 #define HOME_X_SHIFT 16
 #define HOME_Y_SHIFT 40
 #define HOME_AREA(sums) ((uint)(sums) & 0xffffu)
 #define HOME_X(sums) ((uint)((sums) >> HOME_X_SHIFT) & 0xffffffu)
 #define HOME_Y(sums) ((uint)((sums) >> HOME_Y_SHIFT))
-
-// The block that holds a seed; of one outside the window, the block that is nearest to it.
-static inline ushort home_of(seed_t seed, int width, int height, int wide, int high) {
-  const int x = clamp(seed_x(seed, width), 0, width - 1), y = clamp(seed_y(seed, height), 0, height - 1);
-  return (ushort)block_of(x, y, width, wide, high);
-}
 
 kernel void clear_sums(global const seed_t* restrict seeds, uint count, int width, int height, int wide, int high,
                        global uint* restrict area, global uint2* restrict sum_x, global uint2* restrict sum_y,

@@ -1,25 +1,24 @@
 // The extent of each cell: its bounding box, where seed_place.cl says that its pixels lie, and the largest distance to
 // the seed.
 
-#include "measures/runs.cl"
-#include "measures/seed_place.cl"
+#include "measures/home.cl"
 
-// Without 64-bit atomics a long distance is found in two passes: first the greatest upper word, then, of the distances
-// that have it, the greatest lower one. A short distance has one word.
-#ifdef VOROCL_FAR
-#define UPPER_WORD(distance) ((int)((distance) >> 32))
-#else
-#define UPPER_WORD(distance) (distance)
-#endif
+// A box is left, top, right, bottom. While they are found the latter two are inverted, so that all four only fall.
+#define INVERTED(box) ((int4)((box).s0, (box).s1, ~(box).s2, ~(box).s3))
+#define NO_BOX ((int4)INT_MAX)
 
-// A box is left, top, right, bottom.
-#define EMPTY_BOX ((int4)(INT_MAX, INT_MAX, INT_MIN, INT_MIN))
-
-kernel void clear_shapes(uint count, global int4* restrict boxes, global int* restrict upper_words) {
+// The pixels at home have a box of their own and their largest distance. The others have another box and, because a
+// distance may take 64 bits, which have no atomics, their farthest pixel, packed.
+kernel void clear_shapes(SEED_PARAMETERS, int wide, int high, global ushort* restrict home, global int4* restrict boxes,
+                         global LENGTH* restrict distances, global int4* restrict other_boxes,
+                         global uint* restrict farthest) {
+  (void)periods;
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  boxes[id] = EMPTY_BOX;
-  upper_words[id] = -1;
+  home[id] = home_of(seeds[id], width, height, wide, high);
+  boxes[id] = other_boxes[id] = NO_BOX;
+  distances[id] = -1;
+  farthest[id] = EMPTY;
 }
 
 // Whether the next pixel along an axis is there, and as far from the seed as its place says. In a tilted grid that is
@@ -39,11 +38,22 @@ static inline bool in_one_of(global const uint* row, global const uint* above, g
   return row[x] == label || above[x] == label || below[x] == label;
 }
 
+// Puts a pixel in the place of a cell's farthest one so far, if it is farther.
+static inline void add_farthest(global uint* farthest, uint pixel, LENGTH distance, seed_t seed, window_t window) {
+  for (uint known = EMPTY, found;; known = found) {
+    found = atomic_cmpxchg(farthest, known, pixel);
+    if (found == known || distance_to(seed, packed_x(found), packed_y(found), window) >= distance) return;
+  }
+}
+
 // What a row cannot decide is left to the others: a run adds to a side of its cell's box, or to the largest
 // distance, only if the pixel next to its end in the row above or below, which would add more, is not in the cell.
-// That leaves a few atomics of the many that the cells' borders would need.
+// That leaves a few atomics of the many that the cells' borders would need. At home a run adds all it has: to ask would
+// take longer, for a CPU does not foresee the answers.
 kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
-                       global int* restrict boxes, global int* restrict upper_words) {
+                       global const ushort* restrict home, global int4* restrict boxes,
+                       global LENGTH* restrict distances, global int* restrict other_boxes,
+                       global uint* restrict farthest) {
   const window_t window = window_of(width, height, periods);
   block_t block;
   if (!take_block(width, height, wide, high, &block)) return;
@@ -54,69 +64,58 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
-      global int* const box = boxes + 4 * (size_t)label;
+      const bool at_home = home[label] == block.index;
       for (int from = walk.from, to; from < walk.to; from = to) {
         const piece_t piece = piece_from(seed, from, walk.to, y, window);
-        const int along_x = piece.way.x, along_y = piece.way.y;
+        to = piece.end;
+        const int first = from, last = to - 1;
+        const int along_x = piece.way.x, along_x_last = along_x + (last - first) * UNIT, along_y = piece.way.y;
+        const int left = PERIODIC_X ? place_x(seed, along_x, width) : first, right = left + last - first;
         const int row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
+        const LENGTH distance = distance_of_ways(along_x, along_y), of_last = distance_of_ways(along_x_last, along_y);
+        if (at_home) {
+          boxes[label] = min(boxes[label], INVERTED((int4)(left, row_at, right, row_at)));
+          distances[label] = max(distances[label], max(distance, of_last));
+          continue;
+        }
         const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
         global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
         global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
-        to = piece.end;
-        const int first = from, last = to - 1, along_x_last = along_x + (last - first) * UNIT;
-        const int first_at = PERIODIC_X ? place_x(seed, along_x, width) : first;
+        global int* const box = other_boxes + 4 * (size_t)label;
         if (!(goes_on_x(first, -1, along_x, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(first - 1, width), label))) {
-          atomic_min(box, first_at);
+          atomic_min(box, left);
         }
         if (!(goes_on_x(last, 1, along_x_last, window) &&
               in_one_of(row, row_above, row_below, wrapped_x(last + 1, width), label))) {
-          atomic_max(box + 2, first_at + last - first);
+          atomic_min(box + 2, ~right);
         }
         if (!(above && row_above[first] == label)) atomic_min(box + 1, row_at);
-        if (!(below && row_below[first] == label)) atomic_max(box + 3, row_at);
+        if (!(below && row_below[first] == label)) atomic_min(box + 3, ~row_at);
 
         const bool ends = along_y < 0 ? !above : !below;
         global const uint* const away = along_y < 0 ? row_above : row_below;
-        if (ends || away[first] != label) {
-          atomic_max(upper_words + label, UPPER_WORD(distance_of_ways(along_x, along_y)));
-        }
-        if (ends || away[last] != label) {
-          atomic_max(upper_words + label, UPPER_WORD(distance_of_ways(along_x_last, along_y)));
-        }
+        if (ends || away[first] != label) add_farthest(farthest + label, pack(first, y), distance, seed, window);
+        if (ends || away[last] != label) add_farthest(farthest + label, pack(last, y), of_last, seed, window);
       }
     }
   }
 }
 
-// Seeds that are absent own nothing, whatever labels name them. (To ask before every addition would cost a tenth.)
-kernel void clear_absent(global const seed_t* restrict seeds, uint count, global int4* restrict boxes,
-                         global int* restrict upper_words) {
+// Joins what the pixels at home and the others have found. Seeds that are absent own nothing, whatever labels name
+// them. (To ask before every addition would cost a tenth.)
+kernel void join_shapes(SEED_PARAMETERS, global int4* restrict boxes, global LENGTH* restrict distances,
+                        global const int4* restrict other_boxes, global const uint* restrict farthest) {
   const uint id = (uint)get_global_id(0);
-  if (id >= count || is_there(seeds[id])) return;
-  boxes[id] = EMPTY_BOX;
-  upper_words[id] = -1;
-}
-
-// The second pass over long distances.
-kernel void add_lower_words(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
-                            global const int* restrict upper_words, global uint* restrict lower_words) {
-  const window_t window = window_of(width, height, periods);
-  block_t block;
-  if (!take_block(width, height, wide, high, &block)) return;
-  for (int y = block.top; y < block.bottom; ++y) {
-    global const uint* const row = labels + y * width;
-    walk_t walk = begin_walk(row, row, block.left, block.right);
-    while (next_run(&walk)) {
-      const uint label = run_label(&walk);
-      if (label >= count || !is_there(seeds[label])) continue;
-      for (int from = walk.from, to; from < walk.to; from = to) {
-        const piece_t piece = piece_from(seeds[label], from, walk.to, y, window);
-        to = piece.end;
-        const LENGTH farthest = max(distance_of_ways(piece.way.x, piece.way.y),
-                                    distance_of_ways(piece.way.x + (to - 1 - from) * UNIT, piece.way.y));
-        if (UPPER_WORD(farthest) == upper_words[label]) atomic_max(lower_words + label, (uint)farthest);
-      }
-    }
+  if (id >= count) return;
+  const seed_t seed = seeds[id];
+  const bool is_shown = is_there(seed);
+  boxes[id] = is_shown ? INVERTED(min(boxes[id], other_boxes[id])) : INVERTED(NO_BOX);
+  const uint pixel = farthest[id];
+  if (!is_shown) {
+    distances[id] = -1;
+  } else if (pixel != EMPTY) {
+    const window_t window = window_of(width, height, periods);
+    distances[id] = max(distances[id], distance_to(seed, packed_x(pixel), packed_y(pixel), window));
   }
 }

@@ -5,9 +5,8 @@
 namespace vorocl {
 
 struct CellShapesState : Measured {
-  cl::Buffer boxes;
-  cl::Buffer distances;                 // of 32 bits ...
-  cl::Buffer upper_words, lower_words;  // ... or of more: see shapes.cl
+  cl::Buffer boxes, distances;             // these of 32 bits, or of 64 if they are far
+  cl::Buffer home, other_boxes, farthest;  // while the shapes of a plane are made: see shapes.cl
 
   bool is_far() const { return !empty() && of->is_far(); }
 };
@@ -30,39 +29,60 @@ const cl::Buffer& CellShapesResult::largest_distances() const {
   return state_ && state_->is_far() ? none : buffer_of(state_, &CellShapesState::distances);
 }
 
+namespace {
+
+/// The first command and the last one.
+using Enqueued = std::pair<cl::Event, cl::Event>;
+
+Enqueued find_in_volume(CellShapesState& shapes, const MeasuredDiagram& of, const cl::Buffer& labels) {
+  const cl_uint count = of.count();
+  const char* const file = "volumes/shapes.cl";
+  const auto run_over_cells = [&](const char* name, const auto&... arguments) {
+    return shapes.kernels.get(of.device, file, name, of.grid, of.options())
+        .over_items(count, arguments..., count, shapes.boxes, shapes.distances);
+  };
+  const cl::Event first = run_over_cells("clear_shapes");
+  const Blocks blocks(of.device, of.grid);
+  cl::Event last = blocks.run(shapes.kernels, file, "add_shapes", of.options(), labels, of.positions(), count,
+                              of.grid.width(), of.grid.height(), static_cast<cl_int>(of.grid.rows()),
+                              blocks.wide(), blocks.high(), shapes.boxes, shapes.distances);
+  if (of.seeds->may_lack_some() && count > 0) last = run_over_cells("clear_absent", of.positions());
+  return {count > 0 ? first : last, last};
+}
+
+Enqueued find_in_plane(CellShapesState& shapes, const MeasuredDiagram& of, const cl::Buffer& labels) {
+  const cl_uint count = of.count();
+  make_room(shapes.home, of.device, count * sizeof(cl_ushort));
+  make_room(shapes.other_boxes, of.device, count * sizeof(cl_int4));
+  make_room(shapes.farthest, of.device, count * sizeof(cl_uint));
+  const char* const file = "measures/shapes.cl";
+  const Blocks blocks(of.device, of.grid);
+  const int width = of.grid.width(), height = of.grid.height(), wide = blocks.wide(), high = blocks.high();
+  const auto run_over_cells = [&](const char* name, const auto&... arguments) {
+    return shapes.kernels.get(of.device, file, name, of.grid, of.options())
+        .over_items(count, of.positions(), count, of.periods(), width, height, arguments..., shapes.boxes,
+                    shapes.distances, shapes.other_boxes, shapes.farthest);
+  };
+  const cl::Event first = run_over_cells("clear_shapes", wide, high, shapes.home);
+  const cl::Event added = blocks.run(shapes.kernels, file, "add_shapes", of.options(), labels, of.positions(),
+                                     count, of.periods(), width, height, wide, high, shapes.home,
+                                     shapes.boxes, shapes.distances, shapes.other_boxes, shapes.farthest);
+  const cl::Event last = run_over_cells("join_shapes");
+  return count > 0 ? Enqueued(first, last) : Enqueued(added, added);
+}
+
+}  // namespace
+
 Report cell_shapes(const Diagram& diagram, CellShapesResult& result) {
   Measuring<CellShapesState> measuring(result);
   CellShapesState& shapes = measuring.state();
   MeasuredDiagram of = cells_of(diagram, Volumes::taken);
   const cl_uint count = of.count();
-  const bool is_volume = of.grid.is_volume();
-  cl::Buffer& words = of.is_far() ? shapes.upper_words : shapes.distances;
   make_room(shapes.boxes, of.device, count * sides_of_box(of.grid) * sizeof(cl_int));
-  make_room(words, of.device, count * sizeof(cl_int));
-  const char* const file = is_volume ? "volumes/shapes.cl" : "measures/shapes.cl";
-  const cl::Event first = shapes.kernels.get(of.device, file, "clear_shapes", of.grid, of.options())
-                              .over_items(count, count, shapes.boxes, words);
-  const Blocks blocks(of.device, of.grid);
-  const int width = of.grid.width(), height = of.grid.height();
-  const auto run = [&](const char* name, const auto&... arguments) {
-    return blocks.run(shapes.kernels, file, name, of.options(), diagram.labels(), of.positions(), count,
-                      arguments...);
-  };
-  cl::Event last = is_volume ? run("add_shapes", width, height, static_cast<cl_int>(of.grid.rows()),
-                                   blocks.wide(), blocks.high(), shapes.boxes, words)
-                             : run("add_shapes", of.periods(), width, height, blocks.wide(), blocks.high(),
-                                   shapes.boxes, words);
-  if (of.seeds->may_lack_some() && count > 0) {
-    last = shapes.kernels.get(of.device, file, "clear_absent", of.grid, of.options())
-               .over_items(count, of.positions(), count, shapes.boxes, words);
-  }
-  if (of.is_far()) {
-    make_room(shapes.lower_words, of.device, count * sizeof(cl_uint));
-    if (count > 0) fill(of.device, shapes.lower_words, cl_uint{0}, count);
-    last = run("add_lower_words", of.periods(), width, height, blocks.wide(), blocks.high(),
-               shapes.upper_words, shapes.lower_words);
-  }
-  return measuring.commit(std::move(of), count > 0 ? first : last, last);
+  make_room(shapes.distances, of.device, count * (of.is_far() ? sizeof(cl_long) : sizeof(cl_int)));
+  const auto [first, last] = of.grid.is_volume() ? find_in_volume(shapes, of, diagram.labels())
+                                                 : find_in_plane(shapes, of, diagram.labels());
+  return measuring.commit(std::move(of), first, last);
 }
 
 namespace {
@@ -80,13 +100,10 @@ std::vector<double> largest_distances_on_host(const CellShapesState& shapes) {
     const auto distances = download<cl_int>(device, shapes.distances, shapes.size());
     return {distances.begin(), distances.end()};
   }
-  const auto upper = download<cl_int>(device, shapes.upper_words, shapes.size());
-  const auto lower = download<cl_uint>(device, shapes.lower_words, shapes.size());
   std::vector<double> distances;
-  distances.reserve(upper.size());
-  for (std::size_t id = 0; id < upper.size(); ++id) {
-    const auto distance = static_cast<double>(std::int64_t{upper[id]} << 32 | lower[id]);
-    distances.push_back(upper[id] < 0 ? -1 : shapes.of->in_pixels(distance));
+  distances.reserve(shapes.size());
+  for (const cl_long distance : download<cl_long>(device, shapes.distances, shapes.size())) {
+    distances.push_back(distance < 0 ? -1 : shapes.of->in_pixels(static_cast<double>(distance)));
   }
   return distances;
 }

@@ -105,7 +105,9 @@ Labels labels_by_definition(const TiltedBox& box, const Window& window, const st
 /// them.
 struct RandomCase {
   explicit RandomCase(unsigned number) : rng(number) {
-    const auto side = [&] { return below(3) == 0 ? 1 + below(4) : 1 + below(64); };
+    const auto side = [&] {  // some beyond the block of a CPU's work-item
+      return below(3) == 0 ? 1 + below(4) : below(16) == 0 ? 257 + below(8) : 1 + below(64);
+    };
     box = {side(), side(), 0};
     const std::int64_t w = box.width * parts;
     const std::int64_t shifts[] = {

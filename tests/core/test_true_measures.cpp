@@ -117,8 +117,9 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_points) {
     return static_cast<std::int64_t>(rng() % static_cast<std::uint64_t>(end));
   };
   for (unsigned number = 0; number < 80; ++number) {
-    const std::int64_t columns = 16 + below(50);
-    const Grid grid(columns, 1 + below(60), static_cast<Periodic>(number % 4));
+    const std::int64_t beyond_a_block = number % 5 == 1 ? 300 : 0;  // of a CPU's work-items, too
+    const std::int64_t columns = 16 + below(50) + beyond_a_block;
+    const Grid grid(columns, 1 + below(60) + beyond_a_block, static_cast<Periodic>(number % 4));
     const auto begin = [&](const Axis& axis) { return below(axis.pixels()); };
     const std::int64_t x = begin(grid.x()), y = begin(grid.y());
     const bool is_part = number % 3 == 0;
