@@ -58,6 +58,8 @@ KERNEL_TESTS = [
     ("volumes/adjacency.cl", ["test_volume_cells"]), ("volumes/blocks.cl", ["test_volume_cells"]),
     ("volumes/cells.cl", ["test_volume_cells"]), ("volumes/place.cl", ["test_volume_cells"]),
     ("volumes/shapes.cl", ["test_volume_cells"]),
+    ("measures/shapes.cl", ["test_true_measures", "test_tilted_grids"] + MEASURES),
+    ("measures/home.cl", ["test_true_measures"] + MEASURES),
     ("measures/pair_table.cl", ["test_adjacency", "test_volume_cells"]),
     ("measures/adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("measures/runs.cl", MEASURES),
     ("measures/vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),

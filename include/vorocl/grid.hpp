@@ -112,9 +112,6 @@ class VOROCL_API Axis {
   /// the pixel of the coordinate.
   double rounded_position(double coordinate) const;
 
-  /// What rounded_position() adds to `pixel`, that of the coordinate, as a whole number of 1/4096 of it.
-  double fraction_in(double pixel, double coordinate) const;
-
   /// How many periods a coordinate lies beyond [from, to): floor((coordinate - from) / (to - from)), as its
   /// pixel is found. 0 if the axis is not periodic.
   double periods_beyond(double coordinate) const;
@@ -130,6 +127,11 @@ class VOROCL_API Axis {
   friend bool operator!=(const Axis& a, const Axis& b) { return !(a == b); }
 
  private:
+  friend class Snapping;
+
+  /// What rounded_position() adds to `pixel`, that of the coordinate, as a whole number of 1/4096 of it.
+  double fraction_in(double pixel, double coordinate) const;
+
   /// Whether a coordinate is the position, as most are where the unit is the pixel.
   bool is_position(double coordinate) const {
     return in_pixels_ && !reversed_ && coordinate >= 0 && coordinate < to_;

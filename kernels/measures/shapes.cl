@@ -4,7 +4,7 @@
 #include "measures/home.cl"
 
 // A box is left, top, right, bottom. While they are found the latter two are inverted, so that all four only fall.
-#define INVERTED(box) ((int4)((box).s0, (box).s1, ~(box).s2, ~(box).s3))
+static inline int4 inverted(int4 box) { return (int4)(box.s01, ~box.s23); }
 #define NO_BOX ((int4)INT_MAX)
 
 // The pixels at home have a box of their own and their largest distance. The others have another box and, because a
@@ -74,7 +74,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int 
         const int row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
         const LENGTH distance = distance_of_ways(along_x, along_y), of_last = distance_of_ways(along_x_last, along_y);
         if (at_home) {
-          boxes[label] = min(boxes[label], INVERTED((int4)(left, row_at, right, row_at)));
+          boxes[label] = min(boxes[label], inverted((int4)(left, row_at, right, row_at)));
           distances[label] = max(distances[label], max(distance, of_last));
           continue;
         }
@@ -110,7 +110,7 @@ kernel void join_shapes(SEED_PARAMETERS, global int4* restrict boxes, global LEN
   if (id >= count) return;
   const seed_t seed = seeds[id];
   const bool is_shown = is_there(seed);
-  boxes[id] = is_shown ? INVERTED(min(boxes[id], other_boxes[id])) : INVERTED(NO_BOX);
+  boxes[id] = is_shown ? inverted(min(boxes[id], other_boxes[id])) : inverted(NO_BOX);
   const uint pixel = farthest[id];
   if (!is_shown) {
     distances[id] = -1;

@@ -13,7 +13,7 @@ static inline void add_long_to_pair(global uint* pair, ulong value) {
 }
 
 // The sums of a cell are its weight and the moments along both axes: the sum of weight times way, in pixels from the
-// seed's own. What the block that holds the seed adds needs no atomics (see measures/cells.cl): it goes to `at_home`.
+// seed's own. What the block that holds the seed adds needs no atomics (see measures/home.cl): it goes to `at_home`.
 // The rest goes to `elsewhere`, in pairs.
 //
 // The energy of a block is in units of weight times square pixels.

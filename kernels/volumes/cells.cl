@@ -5,7 +5,7 @@
 #include "volumes/blocks.cl"
 #include "volumes/place.cl"
 
-// HOME SUMS, as in kernels/measures/cells.cl: what the block that holds a cell's seed adds needs no atomics. Here they
+// HOME SUMS, see kernels/measures/home.cl: what the block that holds a cell's seed adds needs no atomics. Here they
 // are a uint4: the voxels, and their columns, rows and slices counted from the block's corner.
 
 static inline ushort home_of(uint seed, int4 size, int4 bits) {

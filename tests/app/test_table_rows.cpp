@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(a_value_that_is_unknown_is_empty) {
   for (const std::optional<double> value : {std::optional<double>(2.5), std::optional<double>()}) {
     text.begin_row();
     text.add(value);
-    text.add(std::numeric_limits<double>::quiet_NaN(), 1);
+    text.add(RowText::unknown, 1);
     text.end_row();
   }
   BOOST_TEST(text.text() == "7,2.5,,1\n7,,,1\n");

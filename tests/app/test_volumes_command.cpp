@@ -271,7 +271,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   }
   const std::string bench = "bench --random 3 --size 8x8x8 --methods ";
   refuses(folder, bench + "jfa,opencv", usage, {"opencv is for planes; volumes have"});
-  refuses(folder, bench + "jfa,exact --metric manhattan", usage, {"Euclidean; jump flooding takes --metric"});
+  refuses(folder, bench + "jfa,exact --metric manhattan", usage,
+          {"are Euclidean", "jump flooding takes --metric"});
   refuses(folder, bench + "jfa --tile 4", usage, {"--tile is for planes"});
   refuses(folder, bench + "jfa --truth true", usage, {"--truth true is for planes"});
   folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));

@@ -107,11 +107,21 @@ BOOST_AUTO_TEST_CASE(pixels_are_units_unless_it_is_said_otherwise) {
     const double pixel = static_cast<double>(floor_of(tenths, 10));
     BOOST_TEST(plain.pixel(tenths / 10.0) == pixel);
     BOOST_TEST(plain.reversed().pixel(tenths / 10.0) == 9 - pixel);
-    BOOST_TEST(periodic.pixel(tenths / 10.0) == static_cast<double>((floor_of(tenths, 10) + 50) % 10));
+    const std::int64_t in_period = (tenths + 500) % 100;
+    BOOST_TEST(periodic.pixel(tenths / 10.0) == static_cast<double>(in_period / 10));
+    const double position = tenths / 10.0;
+    BOOST_TEST(plain.position(position) == position);
+    BOOST_TEST(plain.closed().position(position) == position);
+    BOOST_TEST(plain.reversed().position(position) == 10 - position);
+    BOOST_TEST(std::abs(periodic.position(position) - static_cast<double>(in_period) / 10) < 1e-12);
+    BOOST_TEST(std::abs(periodic.reversed().position(position) - 10 + static_cast<double>(in_period) / 10) <
+               1e-12);
   }
   BOOST_TEST(plain.closed().pixel(10) == 9);
   BOOST_TEST(plain.closed().pixel(std::nextafter(10.0, 11.0)) == 10);
   BOOST_TEST(plain.closed().reversed().pixel(10) == 0);
+  for (const Axis& axis : {plain, periodic, plain.reversed()}) BOOST_TEST(std::isnan(axis.position(NAN)));
+  BOOST_TEST((plain.position(INFINITY) == INFINITY && plain.reversed().position(INFINITY) == -INFINITY));
   BOOST_TEST(plain.coordinate(2.5) == 2.5);
   BOOST_TEST(plain.reversed().coordinate(2.5) == 7.5);
 }

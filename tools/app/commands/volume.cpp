@@ -12,7 +12,9 @@ VolumeSize volume_size(const SeedOptions& seeds) {
 
 void check_volume_method(const Method& method, Metric metric) {
   if (method.exact && metric == Metric::manhattan) {
-    throw UsageError("exact diagrams of volumes are Euclidean; jump flooding takes --metric manhattan");
+    throw UsageError(
+        "exact diagrams of volumes are Euclidean; of methods that make volumes jump flooding takes --metric "
+        "manhattan");
   }
   if (method.volumes) return;
   std::string names;

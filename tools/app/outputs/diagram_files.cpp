@@ -1,15 +1,13 @@
 #include "app/outputs/diagram_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 #include "app/outputs/table_rows.hpp"
@@ -25,8 +23,8 @@ void write_label_file(const OutputFile& file, Measures& measures) {
   write_labels(file, measures.view().picture, measures.labels_in_picture());
 }
 
-/// A cell as its row in a table: pixels of the picture in the view's units. What is unknown of a cell without
-/// pixels is NaN.
+/// A cell as its row in a table: pixels of the picture in the view's units. What a cell without pixels does
+/// not have is unknown.
 class CellRow {
  public:
   CellRow(Measures& measures, std::uint32_t label)
@@ -40,8 +38,8 @@ class CellRow {
   double centroid_y() const { return if_full(y_at(centroid().y)); }
   double left() const { return if_full(x_at(shape().left)); }
   double top() const { return if_full(y_at(shape().top)); }
-  double right() const { return if_full(view_.units.x_behind(shape().right + view_.x)); }
-  double bottom() const { return if_full(view_.units.y_behind(shape().bottom + view_.y)); }
+  double right() const { return if_full(view_.units.x_end(static_cast<double>(shape().right) + view_.x)); }
+  double bottom() const { return if_full(view_.units.y_end(static_cast<double>(shape().bottom) + view_.y)); }
   double perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
   double neighbours() const { return measures_.neighbours()[label_]; }
   double largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
@@ -52,9 +50,7 @@ class CellRow {
   double y_at(double of_diagram) const { return view_.units.y(of_diagram + view_.y); }
   Point centroid() const { return measures_.sums()[label_].centroid(); }
   const CellShape& shape() const { return measures_.shapes()[label_]; }
-  double if_full(double value) const {
-    return measures_.pixels()[label_] > 0 ? value : std::numeric_limits<double>::quiet_NaN();
-  }
+  double if_full(double value) const { return measures_.pixels()[label_] > 0 ? value : RowText::unknown; }
 
   Measures& measures_;
   const View& view_;

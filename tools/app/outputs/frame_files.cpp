@@ -67,6 +67,7 @@ void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
 
 std::string FrameFiles::header_of(int frame, const Units& units) {
   const std::vector<std::string>& columns = request_.kind.table()->columns;
+  // And what the header does not say: a volume's distances may be in units of any spacing.
   std::string header = "frame,timestep," + units.header(columns), names = units.of_area();
   if (std::find(columns.begin(), columns.end(), "largest_distance") != columns.end())
     names += units.of_length();

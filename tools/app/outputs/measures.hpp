@@ -157,7 +157,7 @@ class Measures {
   std::optional<CellStatistics> statistics_;
 };
 
-/// What diagrams of these seeds are of, with so many pixels.
+/// The metric, the device and the grid of the seeds; the sides are those of what is shown.
 Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::int64_t height);
 
 /// How a diagram of seeds was made, and how it stands in the data.

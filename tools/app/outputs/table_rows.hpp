@@ -23,12 +23,15 @@ namespace vorocl::command {
 /// The text of some rows.
 class RowText {
  public:
+  /// Of a value that a row does not have.
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
   /// `first` stands before the values of each row.
   explicit RowText(std::string first) : first_(std::move(first)) {}
 
   void begin_row() { text_.append(std::string_view(first_)); }
 
-  /// Adds a number as "{}" writes it, and nothing where there is none, which NaN says.
+  /// Adds a number as "{}" writes it, and nothing where it is unknown.
   void add(double value) {
     constexpr std::size_t longest = 32;  // of a number with the comma behind it
     const std::size_t size = text_.size();
@@ -39,9 +42,7 @@ class RowText {
     text_.resize(size + static_cast<std::size_t>(end - begin) + 1);
   }
 
-  void add(const std::optional<double>& value) {
-    add(value.value_or(std::numeric_limits<double>::quiet_NaN()));
-  }
+  void add(const std::optional<double>& value) { add(value.value_or(unknown)); }
 
   template <typename... Values>
   void add(double first, double second, const Values&... others) {

@@ -1,7 +1,6 @@
 #include "app/outputs/volume_files.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -31,9 +30,7 @@ void add_cells(GrowingFile& table, const std::string& first, Measures& measures)
     const auto side = [](int voxel) { return static_cast<double>(voxel); };
     const Extent box = units.extent({side(shape.left), side(shape.top), side(shape.right), side(shape.bottom),
                                      side(shape.front), side(shape.back)});
-    const auto if_full = [&](double value) {
-      return sums.area > 0 ? value : std::numeric_limits<double>::quiet_NaN();
-    };
+    const auto if_full = [&](double value) { return sums.area > 0 ? value : RowText::unknown; };
     const double farthest = units.length(measures.largest_distance(label));
     text.add(measures.id_of(label), seed.x, seed.y, seed.z, units.area(sums.area), if_full(centroid.x),
              if_full(centroid.y), if_full(centroid.z), if_full(box.left), if_full(box.top),

@@ -74,15 +74,15 @@ class Units {
   /// The sides of a pixel.
   Point3 sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
 
-  /// Where an area ends behind its last column, row or slice: of pixels this one, of data the edge behind it.
-  double x_behind(double last) const { return x_.at(last + behind()); }
-  double y_behind(double last) const { return y_.at(last + behind()); }
-  double z_behind(double last) const { return z_.at(last + behind()); }
+  /// Where an area ends: in pixels its last column, row or slice, in data units the edge behind that.
+  double x_end(double last) const { return x_.at(last + behind()); }
+  double y_end(double last) const { return y_.at(last + behind()); }
+  double z_end(double last) const { return z_.at(last + behind()); }
 
-  /// The extent of an area from its first column and row to behind its last.
+  /// The extent of an area from its first column and row to its end.
   Extent extent(const Extent& pixels) const {
-    return {x_.at(pixels.left),      y_.at(pixels.top),   x_behind(pixels.right),
-            y_behind(pixels.bottom), z_.at(pixels.front), z_behind(pixels.back)};
+    return {x_.at(pixels.left),   y_.at(pixels.top),   x_end(pixels.right),
+            y_end(pixels.bottom), z_.at(pixels.front), z_end(pixels.back)};
   }
 
   double area(double pixels) const { return area_.of(pixels); }
