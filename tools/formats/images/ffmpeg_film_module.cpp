@@ -66,9 +66,9 @@ class Encoder : public FilmEncoder {
     codec_->colorspace = AVCOL_SPC_SMPTE170M;
     codec_->thread_count = encoder_threads;
     codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER | AV_CODEC_FLAG_BITEXACT;
-    // The tools of the Baseline profile: arithmetic coding takes about half of the time, and pictures between two
-    // others take long to choose. Without the transform of 8 x 8 pixels, flat cells with sharp borders have a
-    // smaller error, so that the rate factor may be larger.
+    // The tools of the Baseline profile: arithmetic coding takes about half of the time, and pictures between
+    // two others take long to choose. Without the transform of 8 x 8 pixels, flat cells with sharp borders
+    // have a smaller error, so that the rate factor may be larger.
     codec_->max_b_frames = 0;
     AVDictionary* options = nullptr;
     av_dict_set(&options, "preset", "superfast", 0);
