@@ -67,7 +67,7 @@ Mask read_mask(const std::string& path) {
   Mask mask{Size(image.cols, image.rows), {}};
   mask.pixels.reserve(image.total());
   bool has_seeds = false;
-  const int channels = image.channels();
+  const std::ptrdiff_t channels = image.channels();
   for (int y = 0; y < image.rows; ++y) {
     const cv::Mat set = image.row(y) != 0;
     for (const std::uint8_t* pixel = set.data; pixel < set.data + set.cols * channels; pixel += channels) {
