@@ -136,6 +136,21 @@ BOOST_AUTO_TEST_CASE(particles_fill_their_periodic_box) {
   BOOST_TEST(geojson(folder, "p.json").at("features").front().at("id") == 1);
 }
 
+BOOST_AUTO_TEST_CASE(points_count_where_their_cells_lie) {
+  const TemporaryFolder folder;
+  // The same points of a period from (0, 0) to (6, 4), in it, at its upper ends and beyond.
+  folder.file("in.csv", "x,y\n1,1\n3,0\n0,2.5\n4.25,3.5\n1.5,2\n");
+  folder.file("out.csv", "x,y\n-11,9\n3,4\n6,2.5\n10.25,-0.5\n7.5,-2\n");
+  for (const std::string file : {"in", "out"}) {
+    succeeds(folder, "cells --exact --points " + file + ".csv --bounds 0,0,6,4 --periodic xy --cells " +
+                         file + "_cells.csv --polygons " + file + ".geojson");
+  }
+  BOOST_TEST(content_of(folder / "out_cells.csv") == content_of(folder / "in_cells.csv"));
+  BOOST_TEST(content_of(folder / "out.geojson") == content_of(folder / "in.geojson"));
+  for (const TableRow& row : read_table(folder / "in_cells.csv").rows)
+    BOOST_TEST(*row[12] < std::hypot(3, 2));  // no point is farther from all images of one
+}
+
 BOOST_AUTO_TEST_CASE(random_seeds_are_centres_of_pixels) {
   const TemporaryFolder folder;
   succeeds(folder, "cells --exact --random 40 --size 60x50 --cells exact.csv");

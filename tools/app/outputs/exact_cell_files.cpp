@@ -80,6 +80,20 @@ Column column_of(const std::string& name) {
   return columns.at(name);
 }
 
+/// The image of a seed that its cell lies around; of a cell without an area one in the period.
+Point image_at_cell(Point seed, const ExactCell& cell, const Grid& grid) {
+  const auto middle = [](const Axis& axis) { return axis.from() + (axis.to() - axis.from()) / 2; };
+  const Point near = cell.area > 0 ? cell.centroid : Point{middle(grid.x()), middle(grid.y())};
+  const auto periods = [](const Axis& axis, double way) {
+    return axis.is_periodic() ? std::nearbyint(way / (axis.to() - axis.from())) : 0;
+  };
+  const double rows = periods(grid.y(), near.y - seed.y);
+  seed.y += rows * (grid.y().to() - grid.y().from());
+  seed.x += rows * grid.tilt();
+  seed.x += periods(grid.x(), near.x - seed.x) * (grid.x().to() - grid.x().from());
+  return seed;
+}
+
 }  // namespace
 
 ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
@@ -87,7 +101,8 @@ ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
     : result_(result), ids_(std::move(ids)), y_up_(y_up), points_(seeds.read()), cells_(result.read()) {
   const Grid& grid = seeds.grid();
   for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
-    const std::optional<Point>& point = points_[seed];
+    std::optional<Point>& point = points_[seed];
+    if (point) point = image_at_cell(*point, cells_[seed], grid);
     if (point && (cells_[seed].area > 0 || (grid.x().covers(point->x) && grid.y().covers(point->y))))
       order_.push_back(seed);
   }
