@@ -132,11 +132,16 @@ BOOST_AUTO_TEST_CASE(a_width_makes_pixels_square) {
   for (const int width : {1, 7, 100, 101}) {
     for (const double height : {0.1, 1.0, 1.7, 33.3}) {
       const Bounds bounds = {0, 0, 3, height};
-      BOOST_TEST(has_square_pixels(bounds, size_of_width(bounds, width).grid()), width << " " << height);
+      const double rows = width * height / 3, rounded = std::max(1.0, std::round(rows));
+      BOOST_TEST(has_square_pixels(bounds, size_of_width(bounds, width).grid()) ==
+                     (std::max(rows / rounded, rounded / rows) <= 1.05),
+                 width << " " << height);
     }
   }
   BOOST_TEST(!has_square_pixels({0, 0, 360, 180}, Grid(1440, 721)));
   BOOST_TEST(!has_square_pixels({0, 0, 1, 1}, Grid(100, 50)));
+  BOOST_TEST(!has_square_pixels({0, 0, 1000, 10}, Grid(20, 1)));
+  BOOST_TEST(!has_square_pixels({0, 0, 1000, 25}, Grid(100, 3)));
   BOOST_TEST(has_square_pixels({0, 0, 0, 1}, Grid(100, 50)));
 }
 

@@ -73,11 +73,12 @@ std::string FrameFiles::header_of(int frame, const Units& units) {
     names += units.of_length();
   if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
   if (header == header_ && names == units_) return header;
-  throw Error(fmt::format(
-      "frame {} is measured in other units than the frames before, because its box has "
-      "another shape, and {} is one table; begin again with one per frame, such as {}/%05d.csv, or "
-      "with --units px",
-      frame, request_.path, request_.kind.option.substr(2)));
+  const std::string px = Units().of_area();
+  throw Error(
+      fmt::format("frame {} is measured in other units than the frames before, because its box has "
+                  "another shape, and {} is one table; begin again with one per frame, such as {}/%05d.csv{}",
+                  frame, request_.path, request_.kind.option.substr(2),
+                  units.of_area() == px ? "" : ", or with --units px"));
 }
 
 void FrameFiles::go_on_from(int frame, std::int64_t time, const Units& units) {

@@ -87,10 +87,19 @@ Size size_of_width(const Bounds& bounds, int width) {
   return Size(width, std::max(1, static_cast<int>(height)));
 }
 
+namespace {
+
+/// A pixel is a square up to here, by its sides: of few rows or columns rounding changes more.
+constexpr double most_rounding = 1.05;
+
+}  // namespace
+
 bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
   const double x_extent = bounds.x1 - bounds.x0, y_extent = bounds.y1 - bounds.y0;
   if (x_extent == 0 || y_extent == 0) return true;
   const auto width = static_cast<double>(grid.width()), height = static_cast<double>(grid.height());
+  const double ratio = x_extent / width / (y_extent / height);
+  if (std::max(ratio, 1 / ratio) > most_rounding) return false;
   const double wanted_height = std::max(1.0, width * y_extent / x_extent);
   const double wanted_width = std::max(1.0, height * x_extent / y_extent);
   return std::abs(height - wanted_height) <= 0.5 || std::abs(width - wanted_width) <= 0.5;
@@ -98,11 +107,14 @@ bool has_square_pixels(const Bounds& bounds, const Grid& grid) {
 
 void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& advice) {
   if (has_square_pixels(bounds, grid)) return;
+  const double height = static_cast<double>(grid.width()) * (bounds.y1 - bounds.y0) / (bounds.x1 - bounds.x0);
+  const bool width_helps = height >= 0.5 / (most_rounding - 1) && height <= Size::max_side;
+  const std::string usual = width_helps ? fmt::format("--width {} keeps pixels square", grid.width())
+                                        : "more pixels along the shorter side make them nearly square";
   print_warning(
       fmt::format("the bounds {} get different scales in x and y on {} x {} pixels, so the cells are not "
                   "Voronoi cells in data units; {}",
-                  to_string(bounds), grid.width(), grid.height(),
-                  advice.empty() ? fmt::format("--width {} keeps pixels square", grid.width()) : advice));
+                  to_string(bounds), grid.width(), grid.height(), advice.empty() ? usual : advice));
 }
 
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
