@@ -35,9 +35,9 @@ Bounds joined(const Bounds& a, const Bounds& b);
 /// the bounds have no width or the size is not possible.
 Size size_of_width(const Bounds& bounds, int width);
 
-/// True if a pixel is a square in data units, to the nearest whole number of pixels, which may change
-/// its sides by 5 %. If not, the seed that is
-/// nearest in pixels need not be the nearest in the data. An axis without extent has no scale.
+/// True if a pixel is a square in data units, to the nearest whole number of pixels, which may change its
+/// sides by 5 %. If not, the seed that is nearest in pixels need not be the nearest in the data. An axis
+/// without extent has no scale.
 bool has_square_pixels(const Bounds& bounds, const Grid& grid);
 
 /// Warns on standard error unless pixels are square.
