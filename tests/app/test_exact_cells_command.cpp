@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host_measures.hpp"
+#include "raw_images.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
@@ -286,4 +287,54 @@ BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
   refuses(folder, "cells --exact --trajectory tilted.xyz --frame 4 --cells c.csv --device none", failure,
           {"tilted.xyz", "no frame 4"});
   BOOST_TEST((folder.names() == std::set<std::string>{"p.csv", "tilted.xyz"}));
+}
+
+BOOST_AUTO_TEST_CASE(tables_and_polygons_have_the_ids_and_columns_of_the_input) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "id,x,y,city,area,code\n90,3,1,\"Ulm, \"\"a\"\"\",7.5,007\n70,1,1,Bonn,,12\n");
+  const std::string cells = "cells --exact --points p.csv --bounds 0,0,4,2 --keep city,area,code ";
+  succeeds(folder, cells + "--cells c.csv --cell-columns id,x --adjacency a.csv --polygons p.geojson");
+  BOOST_TEST(content_of(folder / "c.csv") ==
+             "id,x,city,area,code\n70,1,Bonn,,12\n90,3,\"Ulm, \"\"a\"\"\",7.5,007\n");
+  BOOST_TEST(content_of(folder / "a.csv") == "a,b,length,midpoint_x,midpoint_y\n70,90,2,2,1\n");
+  const json features = geojson(folder, "p.geojson").at("features");
+  BOOST_TEST(features.at(0).at("id") == 70);
+  const json first = {{"id", 70},
+                      {"x", 1.0},
+                      {"y", 1.0},
+                      {"area", 4.0},
+                      {"neighbours", 1},
+                      {"city", "Bonn"},
+                      {"input_area", nullptr},
+                      {"code", 12}};
+  BOOST_TEST(features.at(0).at("properties") == first);
+  BOOST_TEST(features.at(1).at("properties").at("city") == "Ulm, \"a\"");
+  BOOST_TEST(features.at(1).at("properties").at("input_area") == 7.5);
+  BOOST_TEST(features.at(1).at("properties").at("code") == "007");
+  succeeds(folder, cells + "--polygons w.csv");
+  const std::string wkt = content_of(folder / "w.csv");
+  BOOST_TEST(wkt.substr(0, wkt.find('\n')) == "id,x,y,area,neighbours,wkt,city,input_area,code");
+  BOOST_TEST(wkt.find("))\",\"Ulm, \"\"a\"\"\",7.5,007\n") != std::string::npos);
+  succeeds(folder, cells + "--polygons p.vtp");
+  const std::string vtp = content_of(folder / "p.vtp");
+  BOOST_TEST(vtp.find("Name=\"input_area\"") != std::string::npos);
+  BOOST_TEST(vtp.find("city") == std::string::npos);
+
+  // With pixels the same, and labels by the ids.
+  succeeds(folder,
+           "cells --points p.csv --bounds 0,0,4,2 --width 4 --keep all --cells r.csv --cell-columns id,area "
+           "--labels l.npy");
+  BOOST_TEST(content_of(folder / "r.csv") ==
+             "id,area,city,input_area,code\n70,4,Bonn,,12\n90,4,\"Ulm, \"\"a\"\"\",7.5,007\n");
+  BOOST_TEST(read_raw_npy<std::uint32_t>(folder / "l.npy").values ==
+             (std::vector<std::uint32_t>{70, 70, 90, 90, 70, 70, 90, 90}));
+  folder.file("v.csv", "id,x,y,z,n\n9,1,1,1,a\n7,3,1,1,b\n");
+  succeeds(folder,
+           "cells --points v.csv --bounds 0,0,0,4,2,2 --size 8x4x4 --method jfa --keep n --cells v.out.csv");
+  const std::string volume = content_of(folder / "v.out.csv");
+  BOOST_TEST(volume.substr(0, volume.find('\n')).find("touches_border,n") != std::string::npos);
+  BOOST_TEST(volume.find("\n7,3.25,") != std::string::npos);
+  BOOST_TEST(volume.find(",b\n") < volume.find(",a\n"));
+  refuses(folder, "cells --random 3 --size 9x9 --keep a --cells r.csv", usage, {"--keep", "--points"});
+  refuses(folder, cells + "--keep town --cells r.csv", failure, {"p.csv:1", "no column town"});
 }

@@ -131,12 +131,10 @@ BOOST_AUTO_TEST_CASE(headers_say_what_opencv_decodes) {
       const std::string content = content_of(folder / name);
       const std::vector<std::uint8_t> bytes(content.begin(), content.end());
       const command::ImageHeader header = command::read_image_header(folder / name, bytes);
-      const bool is_bitmap = name == std::string("a.bmp");  // whose grey values are in a palette
       const cv::Mat decoded = cv::imread(folder / name, cv::IMREAD_UNCHANGED);
       BOOST_TEST_CONTEXT(name << " of type " << type) {
         BOOST_TEST(header.width == decoded.cols);
         BOOST_TEST(header.height == decoded.rows);
-        BOOST_TEST(header.is_grey == (decoded.channels() == 1 && !is_bitmap));
         BOOST_TEST((command::checked_size(name, header, bytes.size()) == command::Size(1021, 37)));
         if (!header.is_compressed) {
           BOOST_TEST(header.bits_per_pixel * 1021 * 37 / 8 <= bytes.size());

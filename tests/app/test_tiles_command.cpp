@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "app/sources/random_seeds.hpp"
-#include "formats/npy.hpp"
+#include "formats/raster_files.hpp"
 #include "run_command.hpp"
 
 using namespace vorocl;
@@ -121,9 +121,9 @@ BOOST_AUTO_TEST_CASE(a_part_has_the_labels_of_the_whole) {
   const TemporaryFolder folder;
   const std::string plane = "--random 60 --size 150x100 --periodic x ";
   run(folder, "render " + plane + "--labels whole.npy");
-  const LabelImage whole = read_npy_labels(folder / "whole.npy");
+  const LabelImage whole = read_labels(folder / "whole.npy");
   succeeds(folder, "tiles " + plane + "--only 140,13,150,90 --tile 16 --labels part.npy -o part.png");
-  const LabelImage part = read_npy_labels(folder / "part.npy");
+  const LabelImage part = read_labels(folder / "part.npy");
   BOOST_REQUIRE((part.size == Size(10, 77)));
   std::size_t wrong = 0;
   for (std::size_t y = 0; y < 77; ++y) {
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(far_parts_of_huge_planes_are_made) {
   BOOST_TEST(json["part"]["width"] == 47);
   BOOST_TEST(json["tiles"] == 4);
   BOOST_TEST(json["seeds"] == 1000);
-  BOOST_TEST(read_npy_labels(folder / "a.npy").size.width() == 47);
+  BOOST_TEST(read_labels(folder / "a.npy").size.width() == 47);
   BOOST_TEST(rows_of(folder / "c.csv").at(0).at("right") == "2147483646");
 }
 
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(pictures_are_those_of_render_and_of_larger_planes_samples) 
   const cv::Mat picture = cv::imread(folder / "long.png");
   BOOST_REQUIRE(picture.size() == cv::Size(3000, 17));
   // Every third pixel of every third row, from the second one on; the last row is the last one.
-  const LabelImage labels = read_npy_labels(folder / "long.npy");
+  const LabelImage labels = read_labels(folder / "long.npy");
   std::map<std::uint32_t, cv::Vec3b> colors;
   std::size_t wrong = 0;
   for (int y = 0; y < 17; ++y) {

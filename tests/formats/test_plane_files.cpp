@@ -11,8 +11,8 @@
 #include <random>
 
 #include "fixture.hpp"
-#include "formats/npy.hpp"
 #include "formats/planes/plane_file.hpp"
+#include "formats/raster_files.hpp"
 #include "temporary_folder.hpp"
 
 using namespace vorocl;
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(npy_files_hold_every_label) {
   for (const Tiling& tiling : tilings()) {
     const TemporaryFolder folder;
     write_whole(folder / "a.npy", tiling, numbers_of(tiling));
-    const LabelImage image = read_npy_labels(folder / "a.npy");
+    const LabelImage image = read_labels(folder / "a.npy");
     BOOST_TEST(image.size.width() == tiling.window().width());
     BOOST_TEST(image.size.height() == tiling.window().height());
     check_labels(tiling, [&](std::int64_t x, std::int64_t y) {

@@ -4,8 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
+#include "formats/id_order.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
@@ -18,7 +20,7 @@ using Fields = CsvFields;
 /// A line of the file, for what is wrong with it.
 struct Line {
   const LineReader& reader;
-  Fields fields;
+  const Fields& fields;
 
   Error error(const std::string& what) const {
     std::string shown(trimmed(reader.line()).substr(0, 80));
@@ -27,11 +29,6 @@ struct Line {
     return reader.error(what + ": " + shown);
   }
 };
-
-bool is_header(const Fields& fields) {
-  return std::none_of(fields.begin(), fields.end(),
-                      [](const std::string& field) { return parse_number<double>(field).has_value(); });
-}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -62,16 +59,75 @@ std::size_t locate(const std::string& column, const Line& first, bool has_header
   if (const auto index = has_header ? index_of(first.fields, column) : std::nullopt) return *index;
   if (const auto index = parse_number<std::size_t>(column); index && *index < first.fields.size())
     return *index;
-  const bool has_commas =
-      first.fields.size() > 1 || first.reader.line().find_first_of(";\t") == std::string::npos;
-  throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header) +
-                    (has_commas ? "" : "; fields are separated by commas here"));
+  throw first.error("there is no column " + column + "; there are " + list_of(first.fields, has_header));
+}
+
+bool is_number(const std::string& field) { return parse_number<double>(field).has_value(); }
+
+/// What programs write where there is no number.
+bool is_absent(const std::string& field) {
+  static const std::set<std::string> texts = {"", "na", "n/a", "null", "nan"};
+  return texts.count(lower(field)) > 0;
+}
+
+/// The names that pandas gives the columns of an array: 0,1,2.
+bool counts_from_zero(const Fields& fields) {
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i] != std::to_string(i)) return false;
+  }
+  return fields.size() > 1;
+}
+
+/// The columns of points that the header names; none if it names no x and y.
+std::optional<Columns> usual_columns(const Fields& header, bool has_z) {
+  static const std::pair<const char*, const char*> all[] = {{"x", "y"},
+                                                            {"lon", "lat"},
+                                                            {"lng", "lat"},
+                                                            {"long", "lat"},
+                                                            {"longitude", "latitude"},
+                                                            {"x_coord", "y_coord"}};
+  for (const auto& [x, y] : all) {
+    if (index_of(header, x) && index_of(header, y)) return Columns{x, y, has_z ? "z" : ""};
+  }
+  return std::nullopt;
+}
+
+/// What the first row of a file is.
+struct FirstRow {
+  bool is_header = false;
+  bool has_names = false;  ///< of a header, which may have numbers alone
+  std::string note;        ///< where it could be a point too
+};
+
+/// A header names columns that are asked for, has no numbers, or none where the columns that are asked for by
+/// their indices have them.
+FirstRow first_row(const Fields& fields, const std::vector<std::string>& asked) {
+  if (counts_from_zero(fields)) {
+    return {true, false,
+            "the first row, " + to_csv(fields) +
+                ", are names of columns, as pandas writes them; where it is a point, write names before it"};
+  }
+  FirstRow row;
+  for (const std::string& column : asked) {
+    const auto index = parse_number<std::size_t>(column);
+    const bool is_index = index && *index < fields.size();
+    const bool is_named = !is_index && index_of(fields, column);
+    if (is_named && is_number(column)) {
+      row.note = "the first row, " + to_csv(fields) + ", are names of columns, one of which is asked for";
+    }
+    if (is_named || (is_index && !is_number(fields[*index]) && !is_absent(fields[*index])))
+      row.is_header = row.has_names = true;
+  }
+  if (std::none_of(fields.begin(), fields.end(), is_number) ||
+      (asked.empty() && usual_columns(fields, false)))
+    row.is_header = row.has_names = true;
+  return row;
 }
 
 CsvIndices locate(const Columns& wanted, const Line& first, bool has_header) {
   const bool has_z = !wanted.z.empty();
   try {
-    CsvIndices indices = {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header), {}, {}};
+    CsvIndices indices = {locate(wanted.x, first, has_header), locate(wanted.y, first, has_header)};
     if (has_z) indices.z = locate(wanted.z, first, has_header);
     return indices;
   } catch (const Error& error) {
@@ -86,7 +142,7 @@ const std::string& field(const Line& line, std::size_t index) {
                    ", counted from 0: the line ends before it");
 }
 
-constexpr const char* of_decimal_commas = "; decimals have a point, not a comma";
+constexpr const char* of_decimal_commas = "; decimals have a point, or with --decimal , a comma";
 
 /// Of more columns without names than are needed the first two may be half of two decimal commas.
 void refuse_columns_to_choose_from(const Line& first, std::size_t needed, bool has_z) {
@@ -99,39 +155,61 @@ void refuse_columns_to_choose_from(const Line& first, std::size_t needed, bool h
                     of_decimal_commas);
 }
 
-double number(const Line& line, std::size_t index) {
-  const auto parsed = parse_number<double>(field(line, index));
-  if (parsed) return *parsed;
-  const std::string& text = line.fields[index];
-  throw line.error("\"" + text + "\" is not a number" +
+/// NaN where it is absent.
+double number(const Line& line, std::size_t index, bool has_decimal_commas) {
+  std::string text = field(line, index);
+  if (is_absent(text)) return std::numeric_limits<double>::quiet_NaN();
+  if (has_decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
+  if (const auto parsed = parse_number<double>(text)) return *parsed;
+  throw line.error("\"" + line.fields[index] + "\" is not a number" +
                    (text.find(',') == std::string::npos ? "" : of_decimal_commas));
 }
 
-double coordinate(const Line& line, std::size_t index) {
-  const double value = number(line, index);
-  if (!std::isfinite(value)) throw line.error("\"" + line.fields[index] + "\" is not finite");
+double coordinate(const Line& line, std::size_t index, bool has_decimal_commas) {
+  const double value = number(line, index, has_decimal_commas);
+  if (std::isinf(value)) throw line.error("\"" + line.fields[index] + "\" is not finite");
   return value;
 }
 
-double value_or_absent(const Line& line, std::size_t index) {
-  return field(line, index).empty() ? std::numeric_limits<double>::quiet_NaN() : number(line, index);
+bool is_empty(const Fields& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); });
+}
+
+/// R's, or NumPy's; "#,x,y" are names of columns.
+bool is_comment(std::string_view line) {
+  line = trimmed(line);
+  return line[0] == '#' && line.substr(0, 2) != "#,";
+}
+
+/// The first of the separators in use that a file's first row has.
+char separator_of(std::string_view line, bool has_decimal_commas) {
+  const std::string_view all = has_decimal_commas ? ";\t" : ",;\t";
+  for (const char separator : all) {
+    if (line.find(separator) != std::string_view::npos) return separator;
+  }
+  return all[0];
 }
 
 }  // namespace
 
-std::optional<CsvFields> csv_fields(std::string_view line) {
+std::optional<CsvFields> csv_fields(std::string_view line, char separator) {
   CsvFields fields;
-  fields.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1);
+  fields.reserve(static_cast<std::size_t>(std::count(line.begin(), line.end(), separator)) + 1);
   fields.emplace_back();
-  bool quoted = false;
+  bool quoted = false, may_quote = true;  // at the start of a field alone; elsewhere a quote is a character
   for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"') {
-      fields.back() += line[++i];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
+    if (quoted && line[i] == '"') {
+      quoted = i + 1 < line.size() && line[i + 1] == '"';
+      if (quoted) fields.back() += line[++i];
+    } else if (!quoted && line[i] == separator) {
       fields.emplace_back();
+      may_quote = true;
+    } else if (may_quote && line[i] == '"') {
+      quoted = true;
+      may_quote = false;
+      fields.back().clear();
     } else {
+      may_quote = may_quote && is_blank(line[i]);
       fields.back() += line[i];
     }
   }
@@ -144,7 +222,7 @@ std::string to_csv(const CsvFields& fields) {
   std::string line;
   for (const std::string& field : fields) {
     if (&field != &fields.front()) line += ',';
-    if (field.find_first_of(",\"") == std::string::npos) {
+    if (field.find_first_of(",\"\n") == std::string::npos) {
       line += field;
       continue;
     }
@@ -153,6 +231,13 @@ std::string to_csv(const CsvFields& fields) {
     line += '"';
   }
   return line;
+}
+
+CsvFields other_names(CsvFields names, const std::vector<std::string>& others) {
+  for (std::string& name : names) {
+    if (std::find(others.begin(), others.end(), name) != others.end()) name.insert(0, "input_");
+  }
+  return names;
 }
 
 namespace {
@@ -177,63 +262,157 @@ Columns parse_columns(const std::string& text) { return columns_of(text, 2, "");
 
 Columns parse_columns_and_z(const std::string& text) { return columns_of(text, 3, ", or three of a volume"); }
 
-CsvReader::CsvReader(const std::string& path, const std::optional<Columns>& columns,
-                     const std::string& value_column, bool has_z)
-    : path_(path), columns_(columns), value_column_(value_column), lines_(path), has_z_(has_z) {}
+CsvReader::CsvReader(const std::string& path, CsvOptions options, bool has_z)
+    : path_(path), options_(std::move(options)), lines_(path), has_z_(has_z) {}
+
+bool CsvReader::next_record() {
+  constexpr std::size_t most_lines = 1000, most_bytes = 1 << 20;  // of one that has line breaks
+  while (lines_.next_filled()) {
+    if (is_comment(lines_.line())) continue;
+    const std::size_t first_line = lines_.number();
+    std::string text(lines_.line());
+    if (!separator_) {
+      const bool says = text.size() >= 5 && lower(text.substr(0, 4)) == "sep=";  // for Excel
+      separator_ = says ? text[4] : separator_of(text, options_.decimal_comma);
+      if (says) continue;
+    }
+    auto fields = csv_fields(text, *separator_);
+    for (std::size_t lines = 1; !fields; ++lines) {
+      if (lines == most_lines || text.size() > most_bytes || !lines_.next())
+        throw lines_.error_at(first_line, "a quote is not closed: " + shown(text));
+      text += '\n' + std::string(lines_.line());
+      fields = csv_fields(text, *separator_);
+    }
+    fields_ = std::move(*fields);
+    if (!is_empty(fields_)) return true;
+  }
+  return false;
+}
+
+bool CsvReader::begin() {
+  const Line line{lines_, fields_};
+  std::vector<std::string> asked;
+  if (options_.columns) asked = {options_.columns->x, options_.columns->y};
+  if (!options_.value_column.empty()) asked.push_back(options_.value_column);
+  const FirstRow first = first_row(fields_, asked);
+  if (!first.note.empty()) notes_.push_back(path_ + ": " + first.note);
+  indices_.emplace();
+  if (options_.columns || first.has_names) {
+    const Columns usual = usual_columns(fields_, has_z_).value_or(Columns{"x", "y", has_z_ ? "z" : ""});
+    *indices_ = locate(options_.columns.value_or(usual), line, first.is_header);
+  } else {
+    refuse_columns_to_choose_from(line, (options_.value_column.empty() ? 2 : 3) + (has_z_ ? 1 : 0), has_z_);
+    if (has_z_) indices_->z = 2;
+  }
+  CsvIndices& at = *indices_;
+  if (!options_.value_column.empty()) at.value = locate(options_.value_column, line, first.is_header);
+  const auto named = [&](const char* name) -> std::optional<std::size_t> {
+    const auto index = first.has_names ? index_of(fields_, name) : std::nullopt;
+    return index == at.x || index == at.y || (index && index == at.z) ? std::nullopt : index;
+  };
+  at.id = named("id");
+  const auto z = options_.columns || has_z_ ? std::nullopt : named("z");
+  if (z && z != at.value) notes_.push_back(path_ + ": z is left out; volumes have it, with --size WxHxD");
+  if (options_.keep == CsvFields{"all"}) {
+    options_.keep.clear();
+    for (std::size_t i = 0; i < fields_.size() && first.is_header; ++i) {
+      if (i == at.x || i == at.y || i == at.z || i == at.id || fields_[i].empty()) continue;
+      options_.keep.push_back(fields_[i]);
+      at.kept.push_back(i);
+    }
+  } else {
+    for (const std::string& column : options_.keep) at.kept.push_back(locate(column, line, first.is_header));
+  }
+  columns_there_ = fields_.size();
+  return first.is_header;
+}
 
 bool CsvReader::next() {
-  Line line{lines_, {}};
-  while (lines_.next_filled()) {
-    auto fields = csv_fields(trimmed(lines_.line()));
-    if (!fields) throw line.error("a quote is not closed");
-    line.fields = std::move(*fields);
-    if (!indices_) {
-      const bool has_header = is_header(line.fields);
-      indices_.emplace();
-      if (columns_ || has_header) {
-        *indices_ = locate(columns_.value_or(Columns{"x", "y", has_z_ ? "z" : ""}), line, has_header);
-      } else {
-        refuse_columns_to_choose_from(line, (value_column_.empty() ? 2 : 3) + (has_z_ ? 1 : 0), has_z_);
-        if (has_z_) indices_->z = 2;
-      }
-      if (!value_column_.empty()) indices_->value = locate(value_column_, line, has_header);
-      const auto z = has_header && !columns_ && !has_z_ ? index_of(line.fields, "z") : std::nullopt;
-      leaves_out_z_ = z && z != indices_->value;
-      columns_there_ = line.fields.size();
-      if (has_header) continue;
+  while (next_record()) {
+    if (!indices_ && begin()) continue;
+    while (fields_.size() > columns_there_ && fields_.back().empty()) fields_.pop_back();
+    const Line line{lines_, fields_};
+    if (fields_.size() > columns_there_) {
+      throw line.error("there are " + std::to_string(fields_.size()) + " fields where the first line has " +
+                       std::to_string(columns_there_) + of_decimal_commas);
     }
-    while (line.fields.size() > columns_there_ && line.fields.back().empty()) line.fields.pop_back();
-    if (line.fields.size() > columns_there_) {
-      throw line.error("there are " + std::to_string(line.fields.size()) +
-                       " fields where the first line has " + std::to_string(columns_there_) +
-                       of_decimal_commas);
-    }
-    point_ = {coordinate(line, indices_->x), coordinate(line, indices_->y)};
-    if (indices_->z) z_ = coordinate(line, *indices_->z);
-    if (indices_->value) value_ = value_or_absent(line, *indices_->value);
+    const auto at = [&](std::size_t index) { return coordinate(line, index, options_.decimal_comma); };
+    point_ = {at(indices_->x), at(indices_->y)};
+    if (indices_->z) z_ = at(*indices_->z);
+    if (indices_->value) value_ = number(line, *indices_->value, options_.decimal_comma);
+    if (indices_->id) id_ = parse_number<std::uint32_t>(field(line, *indices_->id)).value_or(no_label);
     return has_points_ = true;
   }
   if (!has_points_) throw Error(path_ + " holds no points");
   return false;
 }
 
-CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
-                   const std::string& value_column) {
-  CsvReader reader(path, columns, value_column);
-  CsvPoints result;
-  while (reader.next()) {
-    result.points.push_back(reader.point());
-    if (!value_column.empty()) result.values.push_back(reader.value());
-  }
-  result.leave_out_z = reader.leaves_out_z();
-  return result;
+CsvFields CsvReader::kept() const {
+  CsvFields fields;
+  for (const std::size_t index : indices_->kept) fields.push_back(field({lines_, fields_}, index));
+  return fields;
 }
 
-std::vector<Point3> read_csv_of_volume(const std::string& path, const std::optional<Columns>& columns) {
-  CsvReader reader(path, columns, "", true);
-  std::vector<Point3> points;
-  while (reader.next()) points.push_back({reader.point().x, reader.point().y, reader.z()});
-  return points;
+namespace {
+
+/// The values by these rows.
+template <typename T>
+void arrange(std::vector<T>& values, const std::vector<IdAndRow>& rows) {
+  if (values.empty()) return;
+  std::vector<T> arranged;
+  arranged.reserve(values.size());
+  for (const IdAndRow row : rows) arranged.push_back(std::move(values[row_of(row)]));
+  values = std::move(arranged);
+}
+
+/// Puts the points in the order of the column's ids, if these are ones: then labels and ties are by them.
+void take_ids(const std::string& path, CsvPoints& read, const std::vector<std::uint32_t>& ids) {
+  std::vector<IdAndRow> rows, spare;
+  for (const std::uint32_t id : ids) rows.push_back(id_and_row(id, rows.size()));
+  sort_by_id(rows, spare);
+  const auto is_twin = [](IdAndRow a, IdAndRow b) { return id_of(a) == id_of(b); };
+  if (id_of(rows.back()) == no_label || std::adjacent_find(rows.begin(), rows.end(), is_twin) != rows.end()) {
+    read.notes.push_back(path +
+                         ": the column id has other than whole numbers, each once and below 2^32 - 1, so "
+                         "labels number the rows from 0");
+    return;
+  }
+  read.ids.clear();
+  for (const IdAndRow row : rows) read.ids.push_back(id_of(row));
+  arrange(read.points, rows);
+  arrange(read.z, rows);
+  arrange(read.values, rows);
+  arrange(read.kept, rows);
+}
+
+}  // namespace
+
+CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_z) {
+  CsvReader reader(path, options, has_z);
+  CsvPoints read;
+  std::vector<std::uint32_t> ids;
+  std::uint32_t rows = 0;
+  for (; reader.next(); ++rows) {
+    if (std::isnan(reader.point().x) || std::isnan(reader.point().y) || (has_z && std::isnan(reader.z())))
+      continue;
+    read.points.push_back(reader.point());
+    read.ids.push_back(rows);
+    if (has_z) read.z.push_back(reader.z());
+    if (!options.value_column.empty()) read.values.push_back(reader.value());
+    if (!options.keep.empty()) read.kept.push_back(reader.kept());
+    if (reader.id()) ids.push_back(*reader.id());
+  }
+  read.notes = reader.notes();
+  read.kept_names = reader.kept_names();
+  if (read.points.empty()) throw Error(path + " holds no points: all rows lack a coordinate");
+  if (read.points.size() < rows) {
+    read.notes.push_back(path + ": " + std::to_string(rows - read.points.size()) + " of " +
+                         std::to_string(rows) + " rows lack a coordinate and are left out");
+  } else {
+    read.ids.clear();  // the seeds' own
+  }
+  if (!ids.empty()) take_ids(path, read, ids);
+  return read;
 }
 
 }  // namespace vorocl::command

@@ -1,6 +1,8 @@
-// CSV files: their lines, points from them, and values that go with those.
+// CSV files: their lines, points from them, and values that go with those. (Debian 12 and 13 have libcsv
+// alone, without a release since 2013.)
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,12 +15,15 @@ namespace vorocl::command {
 
 using CsvFields = std::vector<std::string>;
 
-/// The fields of a line, without the blanks around them; fields may be quoted ("a ""b"", c"). None if a quote
-/// is not closed.
-std::optional<CsvFields> csv_fields(std::string_view line);
+/// The fields of a line, without the blanks around them; those that begin with a quote are quoted
+/// ("a ""b"", c"). None if a quote is not closed.
+std::optional<CsvFields> csv_fields(std::string_view line, char separator = ',');
 
 /// The line, without its end, of these fields; those that need it are quoted.
 std::string to_csv(const CsvFields& fields);
+
+/// The names of columns beside others: one that these have too gets "input_" before it.
+CsvFields other_names(CsvFields names, const std::vector<std::string>& others);
 
 /// The columns that hold the points: names from the header, or indices from 0.
 struct Columns {
@@ -33,62 +38,82 @@ Columns parse_columns(const std::string& text);
 /// The same where volumes have "x,y,z".
 Columns parse_columns_and_z(const std::string& text);
 
-/// The columns of points and values, from 0.
-struct CsvIndices {
-  std::size_t x = 0, y = 1;
-  std::optional<std::size_t> z;
-  std::optional<std::size_t> value;
+/// What is asked for of a file.
+struct CsvOptions {
+  std::optional<Columns> columns;      ///< else those that the header names, or the only ones
+  std::string value_column = {};       ///< by name or index; "": none
+  bool decimal_comma = false;          ///< of numbers; then fields have other separators
+  std::vector<std::string> keep = {};  ///< columns whose text is kept; {"all"}: every one that has a name
 };
 
-/// The points of a CSV file with commas, one after the other. A first line without any number is a header.
-/// Without `columns` the header must name an x and a y (in any case); where there is no header there must be
-/// two columns, or three with a value column. Blank lines are skipped; fields may be quoted ("a ""b"", c").
-/// The value column is a name or an index too; there an empty field is an absent value (NaN).
+/// The columns, from 0.
+struct CsvIndices {
+  std::size_t x = 0, y = 1;
+  std::optional<std::size_t> z = {}, value = {}, id = {};
+  std::vector<std::size_t> kept = {};
+};
+
+/// The points of a CSV file, one after the other. Fields are separated by commas, or by what the first line
+/// has, semicolons or tabs, or says (sep=;). They may be quoted, with line breaks too. Comments (# ...) and
+/// rows of empty fields are skipped. The first row is a header if it names columns that are asked for, has no
+/// numbers, or counts from 0 as pandas does. Without `columns` it must name an x and a y, or a longitude and
+/// a latitude, in any case; where there is no header there must be two columns, three with a value column.
 class CsvReader {
  public:
   /// Throws Error if the file cannot be read.
-  explicit CsvReader(const std::string& path, const std::optional<Columns>& columns,
-                     const std::string& value_column = "", bool has_z = false);
+  explicit CsvReader(const std::string& path, CsvOptions options, bool has_z = false);
 
   /// Goes to the next point; false at the end of the file. Throws Error that names file, line and text for a
-  /// line that cannot be read, has more than a mebibyte or more fields than the first one, a coordinate that
-  /// is not finite and a column that is not there, and at the end if there was no point at all.
+  /// line that cannot be read, has more than a mebibyte or more fields than the first one, an infinite
+  /// coordinate and a column that is not there, and at the end if there was no point at all.
   bool next();
 
+  // Numbers that are absent (empty, NA, NaN, null) are NaN.
   const Point& point() const { return point_; }
   double z() const { return z_; }          ///< of a volume
   double value() const { return value_; }  ///< of the value column
 
-  /// Whether the header names a z, which is neither asked for nor the value column. Known after next().
-  bool leaves_out_z() const { return leaves_out_z_; }
+  /// Of the column id, if the header names one: no_label if it is none.
+  std::optional<std::uint32_t> id() const { return indices_->id ? std::optional(id_) : std::nullopt; }
+
+  CsvFields kept() const;
+  const std::vector<std::string>& kept_names() const { return options_.keep; }
+
+  /// What a user may not expect of the file. Known after next().
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  bool next_record();
+  bool begin();  // with the first record: whether it is a header
+
   std::string path_;
-  std::optional<Columns> columns_;
-  std::string value_column_;
+  CsvOptions options_;
   LineReader lines_;
   bool has_z_;
+  std::optional<char> separator_;
+  CsvFields fields_;  // of the present record
   std::optional<CsvIndices> indices_;
-  std::size_t columns_there_ = 0;  // fields of the first line
+  std::size_t columns_there_ = 0;  // fields of the first one
   bool has_points_ = false;
-  bool leaves_out_z_ = false;
+  std::vector<std::string> notes_;
   Point point_;
   double z_ = 0;
   double value_ = 0;
+  std::uint32_t id_ = no_label;
 };
 
+/// By point, those of its row; those of other columns are empty.
 struct CsvPoints {
   std::vector<Point> points;
-  std::vector<double> values;  ///< of the value column, one per point; empty without one
-  bool leave_out_z = false;    ///< see CsvReader::leaves_out_z()
+  std::vector<double> z;       ///< of a volume
+  std::vector<double> values;  ///< of the value column
+  std::vector<std::uint32_t>
+      ids;  ///< ascending, of the column id, or the numbers of rows if some have no point
+  std::vector<CsvFields> kept;
+  std::vector<std::string> kept_names, notes;
 };
 
-/// All points (x, y, z) of such a file, whose header must name a z too, or whose columns must be three; with
-/// `columns` these must be. Throws Error as CsvReader.
-std::vector<Point3> read_csv_of_volume(const std::string& path, const std::optional<Columns>& columns);
-
-/// All points of such a file. Throws Error as CsvReader.
-CsvPoints read_csv(const std::string& path, const std::optional<Columns>& columns,
-                   const std::string& value_column = "");
+/// All points of such a file, without rows that lack a coordinate. Throws Error as CsvReader.
+CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_z = false);
 
 }  // namespace vorocl::command

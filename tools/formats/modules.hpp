@@ -14,9 +14,10 @@ namespace vorocl::command {
 /// throw std::bad_alloc alone.
 class ImageModule {
  public:
-  /// An image file's content in its depth, one channel if it is grey, else three (BGR); an empty image if it
+  /// An image file's content in its depth: three channels (BGR), or if it `is_plain` one where it is grey and
+  /// four where it has an alpha channel; not turned by what it says of the camera. An empty image if it
   /// cannot be decoded.
-  virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_grey) const = 0;
+  virtual cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_plain) const = 0;
 
   /// The content of an image file with this extension (".png"); empty if there can be none.
   virtual std::vector<std::uint8_t> encode(const std::string& extension, const cv::Mat& picture) const = 0;

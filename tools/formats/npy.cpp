@@ -4,59 +4,34 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
-#include <map>
+#include <functional>
+#include <numeric>
+#include <utility>
 
 #include "formats/files.hpp"
+#include "formats/image_rows.hpp"
+#include "formats/numbers.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
 
+/// What a file says of its array.
+struct NpyHeader {
+  std::string type;  // such as "f8", without the order of bytes
+  std::vector<std::size_t> shape;
+  bool is_big_endian = false;
+  bool is_fortran = false;  // the first index changes fastest
+
+  std::size_t count() const {
+    return std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  }
+};
+
 namespace {
 
 const char magic[] = "\x93NUMPY";
 constexpr std::size_t magic_size = sizeof magic - 1;
-
-struct Header {
-  std::string type;  // such as "<f8"
-  std::vector<std::size_t> shape;
-};
-
-/// The size of a type's values and how to read one; bytes are taken as they are, so the host must be
-/// little-endian.
-struct Type {
-  std::size_t size;
-  double (*read)(const char* bytes);
-};
-
-template <typename T>
-Type type_of() {
-  return {sizeof(T), [](const char* bytes) {
-            T value;
-            std::memcpy(&value, bytes, sizeof value);
-            return static_cast<double>(value);
-          }};
-}
-
-/// A float of 16 bits (IEEE 754): a sign, 5 bits of an exponent, 10 of a fraction.
-double read_half(const char* bytes) {
-  std::uint16_t bits = 0;
-  std::memcpy(&bits, bytes, sizeof bits);
-  const int exponent = bits >> 10 & 31, fraction = bits & 1023;
-  const double size = exponent == 31  ? (fraction == 0 ? HUGE_VAL : NAN)
-                      : exponent == 0 ? std::ldexp(fraction, -24)
-                                      : std::ldexp(1024 + fraction, exponent - 25);
-  return (bits >> 15) != 0 ? -size : size;
-}
-
-const std::map<std::string, Type>& types() {
-  static const std::map<std::string, Type> all = {
-      {"|b1", type_of<std::uint8_t>()},  {"<f2", {2, read_half}},           {"|i1", type_of<std::int8_t>()},
-      {"|u1", type_of<std::uint8_t>()},  {"<i2", type_of<std::int16_t>()},  {"<u2", type_of<std::uint16_t>()},
-      {"<i4", type_of<std::int32_t>()},  {"<u4", type_of<std::uint32_t>()}, {"<i8", type_of<std::int64_t>()},
-      {"<u8", type_of<std::uint64_t>()}, {"<f4", type_of<float>()},         {"<f8", type_of<double>()}};
-  return all;
-}
 
 template <typename T>
 constexpr const char* type_name = nullptr;
@@ -112,39 +87,84 @@ std::string read_header_text(std::ifstream& file, const std::string& path) {
   return text;
 }
 
-Header read_header(std::ifstream& file, const std::string& path) {
+NpyHeader read_header(std::ifstream& file, const std::string& path) {
   const std::string text = read_header_text(file, path);
-  const std::string type = header_value(text, "descr", path);  // a list where values are records
-  Header header{type[0] == '\'' ? type.substr(1, type.find('\'', 1) - 1) : "record",
-                parse_shape(header_value(text, "shape", path), path)};
-  if (types().count(header.type) == 0) {
-    throw Error(
-        path + " holds values of type " + header.type +
-        "; booleans, and little-endian integers and floating-point numbers of at most 8 bytes, can be read");
+  const std::string descr = header_value(text, "descr", path);  // a list where values are records
+  const std::string type = descr[0] == '\'' ? descr.substr(1, descr.find('\'', 1) - 1) : "record";
+  const auto size = type.size() == 3 ? parse_number<std::size_t>(type.substr(2)) : std::nullopt;
+  if (!size || number_type(type[1], *size) == nullptr) {
+    throw Error(path + " holds values of type " + type +
+                "; booleans, and integers and floating-point numbers of at most 8 bytes, can be read");
   }
-  if (header_value(text, "fortran_order", path).compare(0, 5, "False") != 0) {
-    throw Error(path + " is in Fortran order; save it with numpy.ascontiguousarray()");
-  }
-  return header;
+  return {type.substr(1), parse_shape(header_value(text, "shape", path), path), type[0] == '>',
+          header_value(text, "fortran_order", path).compare(0, 4, "True") == 0};
 }
 
-/// Where the values begin, which must be `count` of them at least. The file is there then.
-std::uint64_t find_values(std::ifstream& file, const Header& header, std::uint64_t count,
-                          const std::string& path) {
-  const auto begin = file.tellg();
-  const auto there_is = static_cast<std::uint64_t>(file.seekg(0, std::ios::end).tellg() - begin);
-  // Compared before any memory is taken: a damaged header may promise anything.
-  if (there_is / types().at(header.type).size < count) {
-    throw Error(path + " ends early: its shape is " + to_string(header.shape));
-  }
-  file.seekg(begin);
-  return static_cast<std::uint64_t>(begin);
-}
+}  // namespace
 
-void read_bytes(std::ifstream& file, void* bytes, std::size_t count, const std::string& path) {
-  file.read(static_cast<char*>(bytes), static_cast<std::streamsize>(count));
-  if (!file) throw Error("reading " + path + " failed");
-}
+/// The numbers of an array file, as if it were in C order.
+class NpyArray {
+ public:
+  explicit NpyArray(const std::string& path)
+      : path_(path), file_(open_to_read(path)), header_(read_header(file_, path)) {}
+
+  const NpyHeader& header() const { return header_; }
+
+  /// Throws Error unless the file has all values of the shape. Compared before any memory is taken: a damaged
+  /// header may promise anything.
+  void require_all() {
+    begin_ = file_.tellg();
+    const auto there_is = static_cast<std::uint64_t>(file_.seekg(0, std::ios::end).tellg() - begin_);
+    if (there_is / type().size < header_.count()) {
+      throw Error(path_ + " ends early: its shape is " + to_string(header_.shape));
+    }
+  }
+
+  void read(std::uint64_t first, std::size_t count, double* numbers) {
+    if (!header_.is_fortran) return read_stored(first, count, numbers);
+    if (whole_.empty()) {  // a row is spread over all of it
+      whole_.resize(header_.count());
+      read_stored(0, whole_.size(), whole_.data());
+    }
+    for (std::size_t i = 0; i < count; ++i) numbers[i] = whole_[place_of(first + i)];
+  }
+
+ private:
+  const NumberType& type() const {
+    return *number_type(header_.type[0], static_cast<std::size_t>(header_.type[1] - '0'));
+  }
+
+  /// Of the number that has this place in C order.
+  std::size_t place_of(std::uint64_t place) const {
+    std::size_t stored = 0;
+    for (auto side = header_.shape.rbegin(); side != header_.shape.rend(); place /= *side++)
+      stored += static_cast<std::size_t>(place % *side) *
+                std::accumulate(side + 1, header_.shape.rend(), std::size_t{1}, std::multiplies<>());
+    return stored;
+  }
+
+  void read_stored(std::uint64_t first, std::size_t count, double* numbers) {
+    const std::size_t size = type().size;
+    bytes_.resize(count * size);
+    file_.seekg(begin_ + static_cast<std::streamoff>(first * size));
+    file_.read(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+    if (!file_) throw Error("reading " + path_ + " failed");
+    for (auto at = bytes_.begin(); header_.is_big_endian && at != bytes_.end();) {
+      const auto value = at;
+      std::reverse(value, at += static_cast<std::ptrdiff_t>(size));
+    }
+    type().read(bytes_.data(), count, numbers);
+  }
+
+  std::string path_;
+  std::ifstream file_;
+  NpyHeader header_;
+  std::streampos begin_;
+  std::vector<char> bytes_;
+  std::vector<double> whole_;  // of an array in Fortran order
+};
+
+namespace {
 
 template <typename T>
 void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
@@ -158,30 +178,26 @@ void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
 }  // namespace
 
 NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, std::size_t dimensions)
-    : path_(path), file_(open_to_read(path)), dimensions_(dimensions) {
-  const Header header = read_header(file_, path);
-  if (header.shape.size() != 2 || header.shape[1] != dimensions) {
-    throw Error(path + " has the shape " + to_string(header.shape) + "; points of a plane need (N, 2), and " +
+    : dimensions_(dimensions), array_(std::make_unique<NpyArray>(path)) {
+  const std::vector<std::size_t>& shape = array_->header().shape;
+  if (shape.size() != 2 || shape[1] != dimensions) {
+    throw Error(path + " has the shape " + to_string(shape) + "; points of a plane need (N, 2), and " +
                 "those of a volume, which --size WxHxD asks for, (N, 3)");
   }
-  size_ = header.shape[0];
+  size_ = shape[0];
   if (size_ == 0) throw Error(path + " holds no points");
   if (size_ > most) {
     throw Error(path + " holds " + std::to_string(size_) + " points; at most " + std::to_string(most) +
                 " can be seeds");
   }
-  begin_ = find_values(file_, header, dimensions * size_, path);
-  type_ = header.type;
+  array_->require_all();
 }
 
+NpyPoints::~NpyPoints() = default;
+
 std::vector<double> NpyPoints::read_values(std::uint64_t first, std::size_t count) {
-  const Type& type = types().at(type_);
-  const std::size_t bytes_per_point = dimensions_ * type.size;
-  std::vector<char> bytes(count * bytes_per_point);
-  file_.seekg(static_cast<std::streamoff>(begin_ + first * bytes_per_point));
-  read_bytes(file_, bytes.data(), bytes.size(), path_);
   std::vector<double> values(count * dimensions_);
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = type.read(&bytes[i * type.size]);
+  array_->read(first * dimensions_, values.size(), values.data());
   return values;
 }
 
@@ -211,58 +227,44 @@ std::vector<Point3> read_npy_points_of_volume(const std::string& path) {
 
 namespace {
 
-/// The size of an image that a header names. Throws Error if it is none, and says what it had to be.
-/// Of the sides behind the first `skipped` ones.
-Size size_of_image(const Header& header, bool has_type, const std::string& path, const std::string& wanted,
-                   std::size_t skipped = 0) {
-  const auto& shape = header.shape;
-  const auto fits = [](std::size_t side) { return side >= 1 && side <= Size::max_side; };
-  if (!has_type || shape.size() != skipped + 2 || !fits(shape[skipped]) || !fits(shape[skipped + 1])) {
-    throw Error(path + " holds " + header.type + " of shape " + to_string(shape) + "; " + wanted +
-                (skipped > 0 ? " of shape (depth, height, width)" : " of shape (height, width)") +
-                ", with sides from 1 to " + std::to_string(Size::max_side));
+class NpyRows : public ImageRows {
+ public:
+  NpyRows(const ImageInfo& info, std::unique_ptr<NpyArray> array)
+      : ImageRows(info), array_(std::move(array)) {}
+
+  void next(std::vector<double>& row) override {
+    row.resize(static_cast<std::size_t>(info().size.width()));
+    array_->read(first_, row.size(), row.data());
+    first_ += row.size();
   }
-  return {static_cast<int>(shape[skipped + 1]), static_cast<int>(shape[skipped])};
-}
+
+ private:
+  std::unique_ptr<NpyArray> array_;
+  std::uint64_t first_ = 0;
+};
 
 }  // namespace
 
-LabelImage read_npy_labels(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  const Header header = read_header(file, path);
-  const auto& shape = header.shape;
-  const bool is_volume = shape.size() == 3 && shape[0] >= 1 && shape[0] <= Window::max_side_of_volume;
-  LabelImage image{
-      size_of_image(header, header.type == "<u4", path, "labels are uint32 (<u4)", is_volume ? 1 : 0), {}, 1};
-  if (is_volume) image.depth = static_cast<std::int64_t>(shape[0]);
-  const std::size_t count = image.size.pixels() * static_cast<std::size_t>(image.depth);
-  find_values(file, header, count, path);
-  image.labels.resize(count);
-  read_bytes(file, image.labels.data(), count * sizeof no_label, path);
-  return image;
-}
-
-DensityImage read_npy_density(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  const Header header = read_header(file, path);
-  DensityImage image{size_of_image(header, true, path, "a density has numbers"), {}};
-  find_values(file, header, image.size.pixels(), path);
-  const Type& type = types().at(header.type);
-  std::vector<char> row(static_cast<std::size_t>(image.size.width()) * type.size);
-  image.values.reserve(image.size.pixels());
-  for (int y = 0; y < image.size.height(); ++y) {
-    read_bytes(file, row.data(), row.size(), path);
-    for (std::size_t at = 0; at < row.size(); at += type.size) {
-      const auto value = static_cast<float>(type.read(&row[at]));
-      if (!(value >= 0 && std::isfinite(value))) {
-        throw Error(path + " holds " + std::to_string(value) + " at pixel (" +
-                    std::to_string(at / type.size) + ", " + std::to_string(y) +
-                    "); a density has finite numbers of at least 0");
-      }
-      image.values.push_back(value);
-    }
+std::unique_ptr<ImageRows> open_npy_image(const std::string& path) {
+  auto array = std::make_unique<NpyArray>(path);
+  const std::vector<std::size_t>& shape = array->header().shape;
+  const auto fits = [](std::size_t side, std::int64_t most) {
+    return side >= 1 && side <= static_cast<std::size_t>(most);
+  };
+  const std::size_t skipped = shape.size() == 3 ? 1 : 0;
+  if (shape.size() != skipped + 2 || !fits(shape[skipped], Size::max_side) ||
+      !fits(shape[skipped + 1], Size::max_side) ||
+      (skipped > 0 && !fits(shape[0], Window::max_side_of_volume))) {
+    throw Error(path + " has the shape " + to_string(shape) +
+                "; images have (height, width), with sides from 1 to " + std::to_string(Size::max_side) +
+                ", and labels of a volume (depth, height, width)");
   }
-  return image;
+  ImageInfo info;
+  info.size = Size(static_cast<int>(shape[skipped + 1]), static_cast<int>(shape[skipped]));
+  if (skipped > 0) info.depth = static_cast<std::int64_t>(shape[0]);
+  info.type = array->header().type;
+  array->require_all();
+  return std::make_unique<NpyRows>(info, std::move(array));
 }
 
 template <typename T>

@@ -1,8 +1,9 @@
-// NumPy's array files (.npy, format versions 1 to 3), little-endian and in C order.
+// NumPy's array files (.npy, format versions 1 to 3): read in either order of bytes and of indices, written
+// little-endian and in C order.
 #pragma once
 
 #include <cstdint>
-#include <fstream>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,15 @@
 
 namespace vorocl::command {
 
+class NpyArray;
+
 /// A file that holds an array of points: of shape (N, 2), or (N, 3) in a volume, and booleans or any integer
 /// or floating-point type of at most 8 bytes. The points are read when they are asked for.
 class NpyPoints {
  public:
   /// Throws Error if the file is something else, ends early or holds no points or more than `most`.
   explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1, std::size_t dimensions = 2);
+  ~NpyPoints();
 
   std::uint64_t size() const { return size_; }
 
@@ -31,24 +35,14 @@ class NpyPoints {
   /// The coordinates, point after point.
   std::vector<double> read_values(std::uint64_t first, std::size_t count);
 
-  std::string path_;
-  std::ifstream file_;
   std::size_t dimensions_;
-  std::uint64_t begin_ = 0, size_ = 0;  // where the values begin in the file, and the points
-  std::string type_;
+  std::unique_ptr<NpyArray> array_;
+  std::uint64_t size_ = 0;
 };
 
 /// All points of such a file, at most 2^30.
 std::vector<Point> read_npy_points(const std::string& path);
 std::vector<Point3> read_npy_points_of_volume(const std::string& path);
-
-/// Labels: uint32, shape (height, width), or (depth, height, width) of a volume. Throws Error if the file is
-/// something else.
-LabelImage read_npy_labels(const std::string& path);
-
-/// Numbers of any type that NpyPoints takes, of shape (height, width). Throws Error if the file is something
-/// else, or a number is negative or not finite.
-DensityImage read_npy_density(const std::string& path);
 
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
 /// Error if the file cannot be written.

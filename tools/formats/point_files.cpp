@@ -12,18 +12,19 @@ namespace vorocl::command {
 
 namespace {
 
-void read_npy_blocks(const std::string& path, const Slice& slice, const UseBlock& use) {
+std::vector<std::string> read_npy_blocks(const std::string& path, const Slice& slice, const UseBlock& use) {
   NpyPoints points(path);
   for (std::uint64_t first = 0; first < points.size(); first += block_points) {
     if (!slice.holds(first / block_points)) continue;
     const std::uint64_t count = std::min<std::uint64_t>(block_points, points.size() - first);
     use(first, points.read(first, static_cast<std::size_t>(count)));
   }
+  return {};
 }
 
-void read_csv_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
-                     const UseBlock& use) {
-  CsvReader reader(path, columns);
+std::vector<std::string> read_csv_blocks(const std::string& path, const CsvOptions& options,
+                                         const Slice& slice, const UseBlock& use) {
+  CsvReader reader(path, options);
   std::vector<Point> block;
   std::uint64_t first = 0;
   const auto use_block = [&] {
@@ -36,17 +37,21 @@ void read_csv_blocks(const std::string& path, const std::optional<Columns>& colu
     if (block.size() == block_points) use_block();
   }
   use_block();
+  std::vector<std::string> notes = reader.notes();
+  if (reader.id()) notes.push_back(path + ": labels number the rows from 0; the column id is not read");
+  return notes;
 }
 
 }  // namespace
 
-void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
-                    const UseBlock& use) {
+std::vector<std::string> read_in_blocks(const std::string& path, const CsvOptions& options,
+                                        const Slice& slice, const UseBlock& use) {
   check_extension(path, {".csv", ".npy"});
   const SteadyFile file(path);
-  extension_of(path) == ".npy" ? read_npy_blocks(path, slice, use)
-                               : read_csv_blocks(path, columns, slice, use);
+  std::vector<std::string> notes = extension_of(path) == ".npy" ? read_npy_blocks(path, slice, use)
+                                                                : read_csv_blocks(path, options, slice, use);
   file.check();
+  return notes;
 }
 
 void write_points(const OutputFile& file, const std::vector<Point>& points,

@@ -27,11 +27,11 @@ struct Slice {
 using UseBlock = std::function<void(std::uint64_t first, const std::vector<Point>& block)>;
 
 /// Reads the points of a file in blocks, so that they are never in memory all at once; `use` is given each
-/// block of the slice, in the file's order. `columns` are those of a .csv file, of which the other blocks are
-/// read too. Throws Error as the readers of these files, for another extension, and if the file changes
-/// meanwhile.
-void read_in_blocks(const std::string& path, const std::optional<Columns>& columns, const Slice& slice,
-                    const UseBlock& use);
+/// block of the slice, in the file's order. Of a .csv file the other blocks are read too, and points that
+/// lack a coordinate are NaN there. Returns what a user may not expect of the file. Throws Error as the
+/// readers of these files, for another extension, and if the file changes meanwhile.
+std::vector<std::string> read_in_blocks(const std::string& path, const CsvOptions& options,
+                                        const Slice& slice, const UseBlock& use);
 
 /// Points in the order of their ids, which are their indices if `ids` is empty: a .csv file with the columns
 /// id, x and y, or a .npy array of shape (N, 2) without the ids. Throws Error for another extension, or if

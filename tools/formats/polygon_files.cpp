@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "formats/files.hpp"
+#include "formats/raster_files.hpp"
+#include "formats/values.hpp"
 
 namespace vorocl::command {
 
@@ -25,16 +29,36 @@ void add(GrowingFile& file, const fmt::memory_buffer& text) {
   file << std::string_view(text.data(), text.size());
 }
 
-void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells) {
+const std::vector<std::string>& own_columns() {
+  static const std::vector<std::string> all = {"id", "x", "y", "area", "neighbours"};
+  return all;
+}
+
+std::string json_text(const std::string& text) {
+  return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+/// A field as JSON: null where it is empty, a number that has JSON's form, or a text.
+std::string json_of(const std::string& field) {
+  if (field.empty()) return "null";
+  return nlohmann::json::parse(field, nullptr, false).is_number() ? field : json_text(field);
+}
+
+void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
   file << "{\"type\":\"FeatureCollection\",\"features\":[";
+  std::vector<std::string> names;
+  for (const std::string& name : other_names(kept, own_columns())) names.push_back(json_text(name));
   fmt::memory_buffer text;
   for (const PolygonCell& cell : cells) {
     text.clear();
     fmt::format_to(
         std::back_inserter(text),
-        R"({}{{"type":"Feature","id":{},"properties":{{"id":{},"x":{},"y":{},"area":{},"neighbours":{}}},"geometry":)",
+        R"({}{{"type":"Feature","id":{},"properties":{{"id":{},"x":{},"y":{},"area":{},"neighbours":{})",
         &cell == cells.data() ? "\n" : ",\n", cell.id, cell.id, cell.seed.x, cell.seed.y, cell.area,
         cell.neighbours);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      fmt::format_to(std::back_inserter(text), ",{}:{}", names[i], json_of(cell.kept[i]));
+    text.append(std::string_view(R"(},"geometry":)"));
     if (cell.polygon.empty()) {
       text.append(std::string_view("null}"));
     } else {
@@ -47,20 +71,26 @@ void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells) {
   file << "\n]}\n";
 }
 
-void write_wkt(GrowingFile& file, const std::vector<PolygonCell>& cells) {
-  file << "id,x,y,area,neighbours,wkt\n";
+void write_wkt(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
+  CsvFields names = own_columns();
+  names.emplace_back("wkt");
+  const CsvFields others = other_names(kept, names);
+  names.insert(names.end(), others.begin(), others.end());
+  file << to_csv(names) + "\n";
   fmt::memory_buffer text;
   for (const PolygonCell& cell : cells) {
     text.clear();
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{},", cell.id, cell.seed.x, cell.seed.y, cell.area,
                    cell.neighbours);
     if (cell.polygon.empty()) {
-      text.append(std::string_view("POLYGON EMPTY\n"));
+      text.append(std::string_view("POLYGON EMPTY"));
     } else {
       text.append(std::string_view("\"POLYGON (("));
       add_ring(text, cell.polygon, "{} {}", ", ");
-      text.append(std::string_view("))\"\n"));
+      text.append(std::string_view("))\""));
     }
+    if (!kept.empty()) text.append(',' + to_csv(cell.kept));
+    text.push_back('\n');
     add(file, text);
   }
 }
@@ -91,7 +121,7 @@ class VtkArrays {
   std::vector<char> bytes_;
 };
 
-void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells) {
+void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
   std::vector<double> points, areas;
   std::vector<std::int64_t> corners, ends;
   std::vector<std::uint32_t> ids, neighbours;
@@ -109,8 +139,20 @@ void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells) {
   VtkArrays arrays;
   const std::uint16_t one = 1;
   const bool is_little = *reinterpret_cast<const unsigned char*>(&one) == 1;
-  const std::string cell_data = arrays.add("UInt32", "id", ids) + arrays.add("Float64", "area", areas) +
-                                arrays.add("UInt32", "neighbours", neighbours);
+  std::string cell_data = arrays.add("UInt32", "id", ids) + arrays.add("Float64", "area", areas) +
+                          arrays.add("UInt32", "neighbours", neighbours);
+  const CsvFields names = other_names(kept, own_columns());
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    std::vector<double> numbers;
+    for (const PolygonCell& cell : cells) {
+      if (cell.polygon.empty()) continue;
+      const std::string& field = cell.kept[i];
+      const std::optional<double> number = field.empty() ? NAN : parse_number<double>(field);
+      if (!number) break;
+      numbers.push_back(*number);
+    }
+    if (numbers.size() == ids.size()) cell_data += arrays.add("Float64", escaped(names[i]).c_str(), numbers);
+  }
   const std::string point_data = arrays.add("Float64", "points", points, 3);
   const std::string polygons =
       arrays.add("Int64", "connectivity", corners) + arrays.add("Int64", "offsets", ends);
@@ -138,16 +180,16 @@ const std::vector<std::string>& polygon_extensions() {
   return all;
 }
 
-void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells) {
+void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
   check_extension(file.path(), polygon_extensions());
   const std::string extension = extension_of(file.path());
   GrowingFile growing(file);
   if (extension == ".csv") {
-    write_wkt(growing, cells);
+    write_wkt(growing, cells, kept);
   } else if (extension == ".vtp") {
-    write_vtp(growing, cells);
+    write_vtp(growing, cells, kept);
   } else {
-    write_geojson(growing, cells);
+    write_geojson(growing, cells, kept);
   }
   growing.finish();
 }

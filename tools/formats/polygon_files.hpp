@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/csv.hpp"
 #include "formats/output_file.hpp"
 #include "vorocl/grid.hpp"
 
@@ -19,12 +20,15 @@ struct PolygonCell {
   double area = 0;
   std::uint32_t neighbours = 0;
   std::vector<Point> polygon;
+  CsvFields kept = {};  ///< of columns of the input
 };
 
 const std::vector<std::string>& polygon_extensions();
 
-/// Numbers in text are the shortest that are read back the same. Throws Error if the name ends in no such
-/// extension, or the file cannot be written.
-void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells);
+/// `kept` names the columns of the input that all cells have; of these a .vtp file has those of numbers
+/// alone. Numbers in text are the shortest that are read back the same. Throws Error if the name ends in no
+/// such extension, or the file cannot be written.
+void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells,
+                    const CsvFields& kept = {});
 
 }  // namespace vorocl::command

@@ -1,8 +1,12 @@
 #include "formats/raster_files.hpp"
 
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <memory>
 
 #include "formats/files.hpp"
+#include "formats/image_rows.hpp"
 #include "formats/npy.hpp"
 
 namespace vorocl::command {
@@ -37,7 +41,23 @@ template void write_voxels(const OutputFile&, const std::string&, const VolumeRa
 
 LabelImage read_labels(const std::string& path) {
   check_extension(path, readable_label_extensions());
-  return extension_of(path) == ".npy" ? read_npy_labels(path) : read_tiff_labels(path);
+  const std::unique_ptr<ImageRows> rows = open_image(path);
+  const ImageInfo& info = rows->info();
+  if (info.type[0] == 'f' || info.bands > 1) {
+    throw Error(path + " holds no labels: these are one whole number per pixel");
+  }
+  LabelImage image{info.size, {}, info.depth};
+  image.labels.reserve(info.size.pixels() * static_cast<std::size_t>(info.depth));
+  std::vector<double> row;
+  for (std::int64_t i = 0; i < info.size.height() * info.depth; ++i) {
+    rows->next(row);
+    for (const double number : row) {
+      if (number < INT32_MIN || number > UINT32_MAX)
+        throw Error(fmt::format("{} holds {}; labels have 32 bits", path, number));
+      image.labels.push_back(static_cast<std::uint32_t>(static_cast<std::int64_t>(number)));
+    }
+  }
+  return image;
 }
 
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels) {

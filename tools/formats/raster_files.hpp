@@ -16,8 +16,9 @@ namespace vorocl::command {
 const std::vector<std::string>& readable_label_extensions();
 const std::vector<std::string>& label_extensions();
 
-/// Those of a volume from .npy alone. Throws Error if the file cannot be read or holds something else, or its
-/// name ends in no such extension.
+/// Whole numbers of any type that fit in 32 bits; negative ones, such as -1 for no_label, have the bits of
+/// one with a sign. Those of a volume from .npy alone. Throws Error if the file cannot be read or holds
+/// something else, or its name ends in no such extension.
 LabelImage read_labels(const std::string& path);
 
 /// The extensions of files that values of a volume can be written to.
@@ -45,10 +46,6 @@ bool is_tiff(const std::vector<std::uint8_t>& bytes);
 /// Throws Error if the file is something else or damaged.
 ImageHeader read_tiff_header(const std::string& path);
 
-/// Labels of a TIFF file in strips, of any compression. Throws Error if the file is something else or
-/// damaged.
-LabelImage read_tiff_labels(const std::string& path);
-
 /// One value per pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
 /// some readers (OpenCV 4) refuse unsigned ones: labels from 2^31 on, and no_label, look negative there.
 /// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written,
@@ -69,6 +66,9 @@ void write_vti(const OutputFile& file, const std::string& name, const Raster& ra
 template <typename T>
 void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
                       const std::vector<T>& values);
+
+/// A text as an attribute of XML.
+std::string escaped(const std::string& text);
 
 /// A file of a collection and the time that it shows.
 struct TimedFile {

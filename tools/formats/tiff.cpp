@@ -4,13 +4,19 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "formats/files.hpp"
+#include "formats/image_rows.hpp"
+#include "formats/numbers.hpp"
 #include "formats/raster_files.hpp"
+#include "formats/values.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -49,22 +55,122 @@ T field(const File& file, ttag_t tag) {
   return value;
 }
 
-/// Signed or not: the bits are the same.
-bool holds_labels(const File& file) {
-  const auto format = field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT);
-  return field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE) == 32 &&
-         field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) == 1 &&
-         (format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT) && TIFFIsTiled(file.get()) == 0;
-}
-
 ImageHeader header_of(const File& file) {
   const auto samples = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
   const std::uint64_t bits = std::uint64_t{field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE)} * samples;
-  const auto colors = field<std::uint16_t>(file, TIFFTAG_PHOTOMETRIC);
   return {field<std::uint32_t>(file, TIFFTAG_IMAGEWIDTH), field<std::uint32_t>(file, TIFFTAG_IMAGELENGTH),
-          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE,
-          samples <= 2 && (colors == PHOTOMETRIC_MINISBLACK || colors == PHOTOMETRIC_MINISWHITE)};
+          bits, field<std::uint16_t>(file, TIFFTAG_COMPRESSION) != COMPRESSION_NONE};
 }
+
+/// Of the numbers that samples are; "" for other samples. Whole ones may have less bits than a byte.
+std::string type_of_samples(const File& file) {
+  const auto bits = field<std::uint16_t>(file, TIFFTAG_BITSPERSAMPLE);
+  const auto format = field<std::uint16_t>(file, TIFFTAG_SAMPLEFORMAT);
+  const char kind = format == SAMPLEFORMAT_INT ? 'i' : format == SAMPLEFORMAT_IEEEFP ? 'f' : 'u';
+  const bool is_part = kind == 'u' && (bits == 1 || bits == 2 || bits == 4) &&
+                       field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL) == 1;
+  if (is_part) return "u1";
+  return bits % 8 == 0 && number_type(kind, bits / 8u) != nullptr ? kind + std::to_string(bits / 8) : "";
+}
+
+std::optional<double> no_data_of(const File& file, const std::string& type) {
+  constexpr ttag_t no_data = 42113;  // GDAL's, which the library does not know: it hands out the bytes
+  std::uint32_t count = 0;
+  const char* text = nullptr;
+  if (TIFFGetField(file.get(), no_data, &count, &text) != 1 || text == nullptr) return std::nullopt;
+  const auto value = parse_number<double>(std::string_view(text, strnlen(text, count)));
+  return value && type == "f4" ? static_cast<double>(static_cast<float>(*value)) : value;
+}
+
+int count_pages(const File& file) {
+  int pages = 1;
+  while (TIFFReadDirectory(file.get()) == 1) {  // smaller copies of a page are none
+    if ((field<std::uint32_t>(file, TIFFTAG_SUBFILETYPE) & FILETYPE_REDUCEDIMAGE) == 0) ++pages;
+  }
+  TIFFSetDirectory(file.get(), 0);
+  return pages;
+}
+
+/// Blocks are tiles, or strips; samples of a pixel are together, or in a block for each band.
+class TiffRows : public ImageRows {
+ public:
+  TiffRows(const ImageInfo& info, File file, const std::string& path)
+      : ImageRows(info),
+        path_(path),
+        file_(std::move(file)),
+        is_tiled_(TIFFIsTiled(file_.get()) != 0),
+        bits_(field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE)),
+        width_(static_cast<std::uint32_t>(info.size.width())) {
+    const bool is_separate = field<std::uint16_t>(file_, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
+    planes_ = is_separate ? info.bands : 1;
+    const auto height = static_cast<std::uint32_t>(info.size.height());
+    block_width_ = is_tiled_ ? field<std::uint32_t>(file_, TIFFTAG_TILEWIDTH) : width_;
+    block_height_ = is_tiled_ ? field<std::uint32_t>(file_, TIFFTAG_TILELENGTH)
+                              : std::min(height, field<std::uint32_t>(file_, TIFFTAG_ROWSPERSTRIP));
+    const auto bytes = [](tmsize_t size) { return static_cast<std::size_t>(std::max<tmsize_t>(size, 0)); };
+    block_bytes_ = bytes(is_tiled_ ? TIFFTileSize(file_.get()) : TIFFStripSize(file_.get()));
+    row_bytes_ = bytes(is_tiled_ ? TIFFTileRowSize(file_.get()) : TIFFScanlineSize(file_.get()));
+    const std::uint64_t needed = (std::uint64_t{block_width_} * info.bands / planes_ * bits_ + 7) / 8;
+    ImageHeader block = header_of(file_);
+    block.width = block_width_;
+    block.height = block_height_;
+    checked_size(path, block, std::filesystem::file_size(path));
+    if (row_bytes_ < needed || block_bytes_ / block_height_ < needed) throw Error(path + " is damaged");
+    across_ = (width_ + block_width_ - 1) / block_width_;
+    blocks_.resize(planes_ * across_ * block_bytes_);
+  }
+
+  void next(std::vector<double>& row) override {
+    if (row_ % block_height_ == 0) read_blocks();
+    const std::size_t bands = info().bands, together = bands / planes_;
+    row.resize(width_ * bands);
+    for (std::size_t block = 0; block < planes_ * across_; ++block) {
+      const char* const bytes = blocks_.data() + block * block_bytes_ + (row_ % block_height_) * row_bytes_;
+      const std::size_t plane = block / across_, x = block % across_ * block_width_;
+      const std::size_t count = std::min<std::size_t>(block_width_, width_ - x) * together;
+      if (planes_ == 1) {
+        read_samples(bytes, count, &row[x * bands]);
+        continue;
+      }
+      samples_.resize(count);
+      read_samples(bytes, count, samples_.data());
+      for (std::size_t i = 0; i < count; ++i) row[(x + i) * bands + plane] = samples_[i];
+    }
+    ++row_;
+  }
+
+ private:
+  void read_blocks() {
+    for (std::size_t block = 0; block < planes_ * across_; ++block) {
+      char* const room = blocks_.data() + block * block_bytes_;
+      const auto plane = static_cast<std::uint16_t>(block / across_);
+      const auto x = static_cast<std::uint32_t>(block % across_ * block_width_);
+      const auto size = static_cast<tmsize_t>(block_bytes_);
+      const tmsize_t read =
+          is_tiled_
+              ? TIFFReadEncodedTile(file_.get(), TIFFComputeTile(file_.get(), x, row_, 0, plane), room, size)
+              : TIFFReadEncodedStrip(file_.get(), TIFFComputeStrip(file_.get(), row_, plane), room, size);
+      if (read < 0) throw Error(path_ + " is damaged: its row " + std::to_string(row_) + " cannot be read");
+    }
+  }
+
+  void read_samples(const char* bytes, std::size_t count, double* numbers) const {
+    if (bits_ >= 8) return number_type(info().type[0], bits_ / 8u)->read(bytes, count, numbers);
+    for (std::size_t i = 0; i < count; ++i) {
+      const unsigned byte = static_cast<unsigned char>(bytes[i * bits_ / 8]);
+      numbers[i] = byte >> (8 - bits_ - i * bits_ % 8) & ((1u << bits_) - 1);
+    }
+  }
+
+  std::string path_;
+  File file_;
+  bool is_tiled_;
+  unsigned bits_;
+  std::uint32_t width_, row_ = 0, block_width_, block_height_;
+  std::size_t planes_, across_, block_bytes_, row_bytes_;
+  std::vector<char> blocks_;
+  std::vector<double> samples_;
+};
 
 }  // namespace
 
@@ -77,19 +183,27 @@ bool is_tiff(const std::vector<std::uint8_t>& bytes) {
 
 ImageHeader read_tiff_header(const std::string& path) { return header_of(open_tiff(path)); }
 
-LabelImage read_tiff_labels(const std::string& path) {
-  const File file = open_tiff(path);
-  if (!holds_labels(file))
-    throw Error(path + " holds no labels: these are one 32-bit integer per pixel, in strips");
-  LabelImage image{checked_size(path, header_of(file), std::filesystem::file_size(path)), {}};
-  image.labels.resize(image.size.pixels());
-  const auto width = static_cast<std::size_t>(image.size.width());
-  for (std::uint32_t row = 0; row < static_cast<std::uint32_t>(image.size.height()); ++row) {
-    if (TIFFReadScanline(file.get(), &image.labels[row * width], row) != 1) {
-      throw Error(path + " is damaged: its row " + std::to_string(row) + " cannot be read");
-    }
+std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
+  File file = open_tiff(path);
+  const Size size = checked_size(path, header_of(file), std::filesystem::file_size(path));
+  std::uint16_t colors = PHOTOMETRIC_MINISBLACK, others = 0;
+  TIFFGetField(file.get(), TIFFTAG_PHOTOMETRIC, &colors);
+  ImageInfo info;
+  info.type = type_of_samples(file);
+  if (info.type.empty() || (colors != PHOTOMETRIC_MINISBLACK && colors != PHOTOMETRIC_MINISWHITE &&
+                            colors != PHOTOMETRIC_RGB && colors != PHOTOMETRIC_MASK)) {
+    return nullptr;
   }
-  return image;
+  info.size = size;
+  info.bands = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
+  const std::uint16_t* kinds = nullptr;
+  if (TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &others, &kinds) == 1 && others > 0)
+    info.has_alpha = kinds[others - 1] != EXTRASAMPLE_UNSPECIFIED;
+  info.no_data = no_data_of(file, info.type);
+  info.is_white_zero = colors == PHOTOMETRIC_MINISWHITE;
+  info.is_lossy = field<std::uint16_t>(file, TIFFTAG_COMPRESSION) == COMPRESSION_JPEG;
+  info.pages = count_pages(file);
+  return std::make_unique<TiffRows>(info, std::move(file), path);
 }
 
 template <typename T>

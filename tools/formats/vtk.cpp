@@ -22,6 +22,8 @@ const char* byte_order() {
   return *reinterpret_cast<const unsigned char*>(&one) == 1 ? "LittleEndian" : "BigEndian";
 }
 
+}  // namespace
+
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
@@ -41,6 +43,8 @@ std::string escaped(const std::string& text) {
   }
   return result;
 }
+
+namespace {
 
 /// What stands before the bytes of an image of values: where its cells lie.
 template <typename T>

@@ -8,11 +8,18 @@ using namespace vorocl::command;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string path = input_file(data, size, ".csv");
-  read_or_refuse([&] { require(!read_csv(path, std::nullopt).points.empty()); });
-  read_or_refuse([&] { require(!read_csv_of_volume(path, std::nullopt).empty()); });
-  read_or_refuse([&] {
-    const CsvPoints read = read_csv(path, Columns{"x", "1"}, "v");
-    require(!read.points.empty() && read.values.size() == read.points.size());
-  });
+  const CsvOptions all[] = {{}, {Columns{"x", "1"}, "v", false, {"all"}}, {{}, "", true, {"0"}}};
+  for (const CsvOptions& options : all) {
+    for (const bool has_z : {false, true}) {
+      read_or_refuse([&] {
+        const CsvPoints read = read_csv(path, options, has_z);
+        const auto is_whole = [&](std::size_t size, bool is_there) {
+          return size == (is_there ? read.points.size() : 0);
+        };
+        require(!read.points.empty() && is_whole(read.values.size(), !options.value_column.empty()) &&
+                is_whole(read.kept.size(), !options.keep.empty()) && is_whole(read.z.size(), has_z));
+      });
+    }
+  }
   return 0;
 }

@@ -1,6 +1,7 @@
 // Points and labels of .npy files.
 #include "formats/npy.hpp"
 
+#include "formats/raster_files.hpp"
 #include "fuzz.hpp"
 
 using namespace vorocl;
@@ -11,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   read_or_refuse([&] { require(!read_npy_points(path).empty()); });
   read_or_refuse([&] { require(!read_npy_points_of_volume(path).empty()); });
   read_or_refuse([&] {
-    const LabelImage image = read_npy_labels(path);
+    const LabelImage image = read_labels(path);
     require(image.labels.size() == image.size.pixels() * static_cast<std::size_t>(image.depth));
   });
   return 0;

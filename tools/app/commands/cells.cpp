@@ -134,6 +134,7 @@ void run(const CellsOptions& options) {
   const Report report = options.method.run(seeds, diagram, options.method_options);
   MeasureBuffers buffers;
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
+  if (!input.kept.names.empty()) measures.keep(input.kept);
   for (const Output& output : outputs) output.kind.write(output.file, measures);
   print_result(options, seeds, report, measures);
 }
@@ -157,6 +158,7 @@ void add_cells(CommandLine& line) {
     add_file_option(command, *request);
   }
   add_cell_columns_option(command, files.cells);
+  add_keep_option(command, options->seeds);
   add_json_option(command, options->json);
   const Option exact = command.add(
       "--exact", options->exact,

@@ -69,7 +69,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result);
-  ExactCellRows rows(seeds, result, input.ids, points_up(options.seeds));
+  ExactCellRows rows(seeds, result, input, points_up(options.seeds));
   if (cells) exact_cells_table(options.columns).write(*cells, rows);
   if (adjacency) exact_pairs_table().write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);

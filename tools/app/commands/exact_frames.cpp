@@ -70,7 +70,7 @@ class ExactRun {
   void add(const Device& device, const ExactInput& input) {
     const Seeds seeds = input.place(device);
     const Report report = exact_cells(seeds, result_);
-    ExactCellRows rows(seeds, result_, input.ids, points_up(options_.seeds));
+    ExactCellRows rows(seeds, result_, input, points_up(options_.seeds));
     const bool wants_files = frames_ % options_.every == 0;
     cells_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
     pairs_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);

@@ -110,10 +110,6 @@ void write_energies(const OutputFile& file, const Relaxation& relaxation) {
   table.finish();
 }
 
-DensityImage read_density(const std::string& path) {
-  return extension_of(path) == ".npy" ? read_npy_density(path) : read_darkness(path);
-}
-
 /// The density of the grid's pixels; none if it is not asked for.
 std::vector<float> density_of_grid(const RelaxCommand& options, std::optional<DensityImage>&& density,
                                    const Input& input) {

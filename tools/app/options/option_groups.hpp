@@ -37,6 +37,9 @@ void add_snap_option(Command& command, SeedOptions& options);
 /// Adds --truth: what diagrams are judged by. The help says of what.
 Option add_truth_option(Command& command, Snap& truth, const std::string& about);
 
+/// Adds --keep, for the subcommands that have tables of cells of points.
+void add_keep_option(Command& command, SeedOptions& options);
+
 /// Adds --frame, for the subcommands that show one frame.
 void add_frame_option(Command& command, SeedOptions& options);
 

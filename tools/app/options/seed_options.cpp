@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 #include <tuple>
@@ -56,10 +57,22 @@ Option add_columns_option(Command& command, SeedOptions& options, bool volumes) 
       .add_parsed(
           "--columns", options.columns, volumes ? parse_columns_and_z : parse_columns,
           std::string("Columns of the CSV file, by name or by index from 0; else those that the header "
-                      "names x and y") +
+                      "names x and y, or lon and lat") +
               (volumes ? " (and z)" : "") + ", or the only " + (volumes ? "ones" : "two") +
               " where there is no header")
       .value_name(volumes ? "X,Y[,Z]" : "X,Y");
+}
+
+Option add_decimal_option(Command& command, SeedOptions& options) {
+  const auto parse = [](const std::string& mark) {
+    if (mark == "." || mark == ",") return mark == ",";
+    throw Error("\"" + mark + "\" must be a point or a comma");
+  };
+  return command
+      .add_parsed("--decimal", options.decimal_comma, parse,
+                  "Decimal mark of the CSV file; with a comma, fields are separated by semicolons or tabs")
+      .value_name("MARK")
+      .default_text(".");
 }
 
 void add_bounds_option(Command& command, SeedOptions& options, const std::string& about) {
@@ -176,6 +189,12 @@ Size size_of_sides(std::int64_t width, std::int64_t height) {
                   std::max(width, height), Size::max_side));
 }
 
+std::optional<double> parse_threshold(const std::string& text) {
+  const auto threshold = parse_number<double>(text);
+  if (!threshold || !std::isfinite(*threshold)) throw Error("\"" + text + "\" is no number");
+  return threshold;
+}
+
 int parse_width(const std::string& text) {
   const auto width = parse_number<std::int64_t>(text);
   if (!width) throw Error("\"" + text + "\" is no whole number");
@@ -204,15 +223,24 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   constexpr std::size_t most_seeds = Window::max_pixels;
   const Option random = add_random_option(source, options, most_seeds);
   const Option points = add_points_option(source, options);
-  source.add("--mask", options.mask, "Non-zero pixels of an image, numbered in row-major order")
-      .value_name("FILE");
+  const Option mask =
+      source
+          .add("--mask", options.mask,
+               "Pixels of an image or a .npy array that are not 0, numbered in row-major order")
+          .value_name("FILE");
   const Option trajectory =
       source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
           .value_name("FILE");
 
+  command
+      .add_parsed("--threshold", options.threshold, parse_threshold,
+                  "Pixels of the mask that are greater than T, instead of those that are not 0")
+      .value_name("T")
+      .needs(mask);
   Option rng_seed = add_rng_seed_option(command, options);
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
   add_columns_option(command, options, volumes).needs(points);
+  add_decimal_option(command, options).needs(points);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
       (volumes ? "; with a depth, those of a volume" : "");
@@ -267,6 +295,7 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   const Option points = add_points_option(source, seeds);
   add_rng_seed_option(command, seeds).needs(random);
   add_columns_option(command, seeds, false).needs(points);
+  add_decimal_option(command, seeds).needs(points);
   command.add_parsed("--size", options.size, parse_plane, "Width and height of the plane in pixels")
       .value_name("WxH")
       .required();
@@ -296,6 +325,17 @@ Option add_truth_option(Command& command, Snap& truth, const std::string& about)
           about +
               " the centres of the points' pixels, or the points themselves, rounded to 1/4096 of a pixel")
       .default_text("snapped");
+}
+
+void add_keep_option(Command& command, SeedOptions& options) {
+  const auto parse = [](const std::string& text) { return text; };
+  command
+      .add_list(
+          "--keep", options.keep, parse,
+          "Columns of the CSV file, by name or by index, that tables of cells and polygons have too; all: "
+          "every one that has a name")
+      .value_name("COLUMN,...")
+      .needs("--points");
 }
 
 void add_frame_option(Command& command, SeedOptions& options) {

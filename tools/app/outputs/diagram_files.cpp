@@ -131,6 +131,7 @@ void add_plane_cells(const std::vector<CellColumn>& columns, GrowingFile& table,
       for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
         text.begin_row();
         for (const auto& column : values) text.add(column[row]);
+        if (measures.kept() != nullptr) text.add(measures.kept()->fields[begin[row]]);
         text.end_row();
       }
     }
@@ -170,7 +171,10 @@ void FileKind::write(const OutputFile& file, Measures& measures) const {
   read(measures);
   if (const TableKind* const kind = table()) {
     GrowingFile rows(file);
-    rows << measures.view().units.header(kind->columns);
+    std::string header = measures.view().units.header(kind->columns);
+    if (kind->of_cells && measures.kept() != nullptr)
+      header.insert(header.size() - 1, ',' + to_csv(other_names(measures.kept()->names, kind->columns)));
+    rows << header;
     kind->add_rows(rows, "", measures);
     rows.finish();
   } else {
@@ -205,7 +209,7 @@ FileKind cells_kind(const std::vector<std::string>& names) {
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
           [columns](Measures& measures) { read_plane_cells(columns, measures); },
-          TableKind{names, add_rows}};
+          TableKind{names, add_rows, true}};
 }
 
 const FileKind& adjacency_kind() {

@@ -17,6 +17,7 @@ namespace vorocl::command {
 struct TableKind {
   std::vector<std::string> columns;
   std::function<void(GrowingFile& table, const std::string& first, Measures& measures)> add_rows;
+  bool of_cells = false;  ///< rows end with the columns that are kept of the input
 };
 
 /// One kind of file, and the option that asks for it.

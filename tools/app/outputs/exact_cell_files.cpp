@@ -96,9 +96,9 @@ Point image_at_cell(Point seed, const ExactCell& cell, const Grid& grid) {
 
 }  // namespace
 
-ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
-                             std::vector<std::uint32_t> ids, bool y_up)
-    : result_(result), ids_(std::move(ids)), y_up_(y_up), points_(seeds.read()), cells_(result.read()) {
+ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const ExactInput& input,
+                             bool y_up)
+    : result_(result), input_(input), y_up_(y_up), points_(seeds.read()), cells_(result.read()) {
   const Grid& grid = seeds.grid();
   for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
     std::optional<Point>& point = points_[seed];
@@ -106,8 +106,8 @@ ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result,
     if (point && (cells_[seed].area > 0 || (grid.x().covers(point->x) && grid.y().covers(point->y))))
       order_.push_back(seed);
   }
-  if (ids_.empty()) return;
-  std::sort(order_.begin(), order_.end(), [this](std::size_t a, std::size_t b) { return ids_[a] < ids_[b]; });
+  std::sort(order_.begin(), order_.end(),
+            [this](std::size_t a, std::size_t b) { return id_of(a) < id_of(b); });
 }
 
 const ExactPolygons& ExactCellRows::polygons() {
@@ -118,8 +118,8 @@ const ExactPolygons& ExactCellRows::polygons() {
 const std::vector<ExactPair>& ExactCellRows::pairs() {
   if (pairs_) return *pairs_;
   pairs_ = result_.read_pairs();
-  if (ids_.empty()) return *pairs_;
-  for (ExactPair& pair : *pairs_) std::tie(pair.a, pair.b) = std::minmax({ids_[pair.a], ids_[pair.b]});
+  if (input_.ids.empty()) return *pairs_;
+  for (ExactPair& pair : *pairs_) std::tie(pair.a, pair.b) = std::minmax({id_of(pair.a), id_of(pair.b)});
   std::stable_sort(pairs_->begin(), pairs_->end(), [](const ExactPair& p, const ExactPair& q) {
     return std::tie(p.a, p.b) < std::tie(q.a, q.b);
   });
@@ -138,6 +138,7 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
     const Ring ring = polygons != nullptr ? ring_of(*polygons, seed) : Ring();
     const Row row = {id_of(seed), *points_[seed], cells_[seed], ring, y_up_};
     for (const Column& column : columns) text.add(column.value(row));
+    if (!kept().fields.empty()) text.add(kept().fields[seed]);
   });
 }
 
@@ -156,9 +157,10 @@ void ExactCellRows::write_polygons(const OutputFile& file) {
                      *points_[seed],
                      cells_[seed].area,
                      cells_[seed].neighbours,
-                     {ring.begin(), ring.end()}});
+                     {ring.begin(), ring.end()},
+                     kept().fields.empty() ? CsvFields() : kept().fields[seed]});
   }
-  command::write_polygons(file, cells);
+  command::write_polygons(file, cells, kept().names);
 }
 
 std::size_t ExactCellRows::empty_cells() const {
@@ -184,19 +186,28 @@ double ExactCellRows::area_deviation() const {
   return order_.empty() ? 0 : std::sqrt(squares / static_cast<double>(order_.size()));
 }
 
-std::string ExactTable::header() const { return fmt::format("{}\n", fmt::join(columns, ",")); }
+std::string ExactTable::header(const KeptColumns& kept) const {
+  CsvFields names = columns;
+  if (of_cells) {
+    const CsvFields others = other_names(kept.names, columns);
+    names.insert(names.end(), others.begin(), others.end());
+  }
+  return to_csv(names) + "\n";
+}
 
 void ExactTable::write(const OutputFile& file, ExactCellRows& rows) const {
   GrowingFile table(file);
-  table << header();
+  table << header(rows.kept());
   add_rows(rows, table, "");
   table.finish();
 }
 
 ExactTable exact_cells_table(const std::vector<std::string>& columns) {
-  return {columns, [columns](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
+  return {columns,
+          [columns](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
             rows.add_cells(table, first, columns);
-          }};
+          },
+          true};
 }
 
 ExactTable exact_pairs_table() {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sources/exact_input.hpp"
 #include "formats/output_file.hpp"
 #include "vorocl/exact_cells.hpp"
 
@@ -15,10 +16,9 @@ namespace vorocl::command {
 /// Exact cells by the ids that files have. What is asked for is read once, when it is first asked for.
 class ExactCellRows {
  public:
-  /// `ids` says what files call each seed; empty: their indices. `y_up`: the top of a cell has its greatest
-  /// y. Keeps a reference to the result. Waits; throws as the library, as do its functions.
-  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, std::vector<std::uint32_t> ids,
-                bool y_up);
+  /// `y_up`: the top of a cell has its greatest y. Keeps references to the result and the input, which the
+  /// seeds are of. Waits; throws as the library, as do its functions.
+  ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const ExactInput& input, bool y_up);
 
   /// One row per cell, by id, with these columns: some of cell_columns(). Seeds outside the rectangle
   /// have one only if their cells reach into it. A field is empty where an empty cell has no value. `first`
@@ -31,6 +31,7 @@ class ExactCellRows {
   /// The same cells as polygons: see polygon_files.hpp.
   void write_polygons(const OutputFile& file);
 
+  const KeptColumns& kept() const { return input_.kept; }
   std::size_t cells() const { return order_.size(); }
   std::size_t empty_cells() const;
   std::size_t uncertified() const;
@@ -40,12 +41,12 @@ class ExactCellRows {
 
  private:
   std::uint32_t id_of(std::size_t seed) const {
-    return ids_.empty() ? static_cast<std::uint32_t>(seed) : ids_.at(seed);
+    return input_.ids.empty() ? static_cast<std::uint32_t>(seed) : input_.ids.at(seed);
   }
   const ExactPolygons& polygons();
 
   const ExactCellsResult& result_;
-  std::vector<std::uint32_t> ids_;
+  const ExactInput& input_;
   bool y_up_;
   std::vector<std::optional<Point>> points_;
   std::vector<ExactCell> cells_;
@@ -58,9 +59,10 @@ class ExactCellRows {
 struct ExactTable {
   std::vector<std::string> columns;
   std::function<void(ExactCellRows& rows, GrowingFile& table, const std::string& first)> add_rows;
+  bool of_cells = false;
 
-  /// The first line.
-  std::string header() const;
+  /// The first line, with these columns of the input behind the table's.
+  std::string header(const KeptColumns& kept = {}) const;
 
   /// Writes the table of one frame. Throws Error if that fails.
   void write(const OutputFile& file, ExactCellRows& rows) const;

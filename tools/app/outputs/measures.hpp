@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "app/sources/seed_input.hpp"
 #include "app/sources/view.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/raster.hpp"
@@ -113,6 +114,10 @@ class Measures {
   const std::vector<std::uint32_t>& labels_by_id();
   const std::vector<std::uint32_t>& labels_in_picture();
 
+  /// Columns of the input, which rows of cells end with: those of --keep, which stay where they are.
+  void keep(const KeptColumns& columns) { kept_ = &columns; }
+  const KeptColumns* kept() const { return kept_; }
+
   /// What files call each label; empty: as it is.
   const std::vector<std::uint32_t>& ids() const { return ids_; }
 
@@ -142,6 +147,7 @@ class Measures {
   Metric metric_;
   std::vector<std::uint32_t> ids_;
   View view_;
+  const KeptColumns* kept_ = nullptr;
   MeasureBuffers& buffers_;
   HostImages& images_;
   bool has_sums_ = false, has_statistics_ = false, has_adjacency_ = false;

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/csv.hpp"
 #include "formats/output_file.hpp"
 #include "formats/workers.hpp"
 
@@ -49,6 +50,10 @@ class RowText {
     add(first);
     add(second);
     (add(others), ...);
+  }
+
+  void add(const CsvFields& fields) {
+    if (!fields.empty()) text_.append(to_csv(fields) + ',');
   }
 
   /// Behind one value or more.

@@ -37,6 +37,7 @@ void add_cells(GrowingFile& table, const std::string& first, Measures& measures)
              if_full(box.front), if_full(box.right), if_full(box.bottom), if_full(box.back),
              units.border(measures.perimeters()[label]), measures.neighbours()[label], if_full(farthest),
              shape.touches_border ? 1 : 0);
+    if (measures.kept() != nullptr) text.add(measures.kept()->fields[label]);
   });
 }
 
@@ -70,7 +71,8 @@ const std::vector<FileKind>& kinds() {
        TableKind{
            {"id", "x", "y", "z", "volume", "centroid_x", "centroid_y", "centroid_z", "left", "top", "front",
             "right", "bottom", "back", "surface", "neighbours", "largest_distance", "touches_border"},
-           add_cells}},
+           add_cells,
+           true}},
       {"--adjacency",
        "A .csv file with one row per pair of cells of a volume that touch",
        {".csv"},

@@ -51,13 +51,16 @@ ExactInput input_of(const SeedOptions& options, const std::string& file, const G
 }
 
 ExactInput exact_input_from_points(const SeedOptions& options) {
-  std::vector<Point> points = read_points(options).points;
+  CsvPoints read = read_points(options);
+  std::vector<Point>& points = read.points;
   try {
     const Bounds repeats = options.domain   ? *options.domain
                            : options.bounds ? *options.bounds
                                             : bounding_box(points);
     const Grid grid = grid_of(options, repeats, options.periodic.value_or(Periodic::none), "the domain");
-    return input_of(options, options.points, grid, std::move(points), {});
+    ExactInput input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
+    input.kept = {std::move(read.kept_names), std::move(read.kept)};
+    return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }

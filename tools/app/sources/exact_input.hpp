@@ -18,6 +18,7 @@ struct ExactInput {
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;                       ///< by seed; empty: the seeds' own
   std::optional<std::int64_t> timestep = std::nullopt;  ///< of a trajectory's frame that has one
+  KeptColumns kept = {};                                ///< of --keep
 };
 
 /// Checks the options, and reads and checks the files. Points and particles lie in the bounds, else in the

@@ -9,6 +9,7 @@
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/random_seeds.hpp"
+#include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/files.hpp"
 #include "formats/point_files.hpp"
@@ -31,16 +32,17 @@ void require(bool possible, const SeedOptions& options, std::uint64_t index, con
 
 Survey survey(const SeedOptions& options, const PlaneReading& reading) {
   Survey result;
-  read_in_blocks(options.points, options.columns, reading.slice,
-                 [&](std::uint64_t first, const std::vector<Point>& block) {
-                   check_stop(reading.stops);
-                   for (const Point& point : block) {
-                     require(std::isfinite(point.x) && std::isfinite(point.y), options, first++, point,
-                             "not finite");
-                     const Bounds here = {point.x, point.y, point.x, point.y};
-                     result.box = result.points++ == 0 ? here : joined(result.box, here);
-                   }
-                 });
+  const std::vector<std::string> notes = read_in_blocks(
+      options.points, options.csv(), reading.slice,
+      [&](std::uint64_t first, const std::vector<Point>& block) {
+        check_stop(reading.stops);
+        for (const Point& point : block) {
+          require(std::isfinite(point.x) && std::isfinite(point.y), options, first++, point, "not finite");
+          const Bounds here = {point.x, point.y, point.x, point.y};
+          result.box = result.points++ == 0 ? here : joined(result.box, here);
+        }
+      });
+  for (const std::string& note : notes) print_note(note);
   return reading.join(result);
 }
 
@@ -113,7 +115,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
     }
     hash.add(first, places);
   };
-  read_in_blocks(options.points, options.columns, reading.slice, add);
+  read_in_blocks(options.points, options.csv(), reading.slice, add);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
   if (plane.periodic() != Periodic::none && !options.bounds) {
     print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
@@ -161,8 +163,7 @@ void check_plane_options(const PlaneInputOptions& options) {
   const SeedOptions& seeds = options.seeds;
   if (!seeds.points.empty()) {
     as_usage([&] { check_extension(seeds.points, {".csv", ".npy"}); });
-    if (seeds.columns && extension_of(seeds.points) != ".csv")
-      throw UsageError("--columns is for .csv files");
+    refuse_csv_options(seeds);
     if (seeds.bounds) check_bounds(*seeds.bounds, options.plane().periodic());
     return;
   }

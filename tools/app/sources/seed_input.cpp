@@ -43,7 +43,7 @@ Input plane_from_points(const SeedOptions& options) {
   try {
     const Mapping mapping = mapping_of(options, points);
     const Size picture = options.size ? *options.size : size_of_width(mapping.bounds, options.width);
-    const MappedPoints mapped = map_points(points, mapping, picture);
+    const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
     warn_of_scales(mapping.bounds, picture.grid());
     if (mapping.periodic != Periodic::none && !options.bounds && !options.domain) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
@@ -54,16 +54,19 @@ Input plane_from_points(const SeedOptions& options) {
             [mapped, snap = mapping.snap](const Device& device) {
               return Seeds(device, mapped.view.window.grid(), mapped.places, Outside::count, snap);
             },
-            {},
+            read.ids,
             read.values,
-            mapped.is_window()};
+            mapped.is_window(),
+            {},
+            {read.kept_names, read.kept}};
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
 }
 
 Input plane_from_mask(const SeedOptions& options) {
-  const Mask mask = read_mask(options.mask);
+  const Mask mask = read_mask(options.mask, options.threshold);
+  for (const std::string& note : mask.notes) print_note(note);
   if (options.size && *options.size != mask.size) {
     throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough",
                             options.mask, mask.size.width(), mask.size.height(), options.size->width(),
@@ -113,17 +116,35 @@ Input plane_from_trajectory(const SeedOptions& options) {
 
 }  // namespace
 
-CsvPoints read_points(const SeedOptions& options) {
+CsvPoints read_points(const SeedOptions& options, bool has_z) {
   as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
+  refuse_csv_options(options);
   if (extension_of(options.points) == ".csv") {
-    CsvPoints read = read_csv(options.points, options.columns, options.value_column);
-    if (read.leave_out_z) print_note(options.points + ": z is left out; volumes have it, with --size WxHxD");
+    CsvPoints read = read_csv(options.points, options.csv(), has_z);
+    for (const std::string& note : read.notes) print_note(note);
     return read;
   }
-  if (options.columns) throw UsageError("--columns is for .csv files");
+  CsvPoints read;
+  if (!has_z) {
+    read.points = read_npy_points(options.points);
+    return read;
+  }
+  for (const Point3& point : read_npy_points_of_volume(options.points)) {
+    read.points.push_back({point.x, point.y});
+    read.z.push_back(point.z);
+  }
+  return read;
+}
+
+void refuse_csv_options(const SeedOptions& options) {
+  if (extension_of(options.points) == ".csv") return;
+  const char* const given = options.columns         ? "--columns"
+                            : options.decimal_comma ? "--decimal"
+                            : !options.keep.empty() ? "--keep"
+                                                    : nullptr;
+  if (given != nullptr) throw UsageError(std::string(given) + " is for .csv files");
   if (!options.value_column.empty())
     throw UsageError("--color column:NAME is for .csv files and trajectories");
-  return {read_npy_points(options.points), {}};
 }
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {

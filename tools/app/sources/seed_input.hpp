@@ -24,6 +24,7 @@ struct SeedOptions {
   std::uint64_t rng_seed = 1;
   std::string points;
   std::string mask;
+  std::optional<double> threshold;  // of the mask: see read_mask()
   std::string trajectory;
   int frame = 0;  // of the trajectory
   std::optional<Size> size;
@@ -40,9 +41,13 @@ struct SeedOptions {
   Snap of_pixels = Snap::to_pixels;   // of masks and random seeds
   bool y_up = false, y_down = false;  // as given; see points_up()
   std::optional<Columns> columns;
+  bool decimal_comma = false;
+  std::vector<std::string> keep;      // columns of points that tables of cells have too: see CsvOptions
   std::string value_column;           // whose values are read with the points
   std::optional<MeasureUnits> units;  // else those of the data, where there are bounds
   std::string keeps_inside;           // see note_outside()
+
+  CsvOptions csv() const { return {columns, value_column, decimal_comma, keep}; }
 
   /// What becomes of seeds within their pixels.
   Snap snapping() const {
@@ -63,9 +68,18 @@ constexpr const char* keeps_flooding_inside = "flooding cannot take, only exact 
 /// and particles need pixels.
 void check_seed_options(const SeedOptions& options, bool needs_size = true);
 
-/// The points of --points, as the file has them. Throws UsageError for an extension that is none of points,
-/// Error if the file is bad.
-CsvPoints read_points(const SeedOptions& options);
+/// The points of --points, as the file has them; says on standard error what may not be expected of it.
+/// Throws UsageError for an extension that is none of points, Error if the file is bad.
+CsvPoints read_points(const SeedOptions& options, bool has_z = false);
+
+/// Throws UsageError for options of .csv files, if the points are no such file.
+void refuse_csv_options(const SeedOptions& options);
+
+/// Columns of the input, by seed.
+struct KeptColumns {
+  std::vector<std::string> names;
+  std::vector<CsvFields> fields;
+};
 
 /// What a command that makes planes alone says of a volume, behind "--size".
 constexpr const char* volumes_are_for =
@@ -85,6 +99,7 @@ struct Input {
   std::vector<double> values;                           // of the value column, by seed; NaN: absent
   bool is_window = false;                               // see MappedPoints
   std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
+  KeptColumns kept = {};                                // of --keep
 };
 
 /// Throws Error for a window, or a diagram that is a part of the picture; `what` ("bench") takes none.

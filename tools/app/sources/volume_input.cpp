@@ -12,8 +12,6 @@
 #include "app/sources/seed_input.hpp"
 #include "app/terminal/console.hpp"
 #include "formats/csv.hpp"
-#include "formats/files.hpp"
-#include "formats/npy.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -24,14 +22,14 @@ constexpr char names[] = {'x', 'y', 'z'};
 
 std::array<double, 3> coordinates(const Point3& point) { return {point.x, point.y, point.z}; }
 
-std::vector<Point3> points_of(const Frame& frame) {
+std::vector<Point3> with_z(const std::vector<Point>& of_plane, const std::vector<double>& z) {
   std::vector<Point3> points;
-  points.reserve(frame.positions.size());
-  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-    points.push_back({frame.positions[i].x, frame.positions[i].y, frame.z[i]});
-  }
+  points.reserve(z.size());
+  for (std::size_t i = 0; i < z.size(); ++i) points.push_back({of_plane[i].x, of_plane[i].y, z[i]});
   return points;
 }
+
+std::vector<Point3> points_of(const Frame& frame) { return with_z(frame.positions, frame.z); }
 
 VolumeSides bounding_sides(const std::vector<Point3>& points) {
   VolumeSides sides;
@@ -176,20 +174,6 @@ void note_scales(const Grid& grid) {
   }
 }
 
-std::vector<Point3> read_points_of_volume(const SeedOptions& options) {
-  as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });
-  if (extension_of(options.points) == ".csv") return read_csv_of_volume(options.points, options.columns);
-  if (options.columns) throw UsageError("--columns is for .csv files");
-  std::vector<Point3> points = read_npy_points_of_volume(options.points);
-  const auto is_bad = [](const Point3& point) {
-    return !std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z);
-  };
-  const auto bad = std::find_if(points.begin(), points.end(), is_bad);
-  if (bad == points.end()) return points;
-  throw Error(fmt::format("{}: point {} at ({}, {}, {}) is not finite", options.points, bad - points.begin(),
-                          bad->x, bad->y, bad->z));
-}
-
 /// How a volume stands in the data, of which a voxel of random seeds knows nothing.
 View view_of(const Grid& grid, bool in_pixels) {
   View view = {Size(grid.width(), grid.height()), grid};
@@ -206,20 +190,31 @@ Input input_from(const View& view, const std::vector<Point3>& points, const std:
 }
 
 Input input_from_points(const SeedOptions& options) {
-  const std::vector<Point3> points = read_points_of_volume(options);
+  const CsvPoints read = read_points(options, true);
+  const std::vector<Point3> points = with_z(read.points, read.z);
   try {
+    const auto is_bad = [](const Point3& point) {
+      return !std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z);
+    };
+    const auto bad = std::find_if(points.begin(), points.end(), is_bad);
+    if (bad != points.end()) {
+      throw Error(fmt::format("point {} at ({}, {}, {}) is not finite", bad - points.begin(), bad->x, bad->y,
+                              bad->z));
+    }
     const std::optional<VolumeSides> given = given_sides(options);
     VolumeSides sides = given ? *given : bounding_sides(points);
     take_periodic_axes(options, sides);
     const Grid unspaced = grid_of(options, sides), grid = with_spacing(unspaced, spacing_of(unspaced));
-    check_inside(points, {}, grid);
+    check_inside(points, read.ids, grid);
     warn_of_voxels(grid, "");
     note_scales(grid);
     if (!given &&
         std::any_of(sides.begin(), sides.end(), [](const VolumeSide& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    return input_from(view_of(grid, in_pixels(options)), points, {}, {});
+    Input input = input_from(view_of(grid, in_pixels(options)), points, read.ids, {});
+    input.kept = {read.kept_names, read.kept};
+    return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }

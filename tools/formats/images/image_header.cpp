@@ -49,8 +49,7 @@ bool is_png(const FileBytes& bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\
 ImageHeader read_png(const FileBytes& bytes) {
   const std::uint8_t color_type = bytes.at(25);
   const std::uint64_t channels = color_type == 2 ? 3 : color_type == 4 ? 2 : color_type == 6 ? 4 : 1;
-  return {bytes.big_endian(16, 4), bytes.big_endian(20, 4), bytes.at(24) * channels, true,
-          color_type == 0 || color_type == 4};
+  return {bytes.big_endian(16, 4), bytes.big_endian(20, 4), bytes.at(24) * channels, true, false, true};
 }
 
 bool is_bmp(const FileBytes& bytes) { return bytes.starts_with("BM"); }
@@ -85,8 +84,7 @@ ImageHeader read_jpeg(const FileBytes& bytes) {
     const bool is_frame =
         marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (is_frame) {
-      return {bytes.big_endian(place + 7, 2), bytes.big_endian(place + 5, 2), 8, true,
-              bytes.at(place + 9) == 1};
+      return {bytes.big_endian(place + 7, 2), bytes.big_endian(place + 5, 2), 8, true, true, true};
     }
     place += 2 + bytes.big_endian(place + 2, 2);
   }
@@ -119,8 +117,8 @@ ImageHeader read_pnm(const FileBytes& bytes) {
   header.is_compressed = false;
   header.width = number();
   header.height = number();
-  header.is_grey = kind != 3 && kind != 6;
-  const std::uint64_t samples = header.is_grey ? 1 : 3;
+  header.is_plain = true;
+  const std::uint64_t samples = kind == 3 || kind == 6 ? 3 : 1;
   if (kind == 4) {
     header.bits_per_pixel = 1;
   } else if (kind == 1) {

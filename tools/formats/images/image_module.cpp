@@ -46,10 +46,9 @@ auto quietly(const Work& work) -> decltype(work()) {
 
 class Module : public ImageModule {
  public:
-  cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_grey) const override {
-    // Colours not as grey values: rounding makes a faint blue 0.
-    const int channels = is_grey ? cv::IMREAD_GRAYSCALE : cv::IMREAD_COLOR;
-    const int flags = channels | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+  cv::Mat decode(const std::vector<std::uint8_t>& bytes, bool is_plain) const override {
+    const int colors = cv::IMREAD_COLOR | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION;
+    const int flags = is_plain ? static_cast<int>(cv::IMREAD_UNCHANGED) : colors;
     return quietly([&] { return cv::imdecode(bytes, flags); });
   }
 

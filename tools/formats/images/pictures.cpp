@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
+#include <memory>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "formats/files.hpp"
+#include "formats/image_rows.hpp"
 #include "formats/images/png.hpp"
 #include "formats/modules.hpp"
+#include "formats/raster_files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -21,33 +24,60 @@ const std::vector<std::string>& picture_extensions() {
 
 namespace {
 
-/// Of a file that may be a picture: the first bytes are looked at before the others, of which there may be
-/// many.
-std::vector<std::uint8_t> read_image_file(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  std::vector<std::uint8_t> bytes;
-  std::size_t wanted = 16;
-  while (file) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + wanted);
-    file.read(reinterpret_cast<char*>(&bytes[before]), static_cast<std::streamsize>(wanted));
-    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
-    if (before == 0) check_is_image(path, bytes);
-    wanted = 1 << 20;
-  }
-  if (file.bad()) throw Error("reading " + path + " failed");
-  return bytes;
+/// Appends up to so many bytes of a file.
+void read_more(std::ifstream& file, std::size_t count, std::vector<std::uint8_t>& bytes) {
+  const std::size_t before = bytes.size();
+  bytes.resize(before + count);
+  file.read(reinterpret_cast<char*>(&bytes[before]), static_cast<std::streamsize>(count));
+  bytes.resize(before + static_cast<std::size_t>(file.gcount()));
 }
+
+ImageInfo info_of(const cv::Mat& picture, const ImageHeader& header) {
+  ImageInfo info;
+  info.size = Size(picture.cols, picture.rows);
+  info.bands = static_cast<std::size_t>(picture.channels());
+  info.has_alpha = picture.channels() == 4;
+  info.type = picture.depth() == CV_8U ? "u1" : picture.depth() == CV_16U ? "u2" : "f4";
+  info.is_lossy = header.is_lossy;
+  return info;
+}
+
+class PictureRows : public ImageRows {
+ public:
+  PictureRows(const cv::Mat& picture, const ImageHeader& header)
+      : ImageRows(info_of(picture, header)), picture_(picture) {}
+
+  void next(std::vector<double>& row) override {
+    row.resize(static_cast<std::size_t>(info().size.width()) * info().bands);
+    cv::Mat numbers(1, info().size.width(), CV_64FC(picture_.channels()), row.data());
+    picture_.row(row_++).convertTo(numbers, CV_64F);
+    for (std::size_t i = 2; info().bands > 2 && i < row.size(); i += info().bands)
+      std::swap(row[i - 2], row[i]);
+  }
+
+ private:
+  cv::Mat picture_;
+  int row_ = 0;
+};
 
 }  // namespace
 
-cv::Mat read_picture(const std::string& path) {
-  const std::vector<std::uint8_t> bytes = read_image_file(path);
+std::unique_ptr<ImageRows> open_image(const std::string& path) {
+  if (extension_of(path) == ".npy") return open_npy_image(path);
+  std::ifstream file = open_to_read(path);
+  std::vector<std::uint8_t> bytes;
+  read_more(file, 16, bytes);  // looked at before the others, of which there may be many
+  check_is_image(path, bytes);
+  if (is_tiff(bytes)) {
+    if (std::unique_ptr<ImageRows> rows = open_tiff_image(path)) return rows;
+  }
+  while (file) read_more(file, 1 << 20, bytes);
+  if (file.bad()) throw Error("reading " + path + " failed");
   const ImageHeader header = read_image_header(path, bytes);
   checked_size(path, header, bytes.size());
-  cv::Mat picture = image_module().decode(bytes, header.is_grey);
+  cv::Mat picture = image_module().decode(bytes, header.is_plain);
   if (picture.empty()) throw Error(path + " is no image that can be read");
-  return picture;
+  return std::make_unique<PictureRows>(picture, header);
 }
 
 void write_picture(const OutputFile& file, const cv::Mat& picture) {
@@ -62,51 +92,81 @@ void write_picture(const OutputFile& file, const cv::Mat& picture) {
   written.finish();
 }
 
-Mask read_mask(const std::string& path) {
-  const cv::Mat image = read_picture(path);
-  Mask mask{Size(image.cols, image.rows), {}};
-  mask.pixels.reserve(image.total());
-  bool has_seeds = false;
-  const std::ptrdiff_t channels = image.channels();
-  for (int y = 0; y < image.rows; ++y) {
-    const cv::Mat set = image.row(y) != 0;
-    for (const std::uint8_t* pixel = set.data; pixel < set.data + set.cols * channels; pixel += channels) {
-      mask.pixels.push_back(*std::max_element(pixel, pixel + channels));
-      has_seeds = has_seeds || mask.pixels.back() != 0;
-    }
-  }
-  if (!has_seeds) throw Error(path + " has no pixel that is not zero: there is no seed");
-  return mask;
-}
-
 namespace {
 
-template <typename T>
-void add_darkness(const T* pixel, int pixels, int channels, std::vector<float>& values) {
-  constexpr float white = std::numeric_limits<T>::max();
-  for (const T* const end = pixel + std::ptrdiff_t{pixels} * channels; pixel < end; pixel += channels) {
-    const float grey = channels == 1 ? pixel[0] : 0.114F * pixel[0] + 0.587F * pixel[1] + 0.299F * pixel[2];
-    values.push_back(std::max(0.0F, white - grey));
-  }
+std::vector<std::string> notes_of(const std::string& path, const ImageInfo& info, bool has_threshold) {
+  std::vector<std::string> notes;
+  if (info.pages > 1) notes.push_back(fmt::format("{}: of {} pages the first is read", path, info.pages));
+  if (has_threshold) return notes;
+  if (info.is_white_zero)
+    notes.push_back(path +
+                    ": 0 is shown as white, and as everywhere the pixels that are not 0 are the seeds");
+  if (info.is_lossy)
+    notes.push_back(path + ": JPEG makes other numbers of zeros; --threshold 127 leaves them out");
+  return notes;
 }
 
 }  // namespace
 
-DensityImage read_darkness(const std::string& path) {
-  const cv::Mat image = read_picture(path);
-  if (image.depth() != CV_8U && image.depth() != CV_16U) {
-    throw Error(path + " is no picture of 8 or 16 bits; give other numbers as .npy");
+Mask read_mask(const std::string& path, std::optional<double> threshold) {
+  const std::unique_ptr<ImageRows> rows = open_image(path);
+  const ImageInfo& info = rows->info();
+  const std::size_t all = info.bands, colors = all - (info.has_alpha ? 1 : 0);
+  if (info.depth > 1) throw Error(path + " holds a volume; masks are planes");
+  if (colors > 4) {
+    throw Error(fmt::format("{} has {} bands; a mask has one, or the colours of a picture", path, colors));
   }
-  DensityImage dark{Size(image.cols, image.rows), {}};
-  dark.values.reserve(image.total());
-  for (int y = 0; y < image.rows; ++y) {
-    if (image.depth() == CV_8U) {
-      add_darkness(image.ptr<std::uint8_t>(y), image.cols, image.channels(), dark.values);
-    } else {
-      add_darkness(image.ptr<std::uint16_t>(y), image.cols, image.channels(), dark.values);
+  Mask mask{info.size, {}, notes_of(path, info, threshold.has_value())};
+  mask.pixels.reserve(info.size.pixels());
+  std::vector<double> row;
+  bool has_seeds = false;
+  for (int y = 0; y < info.size.height(); ++y) {
+    rows->next(row);
+    for (const double* pixel = row.data(); pixel < row.data() + row.size(); pixel += all) {
+      const bool is_there = !info.has_alpha || pixel[colors] != 0;
+      const bool is_set =
+          is_there && std::any_of(pixel, pixel + colors, [&](double number) {
+            return !rows->is_absent(number) && (threshold ? number > *threshold : number != 0);
+          });
+      mask.pixels.push_back(is_set ? 1 : 0);
+      has_seeds = has_seeds || is_set;
     }
   }
-  return dark;
+  if (has_seeds) return mask;
+  throw Error(fmt::format("{} has no pixel that is {}{}: there is no seed", path,
+                          threshold ? fmt::format("greater than {}", *threshold) : "not zero",
+                          info.pages > 1 ? fmt::format(" in the first of its {} pages", info.pages) : ""));
+}
+
+DensityImage read_density(const std::string& path) {
+  const std::unique_ptr<ImageRows> rows = open_image(path);
+  const ImageInfo& info = rows->info();
+  const bool is_array = extension_of(path) == ".npy";
+  if (info.depth > 1) throw Error(path + " holds a volume; a density is of a plane");
+  const double white = info.type == "u1" ? 255 : info.type == "u2" ? 65535 : 0;
+  const std::size_t all = info.bands, colors = all - (info.has_alpha ? 1 : 0);
+  if (!is_array && (white == 0 || (colors != 1 && colors != 3)))
+    throw Error(path + " is no picture of 8 or 16 bits, grey or in colours; give other numbers as .npy");
+  DensityImage density{info.size, {}};
+  density.values.reserve(info.size.pixels());
+  std::vector<double> row;
+  for (int y = 0; y < info.size.height(); ++y) {
+    rows->next(row);
+    for (const double* pixel = row.data(); pixel < row.data() + row.size(); pixel += all) {
+      const double grey = colors == 1 ? pixel[0] : 0.299 * pixel[0] + 0.587 * pixel[1] + 0.114 * pixel[2];
+      const double dark = info.is_white_zero ? grey : std::max(0.0, white - grey);
+      const double weight = is_array                ? pixel[0]
+                            : rows->is_absent(grey) ? 0
+                            : info.has_alpha        ? dark * pixel[colors] / white
+                                                    : dark;
+      if (!(weight >= 0 && std::isfinite(weight))) {
+        throw Error(fmt::format("{} holds {} at pixel ({}, {}); a density has finite numbers of at least 0",
+                                path, weight, (pixel - row.data()) / static_cast<std::ptrdiff_t>(all), y));
+      }
+      density.values.push_back(static_cast<float>(weight));
+    }
+  }
+  return density;
 }
 
 }  // namespace vorocl::command

@@ -1,8 +1,9 @@
 // Picture files: what they say of themselves in their first bytes, looked at before anything is decoded;
-// reading and writing them; and masks.
+// writing them; and masks and densities.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct ImageHeader {
   std::int64_t height = 0;
   std::uint64_t bits_per_pixel = 0;  // as they are before they are compressed
   bool is_compressed = true;
-  bool is_grey = false;  // there are no colours, in a palette neither
+  bool is_lossy = false;
+  bool is_plain = false;  // decoded as it is: one channel if it is grey, with alpha if it has that
 };
 
 /// Throws Error unless a file that starts like this is a PNG, JPEG, BMP, TIFF or PNM (PBM, PGM, PPM) file:
@@ -38,27 +40,26 @@ Size checked_size(const std::string& path, const ImageHeader& header, std::uint6
 /// The extensions of files that a picture can be written to.
 const std::vector<std::string>& picture_extensions();
 
-/// One channel of an image without colours, else three (BGR), of the file's depth, as the file has them: not
-/// turned by what it says of the camera. Throws Error if the file cannot be read.
-cv::Mat read_picture(const std::string& path);
-
 /// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
 void write_picture(const OutputFile& file, const cv::Mat& picture);
 
-/// Each pixel that is not zero is a seed.
+/// Which pixels of an image are seeds.
 struct Mask {
   Size size;
   std::vector<std::uint8_t> pixels;  // row-major, 0 where there is no seed
+  std::vector<std::string> notes;    // of what a user may not expect of the file
 };
 
-/// From any image that OpenCV reads; a pixel is set if one of its colour channels is not 0 (an alpha channel
-/// does not count). Memory: a byte per pixel besides the decoded image. Throws Error if the file cannot be
-/// read or no pixel is set.
-Mask read_mask(const std::string& path);
+/// From any image, or .npy: a pixel is set if one of its bands is not 0, or greater than the threshold. None
+/// is where a pixel is transparent, or a number is NaN or what the file says for no data. Memory: a byte per
+/// pixel, and for files that OpenCV decodes the decoded image. Throws Error if the file cannot be read or no
+/// pixel is set.
+Mask read_mask(const std::string& path, std::optional<double> threshold = std::nullopt);
 
-/// The darkness of each pixel of any image that OpenCV reads in 8 or 16 bits: how far its grey value (ITU-R
-/// BT.601) is from white, as ink on paper. An alpha channel does not count. Throws Error if the file cannot
-/// be read or has no such bits.
-DensityImage read_darkness(const std::string& path);
+/// How much pixels weigh: the numbers of .npy, or the darkness of pixels of 8 or 16 bits: how far its grey
+/// value (ITU-R BT.601) is from white, as ink on paper, and less where it is transparent. No data weigh
+/// nothing. Throws Error if the file cannot be read or has other pixels, or a number is negative or not
+/// finite.
+DensityImage read_density(const std::string& path);
 
 }  // namespace vorocl::command
