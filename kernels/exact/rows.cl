@@ -140,7 +140,7 @@ static inline void find_row(NearestInRows* rows, int row) {
   const short16 right_first = clamp(first_column - left, zero, one) & clamp(right - first_column + one, zero, one);
   const short16 nearer = (left + right - BIN_LANES * (short)2 - right_first) >> (short16)(short)15;
 #else
-  const short16 nearer = BIN_LANES * (short)2 > left + right;
+  const short16 nearer = (left + right - BIN_LANES * (short)2) >> (short16)(short)15;
 #endif
   const short16 offset = select(left, right, nearer) - BIN_LANES;
   rows->along_x[row] =

@@ -80,9 +80,12 @@ static inline uv places_of(extent_t e, images_t images, uv seeds) {
 // The same of the boxes of nodes, cut at the ends of the places.
 static inline void place_boxes(extent_t e, images_t images, uv* low, uv* high) {
 #ifdef VOROCL_PERIODIC
-  const iv lx = max(xs_of(*low) + images.x, 0), hx = min(xs_of(*high) + images.x, e.width + 2 * MARGIN_X(e) - 1);
-  const iv ly = max(ys_of(*low) + images.y, 0), hy = min(ys_of(*high) + images.y, e.height + 2 * MARGIN_Y(e) - 1);
-  const iv lz = max(zs_of(*low) + images.z, 0), hz = min(zs_of(*high) + images.z, e.depth + 2 * MARGIN_Z(e) - 1);
+  const iv lx = max(xs_of(*low) + images.x, (iv)0);
+  const iv hx = min(xs_of(*high) + images.x, (iv)(e.width + 2 * MARGIN_X(e) - 1));
+  const iv ly = max(ys_of(*low) + images.y, (iv)0);
+  const iv hy = min(ys_of(*high) + images.y, (iv)(e.height + 2 * MARGIN_Y(e) - 1));
+  const iv lz = max(zs_of(*low) + images.z, (iv)0);
+  const iv hz = min(zs_of(*high) + images.z, (iv)(e.depth + 2 * MARGIN_Z(e) - 1));
   const iv none = is_empty(*low) | (lx > hx) | (ly > hy) | (lz > hz);
   *low = select(as_uint8(lz) << SHIFT_Z | as_uint8(ly) << VOROCL_BITS_X | as_uint8(lx), (uv)EMPTY, none);
   *high = select(as_uint8(hz) << SHIFT_Z | as_uint8(hy) << VOROCL_BITS_X | as_uint8(hx), (uv)EMPTY, none);

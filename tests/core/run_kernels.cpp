@@ -1,5 +1,6 @@
-// Launches every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh),
-// and fails if the sources hold a kernel that was not launched.
+// Launches every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh).
+// Fails if the sources hold a kernel that was not launched, and if labels are wrong, because a checker then
+// watches other work than a device does.
 #include <dlfcn.h>
 
 #include <cmath>
@@ -9,11 +10,15 @@
 
 #include "all_measures.hpp"
 #include "brute_force.hpp"
+#include "brute_force_of_volumes.hpp"
 #include "list_length.hpp"
 #include "reference.hpp"
+#include "reference_flood.hpp"
 #include "runtime/kernel_sources.hpp"
 #include "runtime/opencl_info.hpp"
 #include "runtime/program.hpp"
+#include "seed_tree.hpp"
+#include "true_positions.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;
@@ -51,26 +56,48 @@ std::set<std::string> kernels_in_the_sources(const Device& device) {
   return kernels;
 }
 
+void expect(const Labels& labels, const Labels& expected, const std::string& what) {
+  const std::size_t wrong = count_differences(labels, expected);
+  if (wrong != 0) throw Error(std::to_string(wrong) + " labels of " + what + " are wrong");
+}
+
 void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
-  Seeds seeds(device, grid, centres(random_pixels(grid, 9, 1)));
-  Diagram diagram(device, grid);
+  const std::vector<Pixel> pixels = random_pixels(grid, 9, 1);
+  const Labels exact = brute_force(grid, pixels, metric);
+  Seeds seeds(device, grid, centres(pixels));
   for (const Method& method : methods()) {
     for (const auto mix : {NeighbourhoodMix::moore, NeighbourhoodMix::von_neumann}) {
       if (method.name == "low-resolution" && mix == NeighbourhoodMix::von_neumann) continue;
-      method.run(seeds, diagram, {metric, mix});
+      Diagram diagram(device, grid);
+      const Report report = method.run(seeds, diagram, {metric, mix});
+      if (method.exact) {
+        expect(diagram.read(), exact, method.name);
+      } else if (method.plan == nullptr) {
+        expect(diagram.read(), reference_low_resolution(grid, pixels, metric), method.name);
+      } else {
+        const Plan plan = method.plan(grid, report.waves(), {metric, mix});
+        expect(diagram.read(), reference_flood(grid, pixels, plan, metric), method.name);
+      }
     }
   }
-  reference_labels(seeds, metric);
+  expect(reference_labels(seeds, metric), exact, "the reference");
+  Diagram diagram(device, grid);
   DynamicJumpFloodingOptions options;
   options.metric = metric;
+  dynamic_jump_flooding(seeds, diagram, options);
   random_step(seeds, 2, Border::reflect, 1, 1);
   dynamic_jump_flooding(seeds, diagram, options);
+  const std::vector<Pixel> moved =
+      pixels_of(transformed(seeds.read(), [](const auto& point) { return *point; }));
+  const Verdict verdict = judge(grid, moved, metric, diagram.read(), brute_force(grid, moved, metric));
+  if (verdict.invalid + verdict.too_near + verdict.unlabelled > 0)
+    throw Error("labels of moved seeds are wrong");
   seeds.move_to(std::vector<std::optional<Point>>{Point{1, 1}, std::nullopt, Point{2, 2}});
   dynamic_jump_flooding(seeds, diagram, options);
   options.reach = Reach::paper;  // which looks for pixels that seeds which vanish leave without a label
   seeds.move_to({{1, 1}});
   dynamic_jump_flooding(seeds, diagram, options);
-  diagram.wait();
+  expect(diagram.read(), Labels(grid.pixels(), 0), "the last seed");
 }
 
 /// Seeds on every pixel at the left, some in the middle and none at the right: the exact engine takes another
@@ -80,10 +107,11 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   for (Pixel pixel : random_pixels({40, grid.height()}, 40, 4)) pixels.push_back({pixel.x + 35, pixel.y});
   pixels.push_back(pixels.back());
   const Seeds seeds(device, grid, centres(pixels));
+  const Labels expected = tree_labels(grid, pixels, metric);
   for (const ListLength length : both_lengths) {
     Diagram diagram(with_lists(device, length), grid);
     exact_diagram(seeds, diagram, {metric});
-    diagram.wait();
+    expect(diagram.read(), expected, "exact diagrams");
   }
 }
 
@@ -99,8 +127,11 @@ void make_windows(const Device& device, Metric metric) {
       for (int i = 0; i < 90; ++i)
         points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
       const Seeds seeds(device, window.grid(), points);
+      const Labels expected = brute_force(window, pixels_of(points), metric);
       exact_diagram(seeds, by_short_lists, {metric});
       exact_diagram(seeds, diagram, {metric});
+      expect(by_short_lists.read(), expected, "windows by short lists");
+      expect(diagram.read(), expected, "windows");
       AllMeasures measures;
       measures.take(diagram, by_short_lists);
       if (distance < 1000) measures.read();  // farther, whole numbers are too short
@@ -127,8 +158,12 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
                                Window(Grid(30, 18, Periodic::xy), -3, -2, 40, 25)}) {
     Seeds seeds(device, window.grid(), points, Outside::count, Snap::none);
     Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
+    const Labels expected =
+        labels_by_definition(window, positions_of(window.grid(), {points.begin(), points.end()}), metric);
     exact_diagram(seeds, by_short_lists, {metric});
     exact_diagram(seeds, diagram, {metric});
+    expect(by_short_lists.read(), expected, "points by short lists");
+    expect(diagram.read(), expected, "points");
     CellSumsResult sums;
     CellShapesResult shapes;
     CellStatisticsResult statistics;
@@ -142,6 +177,19 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
     device.finish();
     if (window.is_whole() && metric == Metric::euclidean) relax_by_weights(seeds, diagram);
   }
+}
+
+/// On a circle, whose points tie at many pixels: the order of those in a list decides.
+void make_ring(const Device& device, Metric metric) {
+  const Grid grid(96, 64);
+  std::vector<Point> points;
+  for (int i = 0; i < 300; ++i)
+    points.push_back(
+        {48 + 25 * std::cos(std::acos(-1.0) * i / 150), 32 + 25 * std::sin(std::acos(-1.0) * i / 150)});
+  Diagram diagram(device, grid);
+  exact_diagram(Seeds(device, grid, points, Outside::count, Snap::none), diagram, {metric});
+  expect(diagram.read(),
+         labels_by_definition(grid, positions_of(grid, {points.begin(), points.end()}), metric), "a ring");
 }
 
 /// Of seeds of which one is absent. Blocks are small here.
@@ -163,7 +211,12 @@ void make_volumes(const Device& device, const Grid& grid) {
   for (const std::size_t count : {9u, 600u}) {
     const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
     std::vector<Point3> points;
-    for (const auto& voxel : seeds.read_voxels()) points.push_back(*voxel);
+    std::vector<At> voxels;
+    for (const auto& voxel : seeds.read_voxels()) {
+      points.push_back(*voxel);
+      voxels.push_back({static_cast<int>(voxel->x), static_cast<int>(voxel->y), static_cast<int>(voxel->z)});
+    }
+    const Labels expected = brute_force(grid, voxels);
     Seeds in_a_part(device, grid, points);
     Diagram flooded(device, grid), exact(device, grid),
         by_short_lists(with_lists(device, ListLength::two_entries), grid);
@@ -171,6 +224,8 @@ void make_volumes(const Device& device, const Grid& grid) {
     jump_flooding(in_a_part, flooded);
     exact_diagram(in_a_part, by_short_lists);
     exact_diagram(in_a_part, exact);
+    expect(by_short_lists.read(), expected, "volumes by short lists");
+    expect(exact.read(), expected, "volumes");
     DistanceErrorsResult errors;
     Field<std::int32_t> squares;
     Field<float> distances;
@@ -239,8 +294,12 @@ void measure_many_cells(const Device& device, const Grid& grid) {
 
 void make_tiles(const Device& device, Metric metric) {
   const Grid grid(40, 25);
-  exact_tiles(device, PlaneSeeds(grid, {{3, 3}, {30, 20}, {17, 9}}), Tiling(grid, 16),
-              [](const TileLabels&) {}, {metric});
+  const std::vector<Point> points = {{3, 3}, {30, 20}, {17, 9}};
+  const auto check = [&](const TileLabels& tile) {
+    expect({tile.labels, tile.labels + tile.tile.pixels()}, brute_force(tile.tile, pixels_of(points), metric),
+           "tiles");
+  };
+  exact_tiles(device, PlaneSeeds(grid, points), Tiling(grid, 16), check, {metric});
   device.finish();
 }
 
@@ -275,6 +334,7 @@ int main() {
     make_exact_diagrams(shaped, Grid(140, 66, Periodic::xy), other);
     make_windows(shaped, metric);
     make_diagrams_of_points(shaped, metric);
+    if (!in_groups) make_ring(shaped, metric);
     make_tiles(shaped, metric);
     for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
       measure(shaped, grid, metric);

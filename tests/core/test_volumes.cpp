@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 
+#include "brute_force_of_volumes.hpp"
 #include "fixture.hpp"
 #include "list_length.hpp"
 #include "runtime/pixel_grid.hpp"
@@ -17,10 +18,6 @@ using namespace vorocl;
 namespace {
 
 using Labels = std::vector<std::uint32_t>;
-
-struct At {
-  int x, y, z;
-};
 
 struct Case {
   std::string name;
@@ -63,51 +60,12 @@ Grid periodic(const Grid& grid, bool x, bool y, bool z) {
           z ? grid.z().periodic() : grid.z()};
 }
 
-/// From one coordinate to another, as long as distances have it: the shorter way round along a periodic axis.
-std::int64_t way(const Axis& axis, std::int64_t from, std::int64_t to) {
-  const std::int64_t inside = std::abs(from - to);
-  return axis.spacing() * (axis.is_periodic() ? std::min(inside, axis.pixels() - inside) : inside);
-}
-
 Grid spaced(const Grid& grid, int x, int y, int z) {
   return {grid.x().spaced(x), grid.y().spaced(y), grid.z().spaced(z)};
 }
 
-std::int64_t squared_distance(const Grid& grid, const At& a, const At& b) {
-  const std::int64_t x = way(grid.x(), a.x, b.x), y = way(grid.y(), a.y, b.y), z = way(grid.z(), a.z, b.z);
-  return x * x + y * y + z * z;
-}
-
-constexpr std::int64_t none = std::int64_t{1} << 40;
-
-/// Every voxel against every seed, in the order of the tie rule: only what is nearer takes a voxel.
-Labels brute_force(const Grid& grid, const std::vector<At>& seeds) {
-  std::vector<std::uint32_t> order(seeds.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const At &one = seeds[a], &other = seeds[b];
-    return std::tie(one.z, one.y, one.x) < std::tie(other.z, other.y, other.x);
-  });
-  Labels labels(grid.pixels(), no_label);
-  std::vector<std::int64_t> least(labels.size(), none);
-  for (const std::uint32_t id : order) {
-    std::size_t at = 0;
-    for (int z = 0; z < grid.depth(); ++z) {
-      for (int y = 0; y < grid.height(); ++y) {
-        for (int x = 0; x < grid.width(); ++x, ++at) {
-          const std::int64_t distance = squared_distance(grid, {x, y, z}, seeds[id]);
-          if (distance >= least[at]) continue;
-          least[at] = distance;
-          labels[at] = id;
-        }
-      }
-    }
-  }
-  return labels;
-}
-
-/// The same, axis by axis: each voxel takes the best of its line's, of which there is one for each line of
-/// the axes before.
+/// As brute_force() does, axis by axis: each voxel takes the best of its line's, of which there is one for
+/// each line of the axes before.
 Labels line_by_line(const Grid& grid, const std::vector<At>& seeds) {
   Labels labels(grid.pixels(), no_label);
   for (std::size_t id = seeds.size(); id-- > 0;) {
@@ -120,7 +78,7 @@ Labels line_by_line(const Grid& grid, const std::vector<At>& seeds) {
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(labels.size()); ++i) {
       const std::int64_t voxel[] = {i % sides[0], i / sides[0] % sides[1], i / strides[2]};
       const At at = {static_cast<int>(voxel[0]), static_cast<int>(voxel[1]), static_cast<int>(voxel[2])};
-      std::int64_t least = none;
+      std::int64_t least = INT64_MAX;
       for (std::int64_t j = 0; j < sides[axis];
            ++j) {  // the first one stays: axes come in the order of the rule
         const std::uint32_t id = before[static_cast<std::size_t>(i + (j - voxel[axis]) * strides[axis])];
@@ -225,7 +183,7 @@ void check_some(const Labels& labels, const Grid& grid, const std::vector<At>& s
                 const std::vector<At>& voxels) {
   const auto order = [&](std::size_t id) { return std::tie(seeds[id].z, seeds[id].y, seeds[id].x); };
   for (const At& voxel : voxels) {
-    std::int64_t least = none;
+    std::int64_t least = INT64_MAX;
     std::size_t nearest = 0;
     for (std::size_t id = 0; id < seeds.size(); ++id) {
       const std::int64_t distance = squared_distance(grid, voxel, seeds[id]);

@@ -48,7 +48,7 @@ NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, const
       const int8 by_x = (x[i] < own_x) | ((x[i] == own_x) & by_id);
       const int8 by_y = (y[i] < own_y) | ((y[i] == own_y) & by_x);
       const int8 comes_before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_y);
-      rank = select(rank, rank + 1, comes_before);  // not less a comparison, of whose bits Oclgrind makes other numbers
+      rank = select(rank, rank + 1, comes_before);
     }
     store_uints(as_uint8(rank), places->rank + k);
   }
@@ -70,7 +70,7 @@ static inline void rank_places(const scene_t* scene, const uint* at, places_t* p
   const int most = 1 << (Y_BITS - 1), first_y = y[0];
   int order[RANK_ROOM];
   for (int k = 0; k < count; k += 8) {
-    const int8 way = clamp(sub_sat(vload8(0, y + k), (int8)first_y), -most, most - 1) + most;
+    const int8 way = clamp(sub_sat(vload8(0, y + k), (int8)first_y), (int8)-most, (int8)(most - 1)) + most;
     store_ints((vload8(0, places->low + k) << Y_BITS) + way, order + k);
   }
   int8 sum = 0;
