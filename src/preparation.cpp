@@ -9,6 +9,7 @@
 #include "runtime/binary_cache.hpp"
 #include "runtime/program.hpp"
 #include "vorocl/analysis.hpp"
+#include "vorocl/distance_transform.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/motion.hpp"
@@ -127,6 +128,28 @@ void prepare_volumes(const Device& device) {
   }
 }
 
+/// Images of planes and volumes, by keys of 32 and of 64 bits; those of masks as seeds by both metrics.
+void prepare_images(const Device& device) {
+  for (const Grid& grid : {Grid(300, 270), Grid(40, 40, 40)}) {
+    std::vector<std::uint8_t> image(grid.pixels(), 1);
+    image.front() = 0;
+    std::vector<float> distances(grid.pixels());
+    TransformTargets targets;
+    targets.distances = {distances.data(), PixelType::float32};
+    for (const double length : {1.0, 999.0}) {
+      DistanceTransform transform(device, grid, {length, 1000, 1000});
+      transform.run({image.data(), PixelType::uint8}, targets);
+    }
+    for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
+      if (device.tuning().shape == Shape::group || (grid.is_volume() && metric == Metric::manhattan))
+        continue;
+      Diagram diagram(device, grid);
+      exact_diagram(Seeds::from_mask(device, grid, image), diagram, {metric});
+      diagram.wait();
+    }
+  }
+}
+
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
@@ -174,6 +197,7 @@ std::size_t prepare_programs(const Device& device, const PreparationPart& part) 
     prepare_windows(device, specialisations[i]);
     if (i == 0) {
       prepare_volumes(device);
+      prepare_images(device);
       prepare_exact_cells(device);
     }
   }

@@ -5,6 +5,7 @@
 #include "vorocl/analysis.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/diagram.hpp"
+#include "vorocl/distance_transform.hpp"
 #include "vorocl/dynamic_jump_flooding.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/exact_diagram.hpp"

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/seeds_state.hpp"
+#include "masks/marks.hpp"
 #include "runtime/buffer.hpp"
 
 namespace vorocl {
@@ -21,23 +22,12 @@ PixelGrid pixels_of(const Grid& grid, const char* what) {
   return PixelGrid{Window(grid)};
 }
 
-/// The voxels of a mask, slice after slice.
-std::vector<std::uint32_t> marked_voxels(const PixelGrid& size, const std::vector<std::uint8_t>& mask) {
-  const VoxelBits bits(size);
-  std::vector<std::uint32_t> voxels;
-  // Room for one more, which is added when they are uploaded.
-  voxels.reserve(mask.size() -
-                 static_cast<std::size_t>(std::count(mask.begin(), mask.end(), std::uint8_t{0})) + 1);
-  const std::uint8_t* mark = mask.data();
-  for (int z = 0; z < size.depth(); ++z) {
-    for (int y = 0; y < size.height(); ++y) {
-      const std::uint32_t row = bits.pack(0, y, z);
-      for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(size.width()); ++x) {
-        if (*mark++ != 0) voxels.push_back(row + x);
-      }
-    }
-  }
-  return voxels;
+/// Where kernels cannot go round the ends themselves, the host places the images.
+void place_images_of_long_periods(SeedsState& state, const PixelGrid& pixels) {
+  const Grid& grid = state.grid();
+  if (grid.is_volume() || kernels_go_round(grid, pixels)) return;
+  state.place(grid, std::make_shared<const std::vector<PlanePosition>>(state.frame()->read_pixels()),
+              nullptr);
 }
 
 }  // namespace
@@ -99,27 +89,24 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
     throw Error("the mask has " + std::to_string(mask.size()) + " pixels, the grid " +
                 std::to_string(grid.pixels()));
   }
-  const PixelGrid size = pixels_of(grid, "a mask");
-  Seeds seeds = Internal::no_seeds(device, grid);
-  if (grid.is_volume()) {
-    seeds.state().place_in_volume(grid, marked_voxels(size, mask));
-    return seeds;
-  }
-  const auto pixels = seeds.state().list_of_pixels();
-  std::size_t i = 0;
-  for (int y = 0; y < size.height(); ++y) {
-    for (int x = 0; x < size.width(); ++x) {
-      if (mask[i++] != 0) pixels->push_back({{x, y}});
-    }
-  }
-  seeds.state().place(grid, pixels, nullptr);
-  return seeds;
+  pixels_of(grid, "a mask");
+  const std::size_t bytes = mask.size();
+  if (!shares_memory(device)) return from_mask(device, grid, allocate_with(device, mask, "a mask"));
+  // Kernels read it alone, and are done when the marks are counted.
+  return from_mask(device, grid, buffer_at(device, const_cast<std::uint8_t*>(mask.data()), bytes, "a mask"));
 }
 
 Seeds Seeds::from_mask(const Device& device, const Grid& grid, const cl::Buffer& mask) {
-  const std::size_t pixels = pixels_of(grid, "a mask").pixels();
-  check_foreign_buffer(device, mask, pixels, "the buffer of the mask", Access::read);
-  return from_mask(device, grid, download<std::uint8_t>(device, mask, pixels));
+  const PixelGrid pixels = pixels_of(grid, "a mask");
+  check_foreign_buffer(device, mask, pixels.pixels(), "the buffer of the mask", Access::read);
+  Seeds seeds = Internal::no_seeds(device, grid);
+  SeedsState& state = seeds.state();
+  const auto marks = std::make_shared<Marks>(device, ImageShape(pixels));
+  marks->mark(state.kernels, mask, PixelType::uint8, Marked::non_zeros);
+  marks->rank(state.kernels);
+  state.place_marks(marks);
+  place_images_of_long_periods(state, pixels);
+  return seeds;
 }
 
 Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, std::uint64_t rng_seed) {
@@ -139,11 +126,7 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
                     pixels.width(), pixels.height(), key);
   state.place_on_device(count, positions);
-  // Where kernels cannot go round the ends themselves, the host places the images.
-  if (!kernels_go_round(grid, pixels)) {
-    state.place(grid, std::make_shared<const std::vector<PlanePosition>>(state.frame()->read_pixels()),
-                nullptr);
-  }
+  place_images_of_long_periods(state, pixels);
   return seeds;
 }
 

@@ -55,6 +55,8 @@ struct Way {
   std::uint64_t stretch = 0;  // a new one begins with each move that only the device knows
 };
 
+struct Marks;
+
 /// The placements of a frame in windows that were asked for.
 class Placements;
 
@@ -80,6 +82,9 @@ struct SeedsFrame {
   /// Where in these pixels the points lie; null if the seeds are snapped to the centres of an untilted
   /// grid's.
   std::shared_ptr<const std::vector<Fraction>> fractions = nullptr;
+
+  /// The marks whose numbers are the ids; null unless the seeds were made from a mask.
+  std::shared_ptr<const Marks> marks = nullptr;
 
   /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
   std::shared_ptr<const Placement> whole = nullptr;

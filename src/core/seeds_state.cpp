@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/snapping.hpp"
+#include "masks/marks.hpp"
 
 namespace vorocl {
 
@@ -298,6 +299,17 @@ void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Bu
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(count, true));
 }
 
+void SeedsState::place_marks(std::shared_ptr<const Marks> marks) {
+  const std::size_t count = marks->count();
+  check_count(count);
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(count);
+  marks->list(kernels, PixelGrid(Window(grid())), *positions);
+  place_on_device(count, positions);
+  SeedsFrame marked = *frame_;
+  marked.marks = std::move(marks);
+  frame_ = std::make_shared<const SeedsFrame>(std::move(marked));
+}
+
 std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
   const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
   for (std::shared_ptr<cl::Buffer>& room : rooms_) {
@@ -322,6 +334,7 @@ void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way)
   SeedsFrame next = *frame_;
   next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), positions, nullptr});
   next.given = nullptr;
+  next.marks = nullptr;
   next.pixels = nullptr;
   next.fractions = nullptr;
   next.before = nullptr;

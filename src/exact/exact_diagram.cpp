@@ -7,6 +7,7 @@
 #include "exact/index.hpp"
 #include "exact/outer.hpp"
 #include "exact/points.hpp"
+#include "masks/exact_diagram.hpp"
 #include "runtime/buffer.hpp"
 #include "volumes/exact_diagram.hpp"
 // Last: it defines macros.
@@ -30,6 +31,8 @@ struct ExactWorkspace {
 Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options) {
   Filling filling(seeds, diagram, options.metric, "exact");
   DiagramState& state = Internal::state(diagram);
+  if (state.grid.is_volume()) check_exact_volume(filling, state);
+  if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
   if (state.grid.is_volume()) return exact_diagram_of_volume(filling, state);
   if (filling.seeds().fractions) return exact_diagram_of_points(filling, state);
   const Device& device = state.device;

@@ -40,7 +40,7 @@ std::size_t chunks_of(std::size_t seeds) { return seeds < 4096 ? 1 : seeds < 655
 
 }  // namespace
 
-Report exact_diagram_of_volume(Filling& filling, DiagramState& state) {
+void check_exact_volume(const Filling& filling, const DiagramState& state) {
   if (filling.metric() != Metric::euclidean) {
     throw Error("exact diagrams of volumes are Euclidean; jump flooding takes the Manhattan metric");
   }
@@ -48,6 +48,9 @@ Report exact_diagram_of_volume(Filling& filling, DiagramState& state) {
     throw Error("exact diagrams of volumes are made by CPUs alone, and " + state.device.name() +
                 " is tuned as a GPU: take jump flooding, or a CPU");
   }
+}
+
+Report exact_diagram_of_volume(Filling& filling, DiagramState& state) {
   const PixelGrid& grid = filling.placement().grid;
   const cl::Buffer& positions = *filling.placement().positions;
   const std::size_t seeds = filling.seeds().size, regions = regions_of(grid), blocks = padded_blocks(grid);

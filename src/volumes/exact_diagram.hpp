@@ -5,7 +5,10 @@
 
 namespace vorocl {
 
-/// Fills the diagram of a volume. Throws Error for the Manhattan metric, and on devices of the group shape.
+/// Throws Error for the Manhattan metric, and on devices of the group shape.
+void check_exact_volume(const Filling& filling, const DiagramState& state);
+
+/// Fills the diagram of a volume that was checked.
 Report exact_diagram_of_volume(Filling& filling, DiagramState& state);
 
 }  // namespace vorocl

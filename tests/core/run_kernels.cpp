@@ -247,6 +247,26 @@ void make_volumes(const Device& device, const Grid& grid) {
   }
 }
 
+/// Images of planes and volumes by keys of 32 and of 64 bits, and seeds of a mask.
+void transform_images(const Device& device) {
+  for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Periodic::xy), Grid(18, 9, 6)}) {
+    std::vector<std::uint8_t> image(grid.pixels(), 1);
+    for (std::size_t i = 0; i < image.size(); i += 1 + i % 67) image[i] = 0;
+    std::vector<float> distances(image.size());
+    std::vector<std::uint32_t> ranks(image.size());
+    TransformTargets targets;
+    targets.distances = {distances.data(), PixelType::float32};
+    targets.ranks = {ranks.data(), PixelType::uint32};
+    for (const double length : {1.0, 999.0}) {
+      DistanceTransform transform(device, grid, {length, 1000, 1000});
+      transform.run({image.data(), PixelType::uint8}, targets);
+    }
+    Diagram diagram(device, grid);
+    exact_diagram(Seeds::from_mask(device, grid, image), diagram);
+    diagram.wait();
+  }
+}
+
 /// In buffers: good points, good ones that have moved, and a bad one.
 void make_seeds(const Device& device, const Grid& grid) {
   Seeds::random(device, grid, 5, 1).read();
@@ -343,6 +363,7 @@ int main() {
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
+  transform_images(device);
   cut_exact_cells(device);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;

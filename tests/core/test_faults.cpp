@@ -143,6 +143,41 @@ BOOST_AUTO_TEST_CASE(methods_that_fail_leave_a_diagram_as_never_filled) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(a_transform_that_fails_can_be_run_again) {
+  const std::vector<std::uint8_t> image = [] {
+    std::vector<std::uint8_t> pixels(grid.pixels(), 1);
+    for (std::size_t i = 0; i < pixels.size(); i += 97) pixels[i] = 0;
+    return pixels;
+  }();
+  const auto ranks_by = [&](DistanceTransform& transform) {
+    std::vector<std::uint32_t> ranks(image.size());
+    TransformTargets targets;
+    targets.ranks = {ranks.data(), PixelType::uint32};
+    transform.run({image.data(), PixelType::uint8}, targets);
+    return ranks;
+  };
+  DistanceTransform never_failed(test_device(), grid);
+  const std::vector<std::uint32_t> expected = ranks_by(never_failed);
+  std::optional<DistanceTransform> transform;
+  const auto start = [&] { transform.emplace(test_device(), grid); };
+  const auto judge = [&] { BOOST_TEST((ranks_by(*transform) == expected)); };
+  BOOST_TEST(fail_each_call(
+                 start, [&] { ranks_by(*transform); }, judge) >= 10);
+}
+
+BOOST_AUTO_TEST_CASE(masks_that_fail_to_be_seeds_can_be_taken_again) {
+  std::vector<std::uint8_t> mask(grid.pixels());
+  for (std::size_t i = 0; i < mask.size(); i += 97) mask[i] = 1;
+  const auto labels = [&] {
+    Diagram diagram(test_device(), grid);
+    exact_diagram(Seeds::from_mask(test_device(), grid, mask), diagram);
+    return diagram.read();
+  };
+  const std::vector<std::uint32_t> expected = labels();
+  const auto judge = [&] { BOOST_TEST((labels() == expected)); };
+  BOOST_TEST(fail_each_call([] {}, [&] { labels(); }, judge) >= 10);
+}
+
 BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
   const auto before = some_points(20), after = some_points(30);
   const auto values = transformed(after, [](const std::optional<Point>& point) {

@@ -1,0 +1,135 @@
+// MARKS: a bit for each pixel that others look for, in words of 16 pixels of a row, the lowest bit at the left; and the
+// number of marks of each row.
+
+#ifndef VOROCL_MASKS_MARKS
+#define VOROCL_MASKS_MARKS
+
+#include "masks/sizes.cl"
+
+typedef struct __attribute__((packed)) {
+  ulong v;
+} any_ulong;
+
+// Which of 8 bytes are zero, a bit each: a product gathers their bits.
+#define LOWEST_BITS 0x0101010101010101ul
+#define GATHERING 0x0102040810204080ul
+static inline uint zero_bytes(ulong bytes) {
+  bytes |= bytes >> 4;
+  bytes |= bytes >> 2;
+  bytes |= bytes >> 1;
+  return (uint)((~bytes & LOWEST_BITS) * GATHERING >> 56);
+}
+
+// Which of 16 pixels of the sizes that an image may have are zero. `sign`: of numbers whose sign does not count.
+static inline uint zeros_of_bytes(global const uchar* pixels) {
+  return zero_bytes(((global const any_ulong*)pixels)->v) | zero_bytes(((global const any_ulong*)(pixels + 8))->v) << 8;
+}
+static inline uint bits_of_lanes(char16 lanes) {
+  const ulong2 both = as_ulong2(~lanes);
+  return zero_bytes(both.x) | zero_bytes(both.y) << 8;
+}
+static inline uint zeros_of_shorts(global const ushort* pixels) {
+  return bits_of_lanes(convert_char16(vload16(0, pixels) == (ushort16)0));
+}
+static inline uint zeros_of_ints(global const uint* pixels, uint sign) {
+  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) == (uint16)0));
+}
+static inline uint zeros_of_longs(global const ulong* pixels, ulong sign) {
+  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) == (ulong16)0));
+}
+
+static inline bool is_zero(global const uchar* pixels, int bytes, bool has_sign, size_t at) {
+  switch (bytes) {
+    case 1: return pixels[at] == 0;
+    case 2: return ((global const ushort*)pixels)[at] == 0;
+    case 4: return (((global const uint*)pixels)[at] & (has_sign ? 0x7fffffffu : 0xffffffffu)) == 0;
+    default: return (((global const ulong*)pixels)[at] & (has_sign ? 0x7ffffffffffffffful : 0xfffffffffffffffful)) == 0;
+  }
+}
+
+static inline uint zeros_of_word(global const uchar* pixels, int bytes, bool has_sign, size_t at) {
+  switch (bytes) {
+    case 1: return zeros_of_bytes(pixels + at);
+    case 2: return zeros_of_shorts((global const ushort*)pixels + at);
+    case 4: return zeros_of_ints((global const uint*)pixels + at, has_sign ? 0x80000000u : 0);
+    default: return zeros_of_longs((global const ulong*)pixels + at, has_sign ? 0x8000000000000000ul : 0);
+  }
+}
+
+// Marks the pixels that are zero, or those that are not (`wanted` is 0xffff then), of an image whose pixels have so
+// many bytes. Work-items share the rows.
+kernel void mark_pixels(global const uchar* restrict pixels, int bytes, int has_sign, uint wanted, int width, int rows,
+                        global ushort* restrict marks, global uint* restrict counts) {
+  const int parts = (int)get_global_size(0), id = (int)get_global_id(0), words = SHORTS_OF_ROW(width);
+  const int first = (int)((long)id * rows / parts), end = (int)((long)(id + 1) * rows / parts);
+  for (int row = first; row < end; ++row) {
+    const size_t start = (size_t)row * (size_t)width;
+    global ushort* const out = marks + (size_t)row * (size_t)words;
+    uint count = 0;
+    for (int i = 0; i < width / STRIP; ++i) {
+      const uint word = (zeros_of_word(pixels, bytes, has_sign != 0, start + (size_t)i * STRIP) ^ wanted) & 0xffff;
+      count += popcount(word);
+      out[i] = (ushort)word;
+    }
+    if (width % STRIP != 0) {
+      uint word = 0;
+      for (int x = width / STRIP * STRIP; x < width; ++x) {
+        const bool zero = is_zero(pixels, bytes, has_sign != 0, start + (size_t)x);
+        word |= (uint)(zero != (wanted != 0)) << x % STRIP;
+      }
+      count += popcount(word);
+      out[width / STRIP] = (ushort)word;
+    }
+    for (int i = STRIPS_OF(width); i < words; ++i) out[i] = 0;
+    counts[row] = count;
+  }
+}
+
+// Behind the counts of the rows stands that of all marks, and behind it how many marks come before each row.
+kernel void sum_counts(global uint* restrict counts, int rows) {
+  if (get_global_id(0) > 0) return;
+  uint marks = 0;
+  for (int row = 0; row < rows; ++row) {
+    counts[rows + 1 + row] = marks;
+    marks += counts[row];
+  }
+  counts[rows] = marks;
+}
+
+// THE RANK of a mark is its number in row-major order: `starts` says that of the first one of each 64 pixels of a row.
+kernel void start_words(global const ulong* restrict marks, global const uint* restrict counts, int rows, int words,
+                        global uint* restrict starts) {
+  const int row = (int)get_global_id(0);
+  if (row >= rows) return;
+  const size_t first = (size_t)row * (size_t)words;
+  uint start = counts[rows + 1 + row];
+  for (int i = 0; i < words; ++i) {
+    starts[first + (size_t)i] = start;
+    start += (uint)popcount(marks[first + (size_t)i]);
+  }
+}
+
+static inline uint rank_of(global const ulong* marks, global const uint* starts, uint word, uint bit) {
+  return starts[word] + (uint)popcount(marks[word] & (((ulong)1 << bit) - 1));
+}
+
+// The positions of the marks, in the order of their ranks: x in the lowest bits, then y, then z; and one that is empty.
+kernel void list_marks(global const ushort* restrict marks, global const uint* restrict counts, int rows, int words,
+                       int height, int bits_x, int bits_y, uint empty, global uint* restrict positions) {
+  const int row = (int)get_global_id(0);
+  if (row > rows) return;
+  if (row == rows) {
+    positions[counts[rows]] = empty;
+    return;
+  }
+  const size_t first = (size_t)row * (size_t)words;
+  const uint start = (uint)(row / height) << (bits_x + bits_y) | (uint)(row % height) << bits_x;
+  uint rank = counts[rows + 1 + row];
+  for (int i = 0; i < words; ++i) {
+    for (uint rest = marks[first + (size_t)i]; rest != 0; rest &= rest - 1) {
+      positions[rank++] = start + (uint)(i * STRIP) + popcount((rest & -rest) - 1);
+    }
+  }
+}
+
+#endif

@@ -1,0 +1,72 @@
+// Along x: the nearest mark of each pixel's row, from bits.
+
+#ifndef VOROCL_MASKS_ROWS
+#define VOROCL_MASKS_ROWS
+
+#include "masks/sizes.cl"
+
+#define INLINE __attribute__((always_inline)) static inline
+#define LANE ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
+typedef struct __attribute__((packed)) {
+  ushort16 v;
+} any_ushort16;
+#define LOAD_SHORTS(p) (((global const any_ushort16*)(p))->v)
+#define STORE_SHORTS(values, p) (((global any_ushort16*)(p))->v = (values))
+
+// The nearer of the marks at the left and at the right; of two as near the one that comes first in the row. Along a
+// period of `period` columns they may lie beyond its ends.
+INLINE ushort16 nearer(int16 x, int16 last, int16 next, int period) {
+  if (period == 0) return convert_ushort16(select(next, last, x * 2 <= last + next));
+  const int16 a = last + select((int16)0, (int16)period, last < 0);
+  const int16 b = next - select((int16)0, (int16)period, next >= (int16)period);
+  return convert_ushort16(select(b, a, (x * 2 < last + next) | ((x * 2 == last + next) & (a <= b))));
+}
+
+// The place of the highest bit of 16 that is set, by the exponent of a float.
+INLINE int16 place_of_highest(int16 word) { return (as_int16(convert_float16(word)) >> 23) - 127; }
+static inline int lowest_of(uint word) { return (int)popcount((word & -word) - 1); }
+static inline int highest_of(uint word) { return 31 - (int)clz(word); }
+
+// Writes the column of the nearest mark for each pixel of a row that has one: of 16 pixels together, then those of the
+// next strip, so many values farther on.
+static inline void find_in_row(global const ushort* word, int width, bool is_periodic, global ushort* out,
+                               size_t stride) {
+  const int strips = STRIPS_OF(width), period = is_periodic ? width : 0;
+  // Marks that are not there are farther than any.
+  int none = 1 << 20, left = -none, right = -1;
+  if (is_periodic) {
+    int first = 0, last = strips - 1;
+    while (word[first] == 0) ++first;
+    while (word[last] == 0) --last;
+    none = width + first * STRIP + lowest_of(word[first]);
+    left = last * STRIP + highest_of(word[last]) - width;
+  }
+  for (int i = 0; i < strips; ++i) {
+    const uint w = word[i];
+    const int x0 = i * STRIP;
+    const int16 x = LANE + x0;
+    global ushort* const columns = out + (size_t)i * stride;
+    if (w == 0xffff) {
+      STORE_SHORTS(convert_ushort16(x), columns);
+      left = x0 + STRIP - 1;
+      continue;
+    }
+    if (right < x0 + STRIP) {  // the first mark behind the strip
+      int j = i + 1;
+      while (j < strips && word[j] == 0) ++j;
+      right = j < strips ? j * STRIP + lowest_of(word[j]) : none;
+    }
+    if (w == 0) {
+      STORE_SHORTS(nearer(x, (int16)left, (int16)right, period), columns);
+      continue;
+    }
+    const int16 up_to = ((int16)2 << LANE) - 1;
+    const int16 below = (int16)((int)w) & up_to, above = (int16)((int)w) & ~up_to;
+    const int16 last = select(place_of_highest(below) + x0, (int16)left, below == 0);
+    const int16 next = select(place_of_highest(above & -above) + x0, (int16)right, above == 0);
+    STORE_SHORTS(nearer(x, last, next, period), columns);
+    left = x0 + highest_of(w);
+  }
+}
+
+#endif

@@ -1,0 +1,18 @@
+// How many work-items share a pass of the mask engine: each has working memory of its own.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "runtime/opencl_info.hpp"
+#include "vorocl/device.hpp"
+
+namespace vorocl {
+
+inline std::size_t items_of(const Device& device) {
+  constexpr std::size_t least = 16, each_unit = 2;
+  const std::size_t units = device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+  return std::max(least, each_unit * units);
+}
+
+}  // namespace vorocl

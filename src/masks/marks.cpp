@@ -1,0 +1,119 @@
+#include "masks/marks.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "core/placement.hpp"
+#include "masks/items.hpp"
+#include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "masks/sizes.cl"
+
+namespace vorocl {
+
+std::size_t bytes_of(PixelType type) {
+  switch (type) {
+    case PixelType::uint8:
+      return 1;
+    case PixelType::uint16:
+      return 2;
+    case PixelType::uint32:
+    case PixelType::float32:
+      return 4;
+    case PixelType::uint64:
+    case PixelType::float64:
+      return 8;
+  }
+  throw Error("there is no type of pixels of number " + std::to_string(static_cast<int>(type)));
+}
+
+namespace {
+
+void check_shape(const Grid& grid) {
+  if (grid.is_tilted()) throw Error("the grid is tilted, which distance transforms of images do not know");
+  const bool is_deep = grid.depth() > 1;
+  const std::int64_t most = is_deep ? Window::max_side_of_volume : Window::max_side;
+  const std::uint64_t most_pixels = is_deep ? 0x7fffffffu : Window::max_pixels;
+  if (std::max({grid.width(), grid.height(), grid.depth()}) <= most && grid.pixels() <= most_pixels) return;
+  throw Error("an image of " + size_text(grid) + " is too large: it can have " + std::to_string(most) +
+              " pixels along a side and " + std::to_string(most_pixels) +
+              " in all; cut it into parts that overlap");
+}
+
+}  // namespace
+
+ImageShape::ImageShape(const PixelGrid& grid)
+    : width(grid.width()),
+      height(grid.height()),
+      depth(grid.depth()),
+      is_volume(grid.is_volume()),
+      periodic_x(grid.periodic_x()),
+      periodic_y(grid.periodic_y()),
+      periodic_z(grid.periodic_z()) {}
+
+ImageShape::ImageShape(const Grid& grid)
+    : width((check_shape(grid), static_cast<int>(grid.width()))),
+      height(static_cast<int>(grid.height())),
+      depth(static_cast<int>(grid.depth())),
+      is_volume(grid.is_volume()),
+      periodic_x(grid.x().is_periodic()),
+      periodic_y(grid.y().is_periodic()),
+      periodic_z(grid.z().is_periodic()) {}
+
+Kernel& mask_kernel(KernelSet& kernels, const Device& device, const char* name,
+                    const KernelOptions& options) {
+  return kernels.get(device, "masks/transform.cl", name, PixelGrid(1, 1), options);
+}
+
+std::size_t Marks::shorts_of_row() const { return static_cast<std::size_t>(SHORTS_OF_ROW(shape.width)); }
+
+cl::Event Marks::mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked) {
+  const std::size_t shorts = shape.rows() * shorts_of_row();
+  if (bits() == nullptr) {
+    bits = allocate(device, shorts * sizeof(cl_ushort), "the marks of an image");
+    counts = allocate(device, (2 * shape.rows() + 1) * word, "the marks of an image");
+  }
+  const bool has_sign = type == PixelType::float32 || type == PixelType::float64;
+  cl::Event first =
+      mask_kernel(kernels, device, "mark_pixels")
+          .in_groups_of(1)
+          .over_items(std::min(items_of(device), shape.rows()), pixels, static_cast<cl_int>(bytes_of(type)),
+                      cl_int{has_sign}, cl_uint{marked == Marked::zeros ? 0u : 0xffffu}, shape.width,
+                      static_cast<cl_int>(shape.rows()), bits, counts);
+  mask_kernel(kernels, device, "sum_counts")
+      .in_groups_of(1)
+      .over_items(1, counts, static_cast<cl_int>(shape.rows()));
+  return first;
+}
+
+void Marks::rank(KernelSet& kernels) {
+  const std::size_t words_of_row = shorts_of_row() * sizeof(cl_ushort) / sizeof(cl_ulong);
+  if (starts() == nullptr)
+    starts = allocate(device, shape.rows() * words_of_row * word, "the marks of an image");
+  mask_kernel(kernels, device, "start_words")
+      .over_items(shape.rows(), bits, counts, static_cast<cl_int>(shape.rows()),
+                  static_cast<cl_int>(words_of_row), starts);
+}
+
+std::size_t Marks::count() const {
+  cl_uint found = 0;
+  check(clEnqueueReadBuffer(device.queue()(), counts(), CL_TRUE, shape.rows() * word, word, &found, 0,
+                            nullptr, nullptr),
+        "reading a buffer");
+  return found;
+}
+
+void Marks::list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions) const {
+  int bits_x = 16, bits_y = 16;
+  if (grid.is_volume()) {
+    const VoxelBits of_volume(grid);
+    bits_x = of_volume.x;
+    bits_y = of_volume.y;
+  }
+  mask_kernel(kernels, device, "list_marks")
+      .over_items(shape.rows() + 1, bits, counts, static_cast<cl_int>(shape.rows()),
+                  static_cast<cl_int>(shorts_of_row()), shape.height, bits_x, bits_y,
+                  cl_uint{grid.is_volume() ? absent_voxel : absent_position}, positions);
+}
+
+}  // namespace vorocl

@@ -1,0 +1,229 @@
+#include "masks/mask_engine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "masks/items.hpp"
+#include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "masks/sizes.cl"
+
+namespace vorocl {
+
+namespace {
+
+constexpr std::size_t bytes_of_ints = STRIP * sizeof(cl_int);
+
+int bits_of_numbers(int size) {
+  int bits = 1;
+  while (1 << bits < size) ++bits;
+  return bits;
+}
+
+cl_long bits_of(double number) {
+  cl_long bits = 0;
+  std::memcpy(&bits, &number, sizeof bits);
+  return bits;
+}
+
+/// Ways along an axis from which on the part of a squared distance is `limit` or more.
+int way_of_limit(std::int64_t limit, std::int64_t square) {
+  return static_cast<int>(std::ceil(std::sqrt(static_cast<double>(limit) / static_cast<double>(square))));
+}
+
+/// The costs along a line of so many places, as keys have them.
+template <typename Key>
+cl::Buffer costs_of(const Device& device, int size, std::int64_t square, std::int64_t limit, int bits) {
+  std::vector<Key> costs;
+  costs.reserve(static_cast<std::size_t>(COSTS(size)));
+  for (std::int64_t way = -REACH_OF_COSTS(size); way <= REACH_OF_COSTS(size); ++way) {
+    costs.push_back(static_cast<Key>(std::min(way * way * square, limit) << bits));
+  }
+  return allocate_with(device, costs, "the costs along an axis");
+}
+
+int wanted_of(const NearestTargets& targets) {
+  int wanted = 0;
+  if (targets.distances() != nullptr) {
+    wanted |= targets.type_of_distances == PixelType::float64   ? WANTS_DOUBLES
+              : targets.type_of_distances == PixelType::float32 ? WANTS_FLOATS
+                                                                : WANTS_SQUARES;
+  }
+  if (targets.indices() != nullptr) wanted |= WANTS_INDICES;
+  if (targets.places() != nullptr) wanted |= WANTS_PLACES;
+  if (targets.ranks() != nullptr) wanted |= WANTS_RANKS;
+  if (targets.values() != nullptr) wanted |= WANTS_VALUES;
+  return wanted;
+}
+
+}  // namespace
+
+MaskEngine::MaskEngine(const Device& device, const ImageShape& shape, const PixelSize& size,
+                       const WholeSizes& whole, Metric metric)
+    : device_(without_vectors(device)),
+      shape_(shape),
+      size_(size),
+      whole_(whole),
+      metric_(metric),
+      items_(items_of(device)),
+      nothing_(allocate(device, word, "the mask engine")) {
+  const auto most_square = [](int side, std::int64_t square) {
+    return std::int64_t{side - 1} * (side - 1) * square;
+  };
+  const auto [x, y, z] = whole.squares;
+  const std::int64_t most_in_slice = most_square(shape.width, x) + most_square(shape.height, y);
+  along_y_ = make_pass(shape.height, y, most_in_slice, std::max(x, y));
+  if (shape.depth > 1) {
+    along_z_ = make_pass(shape.depth, z, most_in_slice + most_square(shape.depth, z), std::max({x, y, z}));
+  }
+}
+
+MaskEngine::Pass MaskEngine::make_pass(int size, std::int64_t square, std::int64_t most,
+                                       std::int64_t greatest_square) const {
+  constexpr std::int64_t pixels_that_do = 16;
+  Pass pass;
+  pass.bits = bits_of_numbers(size);
+  pass.limit = (std::int64_t{1} << (31 - pass.bits)) - 1;
+  pass.far_limit = (std::int64_t{1} << (62 - pass.bits)) - 1;
+  if (metric_ == Metric::manhattan) {
+    pass.costs = nothing_;  // and no distance has more than 16 bits
+    return pass;
+  }
+  pass.saturates = most >= pass.limit;
+  pass.starts_far = pass.saturates && pass.limit < pixels_that_do * pixels_that_do * greatest_square;
+  pass.costs = costs_of<cl_uint>(device_, size, square, pass.limit, pass.bits);
+  if (pass.saturates) pass.far_costs = costs_of<cl_long>(device_, size, square, pass.far_limit, pass.bits);
+  return pass;
+}
+
+void MaskEngine::reserve(cl::Buffer& buffer, std::size_t bytes) {
+  const std::size_t present = buffer() == nullptr ? 0 : size_of(buffer);
+  if (present > 0 && present >= bytes) return;
+  held_ -= present;
+  buffer = cl::Buffer();
+  buffer = allocate(device_, bytes, "the mask engine's working memory", held_);
+  held_ += size_of(buffer);
+}
+
+cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) const {
+  images_t images = {};
+  images.square_x = whole_.squares[0];
+  images.square_y = whole_.squares[1];
+  images.limit_y = is_far ? along_y_.far_limit : along_y_.limit;
+  images.limit_z = is_far ? along_z_.far_limit : along_z_.limit;
+  images.length_x = bits_of(size_.x);
+  images.length_y = bits_of(size_.y);
+  images.length_z = bits_of(size_.z);
+  images.farthest = targets.farthest;
+  images.no_value = targets.no_value;
+  images.float_x = static_cast<cl_float>(size_.x);
+  images.float_y = static_cast<cl_float>(size_.y);
+  images.float_z = static_cast<cl_float>(size_.z);
+  images.width = shape_.width;
+  images.height = shape_.height;
+  images.depth = shape_.depth;
+  images.longest = std::max(shape_.height, shape_.depth);
+  images.period_x = shape_.periodic_x ? shape_.width : 0;
+  images.period_y = shape_.periodic_y ? shape_.height : 0;
+  images.period_z = shape_.periodic_z ? shape_.depth : 0;
+  images.bits_y = along_y_.bits;
+  images.bits_z = along_z_.bits;
+  images.saturates_y = !is_far && along_y_.saturates;
+  images.saturates_z = !is_far && along_z_.saturates;
+  images.most_x_of_y = way_of_limit(along_y_.limit, whole_.squares[0]);
+  images.most_x_of_z = way_of_limit(along_z_.limit, whole_.squares[0]);
+  images.most_y_of_z = way_of_limit(along_z_.limit, whole_.squares[1]);
+  images.is_unit = size_.x == 1 && size_.y == 1 && (size_.z == 1 || shape_.depth == 1);
+  images.is_volume = shape_.is_volume;
+  images.wanted = wanted_of(targets);
+  images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));
+  return allocate_with(device_, &images, sizeof images, "the sizes of an image");
+}
+
+template <typename Run>
+cl::Event MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips,
+                               Run run) {
+  const cl::Event first = pass.starts_far
+                              ? fill(device_, flags_, cl_uchar{1}, strips)
+                              : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
+  if (!pass.saturates) return first;
+  return run(mask_kernel(kernels, device_, name, {metric_, Neighbourhood::moore, Extent::far}),
+             pass.far_costs, true);
+}
+
+Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets) {
+  const auto width = static_cast<std::size_t>(shape_.width), height = static_cast<std::size_t>(shape_.height);
+  const auto depth = static_cast<std::size_t>(shape_.depth);
+  const std::size_t strips = static_cast<std::size_t>(STRIPS_OF(shape_.width)),
+                    longest = std::max(height, depth);
+  const std::size_t of_columns = strips * SHORTS_OF_STRIP(height) * sizeof(cl_ushort);
+  const bool is_volume = depth > 1, saturates = along_y_.saturates || along_z_.saturates;
+  const std::size_t items_of_slices = std::min(items_, depth), items_of_strips = std::min(items_, strips);
+  const std::size_t items = std::min(items_, is_volume ? longest : strips);
+  const std::size_t bytes_of_keys = STRIP * (saturates ? sizeof(cl_long) : sizeof(cl_uint));
+  reserve(keys_, items * VECTORS_OF_KEYS(longest) * bytes_of_keys);
+  reserve(ints_, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
+  reserve(flags_, strips * (is_volume ? longest : 1));
+  reserve(columns_, of_columns * (is_volume ? items_of_slices : 1));
+  const cl::Buffer near = images_of(targets, false), far = saturates ? images_of(targets, true) : nothing_;
+  const auto given = [&](const cl::Buffer& buffer) -> const cl::Buffer& {
+    return buffer() == nullptr ? nothing_ : buffer;
+  };
+  const auto run_last = [&](std::size_t count, Kernel& kernel, const auto&... arguments) {
+    return kernel.in_groups_of(1).over_items(
+        count, arguments..., given(targets.distances), given(targets.indices), given(targets.places),
+        given(targets.ranks), given(marks.starts), given(targets.values), given(targets.image));
+  };
+  if (!is_volume) {
+    const cl::Event first =
+        mask_kernel(kernels, device_, "nearest_in_rows")
+            .in_groups_of(1)
+            .over_items(std::min(items_, height), near, marks.bits, marks.counts, columns_);
+    const cl::Event last =
+        run_pass(kernels, along_y_, "nearest_in_strips", strips,
+                 [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                   return run_last(items_of_strips, kernel, is_far ? far : near, costs, keys_, ints_, flags_,
+                                   marks.bits, marks.counts, columns_);
+                 });
+    return {first, last};
+  }
+  // What is known in the slices stands in a target until the last pass, if one has room.
+  const auto holds = [](PixelType type) { return static_cast<cl_int>(bytes_of(type) / sizeof(cl_uint)); };
+  cl::Buffer between;
+  cl_int step = 1;
+  if (targets.distances() != nullptr) {
+    between = targets.distances;
+    step = holds(targets.type_of_distances);
+  } else if (targets.indices() != nullptr) {
+    between = targets.indices;
+  } else if (targets.places() != nullptr) {
+    between = targets.places;
+  } else if (targets.ranks() != nullptr) {
+    between = targets.ranks;
+  } else if (targets.values() != targets.image() && holds(targets.type_of_values) > 0) {
+    between = targets.values;
+    step = holds(targets.type_of_values);
+  } else {
+    reserve(between_, width * height * depth * word);
+    between = between_;
+  }
+  reserve(slices_, depth * word);
+  const cl::Event first = run_pass(kernels, along_y_, "nearest_in_slices", strips * depth,
+                                   [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                                     return kernel.in_groups_of(1).over_items(
+                                         items_of_slices, is_far ? far : near, costs, keys_, ints_, flags_,
+                                         marks.bits, marks.counts, columns_, slices_, between, step);
+                                   });
+  const cl::Event last =
+      run_pass(kernels, along_z_, "nearest_along_z", strips * height,
+               [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                 return run_last(std::min(items_, height), kernel, is_far ? far : near, costs, keys_, ints_,
+                                 flags_, marks.bits, slices_, between, step);
+               });
+  return {first, last};
+}
+
+}  // namespace vorocl

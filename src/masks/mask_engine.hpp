@@ -1,0 +1,67 @@
+// The mask engine: of each pixel the nearest marked one (kernels/masks/transform.cl).
+#pragma once
+
+#include <cstdint>
+
+#include "masks/marks.hpp"
+#include "masks/pixel_sizes.hpp"
+#include "runtime/kernel.hpp"
+
+namespace vorocl {
+
+/// What is written; buffers that are null are not.
+struct NearestTargets {
+  cl::Buffer distances;
+  PixelType type_of_distances = PixelType::float32;  // or float64; uint32: squares
+  cl::Buffer indices, places, ranks;
+  cl::Buffer values, image;  // may be one buffer
+  PixelType type_of_values = PixelType::uint32;
+  std::uint32_t no_value = 0;
+  std::int64_t farthest = std::int64_t{1} << 62;  // squared, in units of the sizes
+};
+
+/// The first and the last one of what was enqueued.
+struct Commands {
+  cl::Event first, last;
+};
+
+class MaskEngine {
+ public:
+  MaskEngine(const Device& device, const ImageShape& shape, const PixelSize& size, const WholeSizes& whole,
+             Metric metric = Metric::euclidean);
+
+  const ImageShape& shape() const { return shape_; }
+  Metric metric() const { return metric_; }
+
+  /// Enqueues the passes. Throws Error if the device has too little memory.
+  Commands run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets);
+
+ private:
+  struct Pass {
+    cl::Buffer costs, far_costs;
+    std::int64_t limit = 0, far_limit = 0;  // of distances in keys
+    int bits = 1;
+    bool saturates = false;   // keys of 32 bits
+    bool starts_far = false;  // these would seldom do
+  };
+  Pass make_pass(int size, std::int64_t square, std::int64_t most, std::int64_t greatest_square) const;
+  void reserve(cl::Buffer& buffer, std::size_t bytes);
+
+  /// Runs a kernel by keys of 32 bits, and of 64 where these do not hold all. Returns the last command.
+  template <typename Run>
+  cl::Event run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips, Run run);
+
+  cl::Buffer images_of(const NearestTargets& targets, bool is_far) const;
+
+  Device device_;  // without vectors
+  ImageShape shape_;
+  PixelSize size_;
+  WholeSizes whole_;
+  Metric metric_;
+  std::size_t items_;
+  Pass along_y_, along_z_;
+  cl::Buffer keys_, ints_, flags_, columns_, slices_, between_, nothing_;
+  std::size_t held_ = 0;
+};
+
+}  // namespace vorocl
