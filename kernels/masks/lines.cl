@@ -6,8 +6,8 @@
 // kernels with keys of 64 bits (VOROCL_FAR), which hold all.
 //
 // Let f_a(y) be the distance of site a from place y. Costs are strictly convex, so for sites a < b the difference
-// f_b(y) - f_a(y) falls strictly with y. If m is nearest at y and m' at a later place, then m' >= m, whatever others are
-// as near. So all nearest sites of a place lie between any nearest one of an earlier place and any of a later one.
+// f_b(y) - f_a(y) falls strictly with y. If m is nearest at y and m' at a later place, then m' >= m, whatever others
+// are as near. So all nearest sites of a place lie between any nearest one of an earlier place and any of a later one.
 
 #ifndef VOROCL_MASKS_LINES
 #define VOROCL_MASKS_LINES

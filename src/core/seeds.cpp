@@ -92,8 +92,10 @@ Seeds Seeds::from_mask(const Device& device, const Grid& grid, const std::vector
   pixels_of(grid, "a mask");
   const std::size_t bytes = mask.size();
   if (!shares_memory(device)) return from_mask(device, grid, allocate_with(device, mask, "a mask"));
-  // Kernels read it alone, and are done when the marks are counted.
-  return from_mask(device, grid, buffer_at(device, const_cast<std::uint8_t*>(mask.data()), bytes, "a mask"));
+  return with_host_memory(device, [&] {  // which is read when the marks are counted
+    return from_mask(device, grid,
+                     buffer_at(device, const_cast<std::uint8_t*>(mask.data()), bytes, "a mask"));
+  });
 }
 
 Seeds Seeds::from_mask(const Device& device, const Grid& grid, const cl::Buffer& mask) {

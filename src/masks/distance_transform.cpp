@@ -162,13 +162,15 @@ Report DistanceTransform::run(const ImageSource& image, const TransformTargets& 
                 ErrorKind::device);
   }
   to.farthest = state.whole.most_within(options.farthest);
-  const cl::Event first = state.marks.mark(state.kernels, to.image, image.type(), options.marked);
-  if (to.ranks() != nullptr) state.marks.rank(state.kernels);
-  const cl::Event last = state.engine.run(state.kernels, state.marks, to).last;
-  check(clFlush(state.device.queue()()), "starting a distance transform");
-  if (buffers.is_on_host()) buffers.finish();
-  state.has_image = true;
-  return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());
+  return with_host_memory(state.device, [&] {
+    const cl::Event first = state.marks.mark(state.kernels, to.image, image.type(), options.marked);
+    if (to.ranks() != nullptr) state.marks.rank(state.kernels);
+    const cl::Event last = state.engine.run(state.kernels, state.marks, to).last;
+    check(clFlush(state.device.queue()()), "starting a distance transform");
+    if (buffers.is_on_host()) buffers.finish();
+    state.has_image = true;
+    return Internal::report(0, first, last, stopwatch.milliseconds(), first_launches.take());
+  });
 }
 
 bool DistanceTransform::found() const { return state().has_image && state().marks.count() > 0; }

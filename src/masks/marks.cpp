@@ -69,7 +69,7 @@ std::size_t Marks::shorts_of_row() const { return static_cast<std::size_t>(SHORT
 
 cl::Event Marks::mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked) {
   const std::size_t shorts = shape.rows() * shorts_of_row();
-  if (bits() == nullptr) {
+  if (counts() == nullptr) {
     bits = allocate(device, shorts * sizeof(cl_ushort), "the marks of an image");
     counts = allocate(device, (2 * shape.rows() + 1) * word, "the marks of an image");
   }

@@ -41,6 +41,18 @@ bool shares_memory(const Device& device);
 cl::Buffer buffer_at(const Device& device, void* memory, std::size_t bytes, const std::string& purpose);
 void synchronise(const Device& device, const cl::Buffer& buffer, std::size_t bytes);
 
+/// Calls a function that lets kernels use memory of the host's, which is the caller's to free when it is
+/// done: it waits for the device itself, and here if it throws before.
+template <typename Function>
+auto with_host_memory(const Device& device, Function function) {
+  try {
+    return function();
+  } catch (...) {
+    clFinish(device.queue()());
+    throw;
+  }
+}
+
 /// What the caller's buffer is for.
 enum class Access { read, read_and_write };
 
