@@ -26,13 +26,13 @@ def read_image(path):
 
 
 def read_vti(path):
-    """The name and the values of the cell data, the first row on top."""
+    """The name and the values of the cell data."""
     image = read_image(path)
     check(image.GetBounds() == (0, WIDTH, 0, HEIGHT, 0, 0), f"{path} has the bounds {image.GetBounds()}")
     array = image.GetCellData().GetScalars()
     values = vtk_to_numpy(array).reshape(HEIGHT, WIDTH)
     check(image.GetCell(WIDTH + 2).GetBounds() == (2, 3, 1, 2, 0, 0), f"{path} has its cells elsewhere")
-    return array.GetName(), numpy.flipud(values)
+    return array.GetName(), values
 
 
 def check_same(vti, npy, name):

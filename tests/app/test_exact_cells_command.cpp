@@ -201,7 +201,7 @@ BOOST_AUTO_TEST_CASE(frames_of_a_trajectory_have_the_cells_of_each_frame) {
                     columns = "--cell-columns id,area,largest_distance,neighbours ";
   const json result = json::parse(succeeds(
       folder, simulate + "--cells all.csv --adjacency a%d.csv --polygons p%d.vtp --json " + columns));
-  BOOST_TEST(result.at("frames") == 3);
+  BOOST_TEST(result.at("frames") == 2);  // after frame 0
   BOOST_TEST(result.at("uncertified") == 0);
   std::string expected;
   for (const int frame : {0, 1, 2}) {
@@ -337,4 +337,83 @@ BOOST_AUTO_TEST_CASE(tables_and_polygons_have_the_ids_and_columns_of_the_input) 
   BOOST_TEST(volume.find(",b\n") < volume.find(",a\n"));
   refuses(folder, "cells --random 3 --size 9x9 --keep a --cells r.csv", usage, {"--keep", "--points"});
   refuses(folder, cells + "--keep town --cells r.csv", failure, {"p.csv:1", "no column town"});
+}
+
+BOOST_AUTO_TEST_CASE(what_is_left_out_of_a_plane_is_said) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n1,1\n3,3\n5,1\n9,9\n");
+  const Result outside = run(folder, "cells --exact --points p.csv --bounds 0,0,4,4 --cells c.csv");
+  BOOST_TEST(outside.error.find("2 of 4 points lie outside the bounds 0,0,4,4") != std::string::npos);
+  const Result periodic =
+      run(folder, "cells --exact --points p.csv --bounds 0,0,4,4 --periodic xy --cells c.csv");
+  BOOST_TEST(periodic.error == "");
+  // Of points at one place on the end of their bounding box, which holds them, both have rows.
+  folder.file("twins.csv", "x,y\n0,0\n4,4\n4,4\n");
+  succeeds(folder, "cells --exact --points twins.csv --cells c.csv --cell-columns id,area");
+  BOOST_TEST(content_of(folder / "c.csv") == "id,area\n0,8\n1,8\n2,0\n");
+  folder.file("t.xyz", "2\nTimestep=500 Lattice=\"9 0 0 0 9 0 0 0 9\" pbc=\"F F F\"\nA 1 1 1\nA 8 8 4\n");
+  for (const std::string command : {"cells", "simulate"}) {
+    const Result along_z =
+        run(folder, command + " --exact --trajectory t.xyz --bounds 0,0,5,5 --cells c.csv");
+    BOOST_TEST(along_z.exit_code == 0);
+    BOOST_TEST(along_z.error.find("z is left out, along which the particles of frame 0 span 3") !=
+               std::string::npos);
+    BOOST_TEST(along_z.error.find("1 of 2 points lie outside the bounds 0,0,5,5") != std::string::npos);
+  }
+  BOOST_TEST(content_of(folder / "c.csv").find("\n0,500,0,1,1,") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(files_say_where_they_lie_in_the_world) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y\n401000,5601000\n405000,5603000\n");
+  const std::string points = " --points p.csv --bounds 400000,5600000,420000,5615000 ";
+  const Result silent = run(folder, "cells --exact" + points + "--polygons c.geojson");
+  BOOST_TEST(silent.error.find("c.geojson says no coordinate reference system") != std::string::npos);
+  refuses(folder, "cells --exact" + points + "--cells c.csv --crs EPSG:32632", usage, {"--crs", ".geojson"});
+  succeeds(folder, "cells" + points + "--width 100 --labels l.vti --cells c.csv");
+  const std::string image = content_of(folder / "l.vti").substr(0, 600);
+  BOOST_TEST(found_in(image, "Origin=\"([^\"]*)\"") == "400000 5600000 0");
+  BOOST_TEST(found_in(image, "Spacing=\"([^\"]*)\"") == "200 200 1");
+#ifdef VOROCL_GEOTIFF
+  succeeds(folder, "cells --exact" + points + "--polygons c.geojson --crs EPSG:32632");
+  BOOST_TEST(geojson(folder, "c.geojson").at("crs").at("properties").at("name") ==
+             "urn:ogc:def:crs:EPSG::32632");
+  succeeds(folder, "cells --exact" + points + "--polygons c.geojson --crs EPSG:4326");
+  BOOST_TEST(!geojson(folder, "c.geojson").contains("crs"));
+  succeeds(folder, "cells" + points + "--width 100 --labels l.tif --distance d.tif --crs EPSG:32632 --y-up");
+  for (const char* const name : {"l.tif", "d.tif"})
+    BOOST_TEST(content_of(folder / name).find("WGS 84 / UTM zone 32N") != std::string::npos);
+#endif
+}
+
+BOOST_AUTO_TEST_CASE(polygons_of_degrees_are_cut_at_the_date_line) {
+  const TemporaryFolder folder;
+  std::string points = "x,y\n";
+  for (int i = 0; i < 40; ++i)
+    points += fmt::format("{},{}\n", (i * 67) % 360 - 180 + 0.25, (i * 41) % 180 - 90 + 0.5);
+  folder.file("p.csv", points);
+  const std::string cells = "cells --exact --points p.csv --bounds=-180,-90,180,90 --periodic x --polygons ";
+  succeeds(folder, cells + "c.geojson");
+  double area = 0;
+  std::size_t cut = 0;
+  const json degrees = geojson(folder, "c.geojson");
+  for (const json& feature : degrees.at("features")) {
+    const json& geometry = feature.at("geometry");
+    const bool is_one = geometry.at("type") == "Polygon";
+    cut += is_one ? 0 : 1;
+    double of_cell = 0;
+    for (const json& polygon : is_one ? json({geometry.at("coordinates")}) : geometry.at("coordinates")) {
+      const auto ring = polygon.at(0).get<std::vector<std::pair<double, double>>>();
+      for (const auto& [x, y] : ring) BOOST_TEST_REQUIRE((std::abs(x) <= 180 && std::abs(y) <= 90));
+      BOOST_TEST((ring.front() == ring.back()));
+      of_cell += area_of(ring);
+    }
+    BOOST_TEST(of_cell == feature.at("properties").at("area").get<double>(),
+               boost::test_tools::tolerance(1e-9));
+    area += of_cell;
+  }
+  BOOST_TEST(area == 64800, boost::test_tools::tolerance(1e-9));
+  BOOST_TEST(cut >= 4u);
+  succeeds(folder, cells + "w.csv");  // whole, as before
+  BOOST_TEST(content_of(folder / "w.csv").find("MULTI") == std::string::npos);
 }

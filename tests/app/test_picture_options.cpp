@@ -1,5 +1,7 @@
 // The command's options for pictures, as its users give them: what they draw and what they refuse.
 #define BOOST_TEST_MODULE picture_options
+#include <fmt/format.h>
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -121,9 +123,11 @@ BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
   folder.file("t.xyz",
               "2\nLattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"F F F\" Properties=pos:R:3:q:R:2\n"
               "2.5 5 0 7 1\n7.5 5 0 7 3\n");
-  succeeds(
+  const Result film = run(
       folder,
       "simulate --snap --trajectory t.lammpstrj --size 20x20 --method exact -o %d.png --color column:c_pe");
+  BOOST_TEST(film.exit_code == 0);
+  BOOST_TEST(film.error.find("--scale 1,100 holds all") != std::string::npos, film.error);
   const Grid grid(20, 20);
   const auto labels = brute_force(grid, {{5, 10}, {15, 10}}, Metric::euclidean);
   const auto expected = [&](double left, double right) {
@@ -210,4 +214,25 @@ BOOST_AUTO_TEST_CASE(columns_that_are_not_there_are_refused) {
   folder.file("f.csv", "x,y,q\n1,2,3\n3,4,0.5\n");
   refuses(folder, "render --points f.csv" + square + "q --palette okabe-ito", failure,
           {"q", "0.5", "okabe-ito"});
+}
+
+BOOST_AUTO_TEST_CASE(a_film_whose_scale_does_not_do_says_which_one_would) {
+  const TemporaryFolder folder;
+  const auto film = [&](const std::vector<int>& sides) {
+    std::string text;
+    for (const int side : sides) {
+      text += fmt::format("4\nLattice=\"{0} 0 0 0 {0} 0 0 0 1\"\n", side);
+      for (const double at : {0.1, 0.2, 0.5, 0.9}) text += fmt::format("A {} {} 0\n", at * side, at * side);
+    }
+    folder.file("t.xyz", text);
+    return run(folder, "simulate --trajectory t.xyz --width 60 --color area -o p%d.png").error;
+  };
+  BOOST_TEST(film({30, 30, 29}) == "");
+  const std::string note = film({30, 20, 10});
+  BOOST_TEST(note.find("values of the first picture") != std::string::npos, note);
+  BOOST_TEST(note.find("--scale ") != std::string::npos);
+  const std::string scale =
+      note.substr(note.find("--scale "), note.find(" holds all") - note.find("--scale "));
+  BOOST_TEST(succeeds(folder, "simulate --trajectory t.xyz --width 60 --color area -o p%d.png " + scale) !=
+             "");
 }

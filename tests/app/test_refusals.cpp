@@ -59,10 +59,10 @@ BOOST_AUTO_TEST_CASE(empty_arguments_are_refused) {
 
 BOOST_AUTO_TEST_CASE(bad_points_are_refused) {
   const TemporaryFolder folder;
-  folder.file("nan.csv", "x,y\n1,2\nnan,3\n");
+  folder.file("nan.csv", "x,y\n1,2\ninf,3\n");
   folder.file("inf.csv", "x,y\n1,2\n1,2\n3,-inf\n");
   folder.file("far.csv", "1,2\n3,4\n");
-  refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv:3", "\"nan\" is not finite"});
+  refuses(folder, "render --points nan.csv" + square, failure, {"nan.csv:3", "\"inf\" is not finite"});
   refuses(folder, "render --points inf.csv --bounds 0,0,9,9" + square, failure,
           {"inf.csv:4", "\"-inf\" is not finite"});
   refuses(folder, "render --points far.csv --bounds 0,0,3,3 --outside refuse" + square, failure,

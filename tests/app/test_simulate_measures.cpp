@@ -42,7 +42,7 @@ TableRow statistics_on_host(int frame, const LabelledGrid& image, const std::opt
 }
 
 void check_statistics(const TableRow& row, const TableRow& expected) {
-  BOOST_TEST_REQUIRE(row.size() == 11u);
+  BOOST_TEST_REQUIRE(row.size() == 12u);
   for (const std::size_t exact : {0u, 1u, 2u, 5u})
     BOOST_TEST((row[exact] == expected[exact]), "column " << exact);
   for (const std::size_t near : {3u, 4u}) {
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
   const Table table = read_table(folder / "s.csv");
   BOOST_TEST(table.header ==
              "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-             "box_x0,box_y0,box_x1,box_y1");
+             "box_x0,box_y0,box_x1,box_y1,timestep");
   BOOST_TEST_REQUIRE(table.rows.size() == 7u);
   std::optional<LabelledGrid> before;
   for (int frame = 0; frame <= 6; ++frame) {

@@ -356,6 +356,8 @@ BOOST_AUTO_TEST_CASE(volumes_are_compared_and_benched) {
   }
   folder.file("plane.npy", command::npy_header<std::uint32_t>({height, width}) + std::string(4 * 480, '\0'));
   refuses(folder, "compare a.npy plane.npy", failure, {"24 x 20 x 16 voxels", "24 x 20;"});
+  folder.file("p.csv", "x,y,z\n1,2,3\n");
+  refuses(folder, "compare a.npy --points p.csv --width 9", usage, {"--width is for planes"});
   refuses(folder, "compare a.npy " + seeds + "--truth true", usage, {"--truth true is for planes"});
   refuses(folder, "compare a.npy --random 3 --size 24x20x8", failure, {"24 x 20 x 16", "24 x 20 x 8"});
   refuses(folder, "compare a.npy --random 3 --metric manhattan", usage, {"are Euclidean"});

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {"", {":1: ", "empty", "give a LAMMPS text dump"}},
       {" \n\n", {":2: ", "empty"}},
       {"x,y\n1,2\n", {":1: ", "neither a LAMMPS text dump", "nor an XYZ"}},
-      {"\x1f\x8b\x08\n", {":1: ", "compressed", "unpack"}},
+      {"\x1f\x8b\x08\n", {":1: ", "gzip"}},
       {std::string(3 << 20, 'x'), {":1: ", "longer than a mebibyte"}},
       {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n3\n",
        {":3: ", "NUMBER OF ENTRIES", "style atom or custom"}},
@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {dump(box_of("pp pp pp", "-1e308 1e308", "0 1"), "x y", {}), {":8: ", "no bounds"}},
       {dump("xy xz yz ff pp pp\n0 10 5\n0 10 0\n-1 1 0", "x y", {}), {":8: ", "tilted but not periodic"}},
       {dump("xy xz yz pp pp pp\n0 10 5\n0 10 1\n-1 1 0", "x y", {}), {":8: ", "tilted in z"}},
-      {dump("abc origin pp pp pp\n3 4 0 0\n-4 3 0 0\n0 0 1 0", "x y", {}), {":8: ", "turned"}},
+      {dump("abc origin pp pp pp\n3 4 1 0\n-4 3 0 0\n0 0 1 0", "x y", {}), {":8: ", "turned out of"}},
       {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n1 0 1 0", "x y", {}), {":8: "}},
       {dump("abc origin pp pp pp\n3 0 0 0\n0 3 0 0\n0 1 1 0", "x y", {}), {":8: "}},
       // the rows

@@ -7,7 +7,7 @@
 using namespace vorocl;
 using namespace vorocl::command;
 
-BOOST_AUTO_TEST_CASE(images_keep_every_value_and_their_rows_go_upwards) {
+BOOST_AUTO_TEST_CASE(images_keep_every_value_and_lie_where_their_data_do) {
   const TemporaryFolder folder;
   const std::vector<std::uint32_t> labels = {0, 1, 2147483648u, 16777217, 4294967294u, no_label};
   write_labels(folder / "a.vti", Size(3, 2), labels);
@@ -16,10 +16,15 @@ BOOST_AUTO_TEST_CASE(images_keep_every_value_and_their_rows_go_upwards) {
   BOOST_TEST(image.name == "label");
   BOOST_TEST((image.width == 3u && image.height == 2u));
   BOOST_TEST(image.values == labels, boost::test_tools::per_element());
-  // The last row comes first in the file, behind the size of the values.
-  const std::string content = content_of(folder / "a.vti");
-  const std::string start("_\x18\0\0\0\0\0\0\0\x01\0\0\x01\xfe\xff\xff\xff", 17);
-  BOOST_TEST(content.find(start) != std::string::npos);
+  // Where y points up, the last row comes first in the file, behind the size of the values.
+  for (const bool y_up : {false, true}) {
+    write_labels(folder / "b.vti", Raster(Size(3, 2), {{10, -4, 16, 4}, y_up, {}}), labels);
+    const std::string content = content_of(folder / "b.vti");
+    BOOST_TEST(found_in(content, "Origin=\"([^\"]*)\"") == "10 -4 0");
+    BOOST_TEST(found_in(content, "Spacing=\"([^\"]*)\"") == "2 4 1");
+    const std::string first = y_up ? std::string("\x01\0\0\x01", 4) : std::string("\0\0\0\0", 4);
+    BOOST_TEST(content.find(std::string("_\x18\0\0\0\0\0\0\0", 9) + first) != std::string::npos);
+  }
 
   const std::vector<float> distances = {0, 1.5f, 2};
   write_vti(folder / "d.vti", "distance", Size(1, 3), distances);

@@ -69,12 +69,8 @@ RawImage<T> read_raw_vti(const std::string& path) {
   image.name = found_in(header, "<DataArray[^>]*Name=\"([^\"]*)\"");
   const std::size_t count = image.width * image.height, begin = content.find('_', appended) + 1;
   BOOST_TEST_REQUIRE(values_at<std::uint64_t>(content, begin, 1).front() == count * sizeof(T));
-  const std::vector<T> upwards = values_at<T>(content, begin + 8, count);
+  image.values = values_at<T>(content, begin + 8, count);
   BOOST_TEST(content.substr(begin + 8 + count * sizeof(T)) == "\n  </AppendedData>\n</VTKFile>\n");
-  for (std::size_t row = image.height; row-- > 0;) {
-    const auto first = upwards.begin() + static_cast<std::ptrdiff_t>(row * image.width);
-    image.values.insert(image.values.end(), first, first + static_cast<std::ptrdiff_t>(image.width));
-  }
   return image;
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -44,8 +45,42 @@ std::string json_of(const std::string& field) {
   return nlohmann::json::parse(field, nullptr, false).is_number() ? field : json_text(field);
 }
 
-void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
-  file << "{\"type\":\"FeatureCollection\",\"features\":[";
+/// The part of a convex polygon on one side of a line along y.
+std::vector<Point> part_of(const std::vector<Point>& polygon, double line, bool beyond) {
+  const auto is_in = [&](const Point& point) { return beyond ? point.x >= line : point.x <= line; };
+  std::vector<Point> part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    if (is_in(from)) part.push_back(from);
+    if (is_in(from) != is_in(to) && from.x != line && to.x != line)
+      part.push_back({line, from.y + (to.y - from.y) * ((line - from.x) / (to.x - from.x))});
+  }
+  return part;
+}
+
+/// The parts of a convex polygon in each period from -180 to 180, all in that one.
+std::vector<std::vector<Point>> cut_at_date_line(const std::vector<Point>& polygon) {
+  std::vector<std::vector<Point>> parts;
+  for (const double turn : {0.0, 360.0, -360.0}) {
+    std::vector<Point> part = part_of(part_of(polygon, turn - 180, true), turn + 180, false);
+    for (Point& point : part) point.x -= turn;
+    const bool has_width =
+        std::any_of(part.begin(), part.end(), [&](const Point& p) { return p.x != part[0].x; });
+    if (has_width) parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells,
+                   const PolygonFileOptions& options) {
+  constexpr int degrees = 4326;
+  const auto& [kept, crs, has_date_line] = options;
+  file << "{\"type\":\"FeatureCollection\",";
+  if (crs && crs->code != degrees) {
+    file << fmt::format(R"("crs":{{"type":"name","properties":{{"name":"urn:ogc:def:crs:EPSG::{}"}}}},)",
+                        crs->code);
+  }
+  file << "\"features\":[";
   std::vector<std::string> names;
   for (const std::string& name : other_names(kept, own_columns())) names.push_back(json_text(name));
   fmt::memory_buffer text;
@@ -62,9 +97,18 @@ void write_geojson(GrowingFile& file, const std::vector<PolygonCell>& cells, con
     if (cell.polygon.empty()) {
       text.append(std::string_view("null}"));
     } else {
-      text.append(std::string_view(R"({"type":"Polygon","coordinates":[[)"));
-      add_ring(text, cell.polygon, "[{},{}]", ",");
-      text.append(std::string_view("]]}}"));
+      const bool is_cut = has_date_line && (!crs || crs->code == degrees);
+      const std::vector<std::vector<Point>> rings =
+          is_cut ? cut_at_date_line(cell.polygon) : std::vector<std::vector<Point>>{cell.polygon};
+      const bool is_one = rings.size() == 1;
+      text.append(std::string_view(is_one ? R"({"type":"Polygon","coordinates":)"
+                                          : R"({"type":"MultiPolygon","coordinates":[)"));
+      for (const std::vector<Point>& ring : rings) {
+        text.append(std::string_view(&ring == rings.data() ? "[[" : ",[["));
+        add_ring(text, ring, "[{},{}]", ",");
+        text.append(std::string_view("]]"));
+      }
+      text.append(std::string_view(is_one ? "}}" : "]}}"));
     }
     add(file, text);
   }
@@ -180,16 +224,17 @@ const std::vector<std::string>& polygon_extensions() {
   return all;
 }
 
-void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
+void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells,
+                    const PolygonFileOptions& options) {
   check_extension(file.path(), polygon_extensions());
   const std::string extension = extension_of(file.path());
   GrowingFile growing(file);
   if (extension == ".csv") {
-    write_wkt(growing, cells, kept);
+    write_wkt(growing, cells, options.kept);
   } else if (extension == ".vtp") {
-    write_vtp(growing, cells, kept);
+    write_vtp(growing, cells, options.kept);
   } else {
-    write_geojson(growing, cells, kept);
+    write_geojson(growing, cells, options);
   }
   growing.finish();
 }

@@ -8,6 +8,7 @@
 
 #include "formats/csv.hpp"
 #include "formats/output_file.hpp"
+#include "formats/raster.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -25,10 +26,18 @@ struct PolygonCell {
 
 const std::vector<std::string>& polygon_extensions();
 
-/// `kept` names the columns of the input that all cells have; of these a .vtp file has those of numbers
-/// alone. Numbers in text are the shortest that are read back the same. Throws Error if the name ends in no
-/// such extension, or the file cannot be written.
+/// What a file of polygons says besides these.
+struct PolygonFileOptions {
+  CsvFields kept = {};                    ///< names of the columns of the input
+  std::optional<Crs> crs = std::nullopt;  ///< none: longitudes and latitudes, for GeoJSON
+  bool has_date_line = false;             ///< x are longitudes, which repeat from -180 to 180
+};
+
+/// GeoJSON has the system as GDAL reads it, and none for longitudes and latitudes (EPSG:4326), as RFC 7946
+/// has it. A polygon across the date line is two there. `kept` names the columns of the input that all cells
+/// have; of these a .vtp file has those of numbers alone. Numbers in text are the shortest that are read back
+/// the same. Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells,
-                    const CsvFields& kept = {});
+                    const PolygonFileOptions& options = {});
 
 }  // namespace vorocl::command

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -76,16 +77,27 @@ struct DensityImage {
   std::vector<float> values;  // row-major
 };
 
-/// The pixels of an image file, and where they lie in the data.
+/// A coordinate reference system of the EPSG's registry.
+struct Crs {
+  int code = 0;  ///< EPSG:code
+  bool is_geographic = false;
+  std::string name;
+};
+
+/// The rectangle that an image shows, in data units, and whether its y axis points up.
+struct Georeference {
+  Bounds bounds;
+  bool y_up = false;
+  std::optional<Crs> crs;
+};
+
+/// The pixels of an image file, and where they lie in the data; without that these are in pixels.
 struct Raster {
-  /// Of data in pixels, where y = 0 is at the bottom.
   Raster(const Size& pixels) : size(pixels) {}
-  Raster(const Size& pixels, const Point& lower_left, const Point& sides_of_pixel)
-      : size(pixels), corner(lower_left), pixel(sides_of_pixel) {}
+  Raster(const Size& pixels, const Georeference& place) : size(pixels), georeference(place) {}
 
   Size size;
-  Point corner = {0, 0};  ///< the lower left one, where y points up
-  Point pixel = {1, 1};   ///< the sides of a pixel
+  std::optional<Georeference> georeference = std::nullopt;
 };
 
 /// The voxels of a volume's file, and where they lie in the data.

@@ -74,7 +74,7 @@ void write_pixels(const OutputFile& file, const std::string& name, const Raster&
     write_vti(file, name, raster, values);
   } else if constexpr (sizeof(T) == 4) {
     check_extension(file.path(), {".npy", ".tif", ".tiff", ".vti"});
-    write_tiff(file, raster.size, values);
+    write_tiff(file, raster, values);
   } else {
     check_extension(file.path(), {".npy", ".vti"});
   }

@@ -34,8 +34,8 @@ void write_voxels(const OutputFile& file, const std::string& name, const VolumeR
 /// Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_labels(const OutputFile& file, const Raster& raster, const std::vector<std::uint32_t>& labels);
 
-/// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name, and alone knows where the
-/// raster lies. Throws Error if the extension is none of these, or the file cannot be written.
+/// Values (uint8, uint32 or float), row-major; a .vti file calls them by the name, and with .tif files knows
+/// where the raster lies. Throws Error if the extension is none of these, or the file cannot be written.
 template <typename T>
 void write_pixels(const OutputFile& file, const std::string& name, const Raster& raster,
                   const std::vector<T>& values);
@@ -48,21 +48,19 @@ ImageHeader read_tiff_header(const std::string& path);
 
 /// One value per pixel, float or uint32, row-major. The bits of a uint32 are written as a signed integer, for
 /// some readers (OpenCV 4) refuse unsigned ones: labels from 2^31 on, and no_label, look negative there.
-/// Uncompressed; a BigTIFF where the file would pass 4 GiB. Throws Error if the file cannot be written,
-/// or is a pipe.
+/// Uncompressed; a BigTIFF where the file would pass 4 GiB; a GeoTIFF where the raster lies in the data, in
+/// which no_label and infinity are no data. Throws Error if the file cannot be written, or is a pipe.
 template <typename T>
-void write_tiff(const OutputFile& file, const Size& size, const std::vector<T>& values);
+void write_tiff(const OutputFile& file, const Raster& raster, const std::vector<T>& values);
 
 /// One value per pixel (uint8, uint32 or float), row-major, as the cell data `name` of an image whose cells
-/// are the pixels, with the raster's corner as its origin. The first row is on top as in a picture: where the
-/// raster is of pixels alone, what is at (x, y) in pixel units is at (x, height - y) there. The values are
-/// raw bytes at the file's end, in the host's byte order. Throws Error if the file cannot be written.
+/// are the pixels: what is at (x, y) in the data, or in pixels, is there. The values are raw bytes at the
+/// file's end, in the host's byte order. Throws Error if the file cannot be written.
 template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values);
 
-/// As above, one value per voxel (uint32 or float), with the corner of the first voxel as the origin: what is
-/// at (x, y, z) in the data is there, for here no row is on top.
+/// As above, one value per voxel (uint32 or float).
 template <typename T>
 void write_vti_volume(const OutputFile& file, const std::string& name, const VolumeRaster& raster,
                       const std::vector<T>& values);

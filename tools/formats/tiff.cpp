@@ -15,6 +15,7 @@
 #include "formats/files.hpp"
 #include "formats/image_rows.hpp"
 #include "formats/numbers.hpp"
+#include "formats/planes/geotiff.hpp"
 #include "formats/raster_files.hpp"
 #include "formats/values.hpp"
 #include "vorocl/error.hpp"
@@ -207,7 +208,7 @@ std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
 }
 
 template <typename T>
-void write_tiff(const OutputFile& output, const Size& size, const std::vector<T>& values) {
+void write_tiff(const OutputFile& output, const Raster& raster, const std::vector<T>& values) {
   static_assert(sizeof(T) == 4, "one 32-bit sample per pixel");
   constexpr std::size_t room_for_tags = 1 << 20;
   const bool big = values.size() * sizeof(T) + room_for_tags > 0xffffffffu;
@@ -218,8 +219,8 @@ void write_tiff(const OutputFile& output, const Size& size, const std::vector<T>
   };
   File file = create_tiff(grown, big ? "w8" : "w");
   require(file != nullptr);
-  const auto width = static_cast<std::uint32_t>(size.width());
-  const auto height = static_cast<std::uint32_t>(size.height());
+  const auto width = static_cast<std::uint32_t>(raster.size.width());
+  const auto height = static_cast<std::uint32_t>(raster.size.height());
   TIFFSetField(file.get(), TIFFTAG_IMAGEWIDTH, width);
   TIFFSetField(file.get(), TIFFTAG_IMAGELENGTH, height);
   TIFFSetField(file.get(), TIFFTAG_BITSPERSAMPLE, 32);
@@ -229,10 +230,14 @@ void write_tiff(const OutputFile& output, const Size& size, const std::vector<T>
   TIFFSetField(file.get(), TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
   TIFFSetField(file.get(), TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   TIFFSetField(file.get(), TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(file.get(), 0));
+  if (raster.georeference) {
+    require(write_georeference(file.get(), *raster.georeference, width, height,
+                               std::is_floating_point_v<T> ? "inf" : "-1"));
+  }
   std::vector<T> scanline(width);  // the library takes a pointer that it might write to
   for (std::uint32_t row = 0; row < height; ++row) {
-    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * size.width();
-    scanline.assign(begin, begin + size.width());
+    const auto begin = values.begin() + static_cast<std::ptrdiff_t>(row) * raster.size.width();
+    scanline.assign(begin, begin + raster.size.width());
     require(TIFFWriteScanline(file.get(), scanline.data(), row) == 1);
   }
   require(TIFFFlush(file.get()) == 1);
@@ -240,7 +245,7 @@ void write_tiff(const OutputFile& output, const Size& size, const std::vector<T>
   grown.finish();
 }
 
-template void write_tiff(const OutputFile&, const Size&, const std::vector<std::uint32_t>&);
-template void write_tiff(const OutputFile&, const Size&, const std::vector<float>&);
+template void write_tiff(const OutputFile&, const Raster&, const std::vector<std::uint32_t>&);
+template void write_tiff(const OutputFile&, const Raster&, const std::vector<float>&);
 
 }  // namespace vorocl::command

@@ -73,14 +73,19 @@ template <typename T>
 void write_vti(const OutputFile& file, const std::string& name, const Raster& raster,
                const std::vector<T>& values) {
   const Size& size = raster.size;
+  const Georeference pixels = {
+      {0, 0, static_cast<double>(size.width()), static_cast<double>(size.height())}, false, {}};
+  const auto& [bounds, y_up, crs] = raster.georeference ? *raster.georeference : pixels;
   const std::uint64_t bytes = values.size() * sizeof(T);
   const std::size_t row_bytes = static_cast<std::size_t>(size.width()) * sizeof(T);
   GrowingFile image(file);
-  image << start_of_image<T>(name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()),
-                             {raster.corner.x, raster.corner.y, 0}, {raster.pixel.x, raster.pixel.y, 1});
+  image << start_of_image<T>(
+      name, fmt::format("0 {} 0 {} 0 0", size.width(), size.height()), {bounds.x0, bounds.y0, 0},
+      {(bounds.x1 - bounds.x0) / size.width(), (bounds.y1 - bounds.y0) / size.height(), 1});
   image.write(&bytes, sizeof bytes);
-  for (int row = size.height() - 1; row >= 0; --row) {
-    const T* const first = values.data() + static_cast<std::ptrdiff_t>(row) * size.width();
+  for (int row = 0; row < size.height(); ++row) {
+    const std::ptrdiff_t of_picture = y_up ? size.height() - 1 - row : row;
+    const T* const first = values.data() + of_picture * size.width();
     image.write(first, row_bytes);
   }
   image << end_of_image;

@@ -159,6 +159,8 @@ void add_cells(CommandLine& line) {
   }
   add_cell_columns_option(command, files.cells);
   add_keep_option(command, options->seeds);
+  add_crs_option(command, options->seeds.crs, "labels and distances as .tif and polygons as .geojson say")
+      .needs("--points");
   add_json_option(command, options->json);
   const Option exact = command.add(
       "--exact", options->exact,
@@ -170,6 +172,9 @@ void add_cells(CommandLine& line) {
       .value_name("FILE")
       .needs(exact);
   command.set_work([command, options] {
+    check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->polygons}
+                                                 : std::vector<std::string>{options->files.labels.path,
+                                                                            options->files.distance.path});
     if (options->is_volume()) {
       for (const char* const name : {"--exact", "--border", "--cell-columns"}) {
         if (command.has(name)) refuse_in_volumes(name);

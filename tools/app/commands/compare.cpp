@@ -108,6 +108,7 @@ Comparison compare_with_exact(const CompareOptions& options) {
     seed_options.depth = image.depth;
   }
   const bool is_volume = seed_options.depth > 1;
+  if (image.depth > 1 && seed_options.width != 0) refuse_in_volumes("--width");
   if (is_volume && seed_options.usual_snap == Snap::none) refuse_in_volumes("--truth true");
   if (is_volume) check_volume_method(method("exact"), options.metric);
   const Input input = is_volume ? read_volume_input(seed_options) : read_input(seed_options);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
+#include "formats/files.hpp"
 #include "formats/polygon_files.hpp"
 
 namespace vorocl::command {
@@ -54,6 +57,18 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCel
   print_written(requested_files(options));
 }
 
+/// GeoJSON without a system means longitudes and latitudes, which readers take others for without a word.
+void note_degrees(const ExactCellsOptions& options, const Grid& grid) {
+  const bool is_geojson =
+      extension_of(options.polygons) != ".csv" && extension_of(options.polygons) != ".vtp";
+  const double x = std::max(std::abs(grid.x().from()), std::abs(grid.x().to())),
+               y = std::max(std::abs(grid.y().from()), std::abs(grid.y().to()));
+  if (options.seeds.points.empty() || options.seeds.crs || !is_geojson || (x <= 360 && y <= 180)) return;
+  print_note(
+      options.polygons +
+      " says no coordinate reference system, so readers take its numbers for degrees; --crs EPSG:N says it");
+}
+
 }  // namespace
 
 void run_exact_cells(const ExactCellsOptions& options) {
@@ -73,6 +88,7 @@ void run_exact_cells(const ExactCellsOptions& options) {
   if (cells) exact_cells_table(options.columns).write(*cells, rows);
   if (adjacency) exact_pairs_table().write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);
+  if (polygons) note_degrees(options, seeds.grid());
   print_result(options, seeds, rows, result.check(), report);
 }
 

@@ -40,9 +40,9 @@ class ExactTables {
     *table_ << "frame,timestep," << kind_.header();
   }
 
-  void add(ExactCellRows& rows, int frame, std::int64_t time, bool wants_files) {
+  void add(ExactCellRows& rows, int frame, std::int64_t time) {
     if (table_) kind_.add_rows(rows, *table_, fmt::format("{},{},", frame, time));
-    if (files_ && wants_files) kind_.write(files_->file(frame), rows);
+    if (files_) kind_.write(files_->file(frame), rows);
   }
 
   /// The table; null: none, or one of each frame.
@@ -71,10 +71,11 @@ class ExactRun {
     const Seeds seeds = input.place(device);
     const Report report = exact_cells(seeds, result_);
     ExactCellRows rows(seeds, result_, input, points_up(options_.seeds));
-    const bool wants_files = frames_ % options_.every == 0;
-    cells_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
-    pairs_.add(rows, frames_, input.timestep.value_or(frames_), wants_files);
-    if (polygons_ && wants_files) rows.write_polygons(polygons_->file(frames_));
+    if (frames_ % options_.every == 0) {
+      cells_.add(rows, frames_, input.timestep.value_or(frames_));
+      pairs_.add(rows, frames_, input.timestep.value_or(frames_));
+      if (polygons_) rows.write_polygons(polygons_->file(frames_));
+    }
     mark_tables();
     uncertified_ += rows.uncertified();
     milliseconds_.add(report.milliseconds());
@@ -93,12 +94,12 @@ class ExactRun {
     if (options_.json) {
       print_json(Json{{"exact", true},
                       {"device", device.name()},
-                      {"frames", frames_},
+                      {"frames", frames_ - 1},
                       {"uncertified", uncertified_},
                       {"milliseconds", milliseconds_.mean()}});
       return;
     }
-    print("exact cells of {} in {:.1f} ms each, on {}\n", counted(static_cast<std::size_t>(frames_), "frame"),
+    print("exact cells of frame 0 and {} after it in {:.1f} ms each, on {}\n", counted(frames_ - 1, "frame"),
           milliseconds_.mean(), device.name());
     print_written(requested_files(options_));
   }

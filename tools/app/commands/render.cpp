@@ -148,6 +148,7 @@ void add_render(CommandLine& line) {
   command.add("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
   add_file_option(command, options->labels);
+  add_crs_option(command, options->seeds.crs, "labels as .tif say").needs("--points");
   command
       .add("--waves", options->waves_pattern,
            "Pictures to write of the diagram before the first wave and after every wave, such as "
@@ -162,6 +163,7 @@ void add_render(CommandLine& line) {
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }
+    check_crs(options->seeds.crs, {options->labels.path});
     if (options->seeds.depth > 1) return render_volume(volume_of(command, *options));
     if (options->picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
     snap_for(options->method, options->seeds);

@@ -228,10 +228,8 @@ class Run {
       }
       for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
         add(value);
-      for (const Point& place : {view.picture.corner, view.picture.pixel}) {
-        add(place.x);
-        add(place.y);
-      }
+      const Bounds bounds = view.picture.georeference ? view.picture.georeference->bounds : Bounds();
+      for (const double at : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) add(at);
     }
     add(grid.tilt());
     add(static_cast<double>(grid.periodic()));

@@ -75,7 +75,9 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
   const auto frames = [](int count) { return counted(count, "frame"); };
   print("{} after frame 0, {} on {}, on {}\n", frames(simulation.frame()), counted(seeds.alive(), "seed"),
         size_text(view), seeds.device().name());
-  if (course.made_before > 0) print("made before: {}, from frame 0 on\n", frames(course.made_before));
+  if (course.made_before > 0)
+    print("made before: {}, from frame 0 on; times and means are of the others\n",
+          frames(course.made_before));
   const CellCount count = measures.cell_count();
   print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
   const auto name_of = [&](const Method& method, Metric metric) {

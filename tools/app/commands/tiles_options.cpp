@@ -85,10 +85,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
            "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "
            "(tiled BigTIFF; with --bounds a GeoTIFF)")
       .value_name("FILE");
-  command
-      .add_parsed("--crs", options->crs, parse_crs,
-                  "Coordinate reference system of the bounds, which a .tif file says, such as EPSG:32632")
-      .value_name("EPSG:N");
+  add_crs_option(command, options->crs, "a .tif file says");
   command
       .add("-o", options->output.picture,
            "Picture to write, of the plane or of the part that --only names, at most 4096 pixels a side: "

@@ -74,7 +74,9 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
       "Go on where the same command stopped when something ended it: behind the last frame whose numbered "
       "files and rows of tables are complete. The command that ended must have had --resume too. Not for "
       "films");
-  command.add("--every", options.every, "Write pictures and numbered files only of frames 0, K, 2 K, ...")
+  command
+      .add("--every", options.every,
+           "Write pictures, files and rows of cells and pairs only of frames 0, K, 2 K, ...")
       .value_name("K")
       .in_range(1, 1000000000)
       .default_is_value();

@@ -10,6 +10,7 @@
 
 #include "app/options/option_groups.hpp"
 #include "formats/files.hpp"
+#include "formats/planes/geotiff.hpp"
 #include "formats/values.hpp"
 
 namespace vorocl::command {
@@ -325,6 +326,22 @@ Option add_truth_option(Command& command, Snap& truth, const std::string& about)
           about +
               " the centres of the points' pixels, or the points themselves, rounded to 1/4096 of a pixel")
       .default_text("snapped");
+}
+
+Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::string& about) {
+  return command
+      .add_parsed("--crs", crs, parse_crs,
+                  "Coordinate reference system of the data, which " + about + ", such as EPSG:32632")
+      .value_name("EPSG:N");
+}
+
+void check_crs(const std::optional<Crs>& crs, const std::vector<std::string>& paths) {
+  const auto says_it = [](const std::string& path) {
+    const std::string extension = extension_of(path);
+    return extension == ".tif" || extension == ".tiff" || extension == ".geojson" || extension == ".json";
+  };
+  if (crs && std::none_of(paths.begin(), paths.end(), says_it))
+    throw UsageError("--crs is for .tif files of labels and distances, and for polygons as .geojson");
 }
 
 void add_keep_option(Command& command, SeedOptions& options) {

@@ -183,9 +183,9 @@ void FileKind::write(const OutputFile& file, Measures& measures) const {
 }
 
 const FileKind& labels_kind() {
-  static const FileKind kind = {
-      "--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti (y upwards from the lower left corner)",
-      label_extensions(), [](Measures& measures) { measures.labels(); }, write_label_file};
+  static const FileKind kind = {"--labels", "Labels: .npy (uint32), .tif (32-bit) or .vti",
+                                label_extensions(), [](Measures& measures) { measures.labels(); },
+                                write_label_file};
   return kind;
 }
 
@@ -223,13 +223,11 @@ const FileKind& adjacency_kind() {
 }
 
 const FileKind& distance_kind() {
-  static const FileKind kind = {
-      "--distance",
-      "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti (y upwards "
-      "from the lower left corner)",
-      {".npy", ".tif", ".tiff", ".vti"},
-      [](Measures& measures) { measures.distances(); },
-      write_distance_file};
+  static const FileKind kind = {"--distance",
+                                "Distances to the nearest seed: .npy (float32), .tif (32-bit float) or .vti",
+                                {".npy", ".tif", ".tiff", ".vti"},
+                                [](Measures& measures) { measures.distances(); },
+                                write_distance_file};
   return kind;
 }
 

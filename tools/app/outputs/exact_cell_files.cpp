@@ -160,7 +160,9 @@ void ExactCellRows::write_polygons(const OutputFile& file) {
                      {ring.begin(), ring.end()},
                      kept().fields.empty() ? CsvFields() : kept().fields[seed]});
   }
-  command::write_polygons(file, cells, kept().names);
+  const Axis& x = input_.grid.x();
+  const bool has_date_line = x.is_periodic() && x.from() == -180 && x.to() == 180;
+  command::write_polygons(file, cells, {kept().names, input_.crs, has_date_line});
 }
 
 std::size_t ExactCellRows::empty_cells() const {

@@ -18,9 +18,9 @@ namespace {
 
 const char* header_of_statistics(bool is_volume) {
   return is_volume ? "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,"
-                     "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1\n"
+                     "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1,timestep\n"
                    : "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-                     "box_x0,box_y0,box_x1,box_y1\n";
+                     "box_x0,box_y0,box_x1,box_y1,timestep\n";
 }
 
 std::string corners_of(const std::optional<Box>& box, bool is_volume) {
@@ -101,7 +101,8 @@ void FrameStatistics::read(Measures& measures) {
   measures.labels();
 }
 
-void FrameStatistics::add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures) {
+void FrameStatistics::add(int frame, std::int64_t time, double milliseconds, const std::optional<Box>& box,
+                          Measures& measures) {
   const bool is_volume = measures.view().window.grid().is_volume();
   if (std::exchange(needs_header_, false)) *file_ << header_of_statistics(is_volume);
   const CellStatistics& statistics = measures.statistics();
@@ -118,9 +119,10 @@ void FrameStatistics::add(int frame, double milliseconds, const std::optional<Bo
     }
     changed = fmt::format("{}", count);
   }
-  *file_ << fmt::format("{},{},{},{},{},{},{:.6f},", frame, statistics.cells, statistics.empty_cells,
-                        statistics.mean_area, statistics.area_deviation, changed, milliseconds)
-         << corners_of(box, is_volume) << "\n";
+  const std::string areas =
+      statistics.cells > 0 ? fmt::format("{},{}", statistics.mean_area, statistics.area_deviation) : ",";
+  *file_ << fmt::format("{},{},{},{},{},{:.6f},{},{}\n", frame, statistics.cells, statistics.empty_cells,
+                        areas, changed, milliseconds, corners_of(box, is_volume), time);
 }
 
 }  // namespace vorocl::command

@@ -69,8 +69,10 @@ class FrameStatistics {
   /// Reads what add() counts, from the device.
   static void read(Measures& measures);
 
-  /// Every frame, in order; `milliseconds` is the device's time for its diagram, `box` the trajectory's.
-  void add(int frame, double milliseconds, const std::optional<Box>& box, Measures& measures);
+  /// Every frame, in order; `milliseconds` is the device's time for its diagram, `time` and `box` the
+  /// trajectory's.
+  void add(int frame, std::int64_t time, double milliseconds, const std::optional<Box>& box,
+           Measures& measures);
 
   /// Goes on behind a frame that is in the table.
   void go_on_from(Measures& measures);

@@ -151,7 +151,7 @@ void FrameWriter::read(int frame, Measures& measures) const {
 void FrameWriter::write(const FrameFacts& facts, Measures* measures) {
   if (facts.similarity && similarities_) write_similarity(facts.frame, *facts.similarity);
   if (wants_images(facts.frame)) write_images(facts, *measures);
-  if (statistics_) statistics_->add(facts.frame, facts.milliseconds, facts.box, *measures);
+  if (statistics_) statistics_->add(facts.frame, facts.time, facts.milliseconds, facts.box, *measures);
   journal_ ? journal_->complete(facts.frame, facts.seeds) : mark_tables();
   ++complete_;
   if (wants_images(facts.frame)) ++frames_;
@@ -210,6 +210,7 @@ std::string FrameWriter::progress() const {
 }
 
 void FrameWriter::finish() {
+  painter_.note_of_scale();
   if (journal_) journal_->finish();
   std::exception_ptr first;
   const auto finish = [&first](auto& output) {

@@ -159,9 +159,9 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
       const std::vector<float> distances = measures.view().units.lengths(measures.distances());
-      return color_by_distance(distances, measures.view().window,
-                               scale([&] { return std::vector<double>(distances.begin(), distances.end()); }),
-                               palette_);
+      const Scale of_all = scale([&] { return std::vector<double>(distances.begin(), distances.end()); });
+      watch(distances);
+      return color_by_distance(distances, measures.view().window, of_all, palette_);
     }
     case Quantity::area:
       return color_by_values(measures, measures.areas());
@@ -207,8 +207,9 @@ cv::Mat Painter::color_by_values(Measures& measures, const std::vector<double>& 
                     options_.color.column, *fraction));
   }
   if (!whole_values_) whole_values_ = fraction == values.end();
-  return color_by_value(measures.labels(), measures.view().size().grid(), values,
-                        scale([&] { return shown(measures.labels(), values); }), palette_);
+  const Scale of_all = scale([&] { return shown(measures.labels(), values); });
+  watch(values);
+  return color_by_value(measures.labels(), measures.view().size().grid(), values, of_all, palette_);
 }
 
 Scale Painter::scale(const std::function<std::vector<double>()>& values) {
@@ -237,6 +238,33 @@ Scale Painter::scale(const std::function<std::vector<double>()>& values) {
   }
   if (scale_) scale_->logarithmic = options_.logarithmic;
   return scale_.value_or(Scale{1, 1, options_.logarithmic});  // there is no value, or none that is shown
+}
+
+template <typename T>
+void Painter::watch(const std::vector<T>& values) {
+  if (!many_ || !scale_ || (options_.scale && !options_.scale->percent)) return;
+  if (!seen_) seen_ = scale_;
+  const bool has_size =
+      options_.logarithmic || options_.color.quantity == Quantity::area;  // else it is not shown
+  std::size_t all = 0, beyond = 0;
+  for (const T of_any : values) {
+    const auto value = static_cast<double>(of_any);
+    if (!std::isfinite(value) || (has_size && value <= 0)) continue;
+    ++all;
+    beyond += value < scale_->low || value > scale_->high ? 1 : 0;
+    seen_->low = std::min(seen_->low, value);
+    seen_->high = std::max(seen_->high, value);
+  }
+  is_beyond_ = is_beyond_ || 2 * beyond > all;
+}
+
+void Painter::note_of_scale() const {
+  if (!is_beyond_) return;
+  print_note(
+      fmt::format("the colours are by the values of the first picture, {:.4g} to {:.4g}, and another has "
+                  "more than half of its own "
+                  "beyond them; --scale {:.4g},{:.4g} holds all",
+                  scale_->low, scale_->high, seen_->low, seen_->high));
 }
 
 void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes) {

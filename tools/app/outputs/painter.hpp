@@ -61,6 +61,10 @@ class Painter {
   /// error, once, what a logarithmic scale leaves out of the first picture.
   cv::Mat draw(Measures& measures, const std::vector<double>& values, const std::string& stamp = "");
 
+  /// Says on standard error, if the scale is the first picture's and another has more than half of its values
+  /// beyond it, which one holds all.
+  void note_of_scale() const;
+
   /// Whether the next picture would be the same without those that were drawn before.
   bool is_independent() const;
 
@@ -72,12 +76,16 @@ class Painter {
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
   /// values there.
   Scale scale(const std::function<std::vector<double>()>& values);
+  template <typename T>
+  void watch(const std::vector<T>& values);
   void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes);
 
   PictureOptions options_;
   bool many_;
   Palette palette_;
   std::optional<Scale> scale_;
+  std::optional<Scale> seen_;         // the range of all pictures
+  bool is_beyond_ = false;            // some picture's values are, of the scale
   bool omission_noted_ = false;       // what a logarithmic scale leaves out of the first picture
   std::optional<bool> whole_values_;  // whether those of the first picture are
   std::optional<double> contour_interval_;

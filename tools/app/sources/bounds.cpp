@@ -126,6 +126,26 @@ void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
   print_note(what + "; they count, and --outside refuse makes them an error");
 }
 
+void note_of_turn(const Frame& frame) {
+  if (!frame.box || frame.box->turned == 0) return;
+  print_note(
+      fmt::format("the box is turned by {:.6g} degrees in its plane: it is turned back, with its particles",
+                  frame.box->turned));
+}
+
+void note_of_frame(const Frame& frame, int number, const std::optional<Periodic>& told) {
+  note_of_turn(frame);
+  if (frame.z_span > 0) {
+    print_note(fmt::format("z is left out, along which the particles of frame {} span {:.6g}", number,
+                           frame.z_span));
+  }
+  if (!frame.box || !told) return;
+  const Periodic axes = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
+  if (*told == axes) return;
+  print_note(fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead",
+                         to_string(axes), to_string(*told)));
+}
+
 namespace {
 
 /// The next frame. One whose box is bad counts as the end: whoever makes the diagrams comes there too, and

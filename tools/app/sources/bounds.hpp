@@ -48,6 +48,13 @@ void warn_of_scales(const Bounds& bounds, const Grid& grid, const std::string& a
 void note_outside(std::size_t outside, std::size_t points, const Bounds& bounds,
                   const std::string& keeps_inside = "");
 
+/// Says on standard error that the frame's box is turned, if it is.
+void note_of_turn(const Frame& frame);
+
+/// Says on standard error what may surprise of a trajectory, by one of its frames: that z is left out, and
+/// that its box has other periodic axes than what counts instead, if that is told.
+void note_of_frame(const Frame& frame, int number, const std::optional<Periodic>& told);
+
 /// A frame's box, else the bounding box of its particles; none if it has neither.
 std::optional<Bounds> bounds_of(const Frame& frame);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
@@ -30,7 +31,8 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodi
                             to_string(shown), name, to_string(repeats)));
   }
   check_bounds(shown, periodic);
-  const bool closed = options.outside.value_or(Outside::count) == Outside::refuse;
+  const bool closed =
+      (!options.bounds && !options.domain) || options.outside.value_or(Outside::count) == Outside::refuse;
   return Grid(axis_of(shown.x0, shown.x1, has_x(periodic), closed),
               axis_of(shown.y0, shown.y1, has_y(periodic), closed))
       .tilted(tilt);
@@ -50,6 +52,15 @@ ExactInput input_of(const SeedOptions& options, const std::string& file, const G
           std::move(ids)};
 }
 
+void note_points(const SeedOptions& options, const Grid& grid, const std::vector<Point>& points) {
+  if (options.outside == Outside::refuse) return;
+  const auto is_outside = [&](const Point& point) {
+    return !grid.x().covers(point.x) || !grid.y().covers(point.y);
+  };
+  note_outside(static_cast<std::size_t>(std::count_if(points.begin(), points.end(), is_outside)),
+               points.size(), {grid.x().from(), grid.y().from(), grid.x().to(), grid.y().to()});
+}
+
 ExactInput exact_input_from_points(const SeedOptions& options) {
   CsvPoints read = read_points(options);
   std::vector<Point>& points = read.points;
@@ -58,15 +69,17 @@ ExactInput exact_input_from_points(const SeedOptions& options) {
                            : options.bounds ? *options.bounds
                                             : bounding_box(points);
     const Grid grid = grid_of(options, repeats, options.periodic.value_or(Periodic::none), "the domain");
+    note_points(options, grid, points);
     ExactInput input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
+    input.crs = options.crs;
     return input;
   } catch (const Error& error) {
     throw Error(options.points + ": " + error.what());
   }
 }
 
-ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number) {
+ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number, bool is_first) {
   const std::optional<Bounds> filled = bounds_of(frame);
   if (!filled && !options.bounds) {
     throw Error(fmt::format("frame {} has neither a box nor particles: give --bounds", number));
@@ -82,6 +95,10 @@ ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number) {
   }
   const Bounds repeats = filled ? *filled : *options.bounds;
   const Grid grid = grid_of(options, repeats, periodic, "the box", tilt);
+  if (is_first) {
+    note_of_frame(frame, number, options.periodic);
+    note_points(options, grid, frame.positions);
+  }
   ExactInput input =
       input_of(options, options.trajectory, grid, std::move(frame.positions), std::move(frame.ids));
   input.timestep = frame.timestep;
@@ -110,7 +127,7 @@ bool ExactFrames::skip() {
 std::optional<ExactInput> ExactFrames::next() {
   if (!skip()) return {};
   try {
-    return input_of_frame(options_, std::move(frame_), count_ - 1);
+    return input_of_frame(options_, std::move(frame_), count_ - 1, std::exchange(is_first_, false));
   } catch (const Error& error) {
     throw Error(options_.trajectory + ": " + error.what());
   }

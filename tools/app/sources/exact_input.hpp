@@ -19,6 +19,7 @@ struct ExactInput {
   std::vector<std::uint32_t> ids;                       ///< by seed; empty: the seeds' own
   std::optional<std::int64_t> timestep = std::nullopt;  ///< of a trajectory's frame that has one
   KeptColumns kept = {};                                ///< of --keep
+  std::optional<Crs> crs = std::nullopt;                ///< of points
 };
 
 /// Checks the options, and reads and checks the files. Points and particles lie in the bounds, else in the
@@ -47,6 +48,7 @@ class ExactFrames {
   std::unique_ptr<TrajectoryReader> reader_;
   Frame frame_;
   int count_ = 0;
+  bool is_first_ = true;  // of those that next() gives
 };
 
 }  // namespace vorocl::command

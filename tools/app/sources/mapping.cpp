@@ -46,9 +46,8 @@ PlacedAxes place_axes(const Mapping& mapping, const Size& picture) {
 /// The picture in the data; where y points down, at negative y.
 Raster raster_of(const Mapping& mapping, const Size& picture) {
   const Bounds& bounds = mapping.bounds;
-  const Point pixel = {(bounds.x1 - bounds.x0) / picture.width(), (bounds.y1 - bounds.y0) / picture.height()};
-  if (mapping.in_pixels || pixel.x == 0 || pixel.y == 0) return picture;
-  return {picture, {bounds.x0, mapping.y_up ? bounds.y0 : 0 - bounds.y1}, pixel};
+  if (mapping.in_pixels || bounds.x0 == bounds.x1 || bounds.y0 == bounds.y1) return picture;
+  return {picture, {bounds, mapping.y_up, mapping.crs}};
 }
 
 Units units_of(const Mapping& mapping, const PlacedAxes& axes, const Size& picture) {

@@ -20,6 +20,7 @@ struct Mapping {
   Bounds bounds;
   bool closed = true;  ///< a point at x1 or y1 falls in the last pixel: for bounds that the points made
   bool y_up = false;
+  std::optional<Crs> crs;            ///< of the data
   Outside outside = Outside::count;  ///< the bounds; Outside::absent is not asked for
   Periodic periodic = Periodic::none;
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds

@@ -29,6 +29,7 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
     mapping.bounds = bounding_box(points);
   }
   mapping.y_up = points_up(options);
+  mapping.crs = options.crs;
   mapping.outside = options.outside.value_or(Outside::count);
   mapping.periodic = axes_of(options);
   mapping.domain = options.domain;

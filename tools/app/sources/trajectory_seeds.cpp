@@ -104,7 +104,7 @@ TrajectorySeeds::TrajectorySeeds(const SeedOptions& options, int start, Fit fit,
   has_boxes_ = frame_.box.has_value();
   const std::optional<Bounds> bounds = shown_bounds();
   take_frame(bounds, make_picture(options, bounds));
-  note_of_file();
+  note_of_frame(frame_, number_, told_axes_);
 }
 
 bool TrajectorySeeds::next() {
@@ -151,18 +151,6 @@ std::optional<Bounds> TrajectorySeeds::shown_bounds() {
 
 Periodic TrajectorySeeds::axes_of_frame() const {
   return told_axes_ || !frame_.box ? told_axes_.value_or(Periodic::none) : periodic_axes(*frame_.box);
-}
-
-void TrajectorySeeds::note_of_file() const {
-  if (frame_.z_span > 0) {
-    print_note(fmt::format("z is left out, along which the particles of frame {} span {:.6g}", number_,
-                           frame_.z_span));
-  }
-  if (!frame_.box) return;
-  if (told_axes_ && *told_axes_ != periodic_axes(*frame_.box)) {
-    print_note(fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead",
-                           to_string(periodic_axes(*frame_.box)), to_string(*told_axes_)));
-  }
 }
 
 Size TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {

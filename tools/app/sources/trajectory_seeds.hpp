@@ -80,7 +80,6 @@ class TrajectorySeeds {
   std::optional<Bounds> shown_bounds();
   /// Along which axes the frame's box repeats, or the bounds where there is no box.
   Periodic axes_of_frame() const;
-  void note_of_file() const;
   Mapping mapping_of_frame(const Bounds& bounds) const;
   Size make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void note_of_scales(const Bounds& bounds, std::size_t outside);

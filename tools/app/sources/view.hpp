@@ -115,7 +115,7 @@ class Units {
 
   /// The same as titles have them: "data units^2", "px".
   const char* area_title() const {
-    return area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : is_volume_ ? "voxels" : "px";
+    return area_in_data_ ? (is_volume_ ? "data units^3" : "data units^2") : "px";
   }
   const char* length_title() const { return length_in_data_ ? "data units" : of_length(); }
 

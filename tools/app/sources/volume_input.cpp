@@ -262,6 +262,7 @@ VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::opt
     ++number_;
   }
   take_frame();
+  note_of_turn(frame_);
   if (!frame_.box || !options_.periodic) return;
   const Box& box = *frame_.box;
   const std::string of_file = to_string(periodic_along(box.periodic_x, box.periodic_y), box.periodic_z);

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 
 #include "formats/modules.hpp"
 #include "formats/values.hpp"
@@ -22,7 +21,7 @@ enum Tag : std::uint32_t {
   key_directory = 34735,
   key_doubles = 34736,
   key_texts = 34737,
-  no_data = 42113  // GDAL's
+  tag_of_no_data = 42113  // GDAL's
 };
 
 /// The tags of GeoTIFF, which libtiff does not know by itself. (It wants names that it could write to.)
@@ -36,7 +35,7 @@ void add_tags(TIFF* file) {
        {key_directory, -1, -1, TIFF_SHORT, FIELD_CUSTOM, 1, 1, names[3]},
        {key_doubles, -1, -1, TIFF_DOUBLE, FIELD_CUSTOM, 1, 1, names[4]},
        {key_texts, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[5]},
-       {no_data, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[6]}}};
+       {tag_of_no_data, -1, -1, TIFF_ASCII, FIELD_CUSTOM, 1, 0, names[6]}}};
   TIFFMergeFieldInfo(file, tags.data(), static_cast<std::uint32_t>(tags.size()));
 }
 
@@ -67,7 +66,8 @@ Crs parse_crs(const std::string& text) {
   return *crs;
 }
 
-bool write_georeference(TIFF* file, const Georeference& georeference, double width, double height) {
+bool write_georeference(TIFF* file, const Georeference& georeference, double width, double height,
+                        const char* no_data) {
   add_tags(file);
   const Bounds& bounds = georeference.bounds;
   const double x = (bounds.x1 - bounds.x0) / width, y = (bounds.y1 - bounds.y0) / height;
@@ -78,7 +78,7 @@ bool write_georeference(TIFF* file, const Georeference& georeference, double wid
   } else {  // which a scale cannot say
     done = set<16>(file, transformation, {x, 0, 0, bounds.x0, 0, y, 0, bounds.y0, 0, 0, 0, 0, 0, 0, 0, 1});
   }
-  done = done && TIFFSetField(file, no_data, std::to_string(no_label).c_str()) == 1;
+  done = done && TIFFSetField(file, tag_of_no_data, no_data) == 1;
   return done && (!georeference.crs || geotiff_module().write_keys(file, *georeference.crs));
 }
 

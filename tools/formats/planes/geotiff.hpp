@@ -12,23 +12,9 @@ struct tiff;  // TIFF
 
 namespace vorocl::command {
 
-/// A coordinate reference system of the EPSG's registry.
-struct Crs {
-  int code = 0;  ///< EPSG:code
-  bool is_geographic = false;
-  std::string name;
-};
-
 /// "EPSG:32632" to the system. Throws Error if it is no such text, if the registry has no projected or
 /// geographic system of this code, and where this vorocl was built without libgeotiff.
 Crs parse_crs(const std::string& text);
-
-/// The rectangle that an image shows, in data units, and whether its y axis points up.
-struct Georeference {
-  Bounds bounds;
-  bool y_up = false;
-  std::optional<Crs> crs;
-};
 
 /// What geotiff_module.cpp does. No function throws or prints.
 class GeotiffModule {
@@ -43,7 +29,9 @@ class GeotiffModule {
   ~GeotiffModule() = default;
 };
 
-/// Sets a file's tags for an image of this size. False if that fails.
-bool write_georeference(tiff* file, const Georeference& georeference, double width, double height);
+/// Sets a file's tags for an image of this size, whose pixels without a value have `no_data`. False if that
+/// fails.
+bool write_georeference(tiff* file, const Georeference& georeference, double width, double height,
+                        const char* no_data);
 
 }  // namespace vorocl::command

@@ -162,7 +162,7 @@ class TiffPlane : public PlaneFile {
     if (!georeference_) return;
     const Window& window = tiling_.window();
     require(write_georeference(file, *georeference_, static_cast<double>(window.width()),
-                               static_cast<double>(window.height())));
+                               static_cast<double>(window.height()), std::to_string(no_label).c_str()));
   }
 
   OutputFile output_;

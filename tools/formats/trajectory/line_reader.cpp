@@ -1,5 +1,7 @@
 #include "formats/trajectory/line_reader.hpp"
 
+#include <zlib.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -28,8 +30,17 @@ T number_in(const LineReader& lines, std::string_view field, std::string_view wh
 
 }  // namespace
 
-LineReader::LineReader(const std::string& path)
-    : path_(path), stream_(open_to_read(path)), buffer_(block_bytes) {}
+LineReader::LineReader(const std::string& path) : path_(path), buffer_(block_bytes) {
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) file_.reset(gzopen(path.c_str(), "rb"));
+  if (file_) return;
+  open_to_read(path);  // for its reasons
+  throw Error("cannot read " + path);
+}
+
+void LineReader::Close::operator()(gzFile_s* file) const { gzclose(file); }
+
+bool LineReader::is_compressed() const { return gzdirect(file_.get()) == 0; }
 
 bool LineReader::next() {
   if (repeat_) {
@@ -73,12 +84,16 @@ void LineReader::read_block() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  stream_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
-  const auto count = static_cast<std::size_t>(stream_.gcount());
+  const auto room = static_cast<unsigned>(buffer_.size() - end_);
+  const int read = gzread(file_.get(), buffer_.data() + end_, room);
+  const auto count = static_cast<std::size_t>(std::max(read, 0));
   end_ += count;
   bytes_read_ += count;
-  if (stream_.bad()) throw error_at(number_ + 1, "reading failed; is the disk or the connection in order?");
-  at_end_ = !stream_;
+  int code = Z_OK;
+  gzerror(file_.get(), &code);
+  if (code == Z_ERRNO) throw error_at(number_ + 1, "reading failed; is the disk or the connection in order?");
+  if (code != Z_OK) throw error_at(number_ + 1, "what gzip packed is damaged, or cut off");
+  at_end_ = count < room;
 }
 
 bool LineReader::skip(std::size_t count) {
@@ -98,7 +113,8 @@ std::optional<std::uintmax_t> LineReader::bytes_left() const {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path_, code);
   if (code) return std::nullopt;
-  const std::uintmax_t position = bytes_read_ - (end_ - begin_);
+  const std::uintmax_t position =
+      is_compressed() ? static_cast<std::uintmax_t>(gzoffset(file_.get())) : bytes_read_ - (end_ - begin_);
   return size > position ? size - position : 0;
 }
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,9 +11,11 @@
 
 #include "vorocl/error.hpp"
 
+struct gzFile_s;  // zlib's
+
 namespace vorocl::command {
 
-/// Reads large blocks and hands out views into them. Works on pipes too.
+/// Reads large blocks and hands out views into them. Works on pipes too, and reads what gzip has packed.
 class LineReader {
  public:
   /// Throws Error if the file cannot be read.
@@ -39,7 +41,10 @@ class LineReader {
   /// Its number from 1; the last line's at the end of the file.
   std::size_t number() const { return number_; }
 
-  /// How much of the file comes after the present line; none where that is not known (a pipe).
+  bool is_compressed() const;
+
+  /// How much of the file comes after the present line, as it is stored; none where that is not known (a
+  /// pipe).
   std::optional<std::uintmax_t> bytes_left() const;
 
   /// "FILE:LINE: what" for the present line, or for another one.
@@ -50,8 +55,12 @@ class LineReader {
   void read_block();
   void set_line(std::size_t length);
 
+  struct Close {
+    void operator()(gzFile_s* file) const;
+  };
+
   std::string path_;
-  std::ifstream stream_;
+  std::unique_ptr<gzFile_s, Close> file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // of what is not handed out yet
   std::size_t end_ = 0;

@@ -16,7 +16,7 @@ namespace {
 /// Refuses a count that the file cannot hold, a row being longer than a byte. Rows that lack a field or a few
 /// rows too few are left to the reading, which can name the line.
 void check_fits(const LineReader& lines, const ParticleCount& count) {
-  const auto left = lines.bytes_left();
+  const auto left = lines.is_compressed() ? std::nullopt : lines.bytes_left();
   if (left && count.value > *left) {
     throw lines.error_at(count.line,
                          fmt::format("{} particles cannot be in the {} bytes that follow: the number is "
@@ -167,7 +167,7 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
     z = parse_number<double>(fields_[*layout.z]).value_or(0);
   }
   if (layout.value) values_.push_back(parse_value(lines, fields_[*layout.value]));
-  if (layout.scaled) position = box->from_scaled(position);
+  if (box) position = layout.scaled ? box->from_scaled(position) : box->turned(position);
   if (box) position = box->place(lines, id, position);
   if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(z)) {
     throw lines.error("the position is too far from the box to be computed");

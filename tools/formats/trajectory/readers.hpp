@@ -42,9 +42,9 @@ class LammpsDump : public TrajectoryReader {
 /// XYZ files, plain and extended.
 ///
 /// Each frame is a line with the number of particles, a line of comment, and one row per particle: its kind,
-/// x, y, z and maybe more. An extended file's comment holds key=value pairs, of which these matter: Lattice
-/// (the nine components of the box's edges), Origin (its corner), pbc (which axes are periodic; all, without
-/// it; the box grows on others) and Properties (what the columns are, among them pos and maybe id).
+/// x, y, z and maybe more. An extended file's comment holds key=value pairs, of which these matter: Timestep,
+/// Lattice (the nine components of the box's edges), Origin (its corner), pbc (which axes are periodic; all,
+/// without it; the box grows on others) and Properties (what the columns are, among them pos and maybe id).
 class Xyz : public TrajectoryReader {
  public:
   Xyz(LineReader lines, std::string value_column, Wanted wanted);

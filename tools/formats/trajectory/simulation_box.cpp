@@ -116,7 +116,21 @@ double SimulationBox::place_z(const LineReader& lines, std::uint32_t id, double 
   return z;
 }
 
+void SimulationBox::turn(Point direction, bool flipped) {
+  direction_ = direction;
+  is_flipped_ = flipped;
+  constexpr double degrees = 57.29577951308232;
+  box_.turned = std::atan2(direction.y, direction.x) * degrees;
+}
+
+Point SimulationBox::turned(Point position) const {
+  if (direction_.y == 0 && direction_.x > 0) return position;
+  const double x = position.x - x_.low, y = position.y - y_.low;
+  return {x_.low + (x * direction_.x + y * direction_.y), y_.low + (y * direction_.x - x * direction_.y)};
+}
+
 Point SimulationBox::from_scaled(Point scaled) const {
+  if (is_flipped_) scaled.y = 1 - scaled.y;
   return {unscaled(x_, scaled.x) + scaled.y * tilt_, unscaled(y_, scaled.y)};
 }
 
@@ -138,18 +152,32 @@ Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point posi
 SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
                              Sides z) {
   const auto& [a, b, c] = edges;
-  const double length = std::max(std::abs(a[0]), std::abs(b[1]));
-  for (const double component : {a[1], a[2], b[2], c[0], c[1]}) {
+  const double length = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));
+  for (const double component : {a[2], b[2], c[0], c[1]}) {
     if (!is_negligible(component, length)) {
       throw lines.error(
-          "the box is turned, or tilted in z; its first edge must lie along x, its second in the xy "
-          "plane and its third along z");
+          "the box is turned out of its plane, or tilted in z; its first two edges must lie in the xy plane "
+          "and its third along z");
     }
   }
-  const BoxAxis x_axis{origin.x, origin.x + a[0], x};
-  const BoxAxis y_axis{origin.y, origin.y + b[1], y};
-  const BoxAxis z_axis{origin.z, origin.z + c[2], z};
-  return SimulationBox(lines, x_axis, y_axis, z_axis, b[0]);
+  const double side = is_negligible(a[1], a[0]) ? std::abs(a[0]) : std::hypot(a[0], a[1]);
+  const Point direction = side == 0                   ? Point{1, 0}
+                          : is_negligible(a[1], a[0]) ? Point{std::copysign(1.0, a[0]), 0}
+                                                      : Point{a[0] / side, a[1] / side};
+  double tilt = b[0] * direction.x + b[1] * direction.y, height = b[1] * direction.x - b[0] * direction.y;
+  if (is_negligible(tilt, side)) tilt = 0;
+  const bool flipped = height < 0;
+  if (flipped) {  // the lattice is that of the opposite edge, from its end on
+    origin.x += b[0];
+    origin.y += b[1];
+    tilt = -tilt;
+    height = -height;
+    std::swap(y.first, y.second);
+  }
+  SimulationBox box(lines, {origin.x, origin.x + side, x}, {origin.y, origin.y + height, y},
+                    {origin.z, origin.z + c[2], z}, tilt);
+  box.turn(direction, flipped);
+  return box;
 }
 
 }  // namespace vorocl::command

@@ -38,6 +38,13 @@ class SimulationBox {
   /// Throws Error, at the reader's line, for what is wrong of z, and for a tilt.
   void check_volume(const LineReader& lines) const;
 
+  /// Says that the box was turned in its plane about its corner until its first edge lay along x, `flipped`
+  /// if its second one was turned round with it; by how much is where that edge pointed.
+  void turn(Point direction, bool flipped);
+
+  /// Where a particle of the box lies when that is turned back.
+  Point turned(Point position) const;
+
   /// A position given in lengths of the edges, in data units.
   Point from_scaled(Point scaled) const;
 
@@ -65,6 +72,8 @@ class SimulationBox {
   BoxAxis y_;
   BoxAxis z_;
   double tilt_;
+  Point direction_ = {1, 0};  // of the file's first edge
+  bool is_flipped_ = false;
   Box box_;
 };
 
@@ -75,8 +84,8 @@ struct Edges {
   double c[3];
 };
 
-/// The box with these edges. Throws Error, at the reader's line, unless the first lies along x, the second
-/// in the xy plane and the third along z, and where SimulationBox does.
+/// The box with these edges, turned in its plane until the first lies along x. Throws Error, at the reader's
+/// line, unless the first two lie in the xy plane and the third along z, and where SimulationBox does.
 SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
                              Sides z);
 

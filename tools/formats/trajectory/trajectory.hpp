@@ -24,6 +24,8 @@ struct Box {
   double tilt = 0;
   /// Sides that give way to particles: shrink-wrapped ones. Beyond the others there is nothing.
   bool open_x0 = false, open_y0 = false, open_x1 = false, open_y1 = false;
+  /// By how many degrees the file's box is turned in its plane; here it is turned back, with its particles.
+  double turned = 0;
   /// Of a volume.
   double z0 = 0;
   double z1 = 0;
@@ -34,7 +36,7 @@ struct Box {
 /// its kind of coordinates. Unless a volume is wanted the third dimension is left out: particles are seen
 /// along z.
 struct Frame {
-  std::optional<std::int64_t> timestep;  ///< none in XYZ
+  std::optional<std::int64_t> timestep;  ///< none in an XYZ that does not say it
   std::optional<Box> box;                ///< none in an XYZ without a lattice
   std::vector<std::uint32_t> ids;        ///< ascending; the rows' numbers from 0 where the file has no ids
   /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);

@@ -117,7 +117,9 @@ std::optional<SimulationBox> parse_box(const LineReader& lines, const Pairs& pai
     z = parse_periodic(lines, axes[2]);
   }
   // Some programs write a lattice of zeros where there is none.
-  if (x.first != Side::periodic && y.first != Side::periodic && v[0] == 0 && v[4] == 0) return std::nullopt;
+  if (x.first != Side::periodic && y.first != Side::periodic && v[0] == 0 && v[1] == 0 && v[3] == 0 &&
+      v[4] == 0)
+    return std::nullopt;
   const Edges edges = {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}};
   return box_from_edges(lines, edges, origin, x, y, z);
 }
@@ -173,7 +175,8 @@ bool Xyz::next(Frame& frame) {
   const Pairs pairs = parse_comment(lines_.line());
   const RowLayout layout = parse_layout(lines_, pairs, value_column_);
   std::optional<SimulationBox> box = parse_box(lines_, pairs);
-  frame.timestep.reset();
+  const auto timestep = pairs.find("timestep");
+  frame.timestep = timestep == pairs.end() ? std::nullopt : parse_number<std::int64_t>(timestep->second);
   rows_.read(lines_, layout, count, box, frame);
   return true;
 }
