@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   refuses(folder, points + "--labels a.npy --outside refuse --bounds 0,0,60,40", failure,
           {"p.csv: point 2 at (-20, -5) is outside the bounds"});
   refuses(folder, "tiles --points nan.csv --size 40x30 --labels a.npy", failure,
-          {"nan.csv:3: \"nan\" is not finite"});
+          {"nan.csv: point 1 at (3, nan) is not finite"});
   refuses(folder, "tiles --points far.csv --size 40x30 --bounds 0,0,9,9 --labels a.npy", failure,
           {"far.csv: point 1 at (1000000000000, 3) is 2^31 pixels or more away"});
   refuses(folder, "tiles --points empty.csv --size 40x30 --labels a.npy", failure,
