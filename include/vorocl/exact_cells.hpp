@@ -111,8 +111,8 @@ class VOROCL_API ExactCellsResult {
 /// axes say where it begins and ends and which axes are periodic, its pixels do not count. Seeds outside it
 /// count as far as their cells reach into it.
 ///
-/// Points are taken as they were given (as the centres of their pixels where they were made on the device, or
-/// came in a buffer that the device has read), and rounded to a power of two that is at most 2^-29 of the
+/// Points are taken as they were given (as the centres of their pixels where they were made on the device),
+/// and rounded to a power of two that is at most 2^-29 of the
 /// rectangle's longer side, or of what holds the seeds outside too. So are the rectangle's sides. Whole
 /// numbers, halves and so on stay as they are. Of these points the cells are exact: neighbours are decided in
 /// whole numbers, and cells that touch in a point are none. Vertices are right to about 2^-50 of their
@@ -127,9 +127,9 @@ class VOROCL_API ExactCellsResult {
 /// about 0.1 us each; the device takes 1.5 us per cell and core. Memory: 115 bytes per seed, and 116 more
 /// where polygons are asked for.
 ///
-/// Enqueues and returns, after a wait where only the device has the points. Throws BadPoint if one was bad;
-/// Error if the device has no doubles (cl_khr_fp64) or too little memory, or the rectangle has no extent
-/// along an axis.
+/// Enqueues and returns, after a wait where only the device has the points. Throws Error if the points came
+/// as floats in a buffer and the device has snapped them (see Seeds), if the device has no doubles
+/// (cl_khr_fp64) or too little memory, or if the rectangle has no extent along an axis.
 VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

@@ -83,6 +83,31 @@ DeviceDescription describe(cl_platform_id platform, cl_device_id device) {
   return description;
 }
 
+/// The names of the drivers that the loader knows of, with commas between them.
+std::string installed_drivers() {
+  const char* const named = std::getenv("OCL_ICD_VENDORS");
+  const std::filesystem::path folder = named != nullptr ? named : "/etc/OpenCL/vendors";
+  std::string names;
+  std::error_code code;
+  for (std::filesystem::directory_iterator file(folder, code), end; !code && file != end;
+       file.increment(code)) {
+    if (file->path().extension() != ".icd") continue;
+    names += (names.empty() ? "" : ", ") + file->path().stem().string();
+  }
+  return names;
+}
+
+/// PoCL ends the process where its variable is set but empty.
+void refuse_what_ends_pocl() {
+  const char* const cache = std::getenv("POCL_CACHE_DIR");
+  if (cache == nullptr || *cache != '\0') return;
+  if (const std::string drivers = installed_drivers(); !drivers.empty() && !contains(drivers, "pocl")) return;
+  throw Error(
+      "POCL_CACHE_DIR is set but empty, and PoCL ends the process for that: unset it, or let it name a "
+      "folder",
+      ErrorKind::device);
+}
+
 std::vector<Candidate> find_candidates() {
   // The loader (ocl-icd) and PoCL set themselves up when they are first asked, without a lock: threads that
   // ask at the same time see no platform, or crash.
@@ -90,6 +115,7 @@ std::vector<Candidate> find_candidates() {
   const std::lock_guard<std::mutex> lock(first_contact);
   static const std::int64_t process = process_number();
   refuse_fork_of(process);
+  refuse_what_ends_pocl();
   std::vector<Candidate> candidates;
   const std::vector<cl_platform_id> platforms = find_platforms();
   for (std::size_t p = 0; p < platforms.size(); ++p) {
@@ -152,20 +178,6 @@ std::string list_of(const std::vector<Candidate>& candidates) {
   return text;
 }
 
-/// The names of the drivers that the loader knows of, with commas between them.
-std::string installed_drivers() {
-  const char* const named = std::getenv("OCL_ICD_VENDORS");
-  const std::filesystem::path folder = named != nullptr ? named : "/etc/OpenCL/vendors";
-  std::string names;
-  std::error_code code;
-  for (std::filesystem::directory_iterator file(folder, code), end; !code && file != end;
-       file.increment(code)) {
-    if (file->path().extension() != ".icd") continue;
-    names += (names.empty() ? "" : ", ") + file->path().stem().string();
-  }
-  return names;
-}
-
 /// Where there is no platform: none of the drivers is installed, or none could start. The loader does not say
 /// why; what is known to stop them is looked at.
 Error no_platform() {
@@ -180,6 +192,10 @@ Error no_platform() {
   if (const auto limit = address_space_limit()) {
     text +=
         "; the address space is limited to " + std::to_string(*limit >> 20) + " MiB: raise it (ulimit -v)";
+  }
+  if (const char* const devices = std::getenv("POCL_DEVICES"); devices != nullptr) {
+    text += std::string("; POCL_DEVICES is \"") + devices +
+            "\", and PoCL does not start if that names no device that it knows: unset it";
   }
   if (const std::string cache = trouble_with_cache_of_pocl(); !cache.empty()) text += "; " + cache;
   return Error(text, ErrorKind::device);

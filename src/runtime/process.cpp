@@ -32,13 +32,13 @@ std::string processor_features() {
 
 namespace {
 
-/// As far as the environment says it; empty: it does not.
+/// As the environment says it. With an empty home it lies in the root.
 std::filesystem::path cache_of_pocl() {
   const auto variable = [](const char* name) { return std::filesystem::path(environment(name)); };
   if (auto own = variable("POCL_CACHE_DIR"); !own.empty()) return own;
   if (auto caches = variable("XDG_CACHE_HOME"); !caches.empty()) return caches / "pocl";
-  const auto home = variable("HOME");
-  return home.empty() ? home : home / ".cache" / "pocl";
+  const char* const home = std::getenv("HOME");
+  return home == nullptr ? "/tmp/pocl" : std::string(home) + "/.cache/pocl";
 }
 
 }  // namespace
@@ -53,7 +53,6 @@ std::optional<std::uint64_t> address_space_limit() {
 
 std::string trouble_with_cache_of_pocl() {
   const std::filesystem::path folder = cache_of_pocl();
-  if (folder.empty()) return "";
   std::error_code code;
   std::filesystem::create_directories(folder, code);
   if (!code && access(folder.c_str(), W_OK | X_OK) != 0) code.assign(errno, std::generic_category());

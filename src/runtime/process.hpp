@@ -31,7 +31,7 @@ std::optional<std::uint64_t> address_space_limit();
 std::string processor_features();
 
 /// Makes the folder where PoCL keeps what it builds if it is not there. Why PoCL cannot write there, and what
-/// to do; empty if it can, or if nothing says where the folder is.
+/// to do; empty if it can.
 std::string trouble_with_cache_of_pocl();
 
 }  // namespace vorocl

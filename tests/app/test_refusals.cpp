@@ -321,6 +321,9 @@ BOOST_AUTO_TEST_CASE(why_no_driver_starts_is_told) {
   refuses(folder, line, failure,
           {"building ", " failed; PoCL cannot write its cache file (", "POCL_CACHE_DIR"},
           "POCL_CACHE_DIR=file");
+  refuses(folder, line, failure, {"POCL_CACHE_DIR is set but empty", "unset it"}, "POCL_CACHE_DIR=");
+  refuses(folder, line, failure, {"no OpenCL driver could start", "POCL_DEVICES is \"foo\"", "unset it"},
+          "POCL_DEVICES=foo");
   refuses(folder, line, failure, {"no OpenCL driver could start", "limited to 195 MiB", "ulimit -v"},
           "ulimit -v 200000;");
   folder.file("vendors/none", "");

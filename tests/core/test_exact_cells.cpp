@@ -651,6 +651,26 @@ extern "C" __attribute__((visibility("default"))) cl_int clGetDeviceInfo(cl_devi
   return code;
 }
 
+BOOST_AUTO_TEST_CASE(floats_in_a_buffer_have_the_cells_of_their_places_or_are_refused) {
+  const std::vector<cl_float2> floats = {{{0.25F, 0.5F}}, {{3.75F, 0.5F}}, {{2.5F, 3.25F}}};
+  const cl::Buffer buffer(test_device().context(), CL_MEM_READ_ONLY | CL_MEM_COPY_HOST_PTR,
+                          floats.size() * sizeof(cl_float2), const_cast<cl_float2*>(floats.data()));
+  const PointBuffer points(buffer, floats.size());
+  const Grid grid(4, 4);
+  ExactCellsResult expected, found;
+  exact_cells(Seeds(test_device(), grid, {{0.25, 0.5}, {3.75, 0.5}, {2.5, 3.25}}), expected);
+  exact_cells(Seeds(test_device(), grid, points, Outside::refuse, Snap::none), found);
+  for (std::size_t i = 0; i < floats.size(); ++i) BOOST_TEST(found.read()[i].area == expected.read()[i].area);
+  for (const Outside outside : {Outside::refuse, Outside::absent}) {
+    const auto names_snapping = [](const Error& error) {
+      return std::string(error.what()).find("Snap::none") != std::string::npos;
+    };
+    BOOST_CHECK_EXCEPTION(exact_cells(Seeds(test_device(), grid, points, outside), found), Error,
+                          names_snapping);
+    BOOST_TEST(found.size() == 0u);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_and_leaves_an_empty_result) {
   const Set set = {"random", side, side, random_positions(side, side, 10, 11)};
   const Seeds seeds(test_device(), grid_of(set, Periodic::none), points_of(set.positions));
