@@ -58,7 +58,7 @@ class VOROCL_API ImageTarget {
 /// Which pixels are marked: those that others look for.
 enum class Marked {
   zeros,      ///< as SciPy's distance_transform_edt() and edt have it
-  non_zeros,  ///< as a mask of seeds and an image of labels have it
+  non_zeros,  ///< as a mask of seeds and an image of labels have it; NaN is no data, and not marked
 };
 
 /// The lengths of a pixel along the axes of a grid.
@@ -105,7 +105,9 @@ struct TransformOptions {
   Marked marked = Marked::zeros;
 
   /// Marked pixels that are farther away than so much are none: infinity, no_label and 0 are written instead.
-  /// In the units of PixelSize; a root as double has it: std::sqrt(13) takes in what is 2 and 3 pixels away.
+  /// In the units of PixelSize; a root as double has it: std::sqrt(13) takes in what is 2 and 3 pixels away,
+  /// and 7 * 0.65 what is 7 pixels of 0.65 away: where lengths are not 1, what is farther by a rounding is no
+  /// farther.
   double farthest = std::numeric_limits<double>::infinity();
 };
 

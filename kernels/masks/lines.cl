@@ -251,7 +251,7 @@ INLINE keys part_of(int16 way, int most, one_key square) {
   (void)most;
   return convert_long16(way) * convert_long16(way) * square;
 #else
-  const uint16 near = as_uint16(min(way, most));
+  const uint16 near = as_uint16(min(way, (int16)most));
   return near * near * square;
 #endif
 }

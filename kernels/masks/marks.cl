@@ -20,7 +20,8 @@ static inline uint zero_bytes(ulong bytes) {
   return (uint)((~bytes & LOWEST_BITS) * GATHERING >> 56);
 }
 
-// Which of 16 pixels of the sizes that an image may have are zero. `sign`: of numbers whose sign does not count.
+// Which of 16 pixels of the sizes that an image may have are zero. `sign`: of numbers whose sign does not count; those
+// that are greater than `most` without it, which no number is, count as zeros.
 static inline uint zeros_of_bytes(global const uchar* pixels) {
   return zero_bytes(((global const any_ulong*)pixels)->v) | zero_bytes(((global const any_ulong*)(pixels + 8))->v) << 8;
 }
@@ -31,50 +32,57 @@ static inline uint bits_of_lanes(char16 lanes) {
 static inline uint zeros_of_shorts(global const ushort* pixels) {
   return bits_of_lanes(convert_char16(vload16(0, pixels) == (ushort16)0));
 }
-static inline uint zeros_of_ints(global const uint* pixels, uint sign) {
-  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) == (uint16)0));
+static inline uint zeros_of_ints(global const uint* pixels, uint sign, uint most) {
+  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) - 1u >= (uint16)most));
 }
-static inline uint zeros_of_longs(global const ulong* pixels, ulong sign) {
-  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) == (ulong16)0));
+static inline uint zeros_of_longs(global const ulong* pixels, ulong sign, ulong most) {
+  return bits_of_lanes(convert_char16((vload16(0, pixels) & ~sign) - 1ul >= (ulong16)most));
 }
 
-static inline bool is_zero(global const uchar* pixels, int bytes, bool has_sign, size_t at) {
+// What has a sign is a float, or a double: greater than infinity is what is no number.
+#define SIGN_OF_INTS(has_sign) ((has_sign) ? 0x80000000u : 0u)
+#define MOST_OF_INTS(skips_nan) ((skips_nan) ? 0x7f800000u : 0xffffffffu)
+#define SIGN_OF_LONGS(has_sign) ((has_sign) ? 0x8000000000000000ul : 0ul)
+#define MOST_OF_LONGS(skips_nan) ((skips_nan) ? 0x7ff0000000000000ul : 0xfffffffffffffffful)
+
+static inline bool is_zero(global const uchar* pixels, int bytes, bool has_sign, bool skips_nan, size_t at) {
   switch (bytes) {
     case 1: return pixels[at] == 0;
     case 2: return ((global const ushort*)pixels)[at] == 0;
-    case 4: return (((global const uint*)pixels)[at] & (has_sign ? 0x7fffffffu : 0xffffffffu)) == 0;
-    default: return (((global const ulong*)pixels)[at] & (has_sign ? 0x7ffffffffffffffful : 0xfffffffffffffffful)) == 0;
+    case 4: return (((global const uint*)pixels)[at] & ~SIGN_OF_INTS(has_sign)) - 1u >= MOST_OF_INTS(skips_nan);
+    default: return (((global const ulong*)pixels)[at] & ~SIGN_OF_LONGS(has_sign)) - 1ul >= MOST_OF_LONGS(skips_nan);
   }
 }
 
-static inline uint zeros_of_word(global const uchar* pixels, int bytes, bool has_sign, size_t at) {
+static inline uint zeros_of_word(global const uchar* pixels, int bytes, bool has_sign, bool skips_nan, size_t at) {
   switch (bytes) {
     case 1: return zeros_of_bytes(pixels + at);
     case 2: return zeros_of_shorts((global const ushort*)pixels + at);
-    case 4: return zeros_of_ints((global const uint*)pixels + at, has_sign ? 0x80000000u : 0);
-    default: return zeros_of_longs((global const ulong*)pixels + at, has_sign ? 0x8000000000000000ul : 0);
+    case 4: return zeros_of_ints((global const uint*)pixels + at, SIGN_OF_INTS(has_sign), MOST_OF_INTS(skips_nan));
+    default: return zeros_of_longs((global const ulong*)pixels + at, SIGN_OF_LONGS(has_sign), MOST_OF_LONGS(skips_nan));
   }
 }
 
-// Marks the pixels that are zero, or those that are not (`wanted` is 0xffff then), of an image whose pixels have so
-// many bytes. Work-items share the rows.
+// Marks the pixels that are zero, or those that are neither zero nor NaN (`wanted` is 0xffff then), of an image whose
+// pixels have so many bytes. Work-items share the rows.
 kernel void mark_pixels(global const uchar* restrict pixels, int bytes, int has_sign, uint wanted, int width, int rows,
                         global ushort* restrict marks, global uint* restrict counts) {
   const int parts = (int)get_global_size(0), id = (int)get_global_id(0), words = SHORTS_OF_ROW(width);
   const int first = (int)((long)id * rows / parts), end = (int)((long)(id + 1) * rows / parts);
+  const bool is_float = has_sign != 0, skips_nan = is_float && wanted != 0;
   for (int row = first; row < end; ++row) {
     const size_t start = (size_t)row * (size_t)width;
     global ushort* const out = marks + (size_t)row * (size_t)words;
     uint count = 0;
     for (int i = 0; i < width / STRIP; ++i) {
-      const uint word = (zeros_of_word(pixels, bytes, has_sign != 0, start + (size_t)i * STRIP) ^ wanted) & 0xffff;
+      const uint word = (zeros_of_word(pixels, bytes, is_float, skips_nan, start + (size_t)i * STRIP) ^ wanted) & 0xffff;
       count += popcount(word);
       out[i] = (ushort)word;
     }
     if (width % STRIP != 0) {
       uint word = 0;
       for (int x = width / STRIP * STRIP; x < width; ++x) {
-        const bool zero = is_zero(pixels, bytes, has_sign != 0, start + (size_t)x);
+        const bool zero = is_zero(pixels, bytes, is_float, skips_nan, start + (size_t)x);
         word |= (uint)(zero != (wanted != 0)) << x % STRIP;
       }
       count += popcount(word);

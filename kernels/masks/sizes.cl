@@ -59,12 +59,14 @@ typedef struct {
   cl_long limit_y, limit_z;            // of distances in keys
   cl_long length_x, length_y, length_z;  // of a pixel: the bits of doubles
   cl_long farthest;                    // squared; a mark that is farther is none
+  cl_long longest_length;              // the bits of a double; so is one that is farther than this, if ...
   cl_long no_value;
   cl_float float_x, float_y, float_z;  // the lengths
   cl_int width, height, depth, longest;
   cl_int period_x, period_y, period_z;  // as many pixels, or 0
   cl_int bits_y, bits_z, saturates_y, saturates_z;
   cl_int most_x_of_y, most_x_of_z, most_y_of_z;
+  cl_int limits_lengths;               // ... this is set
   cl_int is_unit;                      // the lengths are 1
   cl_int is_volume, wanted, bytes_of_value;
 } images_t;

@@ -50,6 +50,20 @@ typedef struct {
   keys square;
 } nearest_t;
 
+#ifdef cl_khr_fp64
+// From the offsets and the lengths as they were given.
+INLINE double16 lengths_of(const nearest_t* n, const images_t* e) {
+  const double16 x = convert_double16(way_of(n->column - (LANE + n->x), e->period_x)) * as_double(e->length_x);
+  const double16 y = convert_double16(way_of(n->row - n->y, e->period_y)) * as_double(e->length_y);
+  double16 squared = x * x + y * y;
+  if (e->is_volume) {
+    const double16 z = convert_double16(way_of(n->slice - n->z, e->period_z)) * as_double(e->length_z);
+    squared += z * z;
+  }
+  return sqrt(squared);
+}
+#endif
+
 INLINE void store_distances(const nearest_t* n, const images_t* e, const targets_t* t) {
   const int16 none = n->none;
   if (e->wanted & WANTS_SQUARES) {
@@ -57,23 +71,9 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
     STORE_LANES(uint, squares, (global uint*)t->distances + n->at, n->lanes);
     return;
   }
-  const int16 x = way_of(n->column - (LANE + n->x), e->period_x), y = way_of(n->row - n->y, e->period_y);
-  const int16 z = way_of(n->slice - n->z, e->period_z);
 #ifdef cl_khr_fp64
   if ((e->wanted & WANTS_DOUBLES) || !e->is_unit) {
-    double16 length;
-    if (e->is_unit) {
-      length = sqrt(convert_double16(n->square));
-    } else {
-      const double16 along_x = convert_double16(x) * as_double(e->length_x);
-      const double16 along_y = convert_double16(y) * as_double(e->length_y);
-      length = along_x * along_x + along_y * along_y;
-      if (e->is_volume) {
-        const double16 along_z = convert_double16(z) * as_double(e->length_z);
-        length += along_z * along_z;
-      }
-      length = sqrt(length);
-    }
+    double16 length = e->is_unit ? sqrt(convert_double16(n->square)) : lengths_of(n, e);
     length = select(length, (double16)INFINITY, convert_long16(none));
     if (e->wanted & WANTS_DOUBLES) {
       STORE_LANES(double, length, (global double*)t->distances + n->at, n->lanes);
@@ -87,6 +87,8 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
   if (e->is_unit) {
     length = sqrt(convert_float16(n->square));
   } else {
+    const int16 x = way_of(n->column - (LANE + n->x), e->period_x), y = way_of(n->row - n->y, e->period_y);
+    const int16 z = way_of(n->slice - n->z, e->period_z);
     const float16 along_x = convert_float16(x) * e->float_x, along_y = convert_float16(y) * e->float_y;
     const float16 along_z = convert_float16(z) * e->float_z;
     length = sqrt(along_x * along_x + along_y * along_y + along_z * along_z);
@@ -144,6 +146,10 @@ INLINE void store_indices(const nearest_t* n, const images_t* e, const targets_t
 }
 
 INLINE void store_nearest(nearest_t* n, const images_t* e, const targets_t* t) {
+#ifdef cl_khr_fp64
+  // Whole numbers may be rounded, or their unit.
+  if (e->limits_lengths) n->none |= convert_int16(lengths_of(n, e) > (double16)as_double(e->longest_length));
+#endif
   n->at = ((size_t)n->z * (size_t)e->height + (size_t)n->y) * (size_t)e->width + (size_t)n->x;
   if (e->wanted & (WANTS_SQUARES | WANTS_FLOATS | WANTS_DOUBLES)) store_distances(n, e, t);
   if (e->wanted & WANTS_INDICES) store_indices(n, e, t);

@@ -161,7 +161,7 @@ Report DistanceTransform::run(const ImageSource& image, const TransformTargets& 
                     " does not have; ask for float32",
                 ErrorKind::device);
   }
-  to.farthest = state.whole.most_within(options.farthest);
+  to.farthest = options.farthest;
   return with_host_memory(state.device, [&] {
     const cl::Event first = state.marks.mark(state.kernels, to.image, image.type(), options.marked);
     if (to.ranks() != nullptr) state.marks.rank(state.kernels);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "exact_cells/has_doubles.hpp"
 #include "masks/items.hpp"
 #include "runtime/buffer.hpp"
 // Last: it defines macros.
@@ -117,7 +118,13 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) con
   images.length_x = bits_of(size_.x);
   images.length_y = bits_of(size_.y);
   images.length_z = bits_of(size_.z);
-  images.farthest = targets.farthest;
+  images.is_unit = size_.x == 1 && size_.y == 1 && (size_.z == 1 || shape_.depth == 1);
+  images.limits_lengths = !images.is_unit && std::isfinite(targets.farthest) && has_doubles(device_);
+  // What is as far but for rounding is no farther.
+  constexpr double within = 4 * std::numeric_limits<double>::epsilon();
+  images.longest_length = bits_of(targets.farthest * (1 + within));
+  images.farthest =
+      whole_.most_within(images.limits_lengths ? std::numeric_limits<double>::infinity() : targets.farthest);
   images.no_value = targets.no_value;
   images.float_x = static_cast<cl_float>(size_.x);
   images.float_y = static_cast<cl_float>(size_.y);
@@ -136,7 +143,6 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) con
   images.most_x_of_y = way_of_limit(along_y_.limit, whole_.squares[0]);
   images.most_x_of_z = way_of_limit(along_z_.limit, whole_.squares[0]);
   images.most_y_of_z = way_of_limit(along_z_.limit, whole_.squares[1]);
-  images.is_unit = size_.x == 1 && size_.y == 1 && (size_.z == 1 || shape_.depth == 1);
   images.is_volume = shape_.is_volume;
   images.wanted = wanted_of(targets);
   images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));

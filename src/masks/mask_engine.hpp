@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 
 #include "masks/marks.hpp"
 #include "masks/pixel_sizes.hpp"
@@ -17,7 +18,7 @@ struct NearestTargets {
   cl::Buffer values, image;  // may be one buffer
   PixelType type_of_values = PixelType::uint32;
   std::uint32_t no_value = 0;
-  std::int64_t farthest = std::int64_t{1} << 62;  // squared, in units of the sizes
+  double farthest = std::numeric_limits<double>::infinity();
 };
 
 /// The first and the last one of what was enqueued.

@@ -123,7 +123,7 @@ void check_against_brute_force(const Shape3& shape, const Bytes& image, const Tr
       rank = static_cast<std::uint32_t>(j);
     }
     double distance = std::sqrt(static_cast<double>(least)) * shape.unit;
-    if (least < 0 || distance > options.farthest) {
+    if (least < 0 || distance > options.farthest * (shape.unit == 1 ? 1 : 1 + 1e-15)) {
       place = rank = no_label;
       distance = std::numeric_limits<double>::infinity();
     }
@@ -283,6 +283,53 @@ BOOST_AUTO_TEST_CASE(a_farthest_distance_takes_in_what_is_as_far) {
     check_against_brute_force({{18, 13, 11}, {}, {13, 13, 40}, 0.005}, images_of({{18, 13, 11}}, 3)[6],
                               {Marked::zeros, 0.065 * farthest});
   }
+}
+
+BOOST_AUTO_TEST_CASE(values_grow_by_whole_pixels_whatever_their_lengths) {
+  const std::size_t width = 70;
+  const double pi = std::acos(-1.0);
+  for (const PixelSize& size :
+       {PixelSize{0.65, 0.65, 1}, {0.7, 2.1, 1}, {0.1, 0.3, 1}, {1, pi, 1}, {pi, 1, 1}}) {
+    DistanceTransform transform(test_device(), Grid(static_cast<int>(width), 2), size);
+    Bytes image(2 * width, 0), values(2 * width);
+    image[0] = 9;
+    TransformTargets targets;
+    targets.values = {values.data(), PixelType::uint8};
+    for (std::size_t pixels = 0; pixels < width; ++pixels) {
+      const double farthest = static_cast<double>(pixels) * size.x;
+      transform.run({image.data(), PixelType::uint8}, targets, {Marked::non_zeros, farthest});
+      const auto grown = static_cast<std::size_t>(
+          std::count(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(width), 9));
+      BOOST_TEST(grown == pixels + 1);
+    }
+  }
+}
+
+namespace {
+
+/// No number is no mark of an image's, but no zero either.
+template <typename T>
+void check_nan(PixelType type) {
+  for (const int width : {1, 15, 16, 17, 40}) {
+    const auto row = static_cast<std::size_t>(width);
+    std::vector<T> image(3 * row, std::numeric_limits<T>::quiet_NaN());
+    image[row] = -std::numeric_limits<T>::infinity();
+    std::vector<std::uint32_t> ranks(3 * row);
+    TransformTargets targets;
+    targets.ranks = {ranks.data(), PixelType::uint32};
+    DistanceTransform transform(test_device(), Grid(width, 3));
+    transform.run({image.data(), type}, targets, {Marked::non_zeros});
+    BOOST_TEST(static_cast<std::size_t>(std::count(ranks.begin(), ranks.end(), 0u)) == ranks.size());
+    transform.run({image.data(), type}, targets, {Marked::zeros});
+    BOOST_TEST(!transform.found());
+  }
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(no_number_is_no_data) {
+  check_nan<float>(PixelType::float32);
+  check_nan<double>(PixelType::float64);
 }
 
 namespace {
