@@ -1,5 +1,6 @@
 """Coins segmented and expanded: coins.py PICTURE. Needs scikit-image and matplotlib."""
 
+import math
 import sys
 
 import matplotlib
@@ -19,7 +20,7 @@ labels = measure.label(morphology.remove_small_objects(coins, max_size=500))
 shown = [
     ("segmented", labels),
     ("expanded by 10 pixels", vorocl.expand_labels(labels, 10)),
-    ("expanded until they meet", vorocl.expand_labels(labels)),
+    ("expanded until they meet", vorocl.expand_labels(labels, math.inf)),
 ]
 figure, axes = pyplot.subplots(1, 3, figsize=(12, 3.3), layout="constrained")
 for axis, (title, regions) in zip(axes, shown):

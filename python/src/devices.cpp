@@ -49,11 +49,6 @@ Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool
   return grid;
 }
 
-/// Of a mask, whose axes are in pixels and have no tilt.
-Grid spaced(const Grid& grid, int x, int y, int z) {
-  return {grid.x().spaced(x), grid.y().spaced(y), grid.z().spaced(z)};
-}
-
 }  // namespace
 
 void bind_devices(nb::module_& module) {
@@ -98,7 +93,6 @@ void bind_devices(nb::module_& module) {
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),
            nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("tilt"), nb::arg("bounds").none(),
            nb::arg("y_up"), nb::arg("closed"))
-      .def("spaced", spaced, nb::arg("x"), nb::arg("y"), nb::arg("z"))
       .def_prop_ro("width", &Grid::width)
       .def_prop_ro("height", &Grid::height)
       .def_prop_ro("depth", &Grid::depth)

@@ -148,24 +148,6 @@ void distances(DiagramObject& diagram, const Array<float>& values) {
   diagram.distances.read(first);
 }
 
-/// The squares of the distances of a Euclidean diagram.
-void integer_distances(DiagramObject& diagram, const Array<std::int32_t>& values) {
-  const Turn turn(diagram.mutex);
-  std::int32_t* const first = pixels_of(diagram.diagram, values);
-  Field<std::int32_t> field;
-  distance_field(diagram.diagram, field);
-  field.read(first);
-}
-
-/// The labels of the pixels that are near enough to their seeds.
-void expand(DiagramObject& diagram, double distance, const Array<std::uint32_t>& labels) {
-  const Turn turn(diagram.mutex);
-  std::uint32_t* const first = pixels_of(diagram.diagram, labels);
-  Field<std::uint32_t> field;
-  expand_labels(diagram.diagram, distance, field);
-  field.read(first);
-}
-
 /// What is measured of one cell, besides how its seed is given.
 struct CellMeasures {
   const CellSums& sums;
@@ -393,8 +375,6 @@ void bind_diagrams(nb::module_& module) {
       .def("write", write, nb::arg("labels"), without_gil())
       .def("write_of", write_of, nb::arg("labels"), nb::arg("seeds"), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())
-      .def("integer_distances", integer_distances, nb::arg("values"), without_gil())
-      .def("expand", expand, nb::arg("distance"), nb::arg("labels"), without_gil())
       .def("cells", cells)
       .def("areas", areas)
       .def("to_data", to_data, nb::arg("points"), without_gil())

@@ -10,5 +10,6 @@ NB_MODULE(_vorocl, module) {
   bind_seeds(module);
   bind_diagrams(module);
   bind_exact_cells(module);
+  bind_masks(module);
   bind_known_answers(module);
 }

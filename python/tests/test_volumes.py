@@ -1,11 +1,11 @@
-"""Volumes: labels against brute force, and SciPy's and scikit-image's functions of the same names."""
+"""Volumes: labels against brute force and SciPy's k-d tree, measures against scikit-image."""
 
 import numpy as np
 import pytest
 import vorocl
 from scipy import ndimage
 from scipy.spatial import cKDTree
-from skimage import measure, segmentation
+from skimage import measure
 
 SHAPES = [(9, 14, 23), (40, 33, 37)]
 
@@ -141,75 +141,6 @@ def test_adjacent_cells_share_faces(shape):
     assert np.array_equal(diagram.cells()["surface"], surface)
 
 
-@exact_alone
-@pytest.mark.parametrize("shape", [(50, 70), (1, 20, 30), (24, 35, 46)])
-@pytest.mark.parametrize("share", [0.0005, 0.02, 0.5, 0.99])
-def test_distance_transform_is_that_of_scipy(shape, share):
-    mask = np.random.default_rng(3).uniform(size=shape) > share
-    mask.flat[mask.size // 3] = False
-    expected = ndimage.distance_transform_edt(mask)
-    distances, indices = vorocl.distance_transform_edt(mask, return_indices=True)
-    assert distances.dtype == expected.dtype
-    assert np.array_equal(distances, expected)
-    assert indices.dtype == np.int32
-    assert not mask[tuple(indices)].any()
-    way = np.sqrt(((indices - np.indices(shape)) ** 2).sum(0))
-    assert np.array_equal(way, expected)
-    only = vorocl.distance_transform_edt(mask, return_distances=False, return_indices=True)
-    assert np.array_equal(only, indices)
-
-
-@exact_alone
-def test_sampling_scales_distances():
-    mask = np.random.default_rng(4).uniform(size=(9, 20, 30)) > 0.01
-    expected = ndimage.distance_transform_edt(mask, sampling=0.25)
-    assert np.array_equal(vorocl.distance_transform_edt(mask, sampling=(0.25, 0.25, 0.25)), expected)
-    expected = ndimage.distance_transform_edt(mask, sampling=0.1)
-    assert np.allclose(vorocl.distance_transform_edt(mask, sampling=0.1), expected, rtol=1e-15, atol=0)
-    labels = np.where(mask, 0, np.arange(mask.size).reshape(mask.shape))
-    assert np.array_equal(vorocl.expand_labels(labels, 0.5, 0.25), vorocl.expand_labels(labels, 2))
-
-
-@exact_alone
-@pytest.mark.parametrize("shape, sampling", [((50, 70), (3, 1.5)), ((24, 35, 46), (1, 0.25, 0.25)), ((1, 9, 40), (9, 1, 3))])
-@pytest.mark.parametrize("share", [0.001, 0.3])
-def test_pixels_may_be_longer_along_one_axis_than_along_another(shape, sampling, share):
-    rng = np.random.default_rng(6)
-    mask = rng.uniform(size=shape) > share
-    mask.flat[mask.size // 3] = False
-    expected = ndimage.distance_transform_edt(mask, sampling=sampling)
-    distances, indices = vorocl.distance_transform_edt(mask, sampling, return_indices=True)
-    assert np.allclose(distances, expected, rtol=1e-15, atol=0)
-    assert not mask[tuple(indices)].any()
-    sizes = np.reshape(sampling, (-1,) + (1,) * len(shape))
-    way = np.sqrt((((indices - np.indices(shape)) * sizes) ** 2).sum(0))
-    assert np.allclose(way, expected, rtol=1e-15, atol=0)
-    labels = np.where(mask, 0, rng.integers(1, 99, shape))
-    ours = vorocl.expand_labels(labels, 4, sampling)
-    expanded = segmentation.expand_labels(labels, 4, sampling)
-    assert np.array_equal(ours == 0, expanded == 0)
-    assert (ours != expanded).mean() < 0.2  # ties, of which there are many among small multiples
-    assert np.array_equal(ours[ours != 0], labels[tuple(indices)][ours != 0])
-
-
-@exact_alone
-@pytest.mark.parametrize("shape", [(60, 80), (1, 30, 40), (20, 30, 40)])
-@pytest.mark.parametrize("distance", [1, 3, np.sqrt(5), 100])
-def test_expanded_labels_are_those_of_scikit_image_but_for_ties(shape, distance):
-    rng = np.random.default_rng(5)
-    labels = np.where(rng.uniform(size=shape) < 0.004, rng.integers(1, 99, shape), 0)
-    expected = segmentation.expand_labels(labels, distance)
-    expanded = vorocl.expand_labels(labels, distance)
-    assert expanded.dtype == labels.dtype
-    assert np.array_equal(expanded == 0, expected == 0)
-    nearest = ndimage.distance_transform_edt(labels == 0)
-    for z in np.argwhere(expanded != expected):  # each label is as near
-        for label in (expanded[tuple(z)], expected[tuple(z)]):
-            squared = ((np.argwhere(labels == label) - z) ** 2).sum(1).min()
-            assert squared == round(nearest[tuple(z)] ** 2)
-    assert (expanded != expected).mean() < 0.05
-
-
 WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2)], (4, 5, 6)), r"shape \(N, 3\), rows \(x, y, z\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (5, 6)), r"shape \(N, 2\)"),
@@ -226,14 +157,6 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 3)], (2000, 2000, 2000)), r"2\^31 in all"),
     (lambda: vorocl.vertices([(1, 2, 3)], (4, 5, 6)), "which this measure cannot take"),
     (lambda: vorocl.relax([(1, 2, 3)], (4, 5, 6)), "Lloyd relaxation cannot take"),
-    (lambda: vorocl.distance_transform_edt(np.ones((3, 4, 5))), "no zero"),
-    (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, 17)), "whole multiples, up to 16"),
-    (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, np.pi)), "whole multiples, up to 16"),
-    (lambda: vorocl.expand_labels(np.ones((3, 6000), int), 1, spacing=(1, 3)), "16384 units of the spacing"),
-    (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=(1, 1, 1)), "or 2 of them"),
-    (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), sampling=-1), "above 0"),
-    (lambda: vorocl.distance_transform_edt(np.zeros((3, 4)), return_distances=False), "nothing is wanted"),
-    (lambda: vorocl.distance_transform_edt(np.zeros(5)), r"\(H, W\) or \(D, H, W\)"),
 ]
 
 

@@ -65,13 +65,18 @@ WRONG = {
     "density": NO_NUMBERS[1:]
     + [1, [1, 2], [[1], [1, 2]], np.zeros((10, 8)), np.zeros((8, 10)), np.full((8, 10), -1), np.full((8, 10), np.nan)]
     + [np.full((8, 10), 1e300)],
-    "distance": [-1, -1e-300, np.nan, "far", [], object(), 10**400, Hostile()],
+    "distance": [None, -1, -1e-300, np.nan, "far", [], object(), 10**400, Hostile()],
     "tilt": [np.nan, np.inf, "x", [], 1.0, 10**400, Hostile()],  # the axes are not periodic
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
-WRONG["sampling"] = ["x", [], (1, 17), (1, np.pi), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
+WRONG["sampling"] = ["x", [], (1, 1001), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
 WRONG["spacing"] = WRONG["sampling"]
-WRONG["mask"] = WRONG["labels"] + [np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]"), np.zeros((2, 2), "V8")]
+WRONG["input"] = NO_NUMBERS + [np.zeros((2, 2, 2, 2)), [[1], [1, 2]], np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]")]
+WRONG["label_image"] = WRONG["input"] + [np.zeros((2, 2), "V8")]
+WRONG["mask"] = WRONG["labels"] + WRONG["label_image"]
+WRONG["distances"] = NO_NUMBERS[1:] + [np.zeros((8, 10), "f4"), np.zeros((10, 8)), np.zeros(80), LABELS.tolist()]
+WRONG["distances"] += [frozen(np.zeros((8, 10))), np.broadcast_to(0.0, (8, 10))]
+WRONG["indices"] = WRONG["distances"]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
 POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device")
@@ -85,15 +90,15 @@ CALLS = {
     vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
     vorocl.relax: ("points", "shape", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
-    vorocl.expand_labels: ("labels", "distance", "spacing", "device"),
-    vorocl.distance_transform_edt: ("mask", "sampling", "device"),
+    vorocl.expand_labels: ("label_image", "distance", "spacing", "device"),
+    vorocl.distance_transform_edt: ("input", "sampling", "distances", "indices", "device"),
     vorocl.similarity: ("a", "b"),
     vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "truth", "device"),
     vorocl.Seeds: ("points", "shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
     vorocl.Diagram: ("shape", "periodic", "device", "labels"),
     vorocl.Simulation: ("shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
 }
-RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), "mask": LABELS, "labels": LABELS, "a": LABELS, "b": LABELS}
+RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), **dict.fromkeys(("mask", "input", "label_image", "labels", "a", "b"), LABELS)}
 RIGHT_VALUES["outside"] = "refuse"
 # What is right for one call alone.
 ALLOWED = {(vorocl.Diagram, "labels"): [None], (vorocl.Simulation, "bounds"): [FAR_BOUNDS]}

@@ -25,7 +25,6 @@ Truth = Literal["snapped", "true"]
 
 Sampling = Union[None, float, Sequence[float]]
 
-MOST_SPACING = 16  # the library's limit, in which ratios are looked for
 MOST_SEEDS = 2**30  # the library's limit, known here before anything is converted
 
 
@@ -186,26 +185,17 @@ def to_number(value: float, name: str) -> float:
         raise BadArgument(f"{name} must be a number; this is {shown(value)}") from None
 
 
-def to_sampling(sampling: Sampling, axes: int, name: str) -> Tuple[float, List[int]]:
-    """The sizes of a pixel along the axes: their greatest common measure, and how often each has it."""
+def to_sampling(sampling: Sampling, axes: int, name: str) -> List[float]:
+    """The sizes of a pixel along the axes."""
     if sampling is None:
-        return 1.0, [1] * axes
+        return [1.0] * axes
     try:
         sizes = [float(size) for size in np.broadcast_to(np.asarray(sampling, np.float64), (axes,))]
     except (TypeError, ValueError):
         raise BadArgument(f"{name} must be a number, or {axes} of them; this is {shown(sampling)}") from None
     if not all(math.isfinite(size) and size > 0 for size in sizes):
         raise BadArgument(f"{name} must be above 0 and finite; this is {shown(sampling)}")
-    for times in range(1, MOST_SPACING + 1):
-        measure = min(sizes) / times
-        counts = [round(size / measure) for size in sizes] if max(sizes) <= (MOST_SPACING + 1) * measure else []
-        fit = all(math.isclose(size, count * measure, rel_tol=1e-12) for size, count in zip(sizes, counts))
-        if counts and fit and max(counts) <= MOST_SPACING:
-            return measure, counts
-    raise BadArgument(
-        f"{name} must be whole multiples, up to {MOST_SPACING}, of one size, such as (2, 1.5), which are 4 and 3 times 0.5; "
-        f"this is {shown(sampling)}"
-    )
+    return sizes
 
 
 def to_count(value: int, name: str) -> int:
@@ -240,6 +230,32 @@ def to_image(image: ArrayLike, name: str, volumes: bool = True) -> NDArray[Any]:
     return array
 
 
+def unmasked(image: ArrayLike) -> ArrayLike:
+    """The masked pixels of a masked array, which are no data, as zeros."""
+    return image.filled(0) if isinstance(image, np.ma.MaskedArray) else image
+
+
+def to_mask(image: ArrayLike, name: str) -> NDArray[Any]:
+    """An array with one to three axes, as functions of SciPy's and scikit-image's take it: it may be empty."""
+    try:
+        array = np.atleast_1d(image)
+    except ValueError as error:
+        raise BadArgument(f"{name} must be an array: {error}") from None
+    if array.ndim > 3:
+        raise BadArgument(f"{name} must have one to three axes; this array has the shape {array.shape}")
+    return array
+
+
+def to_pixels(image: NDArray[Any], name: str) -> NDArray[Any]:
+    """Numbers or booleans as the library reads them: C-contiguous, aligned and in this machine's byte order."""
+    if image.dtype.kind not in "biuf":
+        raise BadArgument(f"{name} must be numbers or booleans; this array has the dtype {image.dtype}")
+    dtype = image.dtype.newbyteorder("=")
+    if dtype.kind == "f" and dtype.itemsize not in (4, 8):
+        dtype = np.dtype(np.float32 if dtype.itemsize < 4 else np.float64)
+    return np.require(image, dtype, ["C", "A"])
+
+
 def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
     """(H, W) or (D, H, W) labels, C-contiguous, of any integers that uint32 holds."""
     array = to_image(labels, name)
@@ -261,15 +277,23 @@ def to_density(density: ArrayLike, shape: Shape) -> NDArray[np.float32]:
         return np.ascontiguousarray(array, dtype=np.float32)
 
 
-def output(out: Optional[NDArray[Any]], shape: Shape, dtype: Any) -> NDArray[Any]:
-    """The caller's array, or a new one."""
+def output(
+    out: Optional[NDArray[Any]], shape: Tuple[int, ...], dtype: Any, name: str = "out", copied: bool = False
+) -> NDArray[Any]:
+    """The caller's array, or a new one; that too for one that cannot be written to in place, if it is `copied`."""
     if out is None:
         return np.empty(shape, dtype)
     wanted = np.dtype(dtype)
     if not isinstance(out, np.ndarray):
-        raise BadArgument(f"out must be an array of NumPy; this is of type {type(out).__name__}")
+        raise BadArgument(f"{name} must be an array of NumPy; this is of type {type(out).__name__}")
     if out.shape != tuple(shape) or out.dtype != wanted:
-        raise BadArgument(f"out must be {wanted} of the shape {tuple(shape)}; this array is {out.dtype} of {out.shape}")
-    if not out.flags.c_contiguous or not out.flags.writeable or not out.flags.aligned:
-        raise BadArgument("out must be C-contiguous, aligned and writable; this array is not")
-    return out
+        raise BadArgument(
+            f"{name} must be {wanted} of the shape {tuple(shape)}; this array is {out.dtype} of {out.shape}"
+        )
+    if not out.flags.writeable:
+        raise BadArgument(f"{name} must be writable; this array is not")
+    if out.flags.c_contiguous and out.flags.aligned:
+        return out
+    if not copied:
+        raise BadArgument(f"{name} must be C-contiguous and aligned; this array is not")
+    return np.empty(shape, dtype)

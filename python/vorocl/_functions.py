@@ -31,14 +31,17 @@ from ._arguments import (
     to_grid,
     to_image,
     to_labels,
+    to_mask,
     to_number,
     to_outside,
+    to_pixels,
     to_points,
     to_sampling,
     to_snap,
     to_text,
     to_truth,
     to_units,
+    unmasked,
 )
 from ._device import Device, to_device
 from ._errors import BadArgument
@@ -179,25 +182,36 @@ def diagram(
     return labels
 
 
-def _of_mask(
-    mask: NDArray[Any],
-    periodic: Periodic,
+def _transform(
+    pixels: NDArray[Any],
+    marks_zeros: bool,
     device: Optional[Device],
-    method: Method,
-    metric: Metric,
-    spacing: Sequence[int] = (1,),
-) -> Diagram:
-    """The diagram of the non-zero pixels of an image; one of a single slice is a plane's."""
-    mask = mask[0] if mask.ndim == 3 and len(mask) == 1 else mask
-    shape: Any = mask.shape
-    grid = to_grid(shape, periodic)
-    if max(spacing) > 1:
-        grid = grid.spaced(spacing[-1], spacing[-2], spacing[0] if mask.ndim == 3 else 1)
-    made = Diagram(shape, periodic=periodic, device=device)
-    pixels = np.ascontiguousarray(mask != 0).view(np.uint8)
-    seeds = _vorocl.Seeds.from_mask(made.device._device, grid, pixels)
-    made._diagram.fill(seeds, to_text(method, "method"), to_text(metric, "metric"), None)
-    return made
+    sizes: Optional[Sequence[float]] = None,
+    periodic: Periodic = (False, False),
+    farthest: float = math.inf,
+    **targets: Optional[NDArray[Any]],
+) -> bool:
+    """Write into arrays what the nearest marked pixel of each one is; whether there is one."""
+    shape: Any = pixels.shape[1:] if pixels.ndim == 3 and len(pixels) == 1 else pixels.shape
+    z, y, x = (1.0,) * (3 - pixels.ndim) + tuple(sizes or (1.0,) * pixels.ndim)
+    return _vorocl.transform(
+        to_device(device)._device,
+        to_grid(shape, periodic),
+        (x, y, z),
+        pixels.view(np.uint8),
+        pixels.dtype.str[1:],
+        marks_zeros,
+        farthest,
+        *(targets.get(name) for name in ("distances", "indices", "ranks", "values")),
+    )
+
+
+def _nearest_in_row(marked: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Where in an array of one dimension the nearest marked element is, of two the first; one at least must be."""
+    places, here = np.flatnonzero(marked), np.arange(len(marked))
+    behind = np.minimum(np.searchsorted(places, here), len(places) - 1)
+    before, behind = places[np.maximum(behind - 1, 0)], places[behind]
+    return np.where(here - before <= behind - here, before, behind)
 
 
 @with_parameters
@@ -218,7 +232,8 @@ def from_mask(
     Parameters
     ----------
     mask : array_like
-        Shape (H, W) or (D, H, W), of numbers or booleans.
+        Shape (H, W) or (D, H, W), of numbers or booleans. NaN is no data, and so are the masked pixels of a masked array:
+        they are as zeros.
     <method, metric, periodic>
     out : ndarray, optional
         Where the labels go: uint32 of the mask's shape, C-contiguous. Without it, a new array.
@@ -242,47 +257,51 @@ def from_mask(
            [1, 1, 0, 0],
            [1, 1, 1, 0]], dtype=uint32)
     """
-    image = to_image(mask, "mask")
-    if image.dtype.kind not in "biuf":
-        raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
-    shape: Any = image.shape
-    labels = output(out, shape, np.uint32)
-    made = _of_mask(image, periodic, device, method, metric)
+    pixels = to_pixels(to_image(unmasked(mask), "mask"), "mask")
+    labels = output(out, pixels.shape, np.uint32)
+    if to_text(method, "method") == "exact" and to_text(metric, "metric") == "euclidean":
+        _transform(pixels, False, device, periodic=periodic, ranks=labels)
+        return labels
+    pixels = pixels[0] if pixels.ndim == 3 and len(pixels) == 1 else pixels
+    shape: Any = pixels.shape
+    made = Diagram(shape, periodic=periodic, device=device)
+    marked = (pixels != 0) & (pixels == pixels)
+    seeds = _vorocl.Seeds.from_mask(made.device._device, to_grid(shape, periodic), marked.view(np.uint8))
+    made._diagram.fill(seeds, method, metric, None)
     made.read(labels.reshape(made.shape))
     return labels
 
 
 @with_parameters
 def expand_labels(
-    labels: ArrayLike,
-    distance: Optional[float] = None,
-    spacing: Sampling = None,
+    label_image: ArrayLike,
+    distance: float = 1,
+    spacing: Sampling = 1,
     *,
     device: Optional[Device] = None,
 ) -> NDArray[Any]:
     """Grow labelled regions into the background, as ``skimage.segmentation.expand_labels`` does, without overlaps.
 
-    Each pixel of the background takes the label of the nearest pixel that has one, by exact Euclidean distance
-    between pixel centres. Of several at the least distance the one that comes first, row by row of the image, wins;
-    scikit-image leaves it open which one does. Volumes need a CPU.
+    ``from vorocl import expand_labels`` instead of ``from skimage.segmentation import ...`` is what changes. Each pixel
+    of the background takes the label of the nearest pixel that has one, by exact Euclidean distance between pixel
+    centres. Of several at the least distance the one that comes first, row by row of the image, wins; scikit-image
+    leaves it open which one does.
 
     Parameters
     ----------
-    labels : array_like
-        Shape (H, W) or (D, H, W), integers; 0 is the background.
+    label_image : array_like
+        One to three dimensions, of numbers; 0 is the background, and NaN and the masked pixels of a masked array are as 0.
     distance : float, optional
-        How far regions grow, in pixels or in units of `spacing`: as far as this and no farther. Without it, until no
-        background is left. (scikit-image grows by 1 without it.)
+        How far regions grow, in pixels or in units of `spacing`: as far as this and no farther. ``math.inf`` is until no
+        background is left.
     spacing : float or sequence of float, optional
-        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes
-        that differ need a CPU, and a side then has at most 16,384 units of that size, such as 1,024 pixels of 16 units.
-        Each new ratio builds the kernels anew, so its first call takes longer.
+        The size of a pixel: a number, or one for each axis; none is more than 1,000 times another one.
     <device>
 
     Returns
     -------
     ndarray
-        The shape and dtype of `labels`. All 0 if there is no label.
+        The shape and dtype of `label_image`. All 0 if there is no label.
 
     Raises
     ------
@@ -290,65 +309,70 @@ def expand_labels(
 
     Examples
     --------
-    >>> import vorocl
-    >>> vorocl.expand_labels([[7, 0, 0, 0, 0, 9]], distance=1)
-    array([[7, 7, 0, 0, 9, 9]])
+    >>> import math, vorocl
     >>> vorocl.expand_labels([[7, 0, 0, 0, 0, 9]])
-    array([[7, 7, 7, 9, 9, 9]])
+    array([[7, 7, 0, 0, 9, 9]])
+    >>> vorocl.expand_labels([7, 0, 0, 0, 0, 9], distance=math.inf)
+    array([7, 7, 7, 9, 9, 9])
     """
-    image = to_image(labels, "labels")
-    if image.dtype.kind not in "biu":
-        raise BadArgument(f"labels must be integers; this array has the dtype {image.dtype}")
-    farthest = math.inf if distance is None else to_number(distance, "distance")
+    image = to_mask(unmasked(label_image), "label_image")
+    farthest = to_number(distance, "distance")
     if not farthest >= 0:
         raise BadArgument(f"distance must be at least 0; this is {shown(distance)}")
-    size, multiples = to_sampling(spacing, image.ndim, "spacing")
-    made = _of_mask(image, (False, False), device, "exact", "euclidean", multiples)
-    if distance is None:
-        nearest = made.read()
-    else:
-        nearest = np.empty(made.shape, np.uint32)
-        made._diagram.expand(farthest / size, nearest)
-    known = np.zeros(np.count_nonzero(image) + 1, image.dtype)  # the background is the last one
-    known[:-1] = image[image != 0]
-    expanded: NDArray[Any] = known.take(np.minimum(nearest, len(known) - 1)).reshape(image.shape)
-    return expanded
+    sizes = to_sampling(spacing, image.ndim, "spacing")
+    pixels = to_pixels(image, "label_image")
+    grown = np.zeros_like(pixels)
+    if pixels.ndim == 1:
+        marked = (pixels != 0) & (pixels == pixels)
+        if marked.any():
+            nearest = _nearest_in_row(marked)
+            near = abs(nearest - np.arange(len(pixels))) * sizes[0] <= farthest
+            grown[near] = pixels[nearest[near]]
+    elif pixels.size > 0:
+        _transform(pixels, False, device, sizes, farthest=farthest, values=grown.view(np.uint8))
+    return grown.astype(image.dtype, copy=False)
 
 
 @with_parameters
 def distance_transform_edt(
-    mask: ArrayLike,
+    input: ArrayLike,
     sampling: Sampling = None,
     return_distances: bool = True,
     return_indices: bool = False,
+    distances: Optional[NDArray[np.float64]] = None,
+    indices: Optional[NDArray[np.int32]] = None,
     *,
     device: Optional[Device] = None,
 ) -> Any:
     """Give every non-zero pixel its distance to the nearest pixel that is zero, as SciPy's function of this name does.
 
     ``from vorocl import distance_transform_edt`` instead of ``from scipy.ndimage import ...`` is what changes. The
-    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Volumes need a CPU. Of several zeros at
-    the least distance SciPy leaves open which one `indices` names; here it is the one that comes first, slice by slice
-    and row by row.
+    distances are SciPy's, to the bit without a `sampling`, else to a rounding. Of several zeros at the least distance
+    SciPy leaves open which one `indices` names; here it is the one that comes first, slice by slice and row by row.
 
     Parameters
     ----------
-    mask : array_like
-        Shape (H, W) or (D, H, W), of numbers or booleans. One pixel at least must be zero.
+    input : array_like
+        One to three dimensions, of numbers or booleans. One pixel at least must be zero. NaN is not.
     sampling : float or sequence of float, optional
-        The size of a pixel: a number, or one for each axis. They must be whole multiples, up to 16, of one size. Sizes
-        that differ need a CPU, and a side then has at most 16,384 units of that size, such as 1,024 pixels of 16 units.
-        Each new ratio builds the kernels anew, so its first call takes longer.
+        The size of a pixel: a number, or one for each axis; none is more than 1,000 times another one. Sizes that are to
+        each other as whole numbers up to 1,000 (181 where a side has more than 8,192 pixels), such as 0.065, 0.065 and
+        0.2, are taken exactly. Of others the squares are rounded to 2**-20 (2**-15) of the greatest one: of two zeros
+        whose distances differ by less the farther one may be taken.
     return_distances, return_indices : bool, optional
         What is wanted: one of them or both.
+    distances : ndarray, optional
+        Where the distances go, which are not returned then: float64 of the shape of `input`.
+    indices : ndarray, optional
+        Where the indices go, which are not returned then: int32, one axis before those of `input`.
     <device>
 
     Returns
     -------
     distances : ndarray
-        float64 of the mask's shape, if `return_distances`.
+        float64 of the shape of `input`, if `return_distances`.
     indices : ndarray
-        int32, one axis before those of the mask: the index of the nearest zero along each axis, if `return_indices`.
+        int32, one axis before those of `input`: the index of the nearest zero along each axis, if `return_indices`.
 
     Raises
     ------
@@ -362,31 +386,56 @@ def distance_transform_edt(
     >>> vorocl.distance_transform_edt([[0, 1, 1, 0]], return_distances=False, return_indices=True)[1]
     array([[0, 0, 3, 3]], dtype=int32)
     """
-    image = to_image(mask, "mask")
-    if image.dtype.kind not in "biuf":
-        raise BadArgument(f"mask must be numbers or booleans; this array has the dtype {image.dtype}")
-    size, multiples = to_sampling(sampling, image.ndim, "sampling")
-    wants_distances = to_flag(return_distances, "return_distances")
-    wants_indices = to_flag(return_indices, "return_indices")
-    if not (wants_distances or wants_indices):
+    pixels = to_pixels(to_mask(input, "input"), "input")
+    sizes = to_sampling(sampling, pixels.ndim, "sampling")
+    shape, whole = pixels.shape, (pixels.ndim, *pixels.shape)
+    far = _place(distances, return_distances, shape, np.float64, "distances")
+    where = _place(indices, return_indices, whole, np.int32, "indices")
+    if far is None and where is None:
         raise BadArgument("return_distances or return_indices must be True: nothing is wanted")
-    zeros = image == 0
-    if not zeros.any():
-        raise BadArgument("mask has no zero that distances could be to")
-    made = _of_mask(zeros, (False, False), device, "exact", "euclidean", multiples)
+    if pixels.size > 0 and not _fill_transform(pixels, sizes, device, far, where):
+        raise BadArgument("input has no zero that distances could be to")
     results = []
-    if wants_distances:
-        squared = np.empty(made.shape, np.int32)
-        made._diagram.integer_distances(squared)
-        lengths = np.sqrt(squared, dtype=np.float64).reshape(image.shape)
-        results.append(lengths if size == 1 else lengths * size)
-    if wants_indices:
-        nearest = made.read().reshape(image.shape)
-        indices = np.empty((image.ndim, *image.shape), np.int32)
-        for along, of_zeros in zip(indices, np.nonzero(zeros)):
-            of_zeros.astype(np.int32).take(nearest, out=along)
-        results.append(indices)
-    return results[0] if len(results) == 1 else tuple(results)
+    for given, made in (distances, far), (indices, where):
+        if given is None:
+            results += [] if made is None else [made]
+        elif made is not None and made is not given:
+            given[...] = made
+    return results[0] if len(results) == 1 else tuple(results) or None
+
+
+def _place(
+    given: Optional[NDArray[Any]], wanted: bool, shape: Tuple[int, ...], dtype: Any, name: str
+) -> Optional[NDArray[Any]]:
+    """Where a function writes what is wanted: the caller's array, or a new one if there is none or it is not contiguous."""
+    if not to_flag(wanted, f"return_{name}"):
+        if given is not None:
+            raise BadArgument(f"return_{name} must be True where `{name}` is an array")
+        return None
+    return output(given, shape, dtype, name, copied=True)
+
+
+def _fill_transform(
+    pixels: NDArray[Any],
+    sizes: Sequence[float],
+    device: Optional[Device],
+    distances: Optional[NDArray[Any]],
+    indices: Optional[NDArray[Any]],
+) -> bool:
+    """Write the distances to the zeros, or their indices, or both; whether there is one."""
+    if pixels.ndim > 1:
+        if indices is not None and pixels.ndim == 3 and len(pixels) == 1:
+            indices[0] = 0
+            indices = indices[1:]  # of a plane
+        return _transform(pixels, True, device, sizes, distances=distances, indices=indices)
+    if not (pixels == 0).any():
+        return False
+    nearest = _nearest_in_row(pixels == 0)
+    if distances is not None:
+        distances[...] = abs(nearest - np.arange(len(pixels))) * sizes[0]
+    if indices is not None:
+        indices[0] = nearest
+    return True
 
 
 @with_parameters
