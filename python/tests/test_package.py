@@ -97,17 +97,78 @@ def test_all_that_is_public_is_documented():
             assert value.__doc__ and value.__doc__[0].isupper(), name
 
 
+def library_of_the_driver():
+    """The file of the driver that this process uses."""
+    vorocl.Device()
+    with open("/proc/self/maps") as maps:
+        return next(line.split()[-1] for line in maps if re.search(r"/lib(pocl|intelocl|nvidia-opencl)\b", line))
+
+
+def install(site, package, library, target=None):
+    """Make what a package of PyPI with a library leaves where it is installed; without a target the library is none."""
+    information = site / f"{package.replace('-', '_')}-1.dist-info"
+    information.mkdir(parents=True)
+    (information / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {package}\nVersion: 1\n")
+    (information / "RECORD").write_text(f"drivers/{library},,\n")
+    (site / "drivers").mkdir(exist_ok=True)
+    if target:
+        (site / "drivers" / library).symlink_to(target)
+    else:
+        (site / "drivers" / library).write_text("no library")
+
+
 def test_the_first_call_says_which_driver_to_install():
     found = run("import vorocl; print(vorocl.devices()); vorocl.diagram([], (3, 3))", OCL_ICD_VENDORS="/nonexistent")
     assert found.stdout.endswith("[]\n")
     assert "DeviceError: no OpenCL platform was found; install a driver" in found.stderr
+    assert "without root: pip install intel-opencl-rt intel-cmplr-lib-rt" in found.stderr
 
 
 def test_the_import_says_which_loader_to_install(tmp_path):
-    (tmp_path / "libOpenCL.so.1").write_text("no library")  # found first, and of no use
-    found = run("import vorocl", LD_LIBRARY_PATH=str(tmp_path))
+    (tmp_path / "libOpenCL.so.1").write_text("no library")  # found first, and of no use; so is that of a package
+    install(tmp_path, "pyopencl", "libOpenCL-5519dec5.so.1.0.0")
+    found = run("import vorocl", LD_LIBRARY_PATH=str(tmp_path), PYTHONPATH=str(tmp_path))
     assert "ImportError: VoroCL needs an OpenCL loader and a driver" in found.stderr
     assert "apt-get install" in found.stderr.splitlines()[-1]
+
+
+def test_drivers_of_packages_are_found_where_the_system_has_none(tmp_path):
+    site, vendors = tmp_path / "site", tmp_path / "vendors"
+    vendors.mkdir()
+    (vendors / "intel-cpu.icd").write_text("/opt/anaconda1anaconda2/lib/libintelocl.so")  # as that of Intel's package
+    install(site, "pocl-binary-distribution", "libpocl-21062cec.so")
+    caches = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    environment = dict(
+        OCL_ICD_VENDORS=str(vendors),
+        PYTHONPATH=str(site),
+        VOROCL_DEVICE="",
+        XDG_CACHE_HOME=str(tmp_path / "cache"),
+        POCL_CACHE_DIR=os.environ.get("POCL_CACHE_DIR") or str(caches / "pocl" / "kcache"),  # with what is compiled
+    )
+    skipped = "RuntimeWarning: the OpenCL driver of pocl-binary-distribution is skipped: no OpenCL driver could start"
+
+    none = run("import vorocl; vorocl.Device()", **environment)
+    assert skipped in none.stderr and "RuntimeWarning: no OpenCL driver works; without " in none.stderr
+    assert "DeviceError" in none.stderr
+
+    install(site, "intel-opencl-rt", "libintelocl.so", library_of_the_driver())
+    found = check_devices(**environment)
+    assert found.returncode == 0 and skipped in found.stderr, found.stdout + found.stderr
+    assert found.stdout.startswith("skipped: the driver of pocl-binary-distribution: no OpenCL driver could start")
+    assert "known diagrams are right" in found.stdout and "wrong:" not in found.stdout
+    again = run("import vorocl; print(vorocl.diagram([(1, 1), (6, 2)], (1, 8)))", **environment)
+    assert again.stdout == "[[0 0 0 0 1 1 1 1]]\n" and again.stderr == ""
+
+
+def test_a_driver_of_the_system_is_left_alone(tmp_path):
+    install(tmp_path, "pocl-binary-distribution", "libpocl-21062cec.so")
+    found = run("import os, vorocl; print(os.environ.get('OCL_ICD_VENDORS'))", PYTHONPATH=str(tmp_path))
+    assert found.stdout == f"{os.environ.get('OCL_ICD_VENDORS')}\n" and found.stderr == ""
+
+
+def test_the_package_says_its_version():
+    source = (Path(__file__).parents[2] / "CMakeLists.txt").read_text()
+    assert f"project(VoroCL VERSION {vorocl.__version__}" in source
 
 
 def test_the_extension_module_names_no_library_but_the_system_s():

@@ -10,6 +10,8 @@ from ._opencl import load_opencl
 
 load_opencl()  # before the first import of the extension module
 
+from importlib.metadata import version as _version
+
 from ._device import Device, devices
 from ._errors import (
     BadArgument,
@@ -41,6 +43,8 @@ from ._functions import (
 from ._objects import CELL, CELL3, Diagram, Seeds, Simulation
 from ._preparation import prepare
 from ._vorocl import DeviceDescription, DistanceErrors, Report
+
+__version__ = _version("vorocl")
 
 __all__ = [
     "BadArgument",

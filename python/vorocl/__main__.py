@@ -7,6 +7,7 @@ from typing import List
 from . import _vorocl
 from ._device import Device, devices
 from ._errors import DeviceError, Error
+from ._opencl import skipped_drivers
 
 
 def wrong_answers(device: Device) -> List[str]:
@@ -40,6 +41,8 @@ def main() -> int:
     except DeviceError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
+    for package, trouble in skipped_drivers().items():
+        print(f"skipped: the driver of {package}: {trouble}")
     listed = devices(request)
     one_is_asked_for = any(found.asked_for for found in listed)
     for found in listed:

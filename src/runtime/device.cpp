@@ -185,7 +185,8 @@ Error no_platform() {
   if (drivers.empty()) {
     return Error(
         "no OpenCL platform was found; install a driver: NVIDIA's for its GPUs, or PoCL for the CPU (on "
-        "Debian and Ubuntu: apt-get install pocl-opencl-icd)",
+        "Debian and Ubuntu: apt-get install pocl-opencl-icd; for Python without root: pip install "
+        "intel-opencl-rt intel-cmplr-lib-rt)",
         ErrorKind::device);
   }
   std::string text = "no OpenCL driver could start, of those that are installed (" + drivers + ")";
