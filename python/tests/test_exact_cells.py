@@ -129,6 +129,37 @@ def test_shapely_and_geopandas_by_one_call(points, tmp_path):
     assert vorocl.exact_cells(np.zeros((0, 2)), BOUNDS).to_shapely().shape == (0,)
 
 
+def test_columns_of_the_points_stand_beside_their_polygons(points, tmp_path):
+    found = vorocl.exact_cells(points, BOUNDS)
+    ids = pandas.Index(range(900, 500, -1), name="id")
+    sites = pandas.DataFrame({"name": [f"site {row}" for row in range(400)]}, index=ids)
+    located = geopandas.GeoDataFrame(sites, geometry=geopandas.points_from_xy(*points.T), crs="EPSG:32632")
+    for data, crs in [(sites, "EPSG:32632"), (located, None), (located, "EPSG:32632")]:
+        frame = found.to_geopandas(crs, data)
+        assert frame.columns[0] == "name" and frame.crs == "EPSG:32632"
+        inside = located.sjoin(frame[["geometry"]], predicate="within")  # each point in the polygon of its own row
+        assert len(inside) == 400 and (inside.index == inside["id_right"]).all()
+    frame.to_file(tmp_path / "cells.gpkg")
+    again = geopandas.read_file(tmp_path / "cells.gpkg")
+    assert again.crs == "EPSG:32632" and (again["name"] == sites["name"].to_numpy()).all()
+    assert (again["area"] == found.cells["area"]).all() and (again["id"] == sites.index).all()
+    twice = found.to_geopandas(data=sites.set_axis([7] * 400))
+    assert len(twice) == 400 and (twice["area"].to_numpy() == found.cells["area"]).all()
+
+
+@pytest.mark.parametrize(
+    "data, message",
+    [
+        (pandas.DataFrame({"name": ["a"]}), "a row for each of the 400 points, and has 1"),
+        (pandas.DataFrame({"area": np.zeros(400)}), 'a column "area", and so have the cells'),
+        ({"name": ["a"] * 400}, "must be a pandas.DataFrame, not dict"),
+    ],
+)
+def test_columns_that_cannot_stand_there_are_refused(points, data, message):
+    with pytest.raises(vorocl.BadArgument, match=message):
+        vorocl.exact_cells(points, BOUNDS).to_geopandas(data=data)
+
+
 def test_points_outside(points):
     moved = points + (2, 0)
     absent = vorocl.exact_cells(moved, BOUNDS, outside="absent").cells["area"]

@@ -106,11 +106,49 @@ class ExactCells:
             polygons[full] = shapely.polygons(rings)
         return polygons
 
-    def to_geopandas(self, crs: Any = None) -> Any:
-        """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system."""
+    def to_geopandas(self, crs: Any = None, data: Any = None) -> Any:
+        """Return a GeoDataFrame of GeoPandas: the fields of `cells`, and the polygons, in a coordinate system.
+
+        Parameters
+        ----------
+        crs : optional
+            The coordinate system of the points, as GeoPandas takes it, such as "EPSG:25832".
+        data : pandas.DataFrame, optional
+            One row per point: its columns stand before the fields, and its index, such as ids, names the rows. Of a
+            GeoDataFrame the geometry is left out, and the coordinate system is taken unless there is `crs`.
+
+        Raises
+        ------
+        BadArgument
+            If `data` has another number of rows, or a column of a name that the fields have.
+
+        Examples
+        --------
+        >>> import pandas
+        >>> import vorocl
+        >>> sites = pandas.DataFrame({"name": ["well", "spring"]}, index=[70, 90])
+        >>> cells = vorocl.exact_cells([(1, 1), (3, 1)], (0, 0, 4, 2)).to_geopandas("EPSG:25832", sites)
+        >>> print(cells.loc[90, "name"], cells.loc[90, "area"])
+        spring 4.0
+        >>> cells.to_file("cells.gpkg")  # doctest: +SKIP
+        """
         geopandas: Any = import_module("geopandas")
         pandas: Any = import_module("pandas")
-        return geopandas.GeoDataFrame(pandas.DataFrame(self.cells), geometry=self.to_shapely(), crs=crs)
+        fields, polygons = pandas.DataFrame(self.cells), self.to_shapely()
+        if data is None:
+            return geopandas.GeoDataFrame(fields, geometry=polygons, crs=crs)
+        if not isinstance(data, pandas.DataFrame):
+            raise BadArgument(f"data must be a pandas.DataFrame, not {type(data).__name__}")
+        if isinstance(data, geopandas.GeoDataFrame):
+            crs = data.crs if crs is None else crs
+            data = pandas.DataFrame(data.drop(columns=data.geometry.name))
+        if len(data) != len(self):
+            raise BadArgument(f"data must have a row for each of the {len(self)} points, and has {len(data)}")
+        for name in [*fields.columns, "geometry"]:
+            if name in data.columns:
+                raise BadArgument(f'data has a column "{name}", and so have the cells: rename it')
+        columns = {name: fields[name].to_numpy() for name in fields}
+        return geopandas.GeoDataFrame(data.assign(**columns), geometry=polygons, crs=crs)
 
     def to_pandas(self) -> Any:
         """Return a DataFrame of pandas: ``x`` and ``y`` of the points, and the fields of `cells`."""
