@@ -97,11 +97,11 @@ def test_all_that_is_public_is_documented():
             assert value.__doc__ and value.__doc__[0].isupper(), name
 
 
-def library_of_the_driver():
-    """The file of the driver that this process uses."""
+def loaded(library):
+    """The file of a library that this process uses."""
     vorocl.Device()
     with open("/proc/self/maps") as maps:
-        return next(line.split()[-1] for line in maps if re.search(r"/lib(pocl|intelocl|nvidia-opencl)\b", line))
+        return next(line.split()[-1] for line in maps if re.search(rf"/lib{library}\b", line))
 
 
 def install(site, package, library, target=None):
@@ -126,10 +126,17 @@ def test_the_first_call_says_which_driver_to_install():
 
 def test_the_import_says_which_loader_to_install(tmp_path):
     (tmp_path / "libOpenCL.so.1").write_text("no library")  # found first, and of no use; so is that of a package
-    install(tmp_path, "pyopencl", "libOpenCL-5519dec5.so.1.0.0")
+    install(tmp_path, "intel-opencl-rt", "libOpenCL.so.1")
     found = run("import vorocl", LD_LIBRARY_PATH=str(tmp_path), PYTHONPATH=str(tmp_path))
     assert "ImportError: VoroCL needs an OpenCL loader and a driver" in found.stderr
     assert "apt-get install" in found.stderr.splitlines()[-1]
+
+
+def test_the_loader_of_a_package_is_taken_where_the_system_has_none(tmp_path):
+    (tmp_path / "libOpenCL.so.1").write_text("no library")
+    install(tmp_path, "intel-opencl-rt", "libOpenCL.so.1", loaded("OpenCL"))
+    found = run("import vorocl; print(len(vorocl.devices()))", LD_LIBRARY_PATH=str(tmp_path), PYTHONPATH=str(tmp_path))
+    assert found.stdout == f"{len(vorocl.devices())}\n", found.stderr
 
 
 def test_drivers_of_packages_are_found_where_the_system_has_none(tmp_path):
@@ -151,7 +158,7 @@ def test_drivers_of_packages_are_found_where_the_system_has_none(tmp_path):
     assert skipped in none.stderr and "RuntimeWarning: no OpenCL driver works; without " in none.stderr
     assert "DeviceError" in none.stderr
 
-    install(site, "intel-opencl-rt", "libintelocl.so", library_of_the_driver())
+    install(site, "intel-opencl-rt", "libintelocl.so", loaded("(pocl|intelocl|nvidia-opencl)"))
     found = check_devices(**environment)
     assert found.returncode == 0 and skipped in found.stderr, found.stdout + found.stderr
     assert found.stdout.startswith("skipped: the driver of pocl-binary-distribution: no OpenCL driver could start")

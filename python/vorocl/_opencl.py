@@ -18,8 +18,9 @@ from typing import Dict, Iterator, List, Optional
 
 # The packages and what their drivers' libraries are called. The first one that works is taken.
 PACKAGES = {"pocl-binary-distribution": "libpocl", "intel-opencl-rt": "libintelocl"}
-# Those that have a loader; pyopencl's own is of another name.
-PACKAGES_OF_LOADERS = ("intel-opencl-rt", "pyopencl")
+# What Intel's loader needs: it lies in the same folder, and is not looked for there. (pyopencl's loader, which has another
+# name, crashes on Intel's driver.)
+NEEDED_BY_LOADER = ("libintlc.so.5", "libimf.so", "libsvml.so", "libirng.so")
 SECONDS = 600  # Intel's compiler takes up to a minute of a processor
 
 # In a process of its own, because a driver that does not know the processor may end it.
@@ -90,10 +91,13 @@ def libraries_of(package: str, name: str) -> List[Path]:
 
 
 def loaders() -> Iterator[str]:
-    """The machine's own, and those of packages."""
+    """The machine's own, and that of Intel's package."""
     yield "libOpenCL.so.1"
-    for package in PACKAGES_OF_LOADERS:
-        yield from map(str, libraries_of(package, "libOpenCL"))
+    for loader in libraries_of("intel-opencl-rt", "libOpenCL")[:1]:
+        for name in NEEDED_BY_LOADER:
+            with contextlib.suppress(OSError):
+                ctypes.CDLL(str(loader.parent / name))
+        yield str(loader)
 
 
 def offer_drivers_of_packages() -> None:
