@@ -242,13 +242,13 @@ BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {
   const std::string trajectory = "--trajectory '" VOROCL_SAMPLES "/lj-clusters.lammpstrj' --frame 3 ";
   succeeds(folder, "render --width 160 --method exact --labels t.npy " + trajectory);
   const std::string line = "compare t.npy --width 160 --json " + trajectory;
-  const json result = json::parse(succeeds(folder, line + " --truth true"));
+  const json result = json::parse(succeeds(folder, line + " --no-snap"));
   BOOST_TEST(result.at("similarity") == 100);
   BOOST_TEST(result.at("errors").at("wrong_pixels") == 0);
   // By snapped points, some are wrong, and a note says what else there is.
   const Result snapped = run(folder, line);
   BOOST_TEST(json::parse(snapped.out).at("errors").at("wrong_pixels") > 0);
-  BOOST_TEST(snapped.error.find("--truth true") != std::string::npos, snapped.error);
+  BOOST_TEST(snapped.error.find("--no-snap") != std::string::npos, snapped.error);
 }
 
 BOOST_AUTO_TEST_CASE(bench_judges_every_method) {

@@ -34,7 +34,6 @@ expect "--labels" cells --lab
 expect "exact" cells --method e
 expect "--relaxed-points" relax --rel
 expect "--no-snap" cells --no
-expect "snapped true" compare --truth ""
 expect "" render --points cities
 
 command=$study

@@ -222,12 +222,12 @@ BOOST_AUTO_TEST_CASE(labels_are_judged_by_the_truth_that_is_asked_for) {
   const std::size_t true_by_snapped = of_snapped.wrong(of_points.nearest());
   const std::size_t snapped_by_true = of_points.wrong(of_snapped.nearest());
   BOOST_TEST(std::min(true_by_snapped, snapped_by_true) > 200u);
-  for (const std::string snapped : {"", " --truth snapped"}) {
+  for (const std::string snapped : {"", " --snap"}) {
     BOOST_TEST(wrong_pixels(folder, "compare snapped.npy" + plane + snapped) == 0u);
     BOOST_TEST(wrong_pixels(folder, "compare true.npy" + plane + snapped) == true_by_snapped);
   }
-  BOOST_TEST(wrong_pixels(folder, "compare true.npy --truth true" + plane) == 0u);
-  BOOST_TEST(wrong_pixels(folder, "compare snapped.npy --truth true" + plane) == snapped_by_true);
+  BOOST_TEST(wrong_pixels(folder, "compare true.npy --no-snap" + plane) == 0u);
+  BOOST_TEST(wrong_pixels(folder, "compare snapped.npy --no-snap" + plane) == snapped_by_true);
 
   const auto bench = [&](const std::string& truth) {
     const json results =
@@ -239,8 +239,8 @@ BOOST_AUTO_TEST_CASE(labels_are_judged_by_the_truth_that_is_asked_for) {
   const auto [exact, flooded] = bench("");
   BOOST_TEST(exact == 0u);
   BOOST_TEST(flooded < true_by_snapped / 4);
-  BOOST_TEST((bench(" --truth snapped") == std::pair{exact, flooded}));
-  const auto [exact_of_points, flooded_of_points] = bench(" --truth true");
+  BOOST_TEST((bench(" --snap") == std::pair{exact, flooded}));
+  const auto [exact_of_points, flooded_of_points] = bench(" --no-snap");
   BOOST_TEST(exact_of_points == 0u);
   BOOST_TEST(flooded_of_points > snapped_by_true / 2);
 }
@@ -265,9 +265,9 @@ BOOST_AUTO_TEST_CASE(a_simulation_compares_with_the_truth_that_is_asked_for) {
   const auto wrong = [&](const std::string& truth) {
     return json::parse(succeeds(folder, line + truth)).at("errors").at("wrong_percent_mean").get<double>();
   };
-  BOOST_TEST(wrong("") == wrong("--truth snapped"));
+  BOOST_TEST(wrong("") == wrong("--snap"));
   BOOST_TEST(wrong("") < 1);
-  BOOST_TEST(wrong("--truth true") > 2);
+  BOOST_TEST(wrong("--no-snap") > 2);
   // Both are exact: one of points, and so is the other.
   const std::string both =
       "simulate --json --trajectory t.lammpstrj --size 50x50 --compare-with exact --no-snap";
@@ -295,11 +295,9 @@ BOOST_AUTO_TEST_CASE(whole_pixels_are_the_same_either_way) {
   for (const char* name : {"l0.npy", "l1.npy"}) {
     BOOST_TEST(differences(command::read_labels(folder / name).labels, snapped) == 0u);
   }
-  BOOST_TEST(wrong_pixels(folder, "compare l0.npy --truth snapped" + plane) == 0u);
+  BOOST_TEST(wrong_pixels(folder, "compare l0.npy --snap" + plane) == 0u);
   succeeds(folder, "render --random 30 --size 20x20 --labels r.npy");
-  for (const std::string truth : {"snapped", "true"}) {
-    BOOST_TEST(wrong_pixels(folder, "compare r.npy --random 30 --size 20x20 --truth " + truth) == 0u);
-  }
+  BOOST_TEST(wrong_pixels(folder, "compare r.npy --random 30 --size 20x20") == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
@@ -320,12 +318,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused) {
   const std::string walk = "simulate --frames 1 --step-length 1 --labels a%d.npy" + points;
   refuses(folder, walk + "--no-snap", usage, {"--no-snap", "random motion"});
   refuses(folder, walk + "--method djfa --no-snap", usage, {"--no-snap", "the method djfa"});
-  refuses(folder, walk + "--truth true", usage, {"--truth", "--compare-with"});
-  refuses(folder, walk + "--method jfa --compare-with djfa --truth true", usage,
-          {"--truth", "--compare-with exact"});
-  refuses(folder, walk + "--compare-with jfa --truth true", usage, {"--truth", "a method that floods"});
-  refuses(folder, "bench --methods exact --truth half" + points, usage, {"\"half\"", "snapped, true"});
-  refuses(folder, "compare a.npy --truth true", usage, {"needs another label file"});
-  refuses(folder, "compare a.npy b.npy --truth true", usage, {"--truth is for seeds"});
-  refuses(folder, "compare a.npy --no-snap" + points, usage, {"--no-snap"});
+  refuses(folder, walk + "--method jfa --compare-with djfa --no-snap", usage,
+          {"--no-snap", "the method jfa"});
+  refuses(folder, "bench --methods exact --no-snap --random 9 --size 9x9", usage,
+          {"--no-snap needs --points"});
+  refuses(folder, "compare a.npy --no-snap", usage, {"needs another label file"});
+  refuses(folder, "compare a.npy b.npy --no-snap", usage, {"snap", "is for seeds"});
 }

@@ -657,7 +657,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
   const std::string simulate = "simulate --trajectory a.lammpstrj --size 8x8x8 --labels %d.npy ";
-  for (const std::string option : {"--truth true --compare-with exact", "--tolerance 1 --compare-with exact",
+  for (const std::string option : {"--no-snap --compare-with exact", "--tolerance 1 --compare-with exact",
                                    "--cell-columns id --cells c.csv", "--snap"}) {
     refuses(folder, simulate + option, usage, {option.substr(0, option.find(' ')) + " is for planes"});
   }

@@ -274,7 +274,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, bench + "jfa,exact --metric manhattan", usage,
           {"are Euclidean", "jump flooding takes --metric"});
   refuses(folder, bench + "jfa --tile 4", usage, {"--tile is for planes"});
-  refuses(folder, bench + "jfa --truth true", usage, {"--truth true is for planes"});
+  refuses(folder, bench + "jfa --no-snap", usage, {"--no-snap is for planes"});
   folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));
   refuses(folder, "render --points points.npy --size 8x8 --labels a.npy", failure,
           {"(1, 3)", "those of a volume, which --size WxHxD asks for, (N, 3)"});
@@ -358,7 +358,7 @@ BOOST_AUTO_TEST_CASE(volumes_are_compared_and_benched) {
   refuses(folder, "compare a.npy plane.npy", failure, {"24 x 20 x 16 voxels", "24 x 20;"});
   folder.file("p.csv", "x,y,z\n1,2,3\n");
   refuses(folder, "compare a.npy --points p.csv --width 9", usage, {"--width is for planes"});
-  refuses(folder, "compare a.npy " + seeds + "--truth true", usage, {"--truth true is for planes"});
+  refuses(folder, "compare a.npy " + seeds + "--no-snap", usage, {"--no-snap is for planes"});
   refuses(folder, "compare a.npy --random 3 --size 24x20x8", failure, {"24 x 20 x 16", "24 x 20 x 8"});
   refuses(folder, "compare a.npy --random 3 --metric manhattan", usage, {"are Euclidean"});
 }

@@ -71,7 +71,6 @@ void run(const BenchOptions& options) {
 
 /// Throws UsageError for what volumes do not have.
 void check_volume(const BenchOptions& options) {
-  if (options.benchmark.truth == Snap::none) refuse_in_volumes("--truth true");
   if (options.benchmark.tile != 0) refuse_in_volumes("--tile");
   for (const Method& method : options.methods) check_volume_method(method, options.benchmark.method.metric);
 }
@@ -92,8 +91,7 @@ void add_bench(CommandLine& line) {
   Command command = line.add("bench", "Time methods side by side and count their wrong pixels");
   add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
-  add_truth_option(command, options->benchmark.truth,
-                   "What exact makes diagrams of, and all labels are judged by:");
+  add_snap_option(command, options->seeds, "Make exact diagrams and judge all labels");
   add_methods_option(command, options->methods);
   add_method_options(command, options->benchmark.method);
   command
@@ -113,7 +111,8 @@ void add_bench(CommandLine& line) {
     if (options->seeds.depth > 1) check_volume(*options);
     check_method_options(command, options->methods, options->benchmark.method);
     options->seeds.keeps_inside = "bench cannot take";
-    options->seeds.usual_snap = options->benchmark.truth;
+    options->seeds.usual_snap = Snap::to_pixels;
+    options->benchmark.truth = options->seeds.snap.value_or(Snap::to_pixels);
     run(*options);
   });
 }

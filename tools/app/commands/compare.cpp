@@ -28,7 +28,7 @@ namespace vorocl::command {
 
 namespace {
 
-/// Judged by snapped points, as the paper has it, unless --truth says otherwise.
+/// Judged by snapped points, as the paper has it, unless --no-snap says otherwise.
 struct CompareOptions {
   CompareOptions() { seeds.usual_snap = Snap::to_pixels; }
 
@@ -109,7 +109,6 @@ Comparison compare_with_exact(const CompareOptions& options) {
   }
   const bool is_volume = seed_options.depth > 1;
   if (image.depth > 1 && seed_options.width != 0) refuse_in_volumes("--width");
-  if (is_volume && seed_options.usual_snap == Snap::none) refuse_in_volumes("--truth true");
   if (is_volume) check_volume_method(method("exact"), options.metric);
   const Input input = is_volume ? read_volume_input(seed_options) : read_input(seed_options);
   const View& view = input.view;
@@ -181,10 +180,9 @@ void run(const CompareOptions& options) {
   const Comparison comparison = options.has_seeds() ? compare_with_exact(options) : compare_files(options);
   print_result(options, comparison);
   const bool has_points = !options.seeds.points.empty() || !options.seeds.trajectory.empty();
-  if (has_points && !comparison.is_volume && !options.seeds.snap &&
-      options.seeds.usual_snap == Snap::to_pixels && comparison.errors->wrong_pixels > 0) {
+  if (has_points && !comparison.is_volume && !options.seeds.snap && comparison.errors->wrong_pixels > 0) {
     print_note(
-        "the centres of the points' pixels are the truth here, as methods that flood take them; --truth true "
+        "the centres of the points' pixels are the truth here, as methods that flood take them; --no-snap "
         "judges by the points themselves");
   }
 }
@@ -200,7 +198,7 @@ void add_compare(CommandLine& line) {
   command.add("b", options->b, "Labels of the same size");
   add_seed_options(command, options->seeds, 0, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
-  add_truth_option(command, options->seeds.usual_snap, "What the exact diagram is of:");
+  add_snap_option(command, options->seeds, "Judge labels");
   add_metric_option(command, options->metric);
   add_device_option(command, options->device);
   add_json_option(command, options->json);

@@ -292,7 +292,7 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
     throw UsageError("--size WxHxD: vorocl simulate makes volumes of a --trajectory");
   }
   check_volume_options(seeds);
-  for (const char* const name : {"--truth", "--tolerance", "--cell-columns"}) {
+  for (const char* const name : {"--tolerance", "--cell-columns"}) {
     if (command.has(name)) refuse_in_volumes(name);
   }
   check_volume_method(options.method, options.method_options.metric);
@@ -303,13 +303,12 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
 }
 
 /// Throws UsageError for options that planes do not have, or that do not go together there.
-void prepare_planes(const Command& command, SimulateOptions& options) {
+void prepare_planes(SimulateOptions& options) {
   if (options.output.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-  snap_for(options.method, options.seeds);
-  const bool judges = !options.method.exact && options.compare_with && options.compare_with->exact;
-  if (judges) options.seeds.usual_snap = options.truth;
-  if (!judges && command.has("--truth")) {
-    throw UsageError("--truth is for a method that floods, with --compare-with exact");
+  if (options.compare_with && options.compare_with->exact && !options.method.exact) {
+    options.seeds.usual_snap = Snap::to_pixels;  // with --no-snap, what floods is judged by the points
+  } else {
+    snap_for(options.method, options.seeds);
   }
   options.seeds.value_column = options.output.picture.color.column;
   const bool floods = !options.method.windows || (options.compare_with && !options.compare_with->windows);
@@ -358,9 +357,6 @@ void add_simulate(CommandLine& line) {
   command.add_choice("--compare-metric", options->compare_metric, metrics, "The other method's distance")
       .default_text("that of --metric")
       .needs(compare_with);
-  add_truth_option(command, options->truth,
-                   "With --compare-with exact, what a method that floods is judged by:")
-      .needs(compare_with);
   command
       .add_parsed("--tolerance", options->tolerance, parse_tolerance,
                   "Compare distances instead of labels: pixels are equal if their two seeds are equally far, "
@@ -386,7 +382,7 @@ void add_simulate(CommandLine& line) {
     if (options->exact) return run_exact(command, *options);
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
-    options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(command, *options);
+    options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(*options);
     options->run = "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json"});
     run(*options);
   });

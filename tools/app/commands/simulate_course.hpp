@@ -23,7 +23,6 @@ struct SimulateOptions {
   MethodOptions method_options;
   std::optional<Method> compare_with;
   std::optional<Metric> compare_metric;
-  Snap truth = Snap::to_pixels;     // of exact diagrams that a method which floods is compared with
   std::optional<double> tolerance;  // of distances in pixels; none: labels are compared
   FrameWriterOptions output;
   std::string device;

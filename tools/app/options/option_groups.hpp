@@ -32,10 +32,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least 
 void add_plane_options(Command& command, PlaneInputOptions& options);
 
 /// Adds --snap and --no-snap, for the subcommands that make exact diagrams of points.
-void add_snap_option(Command& command, SeedOptions& options);
-
-/// Adds --truth: what diagrams are judged by. The help says of what.
-Option add_truth_option(Command& command, Snap& truth, const std::string& about);
+void add_snap_option(Command& command, SeedOptions& options, const std::string& judges = "");
 
 /// Adds --crs, for the subcommands that have files of where points lie in the world.
 Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::string& about);

@@ -311,21 +311,16 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   add_snap_option(command, seeds);
 }
 
-void add_snap_option(Command& command, SeedOptions& options) {
+void add_snap_option(Command& command, SeedOptions& options, const std::string& judges) {
   const auto set = [&options](bool is_on) { options.snap = is_on ? Snap::to_pixels : Snap::none; };
-  command.add_pair("--snap,!--no-snap", set,
-                   "Move points to the centres of their pixels, as methods that flood always do; without it "
-                   "exact diagrams take the points themselves, rounded to 1/4096 of a pixel");
-}
-
-Option add_truth_option(Command& command, Snap& truth, const std::string& about) {
-  const Choices<Snap> truths = {{"snapped", Snap::to_pixels}, {"true", Snap::none}};
-  return command
-      .add_choice(
-          "--truth", truth, truths,
-          about +
-              " the centres of the points' pixels, or the points themselves, rounded to 1/4096 of a pixel")
-      .default_text("snapped");
+  command.add_pair(
+      "--snap,!--no-snap", set,
+      judges.empty()
+          ? "Move points to the centres of their pixels, as methods that flood always do; without it exact "
+            "diagrams take the points themselves, rounded to 1/4096 of a pixel"
+          : judges +
+                " by diagrams of the centres of the points' pixels, as methods that flood make (the "
+                "default), or of the points themselves, rounded to 1/4096 of a pixel");
 }
 
 Option add_crs_option(Command& command, std::optional<Crs>& crs, const std::string& about) {
