@@ -128,7 +128,8 @@ void prepare_volumes(const Device& device) {
   }
 }
 
-/// Images of planes and volumes, by keys of 32 and of 64 bits; those of masks as seeds by both metrics.
+/// Images of planes and volumes, by keys of 32 and of 64 bits; those of masks as seeds by both metrics; seeds
+/// close together.
 void prepare_images(const Device& device) {
   for (const Grid& grid : {Grid(300, 270), Grid(40, 40, 40)}) {
     std::vector<std::uint8_t> image(grid.pixels(), 1);
@@ -148,6 +149,15 @@ void prepare_images(const Device& device) {
       diagram.wait();
     }
   }
+  if (device.tuning().shape == Shape::group) return;
+  const Grid thin(4096, 1, 2);
+  std::vector<Point3> crowded;
+  for (int i = 0; i < 100; ++i) {
+    for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
+  }
+  Diagram diagram(device, thin);
+  exact_diagram(Seeds(device, thin, crowded), diagram);
+  diagram.wait();
 }
 
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {

@@ -41,7 +41,8 @@ struct ExactOptions {
 /// 131,072 pixels.
 ///
 /// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4.2
-/// bytes of device memory per voxel, more where sides are short, and 20 per seed. Throws Error for the
+/// bytes of device memory per voxel, more where sides are short, and 20 per seed. Seeds that stand close
+/// together, and those of masks, cost what their voxels do. Throws Error for the
 /// Manhattan metric, and with Shape::group, as on a GPU. docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 

@@ -75,7 +75,8 @@ kernel void mark_pixels(global const uchar* restrict pixels, int bytes, int has_
     global ushort* const out = marks + (size_t)row * (size_t)words;
     uint count = 0;
     for (int i = 0; i < width / STRIP; ++i) {
-      const uint word = (zeros_of_word(pixels, bytes, is_float, skips_nan, start + (size_t)i * STRIP) ^ wanted) & 0xffff;
+      const uint zeros = zeros_of_word(pixels, bytes, is_float, skips_nan, start + (size_t)i * STRIP);
+      const uint word = (zeros ^ wanted) & 0xffff;
       count += popcount(word);
       out[i] = (ushort)word;
     }
@@ -138,6 +139,37 @@ kernel void list_marks(global const ushort* restrict marks, global const uint* r
       positions[rank++] = start + (uint)(i * STRIP) + popcount((rest & -rest) - 1);
     }
   }
+}
+
+// SEEDS as marks: their pixels are marked, and a list has the id of each mark, the lowest one of several.
+#define EMPTY_SEED 0x80000000u
+#define SEED_PARAMETERS \
+  global const uint *restrict positions, uint count, int height, int words, int bits_x, int bits_y
+static inline uint x_of_seed(uint position, int bits_x) { return position & ((1u << bits_x) - 1); }
+static inline uint word_of_seed(uint position, int height, int words, int bits_x, int bits_y) {
+  const uint y = position >> bits_x & ((1u << bits_y) - 1);
+  const uint z = bits_x + bits_y < 32 ? position >> (bits_x + bits_y) : 0;
+  return (z * (uint)height + y) * (uint)words + x_of_seed(position, bits_x) / 64;
+}
+kernel void mark_seeds(SEED_PARAMETERS, global uint* restrict marks) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || positions[id] & EMPTY_SEED) return;
+  const uint word = word_of_seed(positions[id], height, words, bits_x, bits_y), bit = x_of_seed(positions[id], bits_x);
+  atomic_or(marks + (size_t)word * 2 + bit % 64 / 32, 1u << bit % 32);
+}
+kernel void count_marks(global const ulong* restrict marks, int rows, int words, global uint* restrict counts) {
+  const int row = (int)get_global_id(0);
+  if (row >= rows) return;
+  uint marks_of_row = 0;
+  for (int i = 0; i < words; ++i) marks_of_row += (uint)popcount(marks[(size_t)row * (size_t)words + (size_t)i]);
+  counts[row] = marks_of_row;
+}
+kernel void list_ids(SEED_PARAMETERS, global const ulong* restrict marks, global const uint* restrict starts,
+                     global uint* restrict ids) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count || positions[id] & EMPTY_SEED) return;
+  const uint word = word_of_seed(positions[id], height, words, bits_x, bits_y);
+  atomic_min(ids + rank_of(marks, starts, word, x_of_seed(positions[id], bits_x) % 64), id);
 }
 
 #endif

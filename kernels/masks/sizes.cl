@@ -60,7 +60,6 @@ typedef struct {
   cl_long length_x, length_y, length_z;  // of a pixel: the bits of doubles
   cl_long farthest;                    // squared; a mark that is farther is none
   cl_long longest_length;              // the bits of a double; so is one that is farther than this, if ...
-  cl_long no_value;
   cl_float float_x, float_y, float_z;  // the lengths
   cl_int width, height, depth, longest;
   cl_int period_x, period_y, period_z;  // as many pixels, or 0
@@ -69,6 +68,7 @@ typedef struct {
   cl_int limits_lengths;               // ... this is set
   cl_int is_unit;                      // the lengths are 1
   cl_int is_volume, wanted, bytes_of_value;
+  cl_int has_ids;                      // of the marks, which are stored for their ranks
 } images_t;
 
 #endif

@@ -15,12 +15,12 @@
 // Buffers that are not wanted are any.
 #define TARGET_PARAMETERS                                                                                         \
   global uchar *distances, global uint *indices, global uint *places, global uint *ranks, global const uint *starts, \
-      global uchar *values, global const uchar *image
-#define TARGETS_OF_PARAMETERS {distances, indices, places, ranks, starts, values, image, marks}
+      global const uint *ids, global uchar *values, global const uchar *image
+#define TARGETS_OF_PARAMETERS {distances, indices, places, ranks, starts, ids, values, image, marks}
 typedef struct {
   global uchar* distances;
   global uint *indices, *places, *ranks;
-  global const uint* starts;
+  global const uint *starts, *ids;
   global uchar* values;
   global const uchar* image;
   global const ushort* marks;
@@ -96,13 +96,13 @@ INLINE void store_distances(const nearest_t* n, const images_t* e, const targets
   STORE_LANES(float, select(length, (float16)INFINITY, none), (global float*)t->distances + n->at, n->lanes);
 }
 
-#define COPY_VALUES(type)                                                                               \
-  do {                                                                                                  \
-    type value[STRIP];                                                                                  \
-    _Pragma("nounroll") for (int i = 0; i < STRIP; ++i) {                                               \
-      value[i] = is_none[i] ? (type)e->no_value : ((global const type*)t->image)[place[i]];             \
-    }                                                                                                   \
-    STORE_LANES(type, vload16(0, value), (global type*)t->values + n->at, n->lanes);                    \
+// Unrolled, for loads that a compiler gathers into vectors take many times as long.
+#define COPY_VALUES(type, mask)                                                                            \
+  do {                                                                                                     \
+    type value[STRIP];                                                                                     \
+    _Pragma("unroll") for (int i = 0; i < STRIP; ++i) value[i] = ((global const type*)t->image)[place[i]]; \
+    const type##16 values = select(vload16(0, value), (type##16)(type)0, convert_##mask(n->none));         \
+    STORE_LANES(type, values, (global type*)t->values + n->at, n->lanes);                                  \
   } while (0)
 
 INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t* t) {
@@ -117,18 +117,20 @@ INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t*
     vstore16(as_uint16(n->column & 63), 0, bit);
 #pragma unroll
     for (int i = 0; i < STRIP; ++i) rank[i] = rank_of((global const ulong*)t->marks, t->starts, word[i], bit[i]);
+    if (e->has_ids) {
+#pragma unroll
+      for (int i = 0; i < STRIP; ++i) rank[i] = t->ids[rank[i]];
+    }
     STORE_LANES(uint, select(vload16(0, rank), (uint16)NO_MARK, n->none), t->ranks + n->at, n->lanes);
   }
   if (e->wanted & WANTS_VALUES) {
     uint place[STRIP];
-    int is_none[STRIP];
     vstore16(places, 0, place);
-    vstore16(n->none, 0, is_none);
     switch (e->bytes_of_value) {
-      case 1: COPY_VALUES(uchar); break;
-      case 2: COPY_VALUES(ushort); break;
-      case 4: COPY_VALUES(uint); break;
-      default: COPY_VALUES(ulong);
+      case 1: COPY_VALUES(uchar, char16); break;
+      case 2: COPY_VALUES(ushort, short16); break;
+      case 4: COPY_VALUES(uint, int16); break;
+      default: COPY_VALUES(ulong, long16);
     }
   }
 }

@@ -22,6 +22,9 @@ struct Placement {
 
   /// The seeds outside, and images across the ends of periods; null if there are none.
   std::shared_ptr<const OuterSeeds> outer;
+
+  /// Of a volume: see are_crowded().
+  bool is_crowded = false;
 };
 
 /// A voxel of a volume.
@@ -34,6 +37,11 @@ constexpr std::uint32_t absent_voxel = 0x80000000u;
 
 /// The position of a seed that is absent, or outside the window: EMPTY of position.cl.
 constexpr std::uint32_t absent_position = 0x80008000u;
+
+/// Whether many seeds of a volume stand close together, as those of a surface or a solid do, and others of
+/// its voxels are far from any: exact diagrams of such seeds are made voxel by voxel
+/// (masks/exact_diagram.hpp).
+bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxels);
 
 /// The position of a seed in a pixel.
 inline std::uint32_t pack(int x, int y) {

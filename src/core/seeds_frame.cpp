@@ -160,16 +160,13 @@ double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) 
 
 std::vector<std::optional<Voxel>> SeedsFrame::read_voxels() const {
   const VoxelBits bits(whole->grid);
-  const auto field = [](std::uint32_t position, int first, int count) {
-    return static_cast<int>(position >> first & ((std::uint32_t{1} << count) - 1));
-  };
   std::vector<std::optional<Voxel>> voxels;
   voxels.reserve(size);
   for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
     std::optional<Voxel>& voxel = voxels.emplace_back();
     if (position == absent_voxel) continue;
-    voxel = Voxel{field(position, 0, bits.x), field(position, bits.x, bits.y),
-                  field(position, bits.x + bits.y, bits.z)};
+    const auto [x, y, z] = bits.unpack(position);
+    voxel = Voxel{x, y, z};
   }
   return voxels;
 }

@@ -168,7 +168,9 @@ void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& 
   next.absent = absent;
   way_is_unknown(next);
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(voxels.size());
-  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid)), positions, nullptr});
+  const PixelGrid volume{Window(grid)};
+  next.whole =
+      std::make_shared<const Placement>(Placement{volume, positions, nullptr, are_crowded(volume, voxels)});
   voxels.push_back(absent_voxel);
   upload_.start(device, *positions, std::move(voxels));
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));

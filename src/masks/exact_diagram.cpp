@@ -11,28 +11,45 @@ namespace {
 /// The engine's working memory.
 struct PassesWorkspace {
   std::optional<MaskEngine> engine;  // by the metric that was last asked for
+  std::optional<Marks> seeds;
 };
 
-MaskEngine& engine_of(DiagramState& state, const PixelGrid& grid, Metric metric) {
-  std::optional<MaskEngine>& engine = state.workspace<PassesWorkspace>().engine;
-  if (engine && engine->metric() == metric && engine->shape() == ImageShape(grid)) return *engine;
+MaskEngine& engine_of(const DiagramState& state, PassesWorkspace& memory, const PixelGrid& grid,
+                      Metric metric) {
+  const ImageShape shape(grid);
+  std::optional<MaskEngine>& engine = memory.engine;
+  if (engine && engine->metric() == metric && engine->shape() == shape) return *engine;
   const auto [x, y, z] = grid.spacing();
   const PixelSize size = {double(x), double(y), double(z)};
-  return engine.emplace(state.device, ImageShape(grid), size, whole_sizes(size, grid.longest_side()), metric);
+  memory.seeds.emplace(state.device, shape);
+  return engine.emplace(state.device, shape, size, whole_sizes(size, grid.longest_side()), metric);
+}
+
+/// Whether the diagram shows all of a mask that the seeds were made from.
+bool shows_marks(const Filling& filling) {
+  return filling.seeds().marks && filling.seeds().whole.get() == &filling.placement();
 }
 
 }  // namespace
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
-  const bool is_whole = filling.seeds().whole.get() == &filling.placement();
-  return filling.seeds().marks && is_whole && state.device.tuning().shape == Shape::vector;
+  return state.device.tuning().shape == Shape::vector &&
+         (shows_marks(filling) || filling.placement().is_crowded);
 }
 
 Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
+  const Placement& placement = filling.placement();
+  PassesWorkspace& memory = state.workspace<PassesWorkspace>();
+  MaskEngine& engine = engine_of(state, memory, placement.grid, filling.metric());
   NearestTargets targets;
   targets.ranks = state.labels;
-  const auto [first, last] = engine_of(state, filling.placement().grid, filling.metric())
-                                 .run(state.kernels, *filling.seeds().marks, targets);
+  if (shows_marks(filling)) {
+    const auto [first, last] = engine.run(state.kernels, *filling.seeds().marks, targets);
+    return filling.commit(0, first, last);
+  }
+  const cl::Event first =
+      memory.seeds->take_seeds(state.kernels, placement.grid, *placement.positions, filling.seeds().size);
+  const cl::Event last = engine.run(state.kernels, *memory.seeds, targets).last;
   return filling.commit(0, first, last);
 }
 

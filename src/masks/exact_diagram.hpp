@@ -5,7 +5,7 @@
 
 namespace vorocl {
 
-/// Whether this engine is the one for the seeds: they were made from a mask.
+/// Whether this engine is the one for the seeds: they were made from a mask, or are crowded.
 bool labels_by_passes(const Filling& filling, const DiagramState& state);
 
 /// Fills a diagram of such seeds.

@@ -67,12 +67,14 @@ Kernel& mask_kernel(KernelSet& kernels, const Device& device, const char* name,
 
 std::size_t Marks::shorts_of_row() const { return static_cast<std::size_t>(SHORTS_OF_ROW(shape.width)); }
 
+void Marks::make_room() {
+  if (counts() != nullptr) return;
+  bits = allocate(device, shape.rows() * shorts_of_row() * sizeof(cl_ushort), "the marks of an image");
+  counts = allocate(device, (2 * shape.rows() + 1) * word, "the marks of an image");
+}
+
 cl::Event Marks::mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked) {
-  const std::size_t shorts = shape.rows() * shorts_of_row();
-  if (counts() == nullptr) {
-    bits = allocate(device, shorts * sizeof(cl_ushort), "the marks of an image");
-    counts = allocate(device, (2 * shape.rows() + 1) * word, "the marks of an image");
-  }
+  make_room();
   const bool has_sign = type == PixelType::float32 || type == PixelType::float64;
   cl::Event first =
       mask_kernel(kernels, device, "mark_pixels")
@@ -103,16 +105,50 @@ std::size_t Marks::count() const {
   return found;
 }
 
-void Marks::list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions) const {
-  int bits_x = 16, bits_y = 16;
-  if (grid.is_volume()) {
+namespace {
+
+/// How the parts of a position lie in it.
+struct PositionBits {
+  explicit PositionBits(const PixelGrid& grid) {
+    if (!grid.is_volume()) return;
     const VoxelBits of_volume(grid);
-    bits_x = of_volume.x;
-    bits_y = of_volume.y;
+    x = of_volume.x;
+    y = of_volume.y;
   }
+  int x = 16, y = 16;
+};
+
+}  // namespace
+
+cl::Event Marks::take_seeds(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions,
+                            std::size_t seeds) {
+  make_room();
+  if (ids() == nullptr || size_of(ids) < seeds * word)
+    ids = allocate(device, seeds * word, "the ids of marks");
+  const PositionBits bits_of_position(grid);
+  const auto words = static_cast<cl_int>(shorts_of_row() * sizeof(cl_ushort) / sizeof(cl_ulong));
+  const auto row_count = static_cast<cl_int>(shape.rows());
+  const auto of_seeds = [&](const char* name, const auto&... more) {
+    mask_kernel(kernels, device, name)
+        .over_items(seeds, positions, static_cast<cl_uint>(seeds), shape.height, words, bits_of_position.x,
+                    bits_of_position.y, more...);
+  };
+  const cl::Event first =
+      fill(device, bits, cl_uint{0}, shape.rows() * shorts_of_row() * sizeof(cl_ushort) / word);
+  of_seeds("mark_seeds", bits);
+  mask_kernel(kernels, device, "count_marks").over_items(shape.rows(), bits, row_count, words, counts);
+  mask_kernel(kernels, device, "sum_counts").in_groups_of(1).over_items(1, counts, row_count);
+  rank(kernels);
+  fill(device, ids, no_label, seeds);
+  of_seeds("list_ids", bits, starts, ids);
+  return first;
+}
+
+void Marks::list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions) const {
+  const PositionBits bits_of_position(grid);
   mask_kernel(kernels, device, "list_marks")
       .over_items(shape.rows() + 1, bits, counts, static_cast<cl_int>(shape.rows()),
-                  static_cast<cl_int>(shorts_of_row()), shape.height, bits_x, bits_y,
+                  static_cast<cl_int>(shorts_of_row()), shape.height, bits_of_position.x, bits_of_position.y,
                   cl_uint{grid.is_volume() ? absent_voxel : absent_position}, positions);
 }
 

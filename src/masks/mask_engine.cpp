@@ -109,7 +109,7 @@ void MaskEngine::reserve(cl::Buffer& buffer, std::size_t bytes) {
   held_ += size_of(buffer);
 }
 
-cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) const {
+cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool has_ids, bool is_far) const {
   images_t images = {};
   images.square_x = whole_.squares[0];
   images.square_y = whole_.squares[1];
@@ -125,7 +125,6 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) con
   images.longest_length = bits_of(targets.farthest * (1 + within));
   images.farthest =
       whole_.most_within(images.limits_lengths ? std::numeric_limits<double>::infinity() : targets.farthest);
-  images.no_value = targets.no_value;
   images.float_x = static_cast<cl_float>(size_.x);
   images.float_y = static_cast<cl_float>(size_.y);
   images.float_z = static_cast<cl_float>(size_.z);
@@ -146,6 +145,7 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool is_far) con
   images.is_volume = shape_.is_volume;
   images.wanted = wanted_of(targets);
   images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));
+  images.has_ids = has_ids;
   return allocate_with(device_, &images, sizeof images, "the sizes of an image");
 }
 
@@ -174,14 +174,16 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   reserve(ints_, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
   reserve(flags_, strips * (is_volume ? longest : 1));
   reserve(columns_, of_columns * (is_volume ? items_of_slices : 1));
-  const cl::Buffer near = images_of(targets, false), far = saturates ? images_of(targets, true) : nothing_;
+  const cl::Buffer near = images_of(targets, marks.ids() != nullptr, false),
+                   far = saturates ? images_of(targets, marks.ids() != nullptr, true) : nothing_;
   const auto given = [&](const cl::Buffer& buffer) -> const cl::Buffer& {
     return buffer() == nullptr ? nothing_ : buffer;
   };
   const auto run_last = [&](std::size_t count, Kernel& kernel, const auto&... arguments) {
-    return kernel.in_groups_of(1).over_items(
-        count, arguments..., given(targets.distances), given(targets.indices), given(targets.places),
-        given(targets.ranks), given(marks.starts), given(targets.values), given(targets.image));
+    return kernel.in_groups_of(1).over_items(count, arguments..., given(targets.distances),
+                                             given(targets.indices), given(targets.places),
+                                             given(targets.ranks), given(marks.starts), given(marks.ids),
+                                             given(targets.values), given(targets.image));
   };
   if (!is_volume) {
     const cl::Event first =

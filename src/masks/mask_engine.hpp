@@ -14,10 +14,9 @@ namespace vorocl {
 struct NearestTargets {
   cl::Buffer distances;
   PixelType type_of_distances = PixelType::float32;  // or float64; uint32: squares
-  cl::Buffer indices, places, ranks;
-  cl::Buffer values, image;  // may be one buffer
+  cl::Buffer indices, places, ranks;                 // ranks: ids where the marks have some
+  cl::Buffer values, image;                          // may be one buffer
   PixelType type_of_values = PixelType::uint32;
-  std::uint32_t no_value = 0;
   double farthest = std::numeric_limits<double>::infinity();
 };
 
@@ -52,7 +51,7 @@ class MaskEngine {
   template <typename Run>
   cl::Event run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips, Run run);
 
-  cl::Buffer images_of(const NearestTargets& targets, bool is_far) const;
+  cl::Buffer images_of(const NearestTargets& targets, bool has_ids, bool is_far) const;
 
   Device device_;  // without vectors
   ImageShape shape_;

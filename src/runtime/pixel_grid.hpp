@@ -62,6 +62,14 @@ struct VoxelBits {
            static_cast<std::uint32_t>(at_x);
   }
 
+  /// x, y and z of a voxel.
+  std::array<int, 3> unpack(std::uint32_t position) const {
+    const auto field = [position](int first, int count) {
+      return static_cast<int>(position >> first & ((std::uint32_t{1} << count) - 1));
+    };
+    return {field(0, x), field(x, y), field(x + y, z)};
+  }
+
   int x, y, z;
 };
 

@@ -247,7 +247,7 @@ void make_volumes(const Device& device, const Grid& grid) {
   }
 }
 
-/// Images of planes and volumes by keys of 32 and of 64 bits, and seeds of a mask.
+/// Images of planes and volumes by keys of 32 and of 64 bits, seeds of a mask, and seeds close together.
 void transform_images(const Device& device) {
   for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Periodic::xy), Grid(18, 9, 6)}) {
     std::vector<std::uint8_t> image(grid.pixels(), 1);
@@ -265,6 +265,14 @@ void transform_images(const Device& device) {
     exact_diagram(Seeds::from_mask(device, grid, image), diagram);
     diagram.wait();
   }
+  const Grid thin(4096, 1, 2);
+  std::vector<Point3> crowded;
+  for (int i = 0; i < 100; ++i) {
+    for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
+  }
+  Diagram diagram(device, thin);
+  exact_diagram(Seeds(device, thin, crowded), diagram);
+  diagram.wait();
 }
 
 /// In buffers: good points, good ones that have moved, and a bad one.
@@ -363,7 +371,7 @@ int main() {
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
-  transform_images(device);
+  transform_images(for_volumes);
   cut_exact_cells(device);
   const std::set<std::string> kernels = kernels_in_the_sources(device);
   std::size_t missing = 0;

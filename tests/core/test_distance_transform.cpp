@@ -463,6 +463,39 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_of_masks_have_the_labels_of_their_pixels_as_
   }
 }
 
+// Of seeds on one voxel the lowest id owns it; one is absent.
+BOOST_AUTO_TEST_CASE(crowded_seeds_of_volumes_have_the_labels_of_their_voxels) {
+  if (test_device().tuning().shape != Shape::vector) return;
+  const Grid plain(72, 80, 64),
+      spaced(Axis(72).periodic(), Axis(80).spaced(3), Axis(64).spaced(2).periodic());
+  for (const Grid& grid : {plain, spaced}) {
+    std::mt19937 rng(9);
+    const auto below = [&](unsigned end) { return static_cast<unsigned>(rng() % end); };
+    std::vector<Point3> points;
+    Bytes mask(grid.pixels());
+    std::vector<std::uint32_t> ids(grid.pixels(), no_label);
+    for (std::uint32_t id = 0; id < 9000; ++id) {
+      const unsigned x = below(72), y = below(80), z = id % 900 == 0 ? below(64) : 20;
+      points.push_back({x + 0.5, y + 0.5, z + 0.5});
+      const std::size_t place = (std::size_t{z} * 80 + y) * 72 + x;
+      if (id == 7) points.back().y = -5;
+      if (id == 7) continue;
+      mask[place] = 1;
+      ids[place] = std::min(ids[place], id);
+    }
+    ids.erase(std::remove(ids.begin(), ids.end(), no_label), ids.end());  // by the ranks of the mask
+    Diagram diagram(test_device(), grid), of_mask(test_device(), grid);
+    const Seeds seeds(test_device(), grid, points, Outside::absent);
+    exact_diagram(seeds, diagram);
+    exact_diagram(Seeds::from_mask(test_device(), grid, mask), of_mask);
+    Labels expected = of_mask.read();
+    for (std::uint32_t& label : expected) label = ids[label];
+    BOOST_TEST(count_differences(diagram.read(), expected) == 0u);
+    exact_diagram(seeds, diagram);  // with working memory that is there
+    BOOST_TEST(count_differences(diagram.read(), expected) == 0u);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(random_shapes_and_images) {
   const unsigned rounds = long_tests ? 200 : 4;
   std::mt19937 rng(long_tests ? std::random_device()() : 6);
