@@ -281,7 +281,7 @@ bool CsvReader::next_record() {
       if (lines == most_lines || text.size() > most_bytes || !lines_.next())
         throw lines_.error_at(first_line, "a quote is not closed: " + shown(text));
       text += '\n' + std::string(lines_.line());
-      fields = csv_fields(text, *separator_);
+      if (lines_.line().find('"') != std::string_view::npos) fields = csv_fields(text, *separator_);
     }
     fields_ = std::move(*fields);
     if (!is_empty(fields_)) return true;
