@@ -29,7 +29,8 @@ struct DynamicJumpFloodingOptions {
   std::optional<std::size_t> alive = {};
 };
 
-/// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather): each label's
+/// Fills the diagram from the labels it holds (the paper's Algorithm 1, with waves that gather, and with
+/// seeds stamped, which that algorithm does not say): each label's
 /// seed is looked up at its new position, the seeds are stamped at their new pixels, and waves from a step
 /// that covers a cell and the motion mend the rest. A diagram that counts as never filled gets a JFA.
 ///
@@ -43,9 +44,9 @@ struct DynamicJumpFloodingOptions {
 ///   whether the last frame had a bad point. If it had, if a seed may have vanished, or if the labels are of
 ///   other seeds or were written by the caller, it looks whether pixels are left.
 ///
-/// Reach::authors: the same with a wave less, and several times as many wrong pixels.
+/// Reach::authors: the same with a wave less in most cases, and several times as many wrong pixels.
 ///
-/// Reach::measured: for any seeds and any motion about as close to the exact diagram as JFA
+/// Reach::measured: for most seeds and any motion about as close to the exact diagram as JFA
 /// (docs/moving_seeds.md: how close, and the worst that is known). One row in eight of the labels shows how
 /// far they are from their seeds, and where the paper's plan cannot be relied on, JFA's waves run from a step
 /// that covers that distance. `max_displacement` may be less than what was: the distance shows it. Seeds that

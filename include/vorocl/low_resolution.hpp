@@ -18,10 +18,11 @@ struct LowResolutionOptions {
 /// nearest one is taken, and Moore waves of steps 4, 2 and 1, at the last level 2 and 1, mend the rest.
 /// Enqueues and returns.
 ///
-/// Approximate: where seeds are spread evenly no more pixels are wrong than by JFA, in the mean; where cells
-/// are thin and long, as inside a ring of seeds, many more (docs/evaluation.md). Cost: some six passes over
-/// the pixels, whatever the size; 15 bytes of device memory per pixel, the labels included. The report counts
-/// no waves. Throws as jump_flooding().
+/// Approximate: where seeds are spread evenly no more pixels are wrong than by JFA, in the mean, by the
+/// Euclidean metric. By the Manhattan metric, of which JFA has nearly none wrong, some are. Where cells are
+/// thin and long, as inside a ring of seeds, many more (docs/evaluation.md). Cost: some six passes over the
+/// pixels, whatever the size; 15 bytes of device memory per pixel, the labels included. The report counts no
+/// waves. Throws as jump_flooding().
 VOROCL_API Report low_resolution(const Seeds& seeds, Diagram& diagram,
                                  const LowResolutionOptions& options = {});
 

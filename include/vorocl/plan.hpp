@@ -66,7 +66,8 @@ enum class Reach {
 /// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
 /// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
 /// seeds), from 1 to first_step(window). Of Reach::authors, delta_1 = 2^floor(log2(max(2 L, d_max))), so
-/// there is a wave less: docs/evaluation.md says what that is worth. Of Reach::measured it is the plan that
+/// there is a wave less, unless max(2 L, d_max) is a power of two or both are first_step(window):
+/// docs/evaluation.md says what that is worth. Of Reach::measured it is the plan that
 /// runs where the labels allow it, which is the paper's. Throws Error if the displacement or an option is out
 /// of its range.
 VOROCL_API Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
