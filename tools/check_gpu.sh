@@ -40,7 +40,7 @@ kernel_files() {
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
   echo kernels/exact/points/pixels.cl
-  printf 'kernels/volumes/%s.cl\n' adjacency cells jump_flooding measures seeds shapes
+  printf 'kernels/volumes/%s.cl\n' jump_flooding seeds
 }
 
 work=$(mktemp -d)
@@ -59,6 +59,7 @@ compile() { # TARGET LIBRARY FILE OPTION...
 more_options() { # FILE
   if grep -q 'plane.cl' "$1"; then printf '%s\n' -DVOROCL_OUTER_SEEDS '-DVOROCL_OUTER_SEEDS -DVOROCL_FAR'; fi
   if [[ $1 == kernels/exact/group/diagram.cl || $1 == kernels/exact/points/pixels.cl ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y'; fi
+  if [[ $1 == kernels/measures/* ]]; then echo '-DVOROCL_DIMENSIONS=3 -DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
   if [[ $1 == kernels/volumes/* ]]; then echo '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_PERIODIC_Z'; fi
 }
 

@@ -52,6 +52,9 @@ builds_of() { # KERNEL
       for axes in -DVOROCL_PERIODIC_X '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Y -DVOROCL_FAR'; do
         echo "$width -DVOROCL_EUCLIDEAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_OUTER_SEEDS $axes"
       done
+      for axes in '' '-DVOROCL_PERIODIC_X -DVOROCL_PERIODIC_Z -DVOROCL_SPACING_X=2 -DVOROCL_SPACING_Y=1 -DVOROCL_SPACING_Z=4'; do
+        echo "$width -DVOROCL_MANHATTAN -DVOROCL_NEIGHBOURS=9 -DVOROCL_DIMENSIONS=3 $axes"
+      done
     fi
     if [[ $kernel == kernels/exact/* ]]; then  # the tests' own lists, nearly every one of which overflows
       for metric in EUCLIDEAN 'MANHATTAN -DVOROCL_OUTER_SEEDS'; do

@@ -45,7 +45,8 @@ EXACT = ["check", "test_window", "test_exact_diagram --run_test=random*,lowest*,
 FLOODING = ["check", "test_jump_flooding", "test_standard_flooding", "test_dynamic_jump_flooding",
             "test_low_resolution"]
 MEASURES = ["test_c_api_measures", "test_similarity", "test_window_measures", "test_fields", "test_cells",
-            "test_relaxation", "test_adjacency", "test_distance_errors", "test_cell_table", "test_diagram_memory"]
+            "test_relaxation", "test_adjacency", "test_distance_errors", "test_cell_table", "test_diagram_memory",
+            "test_volume_cells"]
 KERNEL_TESTS = [
     ("exact/group/*", GROUP), ("exact/*", EXACT),
     ("flooding/dynamic_jump_flooding.cl", FLOODING + ["test_any_motion"]), ("flooding/*", FLOODING),
@@ -55,13 +56,10 @@ KERNEL_TESTS = [
     ("core/plane.cl", ["test_window", "test_window_measures"]),
     ("measures/seed_place.cl", ["test_window_measures"] + MEASURES),
     ("core/tiles.cl", ["test_tiles"]),
-    ("volumes/adjacency.cl", ["test_volume_cells"]), ("volumes/blocks.cl", ["test_volume_cells"]),
-    ("volumes/cells.cl", ["test_volume_cells"]), ("volumes/place.cl", ["test_volume_cells"]),
-    ("volumes/shapes.cl", ["test_volume_cells"]),
     ("measures/shapes.cl", ["test_true_measures", "test_tilted_grids"] + MEASURES),
     ("measures/home.cl", ["test_true_measures"] + MEASURES),
     ("measures/pair_table.cl", ["test_adjacency", "test_volume_cells"]),
-    ("measures/adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("measures/runs.cl", MEASURES),
+    ("measures/adjacency.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency", "test_volume_cells"]), ("measures/runs.cl", MEASURES),
     ("measures/vertices.cl", ["test_c_api_measures", "test_window_measures", "test_adjacency"]), ("*", MEASURES),
 ]
 

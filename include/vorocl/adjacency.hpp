@@ -70,12 +70,12 @@ class VOROCL_API AdjacencyResult {
 /// edge with the one that it has more in common with. In a volume the same is said of voxels and their faces.
 ///
 /// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
-/// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a hash
-/// table on the device, and sorting the pairs; about 200 bytes of device memory per seed, in a volume
-/// 400. Enqueues and returns. Where cells in many pieces have more neighbours than the table holds, reading
-/// the result finds them again in a larger one; it throws Error if the diagram has been filled or written
-/// since. Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little
-/// memory.
+/// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a
+/// short list of its cell or a hash table on the device, and sorting the pairs; about 200 bytes of device
+/// memory per seed, in a volume 300; twice that where cells are large. Enqueues and returns. Where cells in
+/// many pieces have more neighbours than the table holds, reading the result finds them again in a larger
+/// one; it throws Error if the diagram has been filled or written since. Throws Error if the diagram knows no
+/// seeds (see Diagram::write()) or the device has too little memory.
 VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 
 /// What vertices() found, on the device; as AdjacencyResult.
@@ -101,7 +101,7 @@ class VOROCL_API VerticesResult {
 /// The pixel corners where three or more cells meet: the vertices of the diagram. Corners on the window's
 /// edge do not count, but where it shows a whole period: those across its end are at its right and its lower
 /// edge. Labels alone are looked at. Memory: a bit per pixel. Enqueues and returns. Throws Error if the
-/// device has too little memory.
+/// diagram is a volume or the device has too little memory.
 VOROCL_API Report vertices(const Diagram& diagram, VerticesResult& result);
 
 }  // namespace vorocl

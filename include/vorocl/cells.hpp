@@ -40,7 +40,7 @@ struct CellSums {
   VOROCL_API Point3 centroid3() const;
 };
 
-/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, in a volume back <
+/// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, back <
 /// front, and largest_distance -1. In a grid with an axis that is spaced (Axis::spaced()) that distance is in
 /// units of the spacing.
 struct CellShape {
@@ -48,7 +48,7 @@ struct CellShape {
       bottom = 0;               ///< the bounding box of the pixels, where CellSums counts them
   double largest_distance = 0;  ///< of its pixels to its seed, in pixels; squared if Euclidean
   bool touches_border = false;  ///< it has a pixel next to a border; a periodic axis has none
-  int front = 0, back = 0;      ///< of the box of a volume's cell: its first slice and its last one
+  int front = 0, back = 0;      ///< of the box: its first slice and its last one, 0 in a plane
 };
 
 /// What cell_sums() found, on the device: buffers with one entry per seed, by id. Measuring into them again
@@ -72,7 +72,7 @@ class VOROCL_API CellSumsResult {
   const cl::Buffer& area() const;   ///< uint32 per cell
   const cl::Buffer& sum_x() const;  ///< int64 per cell
   const cl::Buffer& sum_y() const;  ///< int64 per cell
-  const cl::Buffer& sum_z() const;  ///< int64 per cell; null unless a volume was measured
+  const cl::Buffer& sum_z() const;  ///< int64 per cell; of a plane 0
 
   /// Waits. Throws BadPoint if the frame of the seeds had one.
   std::vector<CellSums> read() const;
@@ -92,7 +92,7 @@ class VOROCL_API CellShapesResult {
 
   std::size_t size() const;
 
-  /// int32 left, top, right, bottom per cell; in a volume left, top, front, right, bottom, back.
+  /// int32 left, top, front, right, bottom, back per cell; front and back of a plane are 0.
   const cl::Buffer& boxes() const;
 
   /// int32 per cell. A null buffer if a seed lies so far outside the window that its distances may need more
@@ -138,7 +138,7 @@ class VOROCL_API CellStatisticsResult {
 
 /// Sums the pixels of every cell. The sums are 64-bit integers made with 32-bit atomics alone, so they are
 /// the same on every device. Areas sum to the pixels that have a label. Cost: about one wave of flooding,
-/// with few seeds as with many; 30 bytes of device memory per seed, in a volume 46. Enqueues and returns.
+/// with few seeds as with many; 38 bytes of device memory per seed, in a volume 46. Enqueues and returns.
 /// Throws Error if the diagram knows no seeds (see Diagram::write()) or the device has too little memory.
 VOROCL_API Report cell_sums(const Diagram& diagram, CellSumsResult& result);
 

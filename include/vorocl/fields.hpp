@@ -66,7 +66,8 @@ VOROCL_API Report distance_field(const Diagram& diagram, Field<std::int32_t>& fi
 /// in the last place. Of any length.
 VOROCL_API Report distance_field(const Diagram& diagram, Field<float>& field);
 
-/// 1 for each pixel that shares an edge with a pixel of another label, else 0. Enqueues and returns.
+/// 1 for each pixel that shares an edge, in a volume a face, with a pixel of another label, else 0. Enqueues
+/// and returns.
 VOROCL_API Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask);
 
 /// Each pixel's label, looked up in a table of uint32 on the device with one entry per seed: ids of the

@@ -538,8 +538,8 @@ VOROCL_API vorocl_status vorocl_cell_sums_measure(vorocl_cell_sums* sums, const 
 VOROCL_API vorocl_status vorocl_cell_sums_count(const vorocl_cell_sums* sums, size_t* count);
 
 /// Per cell its area in pixels (uint32_t), in a volume its voxels, and the sums of its pixels' columns, rows
-/// and, in a volume alone, slices (int64_t; the buffer is NULL in a plane). Each may be NULL. The buffers are
-/// valid until the next measurement.
+/// and slices (int64_t), those of a plane 0. Each may be NULL. The buffers are valid until the next
+/// measurement.
 VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, cl_mem* area, cl_mem* sum_x,
                                                   cl_mem* sum_y, cl_mem* sum_z);
 
@@ -586,7 +586,7 @@ VOROCL_API vorocl_status vorocl_cell_shapes_measure(vorocl_cell_shapes* shapes,
 
 VOROCL_API vorocl_status vorocl_cell_shapes_count(const vorocl_cell_shapes* shapes, size_t* count);
 
-/// Per cell int32_t left, top, right, bottom, in a volume left, top, front, right, bottom, back; and its
+/// Per cell int32_t left, top, front, right, bottom, back; and its
 /// largest distance (int32_t). Either may be NULL. The buffers are valid until the next measurement. Where a
 /// seed lies so far outside the window that distances may not fit, the second one is NULL:
 /// vorocl_cell_shapes_read() tells them.
@@ -599,7 +599,7 @@ typedef struct vorocl_cell_shape {
   int left, top, right, bottom;  ///< the bounding box: first and last columns and rows
   double largest_distance;       ///< of its pixels to its seed, in pixels; squared if Euclidean
   int touches_border;            ///< 1 if it has a pixel next to a border of the window, else 0
-  int front, back;               ///< of the box of a volume's cell: its first and last slices; else 0
+  int front, back;               ///< of the box: its first and last slices, 0 in a plane
 } vorocl_cell_shape;
 
 /// The shapes of all cells: `count` must be their number. Waits.

@@ -6,11 +6,10 @@
 #ifndef VOROCL_POSITION
 #define VOROCL_POSITION
 
+#include "core/metric.cl"
 #include "core/periods.cl"
 #include "core/vector.cl"
 
-#define NO_LABEL 0xffffffffu
-#define EMPTY_BIT 0x80000000u
 #define EMPTY 0x80008000u
 #define LAST_COORDINATE 0x7fff
 #define NO_DISTANCE 0x7fffffffu  // what results say where there is no seed: more than any distance
@@ -34,24 +33,8 @@ static inline uint_v look_up_positions(global const uint* labels, global const u
   return LOAD_VECTOR(lane);
 }
 
-// An image of ids starts with NO_LABEL, which is looked up for an empty label; the pixels follow.
-#define FIRST_ID 1
-
 // Packed positions of a vector's own pixels. No carry: x + VOROCL_WIDTH <= 32768.
 static inline uint_v vector_positions(int x, int y) { return pack(x, y) + LANES; }
-
-// DISTANCES. A distance is the sum of ALONG(offset) over both axes: the squared distance for VOROCL_EUCLIDEAN, the
-// Manhattan distance for VOROCL_MANHATTAN, both integers. The exact engine needs this sum. ALONG(offset) is
-// offset * FACTOR(offset). Both macros take numbers and vectors, FACTOR those of 16 bits.
-#if defined(VOROCL_EUCLIDEAN)
-#define ALONG(offset) ((offset) * (offset))
-#define FACTOR(offset) (offset)
-#elif defined(VOROCL_MANHATTAN)
-#define ALONG(offset) max(offset, -(offset))
-#define FACTOR(offset) (((offset) >> (short)15) | (short)1)  // the sign: -1 or 1
-#else
-#error "Kernels are built for no metric"
-#endif
 
 #if 2 * LAST_COORDINATE * LAST_COORDINATE >= 0x80000000
 #error "A distance uses the bit that makes an empty position farther than any seed"
@@ -66,13 +49,7 @@ static inline uint periods(int width, int height) {
   return (PERIODIC_X ? (uint)width : NO_PERIOD) | (PERIODIC_Y ? (uint)height : NO_PERIOD) << 16;
 }
 
-// The way between two coordinates of an axis, given the way inside the grid: the shorter one if the axis is periodic,
-// and of two halves of the period the positive one.
-static inline int shorter_way(int inside, int size, int periodic) {
-  if (!periodic) return inside;
-  if (2 * inside > size) return inside - size;
-  return 2 * inside <= -size ? inside + size : inside;
-}
+// The way between two coordinates of an axis, given the way inside the grid.
 static inline int shorter_way_x(int inside, int width) { return shorter_way(inside, width, PERIODIC_X); }
 static inline int shorter_way_y(int inside, int height) { return shorter_way(inside, height, PERIODIC_Y); }
 

@@ -1,55 +1,152 @@
-// The pairs of cells that share pixel edges: found in a hash table, then put in order.
+// The pairs of cells that share pixel edges, in a volume voxel faces: found in lists and a table, then put in order.
 
+#include "measures/home.cl"
 #include "measures/pair_table.cl"
-#include "measures/runs.cl"
-#include "measures/seed_place.cl"
 
-// Two rows are walked at once, so that along a run the border with the row below is one piece.
-kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
-                         int width, int height, int wide, int high, TABLE_PARAMETERS) {
-  block_t block;
-  if (!take_block(width, height, wide, high, &block)) return;
-  for (int y = block.top; y < block.bottom; ++y) {
-    global const uint* const row = labels + y * width;
-    global const uint* const below = y + 1 < height ? row + width : PERIODIC_Y ? row_behind : row;
-    walk_t walk = begin_walk(row, below, block.left, block.right);
-    while (next_run(&walk)) {
-      const int last = walk.to - 1;
-      const uint label = row[last];
-      if (label >= count) continue;
-      const uint right = row[PERIODIC_X || walk.to < width ? wrapped_x(walk.to, width) : last];
-      if (right < count && right != label) {
-        add_border(label, right, 1u, mask, slots_of_cell, table, overflow);
-      }
-      if (below[last] < count && below[last] != label) {
-        add_border(label, below[last], (uint)(walk.to - walk.from), mask, slots_of_cell, table, overflow);
-      }
-    }
-  }
+// The home of a seed that is absent, whose cell has no borders, whatever labels name it.
+#define NO_HOME 0xffffffffu
+#define NO_CELL 0xfffffffeu  // as many there are never
+
+// A CELL while its borders are found has four words: its home, 0, how many pairs have it as the higher id, and its
+// perimeter. What the home adds to it needs no atomics; what others add goes to `neighbours` and `perimeters`.
+#define CELL_PARAMETERS \
+  global uint *restrict cells, global uint *restrict neighbours, global uint *restrict perimeters
+#define CELL_ARGUMENTS cells, neighbours, perimeters
+#define HOME_OF(id) cells[4 * (size_t)(id)]
+
+kernel void clear_cells(global const seed_t* restrict seeds, uint count, int4 size, int4 bits, CELL_PARAMETERS) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  vstore4((uint4)(is_there(seeds[id]) ? block_with(seeds[id], size, bits) : NO_HOME, 0, 0, 0), id, cells);
+  neighbours[id] = perimeters[id] = 0;
 }
 
-// Counts each cell's neighbours, and those of them with a higher id, which are the pairs that begin with the cell.
-// Seeds that are absent own nothing: their pairs leave the table.
-kernel void count_pairs(global const seed_t* restrict seeds, uint slot_count, global uint* restrict table,
-                        global uint* restrict pairs, global uint* restrict neighbours,
-                        global uint* restrict perimeters) {
-  const uint at = (uint)get_global_id(0);
-  if (at >= slot_count) return;
-  const uint3 slot = vload3(at, table);
-  if (slot.s0 == NO_PAIR) return;
-  if (!is_there(seeds[slot.s0]) || !is_there(seeds[slot.s1])) {
-    table[3 * (size_t)at] = NO_PAIR;
+static inline void add_to_cell(uint id, uint new_pairs, uint size, bool at_home, CELL_PARAMETERS) {
+  if (at_home) {
+    global uint* const sums = cells + 4 * (size_t)id + 2;
+    sums[0] += new_pairs;
+    sums[1] += size;
     return;
   }
-  const uint size = slot.s2 + 1;
-  atomic_inc(pairs + slot.s0);
-  atomic_inc(neighbours + slot.s0);
-  atomic_inc(neighbours + slot.s1);
-  atomic_add(perimeters + slot.s0, size);
-  atomic_add(perimeters + slot.s1, size);
+  if (new_pairs > 0) atomic_add(neighbours + id, new_pairs);
+  atomic_add(perimeters + id, size);
 }
 
-// Puts each pair into the place of its first cell's pairs; `first` is where that begins in the list.
+// Adds to the border of the cells p and q, found by a block.
+__attribute__((always_inline)) static inline void add_border(uint p, uint q, uint size, uint block, CELL_PARAMETERS,
+                                                             PAIR_PARAMETERS) {
+  const uint a = min(p, q), b = max(p, q);
+  const uint home_a = HOME_OF(a), home_b = HOME_OF(b);
+  if (home_a == NO_HOME || home_b == NO_HOME) return;
+  const addition_t added = home_a == block ? add_to_list(a, b, size, PAIR_ARGUMENTS) : NO_ROOM;
+  if (added == NO_ROOM) add_to_table(a, b, size, PAIR_ARGUMENTS);
+  add_to_cell(a, 0, size, home_a == block, CELL_ARGUMENTS);
+  add_to_cell(b, added == NEW_PAIR, size, home_b == block, CELL_ARGUMENTS);
+}
+
+// Reads what add_border() will need of a row's cells, before it is needed: here no read waits for another one, and
+// afterwards they find it in the cache. Says that it has found what is nowhere, so that no compiler leaves this out.
+static inline bool touch(global const uint* row, block_t block, uint count, global const uint* cells, uint list_size,
+                         global const uint2* lists) {
+  bool found = false;
+  for (int x = block.left; x < block.right; ++x) {
+    const uint label = row[x];
+    if (label >= count || HOME_OF(label) != block.index) continue;
+    global const uint2* const list = lists + (size_t)label * list_size;
+    found |= list[0].s0 == NO_CELL || list[list_size / 2].s0 == NO_CELL;
+  }
+  return found;
+}
+
+// Adds the borders between a row and one beside it, and along the row those between its own runs if `along` says so. Two
+// rows are walked at once, so that along a run the border with the row beside is one piece. Of a row without one beside
+// it, that one is the row itself. Across the ends of a periodic axis borders count as inside.
+__attribute__((always_inline)) static inline void add_borders(global const uint* row, global const uint* beside,
+                                                              block_t block, int width, bool along, uint count,
+                                                              CELL_PARAMETERS, PAIR_PARAMETERS) {
+  walk_t walk = begin_walk(row, beside, block.left, block.right);
+  while (next_run(&walk)) {
+    const int last = walk.to - 1;
+    const uint label = row[last], other = beside[last], length = (uint)(walk.to - walk.from);
+    if (label >= count) continue;
+    const uint right = along && (PERIODIC_X || walk.to < width) ? row[wrapped(walk.to, width, PERIODIC_X)] : label;
+    if (right < count && right != label) add_border(label, right, 1u, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    if (other < count && other != label) add_border(label, other, length, block.index, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+  }
+}
+
+// `row_behind` has the row that follows the last one along a periodic y, in a volume each slice's.
+kernel void find_borders(global const uint* restrict labels, global const uint* restrict row_behind, uint count,
+                         int4 size, int4 bits, CELL_PARAMETERS, PAIR_PARAMETERS) {
+  block_t block;
+  if (!take_block(size, bits, &block)) return;
+  const bool are_small = table_size < list_size;  // the cells
+  FOR_EACH_ROW(y, z, block) {
+    global const uint* const row = row_of(labels, y, z, size);
+    global const uint* const below = y + 1 < size.y ? row + size.x : PERIODIC_Y ? row_of(row_behind, 0, z, size) : row;
+    const int z_behind = wrapped(z + 1, DEPTH(size), PERIODIC_Z);
+    global const uint* const behind = z_behind < DEPTH(size) ? row_of(labels, y, z_behind, size) : row;
+    if (are_small) {
+      // Cells begin in the row that comes last of the three, or in the block's first ones.
+      bool found = touch(DEPTH(size) > 1 ? behind : below, block, count, cells, list_size, lists);
+      if (DEPTH(size) > 1 ? z == block.front : y == block.top) {
+        found |= touch(row, block, count, cells, list_size, lists);
+      }
+      if (found) atomic_or(overflow, 1u);
+    }
+    add_borders(row, below, block, size.x, true, count, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+    if (behind != row) add_borders(row, behind, block, size.x, false, count, CELL_ARGUMENTS, PAIR_ARGUMENTS);
+  }
+}
+
+// Moves the table's pairs into the lists. Those that find no room stay: the second word of `overflow` says so.
+kernel void join_pairs(global uint* restrict neighbours, global uint* restrict pairs, PAIR_PARAMETERS) {
+  const uint at = (uint)get_global_id(0);
+  if (at > mask) return;
+  const uint3 slot = vload3(at, table);
+  if (slot.s0 == NO_PAIR) return;
+  const addition_t added = add_to_shared_list(slot.s0, slot.s1, slot.s2 + 1, PAIR_ARGUMENTS);
+  if (added != KNOWN_PAIR) atomic_inc(neighbours + slot.s1);
+  if (added != NO_ROOM) {
+    table[3 * (size_t)at] = NO_PAIR;
+  } else {
+    atomic_inc(pairs + slot.s0);
+    atomic_or(overflow + 1, 1u);
+  }
+}
+
+// Counts each cell's pairs, in which its id is the lower one; and joins what its home and others have added.
+kernel void count_pairs(uint count, uint list_size, global const uint2* restrict lists, global uint* restrict pairs,
+                        CELL_PARAMETERS) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  uint own = pairs[id];
+  for (uint i = 0; i < list_size; ++i) own += lists[(size_t)id * list_size + i].s0 != NO_PAIR;
+  pairs[id] = own;
+  neighbours[id] += own + cells[4 * (size_t)id + 2];
+  perimeters[id] += cells[4 * (size_t)id + 3];
+}
+
+// Puts the pairs of each cell's list into the cell's place, sorted; `first` is where that begins in the list of all.
+kernel void place_lists(uint count, uint list_size, global const uint2* restrict lists,
+                        global const uint* restrict first, global uint* restrict placed,
+                        global uint* restrict pair_list) {
+  const uint id = (uint)get_global_id(0);
+  if (id >= count) return;
+  global const uint2* const list = lists + (size_t)id * list_size;
+  uint found = 0;
+  for (uint i = 0; i < list_size; ++i) {
+    const uint2 slot = list[i];
+    if (slot.s0 == NO_PAIR) continue;
+    uint before = 0;
+    for (uint j = 0; j < list_size; ++j) before += list[j].s0 < slot.s0;
+    vstore3((uint3)(id, slot), first[id] + before, pair_list);
+    ++found;
+  }
+  placed[id] = found;
+}
+
+// The same of the table's pairs, which come behind those of the lists.
 kernel void place_pairs(uint slot_count, global const uint* restrict table, global const uint* restrict first,
                         global uint* restrict placed, global uint* restrict pair_list) {
   const uint at = (uint)get_global_id(0);
@@ -74,8 +171,8 @@ static inline void sink(global uint* pair_list, uint begin, uint size, uint hole
   vstore3(pair, begin + hole, pair_list);
 }
 
-// Sorts the pairs of each cell by their second cell. Most cells have few neighbours; a heap sort is for the one that
-// may have all others around it.
+// Sorts the pairs of each cell by their second cell, where some are the table's. Most cells have few neighbours; a heap
+// sort is for the one that may have all others around it.
 kernel void sort_pairs(uint count, global const uint* restrict first, global uint* restrict pair_list) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;

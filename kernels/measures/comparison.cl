@@ -32,6 +32,13 @@ VECTOR_KERNEL void count_differences(global const uint* restrict a, global const
   add_in_group(lane_sum(per_lane) + of_part, found, differences);
 }
 
+// The distance from a pixel, given where it is in an image of the window.
+static inline LENGTH distance_at(seed_t seed, uint pixel, window_t window) {
+  const uint row = pixel / (uint)window.width;
+  const uint z = window.depth == 1 ? 0 : row / (uint)window.height;
+  return distance_to(seed, (int)(pixel % (uint)window.width), (int)(row - z * (uint)window.height), (int)z, window);
+}
+
 // By how many pixels one distance is longer than another. The difference of two roots would lose its digits.
 static inline float excess(LENGTH distance, LENGTH least) {
 #ifdef VOROCL_EUCLIDEAN
@@ -50,14 +57,13 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
   local uint2 wrong_of[MOST_COMPARING];
   local long sum_of[MOST_COMPARING];
   local float greatest_of[MOST_COMPARING];
-  const window_t window = window_of(width, height, periods);
+  const window_t window = window_of(size, periods);
   errors_t errors = NO_ERRORS;
-  FOR_EACH_VECTOR(first, end, walk, (uint)(width * height)) {
+  FOR_EACH_VECTOR(first, end, walk, (uint)(size.x * size.y * DEPTH(size))) {
     if (!may_differ(labels, exact, first, end)) continue;
     for (uint i = first; i < end; ++i) {
-      const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
-      const LENGTH distance = distance_to(seeds[min(labels[i], count)], x, y, window);
-      const LENGTH least = distance_to(seeds[min(exact[i], count)], x, y, window);
+      const LENGTH distance = distance_at(seeds[min(labels[i], count)], i, window);
+      const LENGTH least = distance_at(seeds[min(exact[i], count)], i, window);
       if (distance <= least) continue;
       if (distance == NO_SEED) {
         errors.wrong += (uint2)(1, 1);
@@ -73,15 +79,14 @@ VECTOR_KERNEL void judge_labels(global const uint* restrict labels, global const
 VECTOR_KERNEL void count_distant(global const uint* restrict a, global const uint* restrict b, uint4 walk,
                                  SEED_PARAMETERS, float tolerance, global uint* restrict differences) {
   local uint of_items[MOST_COMPARING];
-  const window_t window = window_of(width, height, periods);
+  const window_t window = window_of(size, periods);
   uint found = 0;
-  FOR_EACH_VECTOR(first, end, walk, (uint)(width * height)) {
+  FOR_EACH_VECTOR(first, end, walk, (uint)(size.x * size.y * DEPTH(size))) {
     if (!may_differ(a, b, first, end)) continue;
     for (uint i = first; i < end; ++i) {
       if (a[i] == b[i]) continue;
-      const int x = (int)(i % (uint)width), y = (int)(i / (uint)width);
-      const LENGTH of_a = distance_to(seeds[min(a[i], count)], x, y, window);
-      const LENGTH of_b = distance_to(seeds[min(b[i], count)], x, y, window);
+      const LENGTH of_a = distance_at(seeds[min(a[i], count)], i, window);
+      const LENGTH of_b = distance_at(seeds[min(b[i], count)], i, window);
       if (of_a == of_b) continue;
       const LENGTH longer = max(of_a, of_b);
       found += longer == NO_SEED || excess(longer, min(of_a, of_b)) > tolerance;

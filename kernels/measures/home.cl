@@ -8,13 +8,14 @@
 #ifndef VOROCL_HOME
 #define VOROCL_HOME
 
-#include "measures/runs.cl"
 #include "measures/seed_place.cl"
 
 // The block that holds a seed; of one outside the window, the block that is nearest to it.
-static inline ushort home_of(seed_t seed, int width, int height, int wide, int high) {
-  const int x = clamp(seed_x(seed, width), 0, width - 1), y = clamp(seed_y(seed, height), 0, height - 1);
-  return (ushort)block_of(x, y, width, wide, high);
+static inline uint block_with(seed_t seed, int4 size, int4 bits) {
+  const int x = clamp(seed_x(seed, size.x), 0, size.x - 1), y = clamp(seed_y(seed, size.y), 0, size.y - 1);
+  return block_of(x, y, min(seed_z(seed), DEPTH(size) - 1), size, bits);
 }
+
+static inline ushort home_of(seed_t seed, int4 size, int4 bits) { return (ushort)block_with(seed, size, bits); }
 
 #endif

@@ -5,31 +5,63 @@
 // The grid is cut into blocks; a work-item walks through the rows of one block. The host chooses the blocks' shape:
 // large ones for a CPU, small ones for a GPU, which needs many work-items.
 
+#ifndef VOROCL_RUNS
+#define VOROCL_RUNS
+
+#include "core/periods.cl"
 #include "core/vector.cl"
 
-// A block's pixels: x in [left, right), y in [top, bottom).
+// How many slices a grid has, of which kernels take the size as (width, height, depth, 0): a plane's number is known
+// when they are built.
+#if VOROCL_DIMENSIONS == 3
+#define DEPTH(size) ((size).z)
+#else
+#define DEPTH(size) 1
+#endif
+
+// A block's pixels: x in [left, right), y in [top, bottom), z in [front, back).
 typedef struct {
   uint index;
-  int left, top, right, bottom;
+  int left, top, front, right, bottom, back;
 } block_t;
 
-// Blocks have 2^wide columns and 2^high rows.
-static inline uint blocks_across(int width, int wide) { return ((uint)(width - 1) >> wide) + 1; }
+// A block has 2^bits pixels along each axis.
+static inline uint blocks_along(int size, int bits) { return ((uint)(size - 1) >> bits) + 1; }
 
 // The index of the block that holds a pixel.
-static inline uint block_of(int x, int y, int width, int wide, int high) {
-  return ((uint)y >> high) * blocks_across(width, wide) + ((uint)x >> wide);
+static inline uint block_of(int x, int y, int z, int4 size, int4 bits) {
+  const uint slab = DEPTH(size) == 1 ? 0 : ((uint)z >> bits.z) * blocks_along(size.y, bits.y);
+  return (slab + ((uint)y >> bits.y)) * blocks_along(size.x, bits.x) + ((uint)x >> bits.x);
+}
+
+// Its first pixel.
+static inline int4 first_of_block(uint index, int4 size, int4 bits) {
+  const uint across = blocks_along(size.x, bits.x), row = index / across;
+  if (DEPTH(size) == 1) return as_int4((uint4)(index % across, row, 0, 0)) << bits;
+  const uint down = blocks_along(size.y, bits.y);
+  return as_int4((uint4)(index % across, row % down, row / down, 0)) << bits;
 }
 
 // The block of this work-item; the launch is rounded up to whole work-groups, so there may be none.
-static inline bool take_block(int width, int height, int wide, int high, block_t* block) {
-  const uint across = blocks_across(width, wide);
+static inline bool take_block(int4 size, int4 bits, block_t* block) {
+  const int4 first = first_of_block((uint)get_global_id(0), size, bits);
   block->index = (uint)get_global_id(0);
-  block->left = (int)(block->index % across) << wide;
-  block->top = (int)(block->index / across) << high;
-  block->right = min(block->left + (1 << wide), width);
-  block->bottom = min(block->top + (1 << high), height);
-  return block->top < height;
+  block->left = first.x;
+  block->top = first.y;
+  block->front = DEPTH(size) == 1 ? 0 : first.z;
+  block->right = min(first.x + (1 << bits.x), size.x);
+  block->bottom = min(first.y + (1 << bits.y), size.y);
+  block->back = DEPTH(size) == 1 ? 1 : min(first.z + (1 << bits.z), size.z);
+  return DEPTH(size) == 1 ? first.y < size.y : first.z < size.z;
+}
+
+#define FOR_EACH_ROW(y, z, block)                     \
+  for (int z = (block).front; z < (block).back; ++z)  \
+    for (int y = (block).top; y < (block).bottom; ++y)
+
+// Where a row of pixels begins.
+static inline global const uint* row_of(global const uint* labels, int y, int z, int4 size) {
+  return labels + (z * size.y + y) * size.x;
 }
 
 // A walk along the runs of a block's row: [from, to) is the present one. Where two rows are walked at once a
@@ -83,3 +115,5 @@ __attribute__((always_inline)) static inline bool next_run(walk_t* walk) {
 
 // The label of the present run.
 static inline uint run_label(const walk_t* walk) { return walk->row[walk->to - 1]; }
+
+#endif

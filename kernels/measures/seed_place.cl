@@ -1,8 +1,9 @@
 // Where the seeds of a diagram lie, as its measures see it. Seeds are packed positions of the window's pixels
-// (core/position.cl); with the build option VOROCL_OUTER_SEEDS they are positions in the plane (core/plane.cl), some of
-// them outside the pixels; with VOROCL_FRACTIONS besides, these are in fractions of a pixel (core/plane.cl).
+// (core/position.cl) or of a volume's voxels (volumes/position.cl); with the build option VOROCL_OUTER_SEEDS they are
+// positions in the plane (core/plane.cl), some of them outside the pixels; with VOROCL_FRACTIONS besides, these are in
+// fractions of a pixel (core/plane.cl).
 //
-// THE RULE OF PLACE. Along an axis of which the window shows one whole period (PERIODIC_X, PERIODIC_Y) a pixel lies the
+// THE RULE OF PLACE. Along an axis of which the window shows one whole period (PERIODIC_X and its like) a pixel lies the
 // shorter way round from its seed, half a period away behind it: perhaps outside the window. Along other axes it lies
 // where the window shows it. Distances go the shorter way round along every axis that has a period, shown whole or not.
 //
@@ -14,18 +15,34 @@
 #ifndef VOROCL_SEED_PLACE
 #define VOROCL_SEED_PLACE
 
+// What both kinds of positions need comes first, for a file is included once, whichever branch that is in.
+#include "core/metric.cl"
+#include "measures/runs.cl"
+
+#if VOROCL_DIMENSIONS == 3
+#include "volumes/position.cl"
+#define LENGTH int
+#define MOST_LENGTH INT_MAX
+#define UNIT_BITS 0
+#define CENTRE 0
+#define UNIT 1
+#else
 #include "core/plane.cl"
+#endif
 
 // The window: its pixels, the periods that distances know, 0 along an axis without one, and the tilt, in units.
 typedef struct {
-  int width, height, period_x, period_y, shift;
+  int width, height, depth, period_x, period_y, period_z, shift;
 } window_t;
+
+// From a seed to a pixel's centre along x, y and z, in units; then 0. (A struct of three numbers would go through memory.)
+typedef int4 way_t;
 
 #ifdef VOROCL_OUTER_SEEDS
 typedef int2 seed_t;
 
-static inline window_t window_of(int width, int height, int4 periods) {
-  const window_t window = {width, height, periods.x, periods.y, periods.z};
+static inline window_t window_of(int4 size, int4 periods) {
+  const window_t window = {size.x, size.y, 1, periods.x, periods.y, 0, periods.z};
   return window;
 }
 
@@ -34,6 +51,10 @@ static inline bool is_there(seed_t seed) { return seed.x != ABSENT; }
 // Its pixel: in the window, along an axis that is shown whole.
 static inline int seed_x(seed_t seed, int width) { return wrapped_x(seed.x >> UNIT_BITS, width); }
 static inline int seed_y(seed_t seed, int height) { return wrapped_y(seed.y >> UNIT_BITS, height); }
+static inline int seed_z(seed_t seed) {
+  (void)seed;
+  return 0;
+}
 
 // How far behind a seed the centre of its own pixel is.
 static inline int centre_behind_x(seed_t seed) { return CENTRE - (seed.x & (UNIT - 1)); }
@@ -46,32 +67,54 @@ static inline int shorter_way_round(long way, long period) {
   return (int)(2 * way <= -period ? way + period : way);
 }
 
-// From a seed to a pixel's centre, along an axis, in units.
+// Along one axis.
 static inline int way_x(seed_t seed, int x, window_t window) {
   return shorter_way_round((long)x * UNIT + CENTRE - seed.x, (long)window.period_x * UNIT);
 }
 static inline int way_y(seed_t seed, int y, window_t window) {
   return shorter_way_round((long)y * UNIT + CENTRE - seed.y, (long)window.period_y * UNIT);
 }
+static inline int way_z(seed_t seed, int z, window_t window) {
+  (void)seed, (void)z, (void)window;
+  return 0;
+}
 #else
 typedef uint seed_t;
 
 // No axis has a period but those that are shown whole: they are known when the kernel is built.
-static inline window_t window_of(int width, int height, int4 periods) {
+static inline window_t window_of(int4 size, int4 periods) {
   (void)periods;
-  const window_t window = {width, height, PERIODIC_X ? width : 0, PERIODIC_Y ? height : 0, 0};
+  const window_t window = {size.x,
+                           size.y,
+                           DEPTH(size),
+                           PERIODIC_X ? size.x : 0,
+                           PERIODIC_Y ? size.y : 0,
+                           PERIODIC_Z ? DEPTH(size) : 0,
+                           0};
   return window;
 }
 
 static inline bool is_there(seed_t seed) { return !(seed & EMPTY_BIT); }
 
+#if VOROCL_DIMENSIONS == 3
+#define SEED_X x_of
+#define SEED_Y y_of
+static inline int seed_z(seed_t seed) { return z_of(seed); }
+#else
+#define SEED_X packed_x
+#define SEED_Y packed_y
+static inline int seed_z(seed_t seed) {
+  (void)seed;
+  return 0;
+}
+#endif
 static inline int seed_x(seed_t seed, int width) {
   (void)width;
-  return packed_x(seed);
+  return SEED_X(seed);
 }
 static inline int seed_y(seed_t seed, int height) {
   (void)height;
-  return packed_y(seed);
+  return SEED_Y(seed);
 }
 
 static inline int centre_behind_x(seed_t seed) {
@@ -84,16 +127,19 @@ static inline int centre_behind_y(seed_t seed) {
 }
 
 static inline int way_x(seed_t seed, int x, window_t window) {
-  return shorter_way_x(x - packed_x(seed), window.width);
+  return shorter_way(x - SEED_X(seed), window.width, PERIODIC_X);
 }
 static inline int way_y(seed_t seed, int y, window_t window) {
-  return shorter_way_y(y - packed_y(seed), window.height);
+  return shorter_way(y - SEED_Y(seed), window.height, PERIODIC_Y);
+}
+static inline int way_z(seed_t seed, int z, window_t window) {
+  return shorter_way(z - seed_z(seed), window.depth, PERIODIC_Z);
 }
 #endif
 
 // What kernels take of a diagram's seeds and its window; the list of seeds ends with one that is absent, and labels
 // that are no seed's id are clamped to it.
-#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, int4 periods, int width, int height
+#define SEED_PARAMETERS global const seed_t *restrict seeds, uint count, int4 periods, int4 size
 
 // The pixel at the end of a way from a seed: where that is, as the rule of place says.
 static inline int place_x(seed_t seed, int way, int width) {
@@ -103,10 +149,10 @@ static inline int place_y(seed_t seed, int way, int height) {
   return seed_y(seed, height) + ((way - centre_behind_y(seed)) >> UNIT_BITS);
 }
 
-// The distance of ways along both axes, in units (squared, if Euclidean).
-static inline LENGTH distance_of_ways(int along_x, int along_y) {
-  const LENGTH dx = along_x, dy = along_y;
-  return ALONG(dx) + ALONG(dy);
+// The distance of a way, in units (squared, if Euclidean).
+static inline LENGTH length_of(way_t way) {
+  const LENGTH x = way.x, y = way.y, z = way.z;
+  return ALONG_X(x) + ALONG_Y(y) + ALONG_Z(z);
 }
 
 #ifdef VOROCL_FRACTIONS
@@ -114,12 +160,12 @@ static inline bool is_tilted(window_t window) { return window.shift != 0; }
 
 // The shortest of a way and those round by the periods of a tilted grid. Rows of images are looked at from the nearest
 // on, until they are too far.
-static inline int2 shortest_way_round(long x, long y, window_t window) {
+static inline way_t shortest_way_round(long x, long y, window_t window) {
   const long period_x = (long)window.period_x * UNIT, period_y = (long)window.period_y * UNIT;
   const int near_y = shorter_way_round(y, period_y);
   const long near_x = x - (y - near_y) / period_y * window.shift;
-  int2 shortest = (int2)(shorter_way_round(near_x, period_x), near_y);
-  LENGTH least = distance_of_ways(shortest.x, shortest.y);
+  way_t shortest = (way_t)(shorter_way_round(near_x, period_x), near_y, 0, 0);
+  LENGTH least = length_of(shortest);
   for (long row = 1;; ++row) {
     bool is_far = true;
     for (int turn = 0; turn < 2; ++turn) {
@@ -127,8 +173,9 @@ static inline int2 shortest_way_round(long x, long y, window_t window) {
       const long along_y = near_y + side * row * period_y;
       if (ALONG((LENGTH)along_y) >= least) continue;
       is_far = false;
-      const int2 way = (int2)(shorter_way_round(near_x + side * row * window.shift, period_x), (int)along_y);
-      const LENGTH distance = distance_of_ways(way.x, way.y);
+      const int along_x = shorter_way_round(near_x + side * row * window.shift, period_x);
+      const way_t way = (way_t)(along_x, (int)along_y, 0, 0);
+      const LENGTH distance = length_of(way);
       if (distance >= least) continue;
       least = distance;
       shortest = way;
@@ -143,22 +190,19 @@ static inline bool is_tilted(window_t window) {
 }
 #endif
 
-// From a seed to a pixel's centre, in units.
-static inline int2 way_to(seed_t seed, int x, int y, window_t window) {
+static inline way_t way_to(seed_t seed, int x, int y, int z, window_t window) {
 #ifdef VOROCL_FRACTIONS
   if (is_tilted(window)) {
     return shortest_way_round((long)x * UNIT + CENTRE - seed.x, (long)y * UNIT + CENTRE - seed.y, window);
   }
 #endif
-  return (int2)(way_x(seed, x, window), way_y(seed, y, window));
+  return (way_t)(way_x(seed, x, window), way_y(seed, y, window), way_z(seed, z, window), 0);
 }
 
 // The distance from a pixel to a seed; NO_SEED, which is more than any, to one that is absent.
 #define NO_SEED MOST_LENGTH
-static inline LENGTH distance_to(seed_t seed, int x, int y, window_t window) {
-  if (!is_there(seed)) return NO_SEED;
-  const int2 way = way_to(seed, x, y, window);
-  return distance_of_ways(way.x, way.y);
+static inline LENGTH distance_to(seed_t seed, int x, int y, int z, window_t window) {
+  return is_there(seed) ? length_of(way_to(seed, x, y, z, window)) : NO_SEED;
 }
 
 // Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without
@@ -177,22 +221,21 @@ static inline int piece_end(int from, int to, int way, int period) {
 // others the way goes on along x.
 typedef struct {
   int end;
-  int2 way;
+  way_t way;
 } piece_t;
 
-// The piece of pixels [from, to) of row y that begins at `from`. In a tilted grid the pixels of a row that are nearest
+// The piece of pixels [from, to) of a row that begins at `from`. In a tilted grid the pixels of a row that are nearest
 // to an image follow each other, for along the row the image's lead on another one grows or falls: its end is found
 // between such a pixel and one that is not.
-static inline piece_t piece_from(seed_t seed, int from, int to, int y, window_t window) {
-  piece_t piece;
-  piece.way = way_to(seed, from, y, window);
+static inline piece_t piece_from(seed_t seed, int from, int to, int y, int z, window_t window) {
+  piece_t piece = {to, way_to(seed, from, y, z, window)};
   if (!is_tilted(window)) {
     piece.end = piece_end(from, to, piece.way.x, window.period_x);
     return piece;
   }
   int inside = from, outside = to;
   for (int at = to - 1; outside - inside > 1; at = (inside + outside) / 2) {
-    const int2 way = way_to(seed, at, y, window);
+    const way_t way = way_to(seed, at, y, z, window);
     if (way.x - piece.way.x == (at - from) * UNIT && way.y == piece.way.y) {
       inside = at;
     } else {

@@ -3,119 +3,178 @@
 
 #include "measures/home.cl"
 
-// A box is left, top, right, bottom. While they are found the latter two are inverted, so that all four only fall.
-static inline int4 inverted(int4 box) { return (int4)(box.s01, ~box.s23); }
-#define NO_BOX ((int4)INT_MAX)
+// While they are found, the last pixels of a box are inverted, so that all its numbers only fall: left, top, right,
+// bottom; in a volume left, top, front, 0, right, bottom, back, 0.
+#if VOROCL_DIMENSIONS == 3
+typedef int8 box_t;
+#define SIDES 8
+#define BOX(left, top, front, right, bottom, back) ((int8)(left, top, front, 0, ~(right), ~(bottom), ~(back), 0))
+#else
+typedef int4 box_t;
+#define SIDES 4
+#define BOX(left, top, front, right, bottom, back) ((int4)(left, top, ~(right), ~(bottom)))
+#endif
+#define LAST_SIDES (SIDES / 2)
+#define NO_BOX ((box_t)INT_MAX)
 
 // The pixels at home have a box of their own and their largest distance. The others have another box and, because a
 // distance may take 64 bits, which have no atomics, their farthest pixel, packed.
-kernel void clear_shapes(SEED_PARAMETERS, int wide, int high, global ushort* restrict home, global int4* restrict boxes,
-                         global LENGTH* restrict distances, global int4* restrict other_boxes,
+kernel void clear_shapes(SEED_PARAMETERS, int4 bits, global ushort* restrict home, global box_t* restrict home_boxes,
+                         global box_t* restrict other_boxes, global LENGTH* restrict distances,
                          global uint* restrict farthest) {
   (void)periods;
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
-  home[id] = home_of(seeds[id], width, height, wide, high);
-  boxes[id] = other_boxes[id] = NO_BOX;
+  home[id] = home_of(seeds[id], size, bits);
+  home_boxes[id] = other_boxes[id] = NO_BOX;
   distances[id] = -1;
   farthest[id] = EMPTY;
 }
 
 // Whether the next pixel along an axis is there, and as far from the seed as its place says. In a tilted grid that is
 // not asked: no pixel decides for another one.
-static inline bool goes_on_in(int at, int step, int size, int shown_whole, int way, int period) {
+static inline bool has_next(int at, int step, int size, int shown_whole, int way, int period) {
   return (shown_whole || (at + step >= 0 && at + step < size)) && goes_on(way, step, period);
 }
-static inline bool goes_on_x(int x, int step, int way, window_t window) {
-  return !is_tilted(window) && goes_on_in(x, step, window.width, PERIODIC_X, way, window.period_x);
+static inline bool has_next_x(int x, int step, int way, window_t window) {
+  return !is_tilted(window) && has_next(x, step, window.width, PERIODIC_X, way, window.period_x);
 }
-static inline bool goes_on_y(int y, int step, int way, window_t window) {
-  return !is_tilted(window) && goes_on_in(y, step, window.height, PERIODIC_Y, way, window.period_y);
+static inline bool has_next_y(int y, int step, int way, window_t window) {
+  return !is_tilted(window) && has_next(y, step, window.height, PERIODIC_Y, way, window.period_y);
+}
+static inline bool has_next_z(int z, int step, int way, window_t window) {
+  return window.depth > 1 && has_next(z, step, window.depth, PERIODIC_Z, way, window.period_z);
 }
 
-static inline bool in_one_of(global const uint* row, global const uint* above, global const uint* below, int x,
-                             uint label) {
-  return row[x] == label || above[x] == label || below[x] == label;
+// A row and those beside it. One that is not there, or where the way from the seed jumps, is the row itself.
+typedef struct {
+  global const uint *row, *above, *below, *front, *back;
+} rows_t;
+
+static inline bool in_one_of(rows_t rows, int x, uint label) {
+  return rows.row[x] == label || rows.above[x] == label || rows.below[x] == label ||
+         rows.front[x] == label || rows.back[x] == label;
+}
+
+static inline LENGTH distance_to_packed(seed_t seed, uint pixel, window_t window) {
+#if VOROCL_DIMENSIONS == 3
+  return distance_to(seed, x_of(pixel), y_of(pixel), z_of(pixel), window);
+#else
+  return distance_to(seed, packed_x(pixel), packed_y(pixel), 0, window);
+#endif
+}
+
+static inline uint packed(int x, int y, int z) {
+#if VOROCL_DIMENSIONS == 3
+  return pack(x, y, z);
+#else
+  (void)z;
+  return pack(x, y);
+#endif
 }
 
 // Puts a pixel in the place of a cell's farthest one so far, if it is farther.
 static inline void add_farthest(global uint* farthest, uint pixel, LENGTH distance, seed_t seed, window_t window) {
   for (uint known = EMPTY, found;; known = found) {
     found = atomic_cmpxchg(farthest, known, pixel);
-    if (found == known || distance_to(seed, packed_x(found), packed_y(found), window) >= distance) return;
+    if (found == known || distance_to_packed(seed, found, window) >= distance) return;
   }
 }
 
 // What a row cannot decide is left to the others: a run adds to a side of its cell's box, or to the largest
-// distance, only if the pixel next to its end in the row above or below, which would add more, is not in the cell.
+// distance, only if the pixel next to its end in the rows beside it, which would add more, is not in the cell.
 // That leaves a few atomics of the many that the cells' borders would need. At home a run adds all it has: to ask would
 // take longer, for a CPU does not foresee the answers.
-kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
-                       global const ushort* restrict home, global int4* restrict boxes,
-                       global LENGTH* restrict distances, global int* restrict other_boxes,
+kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
+                       global const ushort* restrict home, global box_t* restrict home_boxes,
+                       global int* restrict other_boxes, global LENGTH* restrict distances,
                        global uint* restrict farthest) {
-  const window_t window = window_of(width, height, periods);
+  const window_t window = window_of(size, periods);
   block_t block;
-  if (!take_block(width, height, wide, high, &block)) return;
-  for (int y = block.top; y < block.bottom; ++y) {
-    global const uint* const row = labels + y * width;
-    walk_t walk = begin_walk(row, row, block.left, block.right);
+  if (!take_block(size, bits, &block)) return;
+  FOR_EACH_ROW(y, z, block) {
+    rows_t rows;
+    rows.row = row_of(labels, y, z, size);
+    walk_t walk = begin_walk(rows.row, rows.row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
       const seed_t seed = seeds[label];
       const bool at_home = home[label] == block.index;
       for (int from = walk.from, to; from < walk.to; from = to) {
-        const piece_t piece = piece_from(seed, from, walk.to, y, window);
+        const piece_t piece = piece_from(seed, from, walk.to, y, z, window);
         to = piece.end;
         const int first = from, last = to - 1;
-        const int along_x = piece.way.x, along_x_last = along_x + (last - first) * UNIT, along_y = piece.way.y;
-        const int left = PERIODIC_X ? place_x(seed, along_x, width) : first, right = left + last - first;
-        const int row_at = PERIODIC_Y ? place_y(seed, along_y, height) : y;
-        const LENGTH distance = distance_of_ways(along_x, along_y), of_last = distance_of_ways(along_x_last, along_y);
+        const way_t way = piece.way, way_of_last = way + (way_t)((last - first) * UNIT, 0, 0, 0);
+        const int left = PERIODIC_X ? place_x(seed, way.x, size.x) : first, right = left + last - first;
+        const int row_at = PERIODIC_Y ? place_y(seed, way.y, size.y) : y;
+        const int slice_at = PERIODIC_Z ? seed_z(seed) + way.z : z;
+        const LENGTH distance = length_of(way), of_last = length_of(way_of_last);
         if (at_home) {
-          boxes[label] = min(boxes[label], inverted((int4)(left, row_at, right, row_at)));
+          home_boxes[label] =
+              min(home_boxes[label], BOX(left, row_at, slice_at, right, row_at, slice_at));
           distances[label] = max(distances[label], max(distance, of_last));
           continue;
         }
-        const bool above = goes_on_y(y, -1, along_y, window), below = goes_on_y(y, 1, along_y, window);
-        global const uint* const row_above = labels + (above ? wrapped_y(y - 1, height) : y) * width;
-        global const uint* const row_below = labels + (below ? wrapped_y(y + 1, height) : y) * width;
-        global int* const box = other_boxes + 4 * (size_t)label;
-        if (!(goes_on_x(first, -1, along_x, window) &&
-              in_one_of(row, row_above, row_below, wrapped_x(first - 1, width), label))) {
+        const bool above = has_next_y(y, -1, way.y, window), below = has_next_y(y, 1, way.y, window);
+        const bool front = has_next_z(z, -1, way.z, window), back = has_next_z(z, 1, way.z, window);
+        rows.above = row_of(labels, above ? wrapped(y - 1, size.y, PERIODIC_Y) : y, z, size);
+        rows.below = row_of(labels, below ? wrapped(y + 1, size.y, PERIODIC_Y) : y, z, size);
+        rows.front = row_of(labels, y, front ? wrapped(z - 1, DEPTH(size), PERIODIC_Z) : z, size);
+        rows.back = row_of(labels, y, back ? wrapped(z + 1, DEPTH(size), PERIODIC_Z) : z, size);
+        global int* const box = other_boxes + SIDES * (size_t)label;
+        if (!(has_next_x(first, -1, way.x, window) &&
+              in_one_of(rows, wrapped(first - 1, size.x, PERIODIC_X), label))) {
           atomic_min(box, left);
         }
-        if (!(goes_on_x(last, 1, along_x_last, window) &&
-              in_one_of(row, row_above, row_below, wrapped_x(last + 1, width), label))) {
-          atomic_min(box + 2, ~right);
+        if (!(has_next_x(last, 1, way_of_last.x, window) &&
+              in_one_of(rows, wrapped(last + 1, size.x, PERIODIC_X), label))) {
+          atomic_min(box + LAST_SIDES, ~right);
         }
-        if (!(above && row_above[first] == label)) atomic_min(box + 1, row_at);
-        if (!(below && row_below[first] == label)) atomic_min(box + 3, ~row_at);
+        if (!(above && rows.above[first] == label)) atomic_min(box + 1, row_at);
+        if (!(below && rows.below[first] == label)) atomic_min(box + LAST_SIDES + 1, ~row_at);
+        if (VOROCL_DIMENSIONS == 3) {
+          if (!(front && rows.front[first] == label)) atomic_min(box + 2, slice_at);
+          if (!(back && rows.back[first] == label)) atomic_min(box + LAST_SIDES + 2, ~slice_at);
+        }
 
-        const bool ends = along_y < 0 ? !above : !below;
-        global const uint* const away = along_y < 0 ? row_above : row_below;
-        if (ends || away[first] != label) add_farthest(farthest + label, pack(first, y), distance, seed, window);
-        if (ends || away[last] != label) add_farthest(farthest + label, pack(last, y), of_last, seed, window);
+        const bool ends_y = way.y < 0 ? !above : !below, ends_z = way.z < 0 ? !front : !back;
+        global const uint* const away_y = way.y < 0 ? rows.above : rows.below;
+        global const uint* const away_z = way.z < 0 ? rows.front : rows.back;
+        if ((ends_y || away_y[first] != label) && (ends_z || away_z[first] != label)) {
+          add_farthest(farthest + label, packed(first, y, z), distance, seed, window);
+        }
+        if ((ends_y || away_y[last] != label) && (ends_z || away_z[last] != label)) {
+          add_farthest(farthest + label, packed(last, y, z), of_last, seed, window);
+        }
       }
     }
   }
 }
 
-// Joins what the pixels at home and the others have found. Seeds that are absent own nothing, whatever labels name
-// them. (To ask before every addition would cost a tenth.)
-kernel void join_shapes(SEED_PARAMETERS, global int4* restrict boxes, global LENGTH* restrict distances,
-                        global const int4* restrict other_boxes, global const uint* restrict farthest) {
+// Joins what the pixels at home and the others have found: a box is left, top, front, right, bottom, back. Seeds that
+// are absent own nothing, whatever labels name them. (To ask before every addition would cost a tenth.)
+kernel void join_shapes(SEED_PARAMETERS, global const box_t* restrict home_boxes,
+                        global const box_t* restrict other_boxes, global LENGTH* restrict distances,
+                        global const uint* restrict farthest, global int* restrict boxes) {
   const uint id = (uint)get_global_id(0);
   if (id >= count) return;
   const seed_t seed = seeds[id];
   const bool is_shown = is_there(seed);
-  boxes[id] = is_shown ? inverted(min(boxes[id], other_boxes[id])) : inverted(NO_BOX);
+  const box_t box = is_shown ? min(home_boxes[id], other_boxes[id]) : NO_BOX;
+#if VOROCL_DIMENSIONS == 3
+  const int3 first = box.s012, last = ~box.s456;
+#else
+  const bool empty = box.s0 == INT_MAX;
+  const int3 first = (int3)(box.s01, empty ? INT_MAX : 0), last = (int3)(~box.s23, empty ? INT_MIN : 0);
+#endif
+  vstore3(first, 2 * (size_t)id, boxes);
+  vstore3(last, 2 * (size_t)id + 1, boxes);
   const uint pixel = farthest[id];
   if (!is_shown) {
     distances[id] = -1;
   } else if (pixel != EMPTY) {
-    const window_t window = window_of(width, height, periods);
-    distances[id] = max(distances[id], distance_to(seed, packed_x(pixel), packed_y(pixel), window));
+    const window_t window = window_of(size, periods);
+    distances[id] = max(distances[id], distance_to_packed(seed, pixel, window));
   }
 }

@@ -1,7 +1,6 @@
 // Cells of pixels that weigh differently: their weights, first moments and energy. A weight is a whole number of 16
 // bits, so that all sums are exact in 64: of 2^30 pixels, each at most 2^16 pixels from the window's first one.
 
-#include "measures/runs.cl"
 #include "measures/seed_place.cl"
 
 // Without 64-bit atomics, which OpenCL C 1.2 leaves to chance: a pair (low word, high word) and a carry.
@@ -17,29 +16,29 @@ static inline void add_long_to_pair(global uint* pair, ulong value) {
 // The rest goes to `elsewhere`, in pairs.
 //
 // The energy of a block is in units of weight times square pixels.
-kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                         global const ushort* restrict weights, global ulong* restrict at_home,
                         global uint* restrict elsewhere, global ulong* restrict energies) {
-  const window_t window = window_of(width, height, periods);
+  const window_t window = window_of(size, periods);
   block_t block;
-  if (!take_block(width, height, wide, high, &block)) return;
+  if (!take_block(size, bits, &block)) return;
   ulong energy_low = 0, energy_high = 0;  // of the low words of the squares, and of the high ones
-  for (int y = block.top; y < block.bottom; ++y) {
-    global const uint* const row = labels + y * width;
+  FOR_EACH_ROW(y, z, block) {
+    global const uint* const row = row_of(labels, y, z, size);
     walk_t walk = begin_walk(row, row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count || !is_there(seeds[label])) continue;
       const seed_t seed = seeds[label];
-      const int home_x = seed_x(seed, width), home_y = seed_y(seed, height);
+      const int home_x = seed_x(seed, size.x), home_y = seed_y(seed, size.y);
       const long dy = way_y(seed, y, window);
       ulong weight = 0, moment_x = 0;
       for (int from = walk.from, to; from < walk.to; from = to) {
         const int way = way_x(seed, from, window);
         to = piece_end(from, walk.to, way, window.period_x);
-        long dx = way, column = place_x(seed, way, width) - home_x;
+        long dx = way, column = place_x(seed, way, size.x) - home_x;
         for (int x = from; x < to; ++x, ++column, dx += UNIT) {
-          const ulong of_pixel = weights[y * width + x], square = (ulong)(dx * dx + dy * dy);
+          const ulong of_pixel = weights[y * size.x + x], square = (ulong)(dx * dx + dy * dy);
           weight += of_pixel;
           moment_x += of_pixel * (ulong)column;
           energy_low += of_pixel * (square & 0xffffffffu);
@@ -47,8 +46,8 @@ kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int
         }
       }
       if (weight == 0) continue;
-      const ulong moment_y = weight * (ulong)(long)(place_y(seed, (int)dy, height) - home_y);
-      if (block_of(home_x, home_y, width, wide, high) == block.index) {
+      const ulong moment_y = weight * (ulong)(long)(place_y(seed, (int)dy, size.y) - home_y);
+      if (block_of(home_x, home_y, 0, size, bits) == block.index) {
         global ulong* const sums = at_home + 3 * (size_t)label;
         sums[0] += weight;
         sums[1] += moment_x;
@@ -75,6 +74,6 @@ kernel void join_weights(SEED_PARAMETERS, global const ulong* restrict at_home, 
   const ulong all = near[0] + upsample(far[0].s1, far[0].s0);
   weight[id] = all;
   if (all == 0) return;
-  sum_x[id] = (long)(near[1] + upsample(far[1].s1, far[1].s0) + all * (ulong)(long)seed_x(seeds[id], width));
-  sum_y[id] = (long)(near[2] + upsample(far[2].s1, far[2].s0) + all * (ulong)(long)seed_y(seeds[id], height));
+  sum_x[id] = (long)(near[1] + upsample(far[1].s1, far[1].s0) + all * (ulong)(long)seed_x(seeds[id], size.x));
+  sum_y[id] = (long)(near[2] + upsample(far[2].s1, far[2].s0) + all * (ulong)(long)seed_y(seeds[id], size.y));
 }

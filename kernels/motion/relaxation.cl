@@ -1,18 +1,17 @@
 // Lloyd relaxation: the energy of a diagram, and the move of its seeds to their cells' centroids.
 
-#include "measures/runs.cl"
 #include "measures/seed_place.cl"
 
 // The energy of each block's pixels: their squared distances to their seeds, run by run. In square pixels, or in
 // 1/ENERGY_UNITS of them, which is a square unit times a unit: more bits of a block's sum could be lost.
-kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int wide, int high,
+kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                        global ulong* restrict energies) {
-  const window_t window = window_of(width, height, periods);
+  const window_t window = window_of(size, periods);
   block_t block;
-  if (!take_block(width, height, wide, high, &block)) return;
+  if (!take_block(size, bits, &block)) return;
   ulong energy = 0, rest = 0;
-  for (int y = block.top; y < block.bottom; ++y) {
-    global const uint* const row = labels + y * width;
+  FOR_EACH_ROW(y, z, block) {
+    global const uint* const row = row_of(labels, y, z, size);
     walk_t walk = begin_walk(row, row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);

@@ -9,17 +9,28 @@ namespace vorocl {
 
 namespace {
 
-/// A planar graph has fewer than three edges per vertex: the first table is at most three eighths full. In
-/// space random cells have 15.5 neighbours, which are 7.8 pairs per cell: half full. Cells in many pieces may
-/// have more; then it grows.
-std::size_t slots_of_cell(const PixelGrid& grid) { return grid.is_volume() ? 16 : 8; }
+constexpr const char* kernel_file = "measures/adjacency.cl";
 constexpr std::size_t least_slots = 1024;
 constexpr std::size_t most_slots = std::size_t{1} << 31;
 constexpr std::size_t words_per_pair = 3;
 constexpr cl_uint no_pair = 0xffffffffu;  // NO_PAIR of pair_table.cl
 
-std::size_t first_slots(const MeasuredDiagram& of) {
-  const std::size_t wanted = slots_of_cell(of.grid) * of.count();
+/// How many slots cells have in their lists and in the first table. A planar graph has fewer than three edges
+/// per vertex; in space random cells have 15.5 neighbours, which are 7.8 pairs per cell. Nearly all borders
+/// of small cells are found at home, so that the table has little to take. Cells in many pieces may have more
+/// neighbours; then it grows.
+struct SlotsOfCell {
+  explicit SlotsOfCell(const MeasuredDiagram& of, const Blocks& blocks) {
+    const bool is_volume = of.grid.is_volume();
+    const std::size_t small = blocks.pixels() / (is_volume ? 4096 : 1024);
+    list = is_volume ? 16 : 8;
+    table = of.grid.pixels() <= small * of.count() ? list / 4 : list;
+  }
+
+  cl_uint list, table;
+};
+
+std::size_t first_slots(std::size_t wanted) {
   std::size_t slots = least_slots;
   while (slots < wanted && slots < most_slots) slots *= 2;
   return slots;
@@ -27,23 +38,26 @@ std::size_t first_slots(const MeasuredDiagram& of) {
 
 }  // namespace
 
-/// The table is made, and what it says of single cells. Whether it was large enough, and how many pairs it
-/// holds, the host asks when somebody reads.
+/// The pairs are found, and what they say of single cells. Whether the table was large enough, and how many
+/// pairs there are, the host asks when somebody reads.
 struct AdjacencyState : Measured {
-  cl::Buffer table, overflow;                        // see pair_table.cl
+  cl::Buffer lists, table, overflow;                 // see pair_table.cl
+  cl::Buffer cells;                                  // see adjacency.cl
   cl::Buffer neighbours, perimeters, pairs_of_cell;  // by cell
   cl::Buffer first, placed, pair_list;               // the list
   std::size_t slot_count = 0;
-  bool large_enough = false, listed = false;  // as far as was asked
-  std::size_t pairs = 0;                      // once they are listed
+  bool large_enough = false, listed_all = false;  // as far as was asked
+  bool lists_hold_all = false;                    // once it is known that the table was large enough
+  std::size_t pairs = 0;                          // once they are listed
 
   // To find the pairs again:
   cl::Buffer labels, behind;
   std::shared_ptr<const std::atomic<std::uint64_t>> fills;
   std::uint64_t fill_measured = 0;
 
-  /// Finds the pairs in a table of so many slots. Returns the first command and the last one.
-  std::pair<cl::Event, cl::Event> find(const MeasuredDiagram& diagram, std::size_t in_slots);
+  /// Finds the pairs with a table of so many slots, or of the usual number. Returns the first command and the
+  /// last one.
+  std::pair<cl::Event, cl::Event> find(const MeasuredDiagram& diagram, std::size_t in_slots = 0);
 
   /// Sees to it that the table was large enough. Waits.
   void settle();
@@ -55,39 +69,47 @@ struct AdjacencyState : Measured {
 std::pair<cl::Event, cl::Event> AdjacencyState::find(const MeasuredDiagram& diagram, std::size_t in_slots) {
   const Device& device = diagram.device;
   const cl_uint count = diagram.count();
-  const PixelGrid& grid = diagram.grid;
-  const char* const file = "measures/adjacency.cl";
   const KernelOptions options = diagram.options_without_metric();
-  slot_count = in_slots;
-  large_enough = listed = false;
+  const Blocks blocks(device, diagram.grid);
+  const SlotsOfCell slots(diagram, blocks);
+  slot_count = in_slots > 0 ? in_slots : first_slots(std::size_t{slots.table} * count);
+  large_enough = listed_all = false;
+  const std::size_t words_of_lists = std::size_t{2} * slots.list * count;
+  make_room(lists, device, words_of_lists * word);
   make_room(table, device, slot_count * words_per_pair * word);
-  make_room(overflow, device, word);
-  const cl::Event begun = fill(device, table, no_pair, slot_count * words_per_pair);
-  fill(device, overflow, cl_uint{0}, 1);
+  make_room(overflow, device, 2 * word);
+  make_room(cells, device, count * sizeof(cl_uint4));
   for (cl::Buffer* const numbers : {&neighbours, &perimeters, &pairs_of_cell}) {
     make_room(*numbers, device, count * word);
-    if (count > 0) fill(device, *numbers, cl_uint{0}, count);
   }
-  const Blocks blocks(device, grid);
-  const auto mask = static_cast<cl_uint>(slot_count - 1), of_cell = static_cast<cl_uint>(slots_of_cell(grid));
-  if (grid.is_volume()) {
-    blocks.run(kernels, "volumes/adjacency.cl", "find_faces", options, labels, count, grid.width(),
-               grid.height(), static_cast<cl_int>(grid.rows()), blocks.wide(), blocks.high(), mask, of_cell,
-               table, overflow);
-  } else {
-    blocks.run(kernels, file, "find_borders", options, labels, row_behind(diagram, labels, behind), count,
-               grid.width(), grid.height(), blocks.wide(), blocks.high(), mask, of_cell, table, overflow);
+  const cl::Event begun = fill(device, table, no_pair, slot_count * words_per_pair);
+  fill(device, overflow, cl_uint{0}, 2);
+  if (count > 0) {
+    fill(device, lists, no_pair, words_of_lists);
+    fill(device, pairs_of_cell, cl_uint{0}, count);
   }
-  const cl::Event ended = kernels.get(device, file, "count_pairs", grid, options)
-                              .over_items(slot_count, diagram.positions(), static_cast<cl_uint>(slot_count),
-                                          table, pairs_of_cell, neighbours, perimeters);
-  return {begun, ended};
+  const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
+    return kernels.get(device, kernel_file, name, diagram.grid, options).over_items(items, arguments...);
+  };
+  const auto mask = static_cast<cl_uint>(slot_count - 1);
+  run("clear_cells", count, diagram.positions(), count, diagram.size(), blocks.bits(), cells, neighbours,
+      perimeters);
+  blocks.run(kernels, kernel_file, "find_borders", options, labels, row_behind(diagram, labels, behind),
+             count, diagram.size(), blocks.bits(), cells, neighbours, perimeters, slots.list, lists, mask,
+             slots.table, table, overflow);
+  const cl::Event joined = run("join_pairs", slot_count, neighbours, pairs_of_cell, slots.list, lists, mask,
+                               slots.table, table, overflow);
+  const cl::Event counted =
+      run("count_pairs", count, count, slots.list, lists, pairs_of_cell, cells, neighbours, perimeters);
+  return {begun, count > 0 ? counted : joined};
 }
 
 void AdjacencyState::settle() {
   of->check();
   while (!large_enough) {
-    large_enough = download<cl_uint>(of->device, overflow, 1).front() == 0;
+    const auto words = download<cl_uint>(of->device, overflow, 2);
+    large_enough = words[0] == 0;
+    lists_hold_all = words[1] == 0;
     if (large_enough) return;
     if (*fills != fill_measured) {
       throw Error(
@@ -103,11 +125,11 @@ void AdjacencyState::settle() {
 
 void AdjacencyState::list() {
   settle();
-  if (listed) return;
+  if (listed_all) return;
   const Device& device = of->device;
-  const std::size_t cells = of->count();
+  const std::size_t count = of->count();
   // The list's size must come to the host in any case, to allocate it: the running sum is made there too.
-  std::vector<cl_uint> begins = download<cl_uint>(device, pairs_of_cell, cells);
+  std::vector<cl_uint> begins = download<cl_uint>(device, pairs_of_cell, count);
   begins.push_back(0);
   cl_uint sum = 0;
   for (cl_uint& entry : begins) {
@@ -116,18 +138,21 @@ void AdjacencyState::list() {
     sum += here;
   }
   make_room(first, device, begins.size() * word);
-  make_room(placed, device, cells * word);
+  make_room(placed, device, count * word);
   make_room(pair_list, device, sum * words_per_pair * word);
   upload(device, first, begins);
-  if (cells > 0) fill(device, placed, cl_uint{0}, cells);
   const auto run = [&](const char* name, std::size_t items, const auto&... arguments) {
-    kernels.get(device, "measures/adjacency.cl", name, of->grid, of->options_without_metric())
+    kernels.get(device, kernel_file, name, of->grid, of->options_without_metric())
         .over_items(items, arguments...);
   };
-  run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), table, first, placed, pair_list);
-  run("sort_pairs", cells, of->count(), first, pair_list);
+  const SlotsOfCell slots(*of, Blocks(device, of->grid));
+  run("place_lists", count, of->count(), slots.list, lists, first, placed, pair_list);
+  if (!lists_hold_all) {
+    run("place_pairs", slot_count, static_cast<cl_uint>(slot_count), table, first, placed, pair_list);
+    run("sort_pairs", count, of->count(), first, pair_list);
+  }
   pairs = sum;
-  listed = true;
+  listed_all = true;
 }
 
 // --- AdjacencyResult ---
@@ -182,11 +207,11 @@ std::vector<std::uint32_t> AdjacencyResult::read_perimeters() const {
 Report adjacency(const Diagram& diagram, AdjacencyResult& result) {
   Measuring<AdjacencyState> measuring(result);
   AdjacencyState& found = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram);
   found.labels = diagram.labels();
   found.fills = Internal::state(diagram).fills;
   found.fill_measured = *found.fills;
-  const auto [first, last] = found.find(of, first_slots(of));
+  const auto [first, last] = found.find(of);
   return measuring.commit(std::move(of), first, last);
 }
 

@@ -26,53 +26,35 @@ CellStatisticsResult& CellStatisticsResult::operator=(CellStatisticsResult&& oth
 
 namespace {
 
-const char* file_of(const MeasuredDiagram& of) {
-  return of.grid.is_volume() ? "volumes/cells.cl" : "measures/cells.cl";
-}
+constexpr const char* cells_file = "measures/cells.cl";
 
-/// Leaves the areas of all cells, where `blocks` share out the labels, which kernels are told by so many
-/// numbers. Returns the first command.
-template <typename SomeBlocks, typename... Numbers>
-cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& labels,
-                    const SomeBlocks& blocks, const Numbers&... numbers) {
+/// Leaves the areas of all cells. Returns the first command.
+cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& labels) {
   const cl_uint count = of.count();
   make_room(statistics.area, of.device, count * sizeof(cl_uint));
   make_room(statistics.home, of.device, count * sizeof(cl_ushort));
-  make_room(statistics.home_area, of.device, count * sizeof(cl_uint));  // of planes half is used
-  const char* const file = file_of(of);
+  make_room(statistics.home_area, of.device, count * sizeof(cl_uint));
   const KernelOptions options = of.options_without_metric();
-  const auto run_over_cells = [&](const char* name, const auto&... arguments) {
-    return statistics.kernels.get(of.device, file, name, of.grid, options).over_items(count, arguments...);
-  };
-  const cl::Event first = run_over_cells("clear_areas", of.positions(), count, numbers..., statistics.area,
-                                         statistics.home, statistics.home_area);
-  const cl::Event added = blocks.run(statistics.kernels, file, "add_areas", options, labels, count,
-                                     numbers..., statistics.area, statistics.home, statistics.home_area);
-  run_over_cells("join_areas", of.positions(), count, statistics.area, statistics.home_area);
-  return count > 0 ? first : added;
-}
-
-cl::Event add_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& labels) {
-  if (of.grid.is_volume()) {
-    const Cuboids blocks(of.device, of.grid);
-    return add_areas(statistics, of, labels, blocks, blocks.size(), blocks.bits());
-  }
   const Blocks blocks(of.device, of.grid);
-  return add_areas(statistics, of, labels, blocks, of.grid.width(), of.grid.height(), blocks.wide(),
-                   blocks.high());
+  const auto run_over_cells = [&](const char* name, const auto&... arguments) {
+    return statistics.kernels.get(of.device, cells_file, name, of.grid, options)
+        .over_items(count, of.positions(), count, arguments...);
+  };
+  const cl::Event first = run_over_cells("clear_areas", of.size(), blocks.bits(), statistics.area,
+                                         statistics.home, statistics.home_area);
+  const cl::Event added =
+      blocks.run(statistics.kernels, cells_file, "add_areas", options, labels, count, of.size(),
+                 blocks.bits(), statistics.area, statistics.home, statistics.home_area);
+  run_over_cells("join_areas", statistics.area, statistics.home_area);
+  return count > 0 ? first : added;
 }
 
 cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, const cl::Buffer& areas) {
   const std::size_t items = items_of(of.count());
   make_room(statistics.partial, of.device, items * sizeof(cl_ulong4));
-  Kernel& kernel =
-      statistics.kernels.get(of.device, file_of(of), "sum_areas", of.grid, of.options_without_metric());
-  const auto run = [&](const auto&... window) {
-    return kernel.over_items(items, of.positions(), of.count(), window..., areas,
-                             static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items),
-                             statistics.partial);
-  };
-  return of.grid.is_volume() ? run() : run(of.periods(), of.grid.width(), of.grid.height());
+  return statistics.kernels.get(of.device, cells_file, "sum_areas", of.grid, of.options_without_metric())
+      .over_items(items, of.positions(), of.count(), of.periods(), of.size(), areas,
+                  static_cast<cl_uint>(cells_per_item), static_cast<cl_uint>(items), statistics.partial);
 }
 
 }  // namespace
@@ -80,7 +62,7 @@ cl::Event sum_areas(CellStatisticsState& statistics, const MeasuredDiagram& of, 
 Report cell_statistics(const Diagram& diagram, CellStatisticsResult& result) {
   Measuring<CellStatisticsState> measuring(result);
   CellStatisticsState& statistics = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram);
   const cl::Event first = add_areas(statistics, of, diagram.labels());
   const cl::Event last = sum_areas(statistics, of, statistics.area);
   return measuring.commit(std::move(of), first, last() != nullptr ? last : first);

@@ -7,8 +7,8 @@
 namespace vorocl {
 
 struct CellSumsState : Measured {
-  cl::Buffer area, sum_x, sum_y, sum_z;                         // the last one of volumes
-  cl::Buffer home, home_sums, periods_x, periods_y, periods_z;  // while the sums are made: see cells.cl
+  cl::Buffer area, sum_x, sum_y, sum_z;
+  cl::Buffer home, home_sums, periods;  // while the sums are made: see cells.cl
 };
 
 }  // namespace vorocl

@@ -40,8 +40,8 @@ void check_labels_fit(const Diagram& a, const Diagram& b) {
 
 MeasuredDiagram cells_of_both(const Diagram& a, const Diagram& b) {
   check_labels_fit(a, b);
-  MeasuredDiagram one = cells_of(a, Volumes::taken);
-  MeasuredDiagram other = cells_of(b, Volumes::taken);
+  MeasuredDiagram one = cells_of(a);
+  MeasuredDiagram other = cells_of(b);
   if (one.metric != other.metric)
     throw Error("diagrams of different metrics cannot be compared by distances");
   // Clones of seeds have frames of their own, but share where they lie.
@@ -68,21 +68,16 @@ Report distance_errors(const Diagram& diagram, const Diagram& exact, DistanceErr
   Measuring<DistanceErrorsState> measuring(result);
   DistanceErrorsState& found = measuring.state();
   MeasuredDiagram of = cells_of_both(diagram, exact);
-  const auto judge = [&](const char* file, const auto&... grid) {
-    Kernel& kernel = found.kernels.get(of.device, file, "judge_labels", of.grid, of.options());
-    const Walk walk = walk_through(of, kernel);
-    found.groups = walk.groups;
-    make_room(found.wrong, of.device, walk.groups * sizeof(cl_uint2));
-    make_room(found.sums, of.device, walk.groups * sizeof(cl_long));
-    make_room(found.greatest, of.device, walk.groups * sizeof(cl_float));
-    return compare(kernel, walk, diagram, exact, of.positions(), of.count(), grid..., found.wrong, found.sums,
-                   found.greatest);
-  };
-  const int width = of.grid.width(), height = of.grid.height();
-  const cl::Event judged = of.grid.is_volume() ? judge("volumes/measures.cl", width, height,
-                                                       static_cast<cl_uint>(of.grid.pixels()))
-                                               : judge("measures/comparison.cl", of.periods(), width, height);
-  found.other = labels_of(exact, Volumes::taken).seeds;
+  Kernel& kernel =
+      found.kernels.get(of.device, "measures/comparison.cl", "judge_labels", of.grid, of.options());
+  const Walk walk = walk_through(of, kernel);
+  found.groups = walk.groups;
+  make_room(found.wrong, of.device, walk.groups * sizeof(cl_uint2));
+  make_room(found.sums, of.device, walk.groups * sizeof(cl_long));
+  make_room(found.greatest, of.device, walk.groups * sizeof(cl_float));
+  const cl::Event judged = compare(kernel, walk, diagram, exact, of.positions(), of.count(), of.periods(),
+                                   of.size(), found.wrong, found.sums, found.greatest);
+  found.other = labels_of(exact).seeds;
   return measuring.commit(std::move(of), judged, judged);
 }
 

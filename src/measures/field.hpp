@@ -19,15 +19,6 @@ struct FieldState : Measured {
   Kernel& kernel(const MeasuredDiagram& diagram, const char* name, const KernelOptions& options) {
     return kernels.get(diagram.device, "measures/fields.cl", name, diagram.grid, options);
   }
-
-  /// Fills it by a kernel of a volume's, which gets the rows, and numbers of its own.
-  template <typename... Numbers>
-  cl::Event fill_volume(const MeasuredDiagram& of, const char* name, const cl::Buffer& labels,
-                        const Numbers&... numbers) {
-    return kernels.get(of.device, "volumes/measures.cl", name, of.grid, of.options())
-        .over_items(of.grid.rows(), labels, of.positions(), of.count(), of.grid.width(), of.grid.height(),
-                    static_cast<cl_uint>(of.grid.rows()), numbers..., values);
-  }
 };
 
 }  // namespace vorocl

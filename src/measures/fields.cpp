@@ -50,38 +50,29 @@ template class Field<std::uint32_t>;
 Report distance_field(const Diagram& diagram, Field<std::int32_t>& field) {
   Measuring<FieldState<std::int32_t>> measuring(field);
   FieldState<std::int32_t>& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram);
   if (of.points) {
     throw Error(
         "distances to points within their pixels, and in tilted grids, are no whole numbers; ask for a field "
-        "of "
-        "floats, or snap the seeds to pixels of a grid that is not tilted");
+        "of floats, or snap the seeds to pixels of a grid that is not tilted");
   }
   state.make_room_for(of);
-  if (of.grid.is_volume()) {
-    const cl::Event event = state.fill_volume(of, "integer_distances", diagram.labels());
-    return measuring.commit(std::move(of), event, event);
-  }
   make_room(state.too_long, of.device, sizeof(cl_uint));
   if (of.is_far()) fill(of.device, state.too_long, cl_uint{0}, 1);
   const cl::Event event = state.kernel(of, "integer_distances", of.options())
                               .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
-                                         of.grid.width(), of.grid.height(), state.values, state.too_long);
+                                         of.size(), state.values, state.too_long);
   return measuring.commit(std::move(of), event, event);
 }
 
 Report distance_field(const Diagram& diagram, Field<float>& field) {
   Measuring<FieldState<float>> measuring(field);
   FieldState<float>& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram);
   state.make_room_for(of);
-  if (of.grid.is_volume()) {
-    const cl::Event event = state.fill_volume(of, "float_distances", diagram.labels());
-    return measuring.commit(std::move(of), event, event);
-  }
-  const cl::Event event = state.kernel(of, "float_distances", of.options())
-                              .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
-                                         of.grid.width(), of.grid.height(), state.values);
+  const cl::Event event =
+      state.kernel(of, "float_distances", of.options())
+          .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.size(), state.values);
   return measuring.commit(std::move(of), event, event);
 }
 
@@ -91,8 +82,7 @@ Report border_mask(const Diagram& diagram, Field<std::uint8_t>& mask) {
   MeasuredDiagram of = labels_of(diagram);
   state.make_room_for(of);
   const cl::Event event =
-      state.kernel(of, "mark_borders", {})
-          .over_grid(diagram.labels(), state.values, of.grid.width(), of.grid.height(), of.shift());
+      state.kernel(of, "mark_borders", {}).over_grid(diagram.labels(), state.values, of.size(), of.shift());
   return measuring.commit(std::move(of), event, event);
 }
 

@@ -22,9 +22,9 @@ Report map_by(Measuring<LabelState>& measuring, MeasuredDiagram&& of, const Diag
   make_room(state.table, of.device, (std::size_t{count} + 1) * sizeof(cl_uint));
   const cl::Event first = state.kernel(of, "copy_table", of.options_without_metric())
                               .over_items(std::size_t{count} + 1, of.positions(), count, table, state.table);
-  const cl::Event last =
-      state.kernels.get(of.device, "core/tiles.cl", "name_labels", of.grid)
-          .over_grid(diagram.labels(), state.table, count, of.grid.width(), of.grid.height(), state.values);
+  const cl::Event last = state.kernels.get(of.device, "core/tiles.cl", "name_labels", of.grid)
+                             .over_grid(diagram.labels(), state.table, count, of.grid.width(),
+                                        static_cast<cl_int>(of.grid.rows()), state.values);
   return measuring.commit(std::move(of), first, last);
 }
 
@@ -71,23 +71,16 @@ Report map_labels(const Diagram& diagram, const std::vector<std::uint32_t>& tabl
 Report expand_labels(const Diagram& diagram, double distance, Field<std::uint32_t>& field) {
   Measuring<LabelState> measuring(field);
   LabelState& state = measuring.state();
-  MeasuredDiagram of = cells_of(diagram, Volumes::taken);
+  MeasuredDiagram of = cells_of(diagram);
   // Written so that a NaN fails.
   if (!(distance >= 0)) {
     throw Error("labels cannot expand to a distance of " + std::to_string(distance) +
                 " pixels; 0 is the least");
   }
   state.make_room_for(of);
-  if (of.grid.is_volume()) {
-    constexpr cl_long longest = 0x7ffffffe;  // of distances in volumes
-    const auto most = static_cast<cl_uint>(std::min(greatest_compared(of, distance), longest));
-    const cl::Event event = state.fill_volume(of, "expand_labels", diagram.labels(), most);
-    return measuring.commit(std::move(of), event, event);
-  }
-  const cl::Event event =
-      state.kernel(of, "expand_labels", of.options())
-          .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(), of.grid.width(),
-                     of.grid.height(), greatest_compared(of, distance), state.values);
+  const cl::Event event = state.kernel(of, "expand_labels", of.options())
+                              .over_grid(diagram.labels(), of.positions(), of.count(), of.periods(),
+                                         of.size(), greatest_compared(of, distance), state.values);
   return measuring.commit(std::move(of), event, event);
 }
 

@@ -18,25 +18,28 @@ Device with_groups_for_blocks(const Device& device) {
   return works_in_vectors(device) ? device.with_tuning({device.tuning().vector_width, 1, 1}) : device;
 }
 
-/// A block has 2^wide columns and 2^high rows.
-struct BlockShape {
-  int wide, high;
-};
-constexpr BlockShape on_a_cpu = {8, 7}, on_a_gpu = {5, 3};
-BlockShape shape_of_blocks(const Device& device) { return works_in_vectors(device) ? on_a_cpu : on_a_gpu; }
+/// The blocks of planes and of volumes.
+constexpr cl_int4 plane_blocks_on_a_cpu = {{8, 7, 0, 0}}, plane_blocks_on_a_gpu = {{5, 3, 0, 0}};
+constexpr cl_int4 blocks_on_a_cpu = {{6, 6, 6, 0}}, blocks_on_a_gpu = {{5, 2, 1, 0}};
 
-/// Whether a block's home sums fit (see cells.cl): the pixels in 16 bits, their columns and their rows in 24.
-constexpr bool fits_home_sums(const BlockShape& shape) {
-  const auto pixels = std::uint64_t{1} << (shape.wide + shape.high);
-  const auto most_columns = pixels * ((std::uint64_t{1} << shape.wide) - 1);
-  const auto most_rows = pixels * ((std::uint64_t{1} << shape.high) - 1);
+cl_int4 bits_of_blocks(const Device& device, const PixelGrid& grid) {
+  if (grid.is_volume()) return works_in_vectors(device) ? blocks_on_a_cpu : blocks_on_a_gpu;
+  return works_in_vectors(device) ? plane_blocks_on_a_cpu : plane_blocks_on_a_gpu;
+}
+
+/// Whether the home sums of a plane's block fit (see cells.cl): the pixels in 16 bits, their columns and
+/// their rows in 24.
+constexpr bool fits_home_sums(const cl_int4& bits) {
+  const auto pixels = std::uint64_t{1} << (bits.s[0] + bits.s[1]);
+  const auto most_columns = pixels * ((std::uint64_t{1} << bits.s[0]) - 1);
+  const auto most_rows = pixels * ((std::uint64_t{1} << bits.s[1]) - 1);
   return pixels < 1u << 16 && most_columns < 1u << 24 && most_rows < 1u << 24;
 }
-static_assert(fits_home_sums(on_a_cpu) && fits_home_sums(on_a_gpu));
+static_assert(fits_home_sums(plane_blocks_on_a_cpu) && fits_home_sums(plane_blocks_on_a_gpu));
 
-const cl_int4 cuboids_on_a_cpu = {{6, 6, 6, 0}}, cuboids_on_a_gpu = {{5, 2, 1, 0}};
-
-std::size_t blocks_along(std::size_t pixels, int bits) { return ((pixels - 1) >> bits) + 1; }
+std::size_t blocks_along(int pixels, int bits) {
+  return static_cast<std::size_t>(((pixels - 1) >> bits) + 1);
+}
 
 }  // namespace
 
@@ -67,9 +70,8 @@ const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& l
   return room;
 }
 
-MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
+MeasuredDiagram labels_of(const Diagram& diagram) {
   const DiagramState& state = Internal::state(diagram);
-  if (volumes == Volumes::refused) refuse_volume(state.window.grid(), "this measure");
   MeasuredDiagram measured = {state.device, state.window, state.grid, nullptr, nullptr, Metric::euclidean};
   if (!state.contents) return measured;
   measured.seeds = state.contents->seeds;
@@ -79,8 +81,8 @@ MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes) {
   return measured;
 }
 
-MeasuredDiagram cells_of(const Diagram& diagram, Volumes volumes) {
-  MeasuredDiagram measured = labels_of(diagram, volumes);
+MeasuredDiagram cells_of(const Diagram& diagram) {
+  MeasuredDiagram measured = labels_of(diagram);
   if (measured.seeds) return measured;
   throw Error(
       "the diagram knows no seeds to measure it by; run a method, or write labels with their seeds and "
@@ -90,17 +92,8 @@ MeasuredDiagram cells_of(const Diagram& diagram, Volumes volumes) {
 Blocks::Blocks(const Device& device, const PixelGrid& grid)
     : device_(with_groups_for_blocks(device)),
       grid_(grid),
-      wide_(shape_of_blocks(device).wide),
-      high_(shape_of_blocks(device).high),
-      count_(blocks_along(static_cast<std::size_t>(grid.width()), wide_) * blocks_along(grid.rows(), high_)) {
-}
-
-Cuboids::Cuboids(const Device& device, const PixelGrid& grid)
-    : device_(with_groups_for_blocks(device)),
-      grid_(grid),
-      bits_(works_in_vectors(device) ? cuboids_on_a_cpu : cuboids_on_a_gpu),
-      count_(blocks_along(static_cast<std::size_t>(grid.width()), bits_.s[0]) *
-             blocks_along(static_cast<std::size_t>(grid.height()), bits_.s[1]) *
-             blocks_along(static_cast<std::size_t>(grid.depth()), bits_.s[2])) {}
+      bits_(bits_of_blocks(device, grid)),
+      count_(blocks_along(grid.width(), bits_.s[0]) * blocks_along(grid.height(), bits_.s[1]) *
+             blocks_along(grid.depth(), bits_.s[2])) {}
 
 }  // namespace vorocl

@@ -33,6 +33,7 @@ struct MeasuredDiagram {
     return outer() ? outer()->seeds : *placement->positions;
   }
   cl_uint count() const { return static_cast<cl_uint>(seeds->size); }
+  cl_int4 size() const { return {{grid.width(), grid.height(), grid.depth(), 0}}; }
   cl_int4 periods() const {
     if (points) return points->periods;
     return outer() ? outer()->periods : cl_int4{};
@@ -74,14 +75,11 @@ struct MeasuredDiagram {
 /// in a tilted grid is copied to `room` as it lies there.
 const cl::Buffer& row_behind(const MeasuredDiagram& diagram, const cl::Buffer& labels, cl::Buffer& room);
 
-/// Which volumes a measure takes.
-enum class Volumes { refused, taken };
+/// A diagram for a measure that looks at labels alone.
+MeasuredDiagram labels_of(const Diagram& diagram);
 
-/// A diagram for a measure that looks at labels alone. Throws Error if it is a volume that is refused.
-MeasuredDiagram labels_of(const Diagram& diagram, Volumes volumes = Volumes::refused);
-
-/// A diagram for a measure that needs its seeds. Throws Error too if it knows none.
-MeasuredDiagram cells_of(const Diagram& diagram, Volumes volumes = Volumes::refused);
+/// A diagram for a measure that needs its seeds. Throws Error if it knows none.
+MeasuredDiagram cells_of(const Diagram& diagram);
 
 /// What every result holds. It is empty before the first measurement and while one is being made: a
 /// measurement that failed leaves it so.
@@ -127,41 +125,17 @@ const cl::Buffer& buffer_of(const std::unique_ptr<State>& state, cl::Buffer Stat
   return state && !state->empty() ? (*state).*buffer : none;
 }
 
-/// The blocks of a grid, one per work-item; of a volume those of the image of all its rows.
+/// The blocks of a grid, one per work-item.
 class Blocks {
  public:
   Blocks(const Device& device, const PixelGrid& grid);
 
-  /// Blocks have 2^wide columns and 2^high rows.
-  int wide() const { return wide_; }
-  int high() const { return high_; }
+  /// A block has 2^bits pixels along each axis.
+  cl_int4 bits() const { return bits_; }
   std::size_t count() const { return count_; }
+  std::size_t pixels() const { return std::size_t{1} << (bits_.s[0] + bits_.s[1] + bits_.s[2]); }
 
   /// Enqueues a kernel that starts with take_block().
-  template <typename... Arguments>
-  cl::Event run(KernelSet& kernels, const char* file, const char* name, const KernelOptions& options,
-                const Arguments&... arguments) const {
-    return kernels.get(device_, file, name, grid_, options).over_items(count_, arguments...);
-  }
-
- private:
-  Device device_;
-  PixelGrid grid_;
-  int wide_, high_;
-  std::size_t count_;
-};
-
-/// The blocks of a volume that are as deep as they are high, one per work-item.
-class Cuboids {
- public:
-  Cuboids(const Device& device, const PixelGrid& grid);
-
-  cl_int4 size() const { return {{grid_.width(), grid_.height(), grid_.depth(), 0}}; }
-
-  /// They have 2^bits voxels along each axis.
-  cl_int4 bits() const { return bits_; }
-
-  /// Enqueues a kernel that starts with take_cuboid() of kernels/volumes/blocks.cl.
   template <typename... Arguments>
   cl::Event run(KernelSet& kernels, const char* file, const char* name, const KernelOptions& options,
                 const Arguments&... arguments) const {

@@ -36,7 +36,7 @@ Report count(Measuring<SimilarityState>& measuring, const MeasuredDiagram& of, c
   const cl::Event first = fill(of.device, found.differences, cl_uint{0}, 1);
   Kernel& kernel = found.kernels.get(of.device, "measures/comparison.cl", name, of.grid, options);
   const cl::Event last = compare(kernel, walk_through(of, kernel), a, b, arguments..., found.differences);
-  found.other = labels_of(b, Volumes::taken).seeds;
+  found.other = labels_of(b).seeds;
   return measuring.commit(MeasuredDiagram(of), first, last);
 }
 
@@ -55,7 +55,7 @@ double similarity(const std::vector<std::uint32_t>& a, const std::vector<std::ui
 Report similarity(const Diagram& a, const Diagram& b, SimilarityResult& result) {
   Measuring<SimilarityState> measuring(result);
   check_labels_fit(a, b);
-  const MeasuredDiagram of = labels_of(a, Volumes::taken);
+  const MeasuredDiagram of = labels_of(a);
   const auto pixels = static_cast<cl_uint>(of.grid.pixels());
   return count(measuring, of, a, b, "count_differences", {}, pixels);
 }
@@ -65,10 +65,9 @@ Report similarity(const Diagram& a, const Diagram& b, double tolerance, Similari
   if (!(tolerance >= 0 && std::isfinite(tolerance))) {
     throw Error("the tolerance is " + std::to_string(tolerance) + "; it must be a number from 0");
   }
-  refuse_volume(a.window().grid(), "similarity with a tolerance");
   const MeasuredDiagram of = cells_of_both(a, b);
   return count(measuring, of, a, b, "count_distant", of.options(), of.positions(), of.count(), of.periods(),
-               of.grid.width(), of.grid.height(), static_cast<cl_float>(tolerance));
+               of.size(), static_cast<cl_float>(tolerance));
 }
 
 std::size_t SimilarityResult::read_differences() const {

@@ -68,6 +68,7 @@ VerticesResult& VerticesResult::operator=(VerticesResult&& other) noexcept = def
 Report vertices(const Diagram& diagram, VerticesResult& result) {
   Measuring<VerticesState> measuring(result);
   VerticesState& found = measuring.state();
+  refuse_volume(diagram.window().grid(), "the vertices of a diagram");
   MeasuredDiagram of = labels_of(diagram);
   make_room(found.count, of.device, sizeof(cl_uint));
   const cl::Event first = fill(of.device, found.count, cl_uint{0}, 1);

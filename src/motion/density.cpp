@@ -46,6 +46,7 @@ Density::Density(const Device& device, const Window& window, const std::vector<f
 }
 
 double Density::weigh(const Diagram& diagram) {
+  refuse_volume(diagram.window().grid(), "a density");
   const MeasuredDiagram of = cells_of(diagram);
   const cl_uint count = of.count();
   const std::size_t sums = sums_of_cell * count;
@@ -60,11 +61,10 @@ double Density::weigh(const Diagram& diagram) {
   make_room(energies_, of.device, blocks.count() * sizeof(cl_ulong));
   const char* const file = "motion/density.cl";
   const KernelOptions options = of.options_without_metric();
-  const int width = of.grid.width(), height = of.grid.height();
   blocks.run(kernels_, file, "add_weights", options, diagram.labels(), of.positions(), count, of.periods(),
-             width, height, blocks.wide(), blocks.high(), pixels_, at_home_, elsewhere_, energies_);
+             of.size(), blocks.bits(), pixels_, at_home_, elsewhere_, energies_);
   kernels_.get(of.device, file, "join_weights", of.grid, options)
-      .over_items(count, of.positions(), count, of.periods(), width, height, at_home_, elsewhere_, weight_,
+      .over_items(count, of.positions(), count, of.periods(), of.size(), at_home_, elsewhere_, weight_,
                   sum_x_, sum_y_);
   diagram.wait();
   // In two parts, for the sum of all blocks may need more than 64 bits.

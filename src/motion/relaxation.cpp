@@ -128,13 +128,14 @@ Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 }
 
 double energy_of(const Diagram& diagram, Rounds& rounds) {
+  refuse_volume(diagram.window().grid(), "the energy of Lloyd relaxation");
   const MeasuredDiagram of = cells_of(diagram);
   refuse_outer_seeds(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
   const Blocks blocks(of.device, of.grid);
   make_room(rounds.partial, of.device, blocks.count() * sizeof(cl_ulong));
   blocks.run(rounds.kernels, "motion/relaxation.cl", "add_energy", of.options_without_metric(),
-             diagram.labels(), of.positions(), of.count(), of.periods(), of.grid.width(), of.grid.height(),
-             blocks.wide(), blocks.high(), rounds.partial);
+             diagram.labels(), of.positions(), of.count(), of.periods(), of.size(), blocks.bits(),
+             rounds.partial);
   diagram.wait();
   const auto energies = download<cl_ulong>(of.device, rounds.partial, blocks.count());
   return static_cast<double>(std::accumulate(energies.begin(), energies.end(), std::uint64_t{0})) /

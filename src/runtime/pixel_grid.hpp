@@ -34,6 +34,7 @@ class PixelGrid {
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
   bool periodic_z() const { return periodic_z_; }
+  bool is_periodic() const { return periodic_ != Periodic::none || periodic_z_; }
   int longest_side() const { return std::max({width_, height_, depth_}); }
   std::size_t rows() const { return static_cast<std::size_t>(height_) * static_cast<std::size_t>(depth_); }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * rows(); }

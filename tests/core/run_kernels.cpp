@@ -320,6 +320,19 @@ void measure_many_cells(const Device& device, const Grid& grid) {
   statistics.read();
 }
 
+/// One cell around all others, which has more pairs than its list takes.
+void measure_islands(const Device& device) {
+  const Grid grid(13, 9);
+  std::vector<std::uint32_t> labels(grid.pixels(), 0);
+  std::uint32_t islands = 0;
+  for (std::size_t i = 0; i < labels.size(); i += 4) labels[i] = ++islands;
+  Diagram diagram(device, grid);
+  diagram.write(labels, Seeds::random(device, grid, islands + 1, 1), Metric::euclidean);
+  AdjacencyResult pairs;
+  adjacency(diagram, pairs);
+  if (pairs.pairs() != islands) throw Error("the pairs of islands are wrong");
+}
+
 void make_tiles(const Device& device, Metric metric) {
   const Grid grid(40, 25);
   const std::vector<Point> points = {{3, 3}, {30, 20}, {17, 9}};
@@ -368,6 +381,7 @@ int main() {
       measure(shaped, grid, metric);
   }
   measure_many_cells(device, Grid(13, 9));
+  measure_islands(device);
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));

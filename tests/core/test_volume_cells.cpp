@@ -303,18 +303,74 @@ BOOST_AUTO_TEST_CASE(spaced_measures_are_those_of_the_host) {
     const Grid grid(Axis(70).spaced(2), Axis(40), Axis(depth).spaced(4));
     for (const std::size_t count : {9u, 300u})
       cases.push_back({"spaced", grid, random_voxels(grid, count, 5), {}, {}});
+    cases.push_back({"spaced pieces", grid, random_voxels(grid, 60, 1), {}, random_labels(grid, 60, 2)});
   }
   check_all(cases, {shapes().back()});
 }
 
-BOOST_AUTO_TEST_CASE(sums_of_a_plane_have_no_slices_after_those_of_a_volume) {
+BOOST_AUTO_TEST_CASE(the_slices_of_a_plane_are_the_first_one_after_those_of_a_volume) {
   CellSumsResult sums;
   for (const Grid& grid : {Grid(9, 8, 7), Grid(9, 8)}) {
     const Seeds seeds = Seeds::random(test_device(), grid, 5, 1);
     Diagram diagram(test_device(), grid);
     jump_flooding(seeds, diagram);
     cell_sums(diagram, sums);
-    BOOST_TEST((sums.sum_z()() != nullptr) == grid.is_volume());
+    std::int64_t slices = 0;
+    for (const CellSums& cell : sums.read()) slices += cell.sum_z;
+    BOOST_TEST((slices != 0) == grid.is_volume());
+  }
+}
+
+/// Borders, labels looked up, and labels within a tolerance: of cells in pieces, round an axis and spaced.
+BOOST_AUTO_TEST_CASE(fields_of_volumes_are_those_of_the_host) {
+  for (const Grid& grid :
+       {Grid(37, 19, 12), periodic(Grid(Axis(37).spaced(2), Axis(9), Axis(12)), true, false, true)}) {
+    const Case test = {"pieces", grid, random_voxels(grid, 20, 1), {}, random_labels(grid, 20, 2)};
+    const Seeds seeds = seeds_of(test_device(), test);
+    Diagram diagram(test_device(), grid), flooded(test_device(), grid);
+    diagram.write(test.labels, seeds, Metric::euclidean);
+    jump_flooding(seeds, flooded);
+    const Labels others = flooded.read();
+    const std::array<Axis, 3> axes = {grid.x(), grid.y(), grid.z()};
+    std::vector<std::uint8_t> borders;
+    Labels looked_up, table;
+    for (std::uint32_t id = 0; id < 20; ++id) table.push_back(7 * id + 3);
+    std::size_t distant = 0;
+    for (std::size_t i = 0; i < test.labels.size(); ++i) {
+      const std::uint32_t label = test.labels[i], other = others[i];
+      looked_up.push_back(label == no_label ? no_label : table[label]);
+      double square = 0, square_of_other = 0;
+      bool is_border = false;
+      std::size_t stride = 1;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto side = static_cast<std::size_t>(axes[axis].pixels());
+        const std::size_t at = i / stride % side;
+        const auto beside = [&](std::size_t from_end, std::size_t inside, std::size_t across) {
+          if (at != from_end) return test.labels[inside];
+          return axes[axis].is_periodic() ? test.labels[across] : label;
+        };
+        is_border |= beside(0, i - stride, i + (side - 1) * stride) != label ||
+                     beside(side - 1, i + stride, i - at * stride) != label;
+        const auto along = [&](std::uint32_t id) {
+          const int seed = test.seeds[id][axis], place = placed(static_cast<int>(at), seed, axes[axis]);
+          return std::pow((place - seed) * axes[axis].spacing(), 2);
+        };
+        if (label != no_label) square += along(label);
+        square_of_other += along(other);
+        stride *= side;
+      }
+      borders.push_back(is_border ? 1 : 0);
+      distant += label == no_label || std::abs(std::sqrt(square) - std::sqrt(square_of_other)) > 2.3 ? 1 : 0;
+    }
+    Field<std::uint8_t> mask;
+    Field<std::uint32_t> mapped;
+    SimilarityResult similar;
+    border_mask(diagram, mask);
+    map_labels(diagram, table, mapped);
+    similarity(diagram, flooded, 2.3, similar);
+    BOOST_TEST((mask.read() == borders));
+    BOOST_TEST((mapped.read() == looked_up));
+    BOOST_TEST(similar.read_differences() == distant);
   }
 }
 
