@@ -32,12 +32,9 @@ struct CellSums {
   std::int64_t sum_y = 0;  ///< ... rows ...
   std::int64_t sum_z = 0;  ///< ... and slices: 0 in a plane
 
-  /// The mean of the centres of the pixels, in pixels from the window's first one; (NaN, NaN) of an empty
-  /// cell.
+  /// The mean of the centres of the pixels, in pixels from the window's first one: in a plane z is 0.5. All
+  /// NaN of an empty cell.
   VOROCL_API Point centroid() const;
-
-  /// The same in a volume.
-  VOROCL_API Point3 centroid3() const;
 };
 
 /// What cell_shapes() knows of a cell. An empty cell has right < left, bottom < top, back <
@@ -160,7 +157,7 @@ struct CellRow {
   Point seed;                    ///< as it was given
   std::uint32_t pixels = 0;      ///< of the cell
   double area = 0;               ///< pixels times the area of one
-  Point centroid;                ///< (NaN, NaN) of an empty cell; across a period's end it may lie outside
+  Point centroid;                ///< all NaN of an empty cell; across a period's end it may lie outside
   bool touches_border = false;   ///< of the window
   std::uint32_t neighbours = 0;  ///< cells that it shares an edge with
 };

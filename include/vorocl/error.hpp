@@ -39,7 +39,7 @@ class VOROCL_API Error : public std::runtime_error {
 /// A point that cannot be a seed's.
 class VOROCL_API BadPoint : public Error {
  public:
-  /// "point 7 (12, 3) " and what is bad about it.
+  /// "point 7 (12, 3) " and what is bad about it; with z unless that is 0.
   BadPoint(std::size_t index, const Point& point, const std::string& what);
 
   std::size_t index() const noexcept { return index_; }  ///< in the caller's list: the seed's id

@@ -11,15 +11,10 @@ namespace vorocl {
 /// The label of a pixel that has no nearest seed (there are no seeds, or no wave reached it).
 constexpr std::uint32_t no_label = 0xffffffffu;
 
-/// A position in the plane. In the units of the data where it is a seed's point, in pixels where a measure
-/// says so: pixel i of an axis covers [i, i + 1), its centre is i + 0.5.
+/// A position. In the units of the data where it is a seed's point, in pixels where a measure says so: pixel
+/// i of an axis covers [i, i + 1), its centre is i + 0.5. A plane is the one slice of pixels of its grid: in
+/// pixels z is 0.5 in its middle.
 struct Point {
-  double x = 0;
-  double y = 0;
-};
-
-/// A position in a volume, likewise.
-struct Point3 {
   double x = 0;
   double y = 0;
   double z = 0;
@@ -217,11 +212,13 @@ class VOROCL_API Grid {
   /// A point as it repeats in the period along y, which the axes then take: the point itself but in a tilted
   /// grid, where it is moved along x by the tilt for each period that it lies beyond.
   Point in_box(const Point& point) const {
-    return is_tilted() ? Point{point.x - tilt_ * y_.periods_beyond(point.y), point.y} : point;
+    return is_tilted() ? Point{point.x - tilt_ * y_.periods_beyond(point.y), point.y, point.z} : point;
   }
 
   /// The point, in the units of the data, of a position in pixels from the grid's first one.
-  Point point(const Point& position) const { return {x_.coordinate(position.x), y_.coordinate(position.y)}; }
+  Point point(const Point& position) const {
+    return {x_.coordinate(position.x), y_.coordinate(position.y), z_.coordinate(position.z)};
+  }
 
   friend bool operator==(const Grid& a, const Grid& b) {
     return a.x_ == b.x_ && a.y_ == b.y_ && a.z_ == b.z_ && a.tilt_ == b.tilt_;

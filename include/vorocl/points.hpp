@@ -15,7 +15,8 @@
 namespace vorocl {
 
 /// A view of points on the host, in the units of the data: nothing is copied until seeds are made of them.
-/// A point may be absent: then its seed has an id and no cell. Points of a volume have a z, others have none.
+/// A point may be absent: then its seed has an id and no cell. Points without a z lie in a plane, whatever
+/// the coordinates of its one slice are.
 ///
 /// Lifetime: what it views must live until the call that takes it returns.
 class VOROCL_API Points {
@@ -30,13 +31,14 @@ class VOROCL_API Points {
 
   /// From memory where the coordinates of one point lie `stride` bytes behind those of the one before:
   /// columns of a table, or members of a struct. The stride may be negative.
-  Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride = sizeof(double));
-
-  /// Points of a volume.
-  Points(const std::vector<Point3>& points) : Points(points.data(), points.size()) {}
-  Points(const Point3* points, std::size_t count);
   Points(const double* x, const double* y, const double* z, std::size_t count,
          std::ptrdiff_t stride = sizeof(double));
+  Points(const float* x, const float* y, const float* z, std::size_t count,
+         std::ptrdiff_t stride = sizeof(float));
+
+  /// As above, without a z.
+  Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride = sizeof(double));
+  Points(const float* x, const float* y, std::size_t count, std::ptrdiff_t stride = sizeof(float));
 
   /// The same points, of which those are absent whose byte is 0; the others count as present. `present` has
   /// size() bytes.
@@ -48,22 +50,28 @@ class VOROCL_API Points {
            (kind_ != Kind::optional || static_cast<const std::optional<Point>*>(first_)[i].has_value());
   }
 
-  /// The point of a seed that is present.
+  /// The point of a seed that is present; its z is 0 if it has none.
   Point operator[](std::size_t i) const {
     if (kind_ == Kind::optional) return *static_cast<const std::optional<Point>*>(first_)[i];
     const std::ptrdiff_t offset = static_cast<std::ptrdiff_t>(i) * stride_;
-    return {coordinate(first_, offset), coordinate(y_, offset)};
+    return kind_ == Kind::doubles ? point_at<double>(offset) : point_at<float>(offset);
   }
 
-  /// Whether they are points of a volume, and the z of one of those that is present.
-  bool have_z() const { return z_ != nullptr; }
-  double z(std::size_t i) const { return coordinate(z_, static_cast<std::ptrdiff_t>(i) * stride_); }
+  /// Whether they have a z.
+  bool have_z() const { return kind_ == Kind::optional || z_ != nullptr; }
 
  private:
-  enum class Kind { strided, optional };
+  enum class Kind { doubles, floats, optional };
 
-  static double coordinate(const void* first, std::ptrdiff_t offset) {
-    return *reinterpret_cast<const double*>(static_cast<const char*>(first) + offset);
+  Points(Kind kind, const void* x, const void* y, const void* z, std::size_t count, std::ptrdiff_t stride)
+      : first_(x), y_(y), z_(z), size_(count), stride_(stride), kind_(kind) {}
+
+  template <typename Real>
+  Point point_at(std::ptrdiff_t offset) const {
+    const auto coordinate = [offset](const void* first) {
+      return static_cast<double>(*reinterpret_cast<const Real*>(static_cast<const char*>(first) + offset));
+    };
+    return {coordinate(first_), coordinate(y_), z_ == nullptr ? 0 : coordinate(z_)};
   }
 
   const void* first_;  // the first x, or the first optional point

@@ -134,9 +134,6 @@ class VOROCL_API Seeds {
   /// pixels, or whole numbers of 1/4096 with Snap::none. As read().
   std::vector<std::optional<Point>> read_pixels() const;
 
-  /// The same of seeds in a volume, which the two above throw Error for: the centres of their voxels.
-  std::vector<std::optional<Point3>> read_voxels() const;
-
   /// Throws BadPoint if a point of the caller's buffer was bad. Waits for it.
   void check() const;
 

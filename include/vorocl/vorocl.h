@@ -58,22 +58,16 @@ typedef enum vorocl_status {
 VOROCL_API const char* vorocl_error_message(void);
 
 /// A position: in the units of the data where it is a seed's point, in pixels where a function says so. Pixel
-/// i of an axis covers [i, i + 1).
+/// i of an axis covers [i, i + 1): z is 0 of points of a plane, as an initialiser leaves it, and 0.5 in
+/// pixels.
 typedef struct vorocl_point {
   double x;
   double y;
+  double z;
 } vorocl_point;
 
-/// A position in a volume, likewise.
-typedef struct vorocl_point3 {
-  double x;
-  double y;
-  double z;
-} vorocl_point3;
-
 /// The point of the calling thread's last call that failed with VOROCL_BAD_POINT, and its index in the
-/// caller's list: of a point in a volume its x and y. Either may be NULL. VOROCL_BAD_ARGUMENT if there was no
-/// such call.
+/// caller's list. Either may be NULL. VOROCL_BAD_ARGUMENT if there was no such call.
 VOROCL_API vorocl_status vorocl_bad_point(size_t* index, vorocl_point* point);
 
 /// @}
@@ -250,18 +244,12 @@ enum { VOROCL_OUTSIDE_COUNTS = 0, VOROCL_OUTSIDE_IS_ABSENT = 1, VOROCL_OUTSIDE_I
 typedef int vorocl_snap;
 enum { VOROCL_SNAP_TO_PIXELS = 0, VOROCL_SNAP_NONE = 1 };
 
-/// `outside` and `snap` hold for all frames.
+/// `outside` and `snap` hold for all frames. In a volume all points lie at the centres of their voxels:
+/// VOROCL_SNAP_NONE is refused, and VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
                                                   vorocl_seeds** seeds);
-
-/// From points in a volume, all of which lie at the centres of their voxels: VOROCL_SNAP_NONE is refused, and
-/// VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
-VOROCL_API vorocl_status vorocl_seeds_from_points3(const vorocl_device* device, vorocl_grid grid,
-                                                   const vorocl_point3* points, const uint8_t* present,
-                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
-                                                   vorocl_seeds** seeds);
 
 /// What a buffer of points holds: two floats or two doubles per point. One of VOROCL_FLOAT2, VOROCL_DOUBLE2.
 typedef int vorocl_point_format;
@@ -312,13 +300,6 @@ VOROCL_API vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_g
                                                    const vorocl_point* points, const uint8_t* present,
                                                    size_t count);
 
-/// As the two above, in a volume.
-VOROCL_API vorocl_status vorocl_seeds_move_to3(vorocl_seeds* seeds, const vorocl_point3* points,
-                                               const uint8_t* present, size_t count);
-VOROCL_API vorocl_status vorocl_seeds_move_to_grid3(vorocl_seeds* seeds, vorocl_grid grid,
-                                                    const vorocl_point3* points, const uint8_t* present,
-                                                    size_t count);
-
 /// As vorocl_seeds_move_to(), from the caller's buffers.
 VOROCL_API vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points,
                                                      vorocl_point_format format, cl_mem present,
@@ -333,17 +314,13 @@ enum { VOROCL_REFLECT = 0, VOROCL_PERIODIC = 1 };
 VOROCL_API vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displacement, vorocl_border border,
                                             uint64_t rng_seed, uint32_t frame);
 
-/// The points as they were given, or the centres of their pixels where the device has placed them; (NaN, NaN)
+/// The points as they were given, or the centres of their pixels where the device has placed them; all NaN
 /// for a seed that is absent. `count` must be that of the seeds. Waits where the device has them.
 VOROCL_API vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points, size_t count);
 
 /// As above, the positions that exact diagrams take, in pixels from the grid's first one: the centres of the
 /// seeds' pixels, or whole numbers of 1/4096 with VOROCL_SNAP_NONE.
 VOROCL_API vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points,
-                                                  size_t count);
-
-/// The same of seeds in a volume, which the two above refuse: the centres of their voxels.
-VOROCL_API vorocl_status vorocl_seeds_read_voxels(const vorocl_seeds* seeds, vorocl_point3* points,
                                                   size_t count);
 
 /// Waits until the points of a caller's buffer are checked.
@@ -548,14 +525,10 @@ VOROCL_API vorocl_status vorocl_cell_sums_buffers(const vorocl_cell_sums* sums, 
 VOROCL_API vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area, int64_t* sum_x,
                                                int64_t* sum_y, int64_t* sum_z, size_t count);
 
-/// The means of the centres of the cells' pixels, in pixels from the window's first one; (NaN, NaN) of an
-/// empty cell. Waits.
+/// The means of the centres of the cells' pixels, in pixels from the window's first one; all NaN of an empty
+/// cell. Waits.
 VOROCL_API vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,
                                                     size_t count);
-
-/// The same in a volume; in a plane z is 0.5.
-VOROCL_API vorocl_status vorocl_cell_sums_centroids3(const vorocl_cell_sums* sums, vorocl_point3* centroids,
-                                                     size_t count);
 
 /// As vorocl::CellStatistics. Absent seeds do not count.
 typedef struct vorocl_cell_statistics {
@@ -659,7 +632,7 @@ VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);
 
-/// As vorocl::ExactCell, in the units of the data. An empty cell has the area 0 and the centroid (NaN, NaN).
+/// As vorocl::ExactCell, in the units of the data. An empty cell has the area 0 and a centroid of NaN.
 typedef struct vorocl_exact_cell {
   double area;
   vorocl_point centroid;

@@ -164,32 +164,15 @@ struct CellMeasures {
 
 /// One cell, as CELL in vorocl/_objects.py says it: in pixels.
 struct Row {
-  double x, y, centroid_x, centroid_y, largest_distance;
+  double x, y, z, centroid_x, centroid_y, centroid_z, largest_distance;
   std::uint32_t area, perimeter, neighbours;
-  std::int32_t left, top, right, bottom;
+  std::int32_t left, top, front, right, bottom, back;
   bool touches_border;
 };
 
 Row row_of(const std::optional<Point>& seed, const CellMeasures& cell) {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Point place = seed.value_or(Point{none, none}), centroid = cell.sums.centroid();
-  const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false};
-  return {place.x,        place.y,        centroid.x,        centroid.y, cell.farthest(),
-          cell.sums.area, cell.perimeter, cell.neighbours,   box.left,   box.top,
-          box.right,      box.bottom,     box.touches_border};
-}
-
-/// One cell of a volume, as CELL3 there: in voxels.
-struct Row3 {
-  double x, y, z, centroid_x, centroid_y, centroid_z, largest_distance;
-  std::uint32_t volume, surface, neighbours;
-  std::int32_t left, top, front, right, bottom, back;
-  bool touches_border;
-};
-
-Row3 row_of(const std::optional<Point3>& seed, const CellMeasures& cell) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Point3 place = seed.value_or(Point3{none, none, none}), centroid = cell.sums.centroid3();
+  const Point place = seed.value_or(Point{none, none, none}), centroid = cell.sums.centroid();
   const CellShape box = cell.sums.area > 0 ? cell.shape : CellShape{0, 0, -1, -1, 0, false, 0, -1};
   return {place.x,         place.y,        place.z,        centroid.x,      centroid.y,        centroid.z,
           cell.farthest(), cell.sums.area, cell.perimeter, cell.neighbours, box.left,          box.top,
@@ -204,9 +187,8 @@ const Seeds& seeds_of(const DiagramObject& diagram) {
   return *diagram.seeds;
 }
 
-/// The rows of all cells, whose seeds are at these places.
-template <typename Place>
-auto measure_cells(DiagramObject& diagram, const std::vector<std::optional<Place>>& places) {
+std::vector<Row> measure_cells(DiagramObject& diagram) {
+  const std::vector<std::optional<Point>> places = seeds_of(diagram).read_pixels();
   const Metric metric = diagram.diagram.metric();
   cell_sums(diagram.diagram, diagram.sums);
   cell_shapes(diagram.diagram, diagram.shapes);
@@ -215,7 +197,7 @@ auto measure_cells(DiagramObject& diagram, const std::vector<std::optional<Place
   const auto shapes = diagram.shapes.read();
   const auto perimeters = diagram.adjacency.read_perimeters(),
              neighbours = diagram.adjacency.read_neighbours();
-  std::vector<decltype(row_of(places.front(), std::declval<CellMeasures>()))> rows;
+  std::vector<Row> rows;
   rows.reserve(places.size());
   for (std::size_t id = 0; id < places.size(); ++id) {
     rows.push_back(row_of(places[id], {sums[id], shapes[id], perimeters[id], neighbours[id], metric}));
@@ -225,21 +207,12 @@ auto measure_cells(DiagramObject& diagram, const std::vector<std::optional<Place
 
 nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) {
   std::vector<Row> rows;
-  std::vector<Row3> rows_of_volume;
-  bool is_volume = false;
   {
     const nb::gil_scoped_release unlocked;
     const Turn turn(diagram.mutex);
-    const Seeds& seeds = seeds_of(diagram);
-    is_volume = seeds.grid().is_volume();
-    if (is_volume) {
-      rows_of_volume = measure_cells(diagram, seeds.read_voxels());
-    } else {
-      rows = measure_cells(diagram, seeds.read_pixels());
-    }
+    rows = measure_cells(diagram);
   }
-  return is_volume ? to_numpy<std::uint8_t>(std::move(rows_of_volume))
-                   : to_numpy<std::uint8_t>(std::move(rows));
+  return to_numpy<std::uint8_t>(std::move(rows));
 }
 
 /// Pixels, by id.
@@ -255,14 +228,15 @@ nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> areas(DiagramObject& diagram)
 }
 
 /// Turns positions in pixels, NaN too, into the units of the points that the diagram was filled from.
-void to_data(DiagramObject& diagram, const Array<double, nb::shape<-1, 2>>& points) {
+void to_data(DiagramObject& diagram, const Array<double, nb::shape<-1, 3>>& points) {
   const Turn turn(diagram.mutex);
   const Grid& grid = diagram.diagram.window().grid();
-  double* xy = points.data();
-  for (std::size_t row = 0; row < points.shape(0); ++row, xy += 2) {
-    const Point point = grid.point({xy[0], xy[1]});
-    xy[0] = point.x;
-    xy[1] = point.y;
+  double* xyz = points.data();
+  for (std::size_t row = 0; row < points.shape(0); ++row, xyz += 3) {
+    const Point point = grid.point({xyz[0], xyz[1], xyz[2]});
+    xyz[0] = point.x;
+    xyz[1] = point.y;
+    xyz[2] = point.z;
   }
 }
 

@@ -7,10 +7,23 @@ namespace vorocl::python {
 
 namespace {
 
+// As EXACT_CELL and EXACT_PAIR of vorocl/_exact_cells.py say them.
+
+struct CellRow {
+  double area, centroid_x, centroid_y, perimeter;
+  std::uint32_t neighbours;
+  bool touches_border, certified;
+};
+
+struct PairRow {
+  std::uint32_t a, b;
+  double length, midpoint_x, midpoint_y;
+};
+
 /// What was read, so that seeds and device may go.
 struct ExactCellsObject {
-  std::vector<ExactCell> cells;
-  std::vector<ExactPair> pairs;
+  std::vector<CellRow> cells;
+  std::vector<PairRow> pairs;
   ExactPolygons polygons;
 };
 
@@ -18,12 +31,17 @@ std::unique_ptr<ExactCellsObject> cut(SeedsObject& seeds) {
   const std::lock_guard<std::mutex> turn(seeds.mutex);
   ExactCellsResult result;
   exact_cells(seeds.seeds, result);
-  return std::make_unique<ExactCellsObject>(
-      ExactCellsObject{result.read(), result.read_pairs(), result.read_polygons()});
+  auto object = std::make_unique<ExactCellsObject>();
+  for (const ExactCell& cell : result.read()) {
+    object->cells.push_back({cell.area, cell.centroid.x, cell.centroid.y, cell.perimeter, cell.neighbours,
+                             cell.touches_border, cell.certified});
+  }
+  for (const ExactPair& pair : result.read_pairs()) {
+    object->pairs.push_back({pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y});
+  }
+  object->polygons = result.read_polygons();
+  return object;
 }
-
-// As EXACT_CELL and EXACT_PAIR of vorocl/_exact_cells.py say them.
-static_assert(sizeof(ExactCell) == 40 && sizeof(ExactPair) == 32);
 
 template <typename T, typename Row>
 auto copy_of(const std::vector<Row>& rows) {

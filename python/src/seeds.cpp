@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/unique_ptr.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -24,14 +25,12 @@ Points view(const Rows& rows, std::vector<std::uint8_t>& present) {
   const double* const x = rows.data();
   const double* const y = x + rows.stride(1);
   const std::int64_t stride = rows.stride(0) * size;
-  const bool have_z = rows.shape(1) == 3;
-  const Points points =
-      have_z ? Points(x, y, y + rows.stride(1), rows.shape(0), stride) : Points(x, y, rows.shape(0), stride);
+  const double* const z = rows.shape(1) == 3 ? y + rows.stride(1) : nullptr;
+  const Points points(x, y, z, rows.shape(0), stride);
   present.resize(points.size());
   for (std::size_t row = 0; row < points.size(); ++row) {
     const Point point = points[row];
-    const bool is_absent =
-        std::isnan(point.x) || std::isnan(point.y) || (have_z && std::isnan(points.z(row)));
+    const bool is_absent = std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z);
     present[row] = is_absent ? 0 : 1;
   }
   return points.marked(present.data());
@@ -76,33 +75,18 @@ std::size_t alive(SeedsObject& seeds) {
   return seeds.seeds.alive();
 }
 
-/// The centres of the voxels, which are the unit of points in volumes.
-void read_voxels(const Seeds& seeds, const Array<double, nb::ndim<2>>& points) {
-  const std::vector<std::optional<Point3>> places = seeds.read_voxels();
-  if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  double* xyz = points.data();
-  for (const std::optional<Point3>& place : places) {
-    const Point3 point = place.value_or(Point3{none, none, none});
-    *xyz++ = point.x;
-    *xyz++ = point.y;
-    *xyz++ = point.z;
-  }
-}
-
-/// Where exact diagrams have the seeds, in pixels or in the units of their points.
+/// Where exact diagrams have the seeds, in pixels or in the units of their points: rows (x, y), or (x, y, z).
 void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_pixels) {
   const Turn turn(seeds.mutex);
-  if (seeds.seeds.grid().is_volume()) return read_voxels(seeds.seeds, points);
   const std::vector<std::optional<Point>> places = seeds.seeds.read_pixels();
   if (places.size() != points.shape(0)) throw Error("the seeds were moved while they were read");
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const Grid grid = seeds.seeds.grid();
-  double* xy = points.data();
+  double* row = points.data();
   for (const std::optional<Point>& place : places) {
-    const Point point = !place ? Point{none, none} : in_pixels ? *place : grid.point(*place);
-    *xy++ = point.x;
-    *xy++ = point.y;
+    const Point point = !place ? Point{none, none, none} : in_pixels ? *place : grid.point(*place);
+    const double coordinates[] = {point.x, point.y, point.z};
+    row = std::copy_n(coordinates, points.shape(1), row);
   }
 }
 

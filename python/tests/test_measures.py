@@ -23,7 +23,7 @@ def points():
 def test_cells_are_measured_as_numpy_does(points):
     labels = brute_force(points, SHAPE)
     cells = vorocl.cells(points, SHAPE)
-    assert cells.dtype == vorocl.CELL and cells.shape == (60,)
+    assert set(cells.dtype.names) == set(vorocl.CELL.names) - {"z", "centroid_z", "front", "back"} and cells.shape == (60,)
     assert cells["area"].sum() == labels.size and cells["area"][5] == cells["area"][9] == 0
     assert np.isnan(cells[["x", "y", "centroid_x", "largest_distance"]][5].tolist()).all()
     assert cells["right"][9] < cells["left"][9] and np.isnan(cells["largest_distance"][9])
@@ -51,7 +51,7 @@ def test_measures_are_in_the_units_of_the_points(points, periodic, y_up):
 
     given = np.column_stack(to_data(*points.T))
     found, pixels = vorocl.cells(given, SHAPE, **plane), vorocl.cells(given, SHAPE, units="pixels", **plane)
-    for name, values in ((name, vorocl.cells(points, SHAPE, periodic=periodic)[name]) for name in vorocl.CELL.names):
+    for name, values in ((name, vorocl.cells(points, SHAPE, periodic=periodic)[name]) for name in found.dtype.names):
         np.testing.assert_array_equal(pixels[name], values)
     np.testing.assert_allclose(np.column_stack([found["x"], found["y"]]), given, atol=0.51 / 8)
     np.testing.assert_allclose(found["area"], pixels["area"] / 64)
@@ -144,7 +144,7 @@ def test_areas_are_those_of_freud():
 
 def test_a_frame_of_pandas_takes_the_cells(points):
     frame = pandas.DataFrame(vorocl.cells(points, SHAPE))
-    assert frame["area"].sum() == SHAPE[0] * SHAPE[1] and list(frame.columns) == list(vorocl.CELL.names)
+    assert frame["area"].sum() == SHAPE[0] * SHAPE[1] and "centroid_x" in frame.columns and "z" not in frame.columns
 
 
 def test_relaxed_points_are_centroids():

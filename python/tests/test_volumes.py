@@ -91,7 +91,7 @@ def test_objects_take_volumes():
     simulation = vorocl.Simulation(shape)
     simulation.step([(0, 0, 0), (4, 4, 4)])
     assert simulation.step([(0, 0, 3), (4, 4, 4)]).read().shape == shape
-    assert simulation.diagram.cells()["volume"].sum() == 6 * 7 * 8
+    assert simulation.diagram.cells()["area"].sum() == 6 * 7 * 8
     assert simulation.seeds.move_to([(0, 0, 0), (4, 4, 4)]) == 3
 
 
@@ -102,16 +102,16 @@ def test_cells_are_those_of_scikit_image(shape):
     diagram = vorocl.Diagram(shape)
     diagram.fill(vorocl.Seeds(points, shape), method="jfa")
     labels, cells = diagram.read(), diagram.cells()
-    assert cells.dtype == vorocl.CELL3
-    assert np.isnan(cells["x"][7]) and cells["volume"][7] == 0 and np.isnan(cells["centroid_z"][7])
-    assert np.array_equal(diagram.areas(), cells["volume"])
+    assert cells.dtype == vorocl.CELL
+    assert np.isnan(cells["x"][7]) and cells["area"][7] == 0 and np.isnan(cells["centroid_z"][7])
+    assert np.array_equal(diagram.areas(), cells["area"])
     x, y, z = (np.floor(points) + 0.5).T
     for name, expected in ("x", x), ("y", y), ("z", z):
         assert np.array_equal(cells[name], expected, equal_nan=True)
     distances = diagram.distances()
     for region in measure.regionprops(labels.astype(int) + 1):
         cell = cells[region.label - 1]
-        assert cell["volume"] == region.area
+        assert cell["area"] == region.area
         centroid = [cell["centroid_z"], cell["centroid_y"], cell["centroid_x"]]
         assert np.allclose(centroid, np.array(region.centroid) + 0.5, rtol=1e-12)
         first, last = region.bbox[:3], np.array(region.bbox[3:]) - 1
@@ -138,7 +138,7 @@ def test_adjacent_cells_share_faces(shape):
     surface = np.zeros(40, int)
     for pair, faces in expected.items():
         surface[list(pair)] += faces
-    assert np.array_equal(diagram.cells()["surface"], surface)
+    assert np.array_equal(diagram.cells()["perimeter"], surface)
 
 
 WRONG_CALLS = [
@@ -153,7 +153,7 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), snap=False), "snap=False is for planes"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), method="djfa"), "volume of 6 x 5 x 4 voxels, which flooding"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), metric="manhattan"), "are Euclidean"),
-    (lambda: vorocl.diagram([(1, 2, 9)], (4, 5, 6)), "outside the volume"),
+    (lambda: vorocl.diagram([(1, 2, 9)], (4, 5, 6)), "outside the grid"),
     (lambda: vorocl.diagram([(1, 2, 3)], (2000, 2000, 2000)), r"2\^31 in all"),
     (lambda: vorocl.vertices([(1, 2, 3)], (4, 5, 6)), "which the vertices of a diagram cannot take"),
     (lambda: vorocl.relax([(1, 2, 3)], (4, 5, 6)), "Lloyd relaxation cannot take"),

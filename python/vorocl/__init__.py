@@ -40,7 +40,7 @@ from ._functions import (
     similarity,
     vertices,
 )
-from ._objects import CELL, CELL3, Diagram, Seeds, Simulation
+from ._objects import CELL, Diagram, Seeds, Simulation
 from ._preparation import prepare
 from ._vorocl import DeviceDescription, DistanceErrors, Report
 
@@ -50,7 +50,6 @@ __all__ = [
     "BadArgument",
     "BadPoint",
     "CELL",
-    "CELL3",
     "Device",
     "DeviceDescription",
     "DeviceError",

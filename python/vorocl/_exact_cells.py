@@ -68,7 +68,7 @@ class ExactCells:
         self.cells: NDArray[Any] = cut.cells().view(EXACT_CELL)[:, 0]
         self.pairs: NDArray[Any] = cut.pairs().view(EXACT_PAIR)[:, 0]
         self.offsets: NDArray[np.uint32] = cut.offsets()[:, 0]
-        self.vertices: NDArray[np.float64] = cut.vertices()
+        self.vertices: NDArray[np.float64] = np.ascontiguousarray(cut.vertices()[:, :2])
         self.neighbours: NDArray[np.uint32] = cut.neighbours()[:, 0]
         self.lengths: NDArray[np.float64] = cut.lengths()[:, 0]
 

@@ -511,8 +511,8 @@ def cells(
     Returns
     -------
     ndarray
-        A structured array with one row per point; ``pandas.DataFrame(...)`` makes a table of it. Its dtype in pixels is
-        ``vorocl.CELL``, which has whole numbers of pixels. Along a periodic axis, pixels count where they lie the shorter
+        A structured array with one row per point; ``pandas.DataFrame(...)`` makes a table of it. Its dtype in pixels has
+        the fields of ``vorocl.CELL``, whole numbers of pixels. Along a periodic axis, pixels count where they lie the shorter
         way round from the point, which may be outside the grid. The fields are
 
         ``x``, ``y``
@@ -536,9 +536,8 @@ def cells(
         Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
         say so, ``perimeter_px`` and ``largest_distance_px``.
 
-        In a volume the dtype is ``vorocl.CELL3``, all in voxels: there are ``z``, ``centroid_z``, ``front`` and ``back``
-        (the first and last slices) too, ``volume`` stands for the area, and ``surface``, of the voxel faces that the
-        cell shares with others, for the perimeter.
+        In a volume all is in voxels, and there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
+        slices) too. Its area is the volume of a cell, and its perimeter the voxel faces that it shares with others.
 
     Raises
     ------
@@ -555,7 +554,7 @@ def cells(
     >>> whole = vorocl.cells([(1, 0.5)], (4, 8), bounds=(0, 0, 4, 2), y_up=True)[0]
     >>> whole[["area", "centroid_x", "centroid_y", "top"]].tolist()
     (8.0, 2.0, 1.0, 2.0)
-    >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["volume", "centroid_z", "surface"]].tolist()
+    >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["area", "centroid_z", "perimeter"]].tolist()
     [(18, 1.0, 6), (18, 1.0, 6)]
     """
     to_units(units, True)

@@ -38,33 +38,13 @@ CELL = np.dtype(
     [
         ("x", np.float64),
         ("y", np.float64),
-        ("centroid_x", np.float64),
-        ("centroid_y", np.float64),
-        ("largest_distance", np.float64),
-        ("area", np.uint32),
-        ("perimeter", np.uint32),
-        ("neighbours", np.uint32),
-        ("left", np.int32),
-        ("top", np.int32),
-        ("right", np.int32),
-        ("bottom", np.int32),
-        ("touches_border", np.bool_),
-    ],
-    align=True,
-)
-"""One row of `cells` in pixels."""
-
-CELL3 = np.dtype(
-    [
-        ("x", np.float64),
-        ("y", np.float64),
         ("z", np.float64),
         ("centroid_x", np.float64),
         ("centroid_y", np.float64),
         ("centroid_z", np.float64),
         ("largest_distance", np.float64),
-        ("volume", np.uint32),
-        ("surface", np.uint32),
+        ("area", np.uint32),
+        ("perimeter", np.uint32),
         ("neighbours", np.uint32),
         ("left", np.int32),
         ("top", np.int32),
@@ -76,7 +56,9 @@ CELL3 = np.dtype(
     ],
     align=True,
 )
-"""One row of `cells` of a volume, in voxels."""
+"""One row of `cells` in pixels. Those of a plane leave out ``z``, ``centroid_z``, ``front`` and ``back``."""
+
+_OF_PLANES = [name for name in CELL.names or () if name not in ("z", "centroid_z", "front", "back")]
 
 
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
@@ -378,9 +360,9 @@ class Diagram(OnDevice):
         """The area of a pixel in the units of the points, and the length of its side; none if it is no square."""
         if len(self._shape) == 3:
             return 1, 1  # volumes have voxels for units
-        corners = np.array([(0.0, 0.0), self._shape[::-1]])
+        corners = np.array([(0.0, 0.0, 0.0), (*self._shape[::-1], 1.0)])
         self._diagram.to_data(corners)
-        extent_x, extent_y = (float(extent) for extent in abs(corners[1] - corners[0]))
+        extent_x, extent_y = (float(extent) for extent in abs(corners[1] - corners[0])[:2])
         height, width = self._shape
         area = extent_x * extent_y / (width * height)
         # To the nearest whole number of pixels.
@@ -428,11 +410,10 @@ class Diagram(OnDevice):
         <units>
         """
         in_data = to_units(units, self._are_in_data)
-        rows = self._diagram.cells()
+        cells = self._diagram.cells().view(CELL)[:, 0]
         if len(self._shape) == 3:  # volumes have voxels for units
-            return rows.view(CELL3).reshape(len(rows))
-        cells = rows.view(CELL).reshape(len(rows))
-        return self._in_data(cells) if in_data else cells
+            return cells
+        return self._in_data(cells) if in_data else cells[_OF_PLANES]
 
     def _in_data(self, cells: NDArray[Any]) -> NDArray[Any]:
         """Rows of cells in pixels, in the units of the points."""
@@ -441,7 +422,7 @@ class Diagram(OnDevice):
         kept = ("neighbours", "touches_border")
         types = [
             (name + "_px" if name in lengths and length is None else name, CELL[name] if name in kept else np.float64)
-            for name in CELL.names or ()
+            for name in _OF_PLANES
         ]
         result = np.empty(len(cells), np.dtype(types, align=True))
         for name in kept:
@@ -451,11 +432,11 @@ class Diagram(OnDevice):
             result[name if length is not None else name + "_px"] = cells[name] * (length or 1)
         is_empty = cells["area"] == 0
         for x, y, edge in ("x", "y", 0), ("centroid_x", "centroid_y", 0), ("left", "top", 0), ("right", "bottom", 1):
-            places = np.column_stack([cells[x], cells[y]]).astype(np.float64) + edge
+            places = np.column_stack([cells[x], cells[y], np.zeros(len(cells))]).astype(np.float64) + edge
             if x in ("left", "right"):
                 places[is_empty] = np.nan
             self._diagram.to_data(places)
-            result[x], result[y] = places.T
+            result[x], result[y] = places.T[:2]
         return result
 
     @with_parameters
@@ -494,7 +475,7 @@ class Diagram(OnDevice):
         corners = self._diagram.vertices()
         if in_data:
             self._diagram.to_data(corners)
-        return corners
+        return np.ascontiguousarray(corners[:, :2])
 
     def count_vertices(self) -> int:
         """Count the pixel corners where three or more cells meet, on the device."""

@@ -86,8 +86,7 @@ Snap to_snap(vorocl_snap snap) {
   refuse("choice for points within a pixel", snap);
 }
 
-vorocl_point to_c(const Point& point) { return {point.x, point.y}; }
-vorocl_point3 to_c(const Point3& point) { return {point.x, point.y, point.z}; }
+vorocl_point to_c(const Point& point) { return {point.x, point.y, point.z}; }
 
 }  // namespace vorocl
 

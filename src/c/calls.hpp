@@ -111,6 +111,5 @@ Metric to_metric(vorocl_metric metric);
 Snap to_snap(vorocl_snap snap);
 MethodOptions to_options(const vorocl_method_options* options);
 vorocl_point to_c(const Point& point);
-vorocl_point3 to_c(const Point3& point);
 
 }  // namespace vorocl

@@ -31,16 +31,6 @@ const CellShapesResult& of(const vorocl_cell_shapes* shapes) { return given(shap
 AdjacencyResult& of(vorocl_adjacency* adjacency) { return given(adjacency, "adjacency").result; }
 const AdjacencyResult& of(const vorocl_adjacency* adjacency) { return given(adjacency, "adjacency").result; }
 
-template <typename Centroid, typename CPoint>
-vorocl_status read_centroids(const vorocl_cell_sums* sums, Centroid centroid, CPoint* centroids,
-                             std::size_t count) {
-  return guarded([&] {
-    check_count(of(sums).size(), "cells", count);
-    if (count > 0) given(centroids, "centroids");
-    for (const CellSums& cell : of(sums).read()) *centroids++ = to_c((cell.*centroid)());
-  });
-}
-
 }  // namespace
 
 }  // namespace vorocl
@@ -89,12 +79,11 @@ vorocl_status vorocl_cell_sums_read(const vorocl_cell_sums* sums, uint32_t* area
 
 vorocl_status vorocl_cell_sums_centroids(const vorocl_cell_sums* sums, vorocl_point* centroids,
                                          size_t count) {
-  return read_centroids(sums, &CellSums::centroid, centroids, count);
-}
-
-vorocl_status vorocl_cell_sums_centroids3(const vorocl_cell_sums* sums, vorocl_point3* centroids,
-                                          size_t count) {
-  return read_centroids(sums, &CellSums::centroid3, centroids, count);
+  return guarded([&] {
+    check_count(of(sums).size(), "cells", count);
+    if (count > 0) given(centroids, "centroids");
+    for (const CellSums& cell : of(sums).read()) *centroids++ = to_c(cell.centroid());
+  });
 }
 
 vorocl_status vorocl_cell_sums_statistics(vorocl_cell_sums* sums, vorocl_cell_statistics* statistics) {

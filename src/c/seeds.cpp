@@ -11,15 +11,9 @@ namespace {
 
 /// A view of the caller's points.
 Points to_points(const vorocl_point* points, const uint8_t* present, std::size_t count) {
-  static_assert(sizeof(vorocl_point) == 2 * sizeof(double));
+  static_assert(sizeof(vorocl_point) == 3 * sizeof(double));
   if (count == 0) return Points(std::vector<Point>());
-  return Points(&given(points, "points").x, &points->y, count, sizeof(vorocl_point)).marked(present);
-}
-
-Points to_points(const vorocl_point3* points, const uint8_t* present, std::size_t count) {
-  static_assert(sizeof(vorocl_point3) == 3 * sizeof(double));
-  if (count == 0) return Points(std::vector<Point3>());
-  return Points(&given(points, "points").x, &points->y, &points->z, count, sizeof(vorocl_point3))
+  return Points(&given(points, "points").x, &points->y, &points->z, count, sizeof(vorocl_point))
       .marked(present);
 }
 
@@ -45,36 +39,16 @@ Border to_border(vorocl_border border) {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Stores what `read` gives of the seeds, where there is room for so many; `absent` of those that are absent.
-template <typename Read, typename CPoint, typename Absent>
-vorocl_status read_points(const vorocl_seeds* seeds, Read read, CPoint* points, std::size_t count,
-                          const Absent& absent) {
+/// Stores what `read` gives of the seeds, where there is room for so many.
+template <typename Read>
+vorocl_status read_points(const vorocl_seeds* seeds, Read read, vorocl_point* points, std::size_t count) {
   return guarded([&] {
     check_count(of(seeds).size(), "seeds", count);
     if (count > 0) given(points, "points");
-    for (const std::optional<Absent>& point : (of(seeds).*read)()) *points++ = to_c(point.value_or(absent));
+    for (const std::optional<Point>& point : (of(seeds).*read)()) {
+      *points++ = to_c(point.value_or(Point{none, none, none}));
+    }
   });
-}
-
-template <typename CPoint>
-vorocl_status seeds_from(const vorocl_device* device, const vorocl_grid& grid, const CPoint* points,
-                         const uint8_t* present, size_t count, vorocl_outside outside, vorocl_snap snap,
-                         vorocl_seeds** seeds) {
-  return make_object(seeds, "seeds", [&] {
-    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count),
-                              to_outside(outside), to_snap(snap))};
-  });
-}
-
-template <typename CPoint>
-vorocl_status move_to(vorocl_seeds* seeds, const CPoint* points, const uint8_t* present, size_t count) {
-  return guarded([&] { of(seeds).move_to(to_points(points, present, count)); });
-}
-
-template <typename CPoint>
-vorocl_status move_to(vorocl_seeds* seeds, const vorocl_grid& grid, const CPoint* points,
-                      const uint8_t* present, size_t count) {
-  return guarded([&] { of(seeds).move_to(to_grid(grid), to_points(points, present, count)); });
 }
 
 }  // namespace
@@ -82,13 +56,10 @@ vorocl_status move_to(vorocl_seeds* seeds, const vorocl_grid& grid, const CPoint
 vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                        const vorocl_point* points, const uint8_t* present, size_t count,
                                        vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
-  return seeds_from(device, grid, points, present, count, outside, snap, seeds);
-}
-
-vorocl_status vorocl_seeds_from_points3(const vorocl_device* device, vorocl_grid grid,
-                                        const vorocl_point3* points, const uint8_t* present, size_t count,
-                                        vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
-  return seeds_from(device, grid, points, present, count, outside, snap, seeds);
+  return make_object(seeds, "seeds", [&] {
+    return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count),
+                              to_outside(outside), to_snap(snap))};
+  });
 }
 
 vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid, cl_mem points,
@@ -144,22 +115,12 @@ vorocl_status vorocl_seeds_displacement(const vorocl_seeds* seeds, double* displ
 
 vorocl_status vorocl_seeds_move_to(vorocl_seeds* seeds, const vorocl_point* points, const uint8_t* present,
                                    size_t count) {
-  return move_to(seeds, points, present, count);
-}
-
-vorocl_status vorocl_seeds_move_to3(vorocl_seeds* seeds, const vorocl_point3* points, const uint8_t* present,
-                                    size_t count) {
-  return move_to(seeds, points, present, count);
+  return guarded([&] { of(seeds).move_to(to_points(points, present, count)); });
 }
 
 vorocl_status vorocl_seeds_move_to_grid(vorocl_seeds* seeds, vorocl_grid grid, const vorocl_point* points,
                                         const uint8_t* present, size_t count) {
-  return move_to(seeds, grid, points, present, count);
-}
-
-vorocl_status vorocl_seeds_move_to_grid3(vorocl_seeds* seeds, vorocl_grid grid, const vorocl_point3* points,
-                                         const uint8_t* present, size_t count) {
-  return move_to(seeds, grid, points, present, count);
+  return guarded([&] { of(seeds).move_to(to_grid(grid), to_points(points, present, count)); });
 }
 
 vorocl_status vorocl_seeds_move_to_buffer(vorocl_seeds* seeds, cl_mem points, vorocl_point_format format,
@@ -173,15 +134,11 @@ vorocl_status vorocl_random_step(vorocl_seeds* seeds, int max_displacement, voro
 }
 
 vorocl_status vorocl_seeds_read(const vorocl_seeds* seeds, vorocl_point* points, size_t count) {
-  return read_points(seeds, &Seeds::read, points, count, Point{none, none});
+  return read_points(seeds, &Seeds::read, points, count);
 }
 
 vorocl_status vorocl_seeds_read_pixels(const vorocl_seeds* seeds, vorocl_point* points, size_t count) {
-  return read_points(seeds, &Seeds::read_pixels, points, count, Point{none, none});
-}
-
-vorocl_status vorocl_seeds_read_voxels(const vorocl_seeds* seeds, vorocl_point3* points, size_t count) {
-  return read_points(seeds, &Seeds::read_voxels, points, count, Point3{none, none, none});
+  return read_points(seeds, &Seeds::read_pixels, points, count);
 }
 
 vorocl_status vorocl_seeds_check(const vorocl_seeds* seeds) {

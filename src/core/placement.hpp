@@ -27,11 +27,6 @@ struct Placement {
   bool is_crowded = false;
 };
 
-/// A voxel of a volume.
-struct Voxel {
-  int x, y, z;
-};
-
 /// The position in a volume of a seed that is absent: EMPTY of kernels/volumes/position.cl.
 constexpr std::uint32_t absent_voxel = 0x80000000u;
 

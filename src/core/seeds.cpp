@@ -33,20 +33,20 @@ void place_images_of_long_periods(SeedsState& state, const PixelGrid& pixels) {
 }  // namespace
 
 Points::Points(const Point* points, std::size_t count)
-    : first_(points == nullptr ? nullptr : &points->x),
-      y_(points == nullptr ? nullptr : &points->y),
-      size_(count),
-      kind_(Kind::strided) {}
-
-Points::Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride)
-    : first_(x), y_(y), size_(count), stride_(stride), kind_(Kind::strided) {}
+    : Points(points == nullptr ? nullptr : &points->x, points == nullptr ? nullptr : &points->y,
+             points == nullptr ? nullptr : &points->z, count, sizeof(Point)) {}
 
 Points::Points(const double* x, const double* y, const double* z, std::size_t count, std::ptrdiff_t stride)
-    : first_(x), y_(y), z_(z), size_(count), stride_(stride), kind_(Kind::strided) {}
+    : Points(Kind::doubles, x, y, z, count, stride) {}
 
-Points::Points(const Point3* points, std::size_t count)
-    : Points(points == nullptr ? nullptr : &points->x, points == nullptr ? nullptr : &points->y,
-             points == nullptr ? nullptr : &points->z, count, sizeof(Point3)) {}
+Points::Points(const float* x, const float* y, const float* z, std::size_t count, std::ptrdiff_t stride)
+    : Points(Kind::floats, x, y, z, count, stride) {}
+
+Points::Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride)
+    : Points(Kind::doubles, x, y, nullptr, count, stride) {}
+
+Points::Points(const float* x, const float* y, std::size_t count, std::ptrdiff_t stride)
+    : Points(Kind::floats, x, y, nullptr, count, stride) {}
 
 Points Points::marked(const std::uint8_t* present) const {
   Points points = *this;
@@ -151,16 +151,6 @@ std::size_t Seeds::outside() const { return state().frame()->outside; }
 double Seeds::displacement() const { return state().frame()->way_of_last_move(); }
 void Seeds::check() const { state().frame()->check(); }
 
-std::vector<std::optional<Point3>> Seeds::read_voxels() const {
-  if (!grid().is_volume()) throw Error("the seeds lie in a plane, which has no voxels: read their pixels");
-  const std::vector<std::optional<Voxel>> voxels = state().frame()->read_voxels();
-  std::vector<std::optional<Point3>> points(voxels.size());
-  for (std::size_t id = 0; id < voxels.size(); ++id) {
-    if (voxels[id]) points[id] = {voxels[id]->x + 0.5, voxels[id]->y + 0.5, voxels[id]->z + 0.5};
-  }
-  return points;
-}
-
 std::vector<std::optional<Point>> Seeds::read() const {
   const SeedsFrame& frame = *state().frame();
   std::vector<std::optional<Point>> points = read_pixels();
@@ -172,13 +162,7 @@ std::vector<std::optional<Point>> Seeds::read() const {
 
 std::vector<std::optional<Point>> Seeds::read_pixels() const {
   check();
-  const SeedsFrame& frame = *state().frame();
-  std::vector<std::optional<Point>> points(size());
-  const std::vector<PlanePosition> pixels = frame.read_pixels();
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    if (!is_absent(pixels[id])) points[id] = frame.position(id, pixels[id]);
-  }
-  return points;
+  return state().frame()->read_positions();
 }
 
 }  // namespace vorocl

@@ -158,17 +158,23 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
 
 double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }
 
-std::vector<std::optional<Voxel>> SeedsFrame::read_voxels() const {
-  const VoxelBits bits(whole->grid);
-  std::vector<std::optional<Voxel>> voxels;
-  voxels.reserve(size);
-  for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
-    std::optional<Voxel>& voxel = voxels.emplace_back();
-    if (position == absent_voxel) continue;
-    const auto [x, y, z] = bits.unpack(position);
-    voxel = Voxel{x, y, z};
+std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
+  std::vector<std::optional<Point>> positions(size);
+  if (!grid.is_volume()) {
+    const std::vector<PlanePosition> at = read_pixels();
+    for (std::size_t id = 0; id < size; ++id) {
+      if (!is_absent(at[id])) positions[id] = position(id, at[id]);
+    }
+    return positions;
   }
-  return voxels;
+  const VoxelBits bits(whole->grid);
+  const std::vector<std::uint32_t> voxels = download<std::uint32_t>(device, *whole->positions, size);
+  for (std::size_t id = 0; id < size; ++id) {
+    if (voxels[id] == absent_voxel) continue;
+    const auto [x, y, z] = bits.unpack(voxels[id]);
+    positions[id] = {x + 0.5, y + 0.5, z + 0.5};
+  }
+  return positions;
 }
 
 std::vector<PlanePosition> SeedsFrame::read_pixels() const {

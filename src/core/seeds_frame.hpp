@@ -116,18 +116,19 @@ struct SeedsFrame {
   /// The same from the frame before.
   double way_of_last_move() const;
 
-  /// The position in pixels of a seed in this pixel: of its point, or the pixel's centre.
+  /// The position in pixels of a plane's seed in this pixel: of its point, or the pixel's centre.
   Point position(std::size_t id, const PlanePosition& pixel) const {
     const Fraction& in = fractions ? (*fractions)[id] : centre_of_pixel;
     return {pixel.s[0] + static_cast<double>(in.x) / fractions_of_pixel,
-            pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel};
+            pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel, 0.5};
   }
 
   /// The pixels, from the device where the host has none. Waits.
   std::vector<PlanePosition> read_pixels() const;
 
-  /// The voxels of seeds in a volume; none for a seed that is absent. Waits.
-  std::vector<std::optional<Voxel>> read_voxels() const;
+  /// The positions in pixels from the grid's first one, as diagrams take them; none for a seed that is
+  /// absent. Waits.
+  std::vector<std::optional<Point>> read_positions() const;
 };
 
 std::shared_ptr<Placements> no_placements();

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -32,26 +30,6 @@ void check_buffers(const Device& device, const PointBuffer& points) {
     check_foreign_buffer(device, points.present, points.count,
                          "the buffer that says which of " + number + " seeds are present", Access::read);
   }
-}
-
-bool is_finite(const Point3& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
-}
-
-/// "point 7 (12, 3) has z = 9 and is outside the volume; ..."
-BadPoint outside_the_volume(std::size_t id, const Point3& point, const Grid& grid) {
-  std::ostringstream text;
-  text << "has z = " << point.z << " and is " << (is_finite(point) ? "outside the volume" : "not finite");
-  const char* before = "; ";
-  const char* must = " must be in [";
-  const std::pair<char, const Axis*> axes[] = {{'x', &grid.x()}, {'y', &grid.y()}, {'z', &grid.z()}};
-  for (const auto& [name, axis] : axes) {
-    if (axis->is_periodic()) continue;  // it has all
-    text << before << name << must << axis->from() << ", " << axis->to() << (axis->is_closed() ? "]" : ")");
-    before = name == 'x' && !grid.z().is_periodic() && !grid.y().is_periodic() ? ", " : " and ";
-    must = " in [";
-  }
-  return {id, Point{point.x, point.y}, text.str()};
 }
 
 std::uint64_t next_number() {
@@ -130,7 +108,8 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
   frame_ = std::move(frame);
 }
 
-std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Points& points) const {
+std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Points& points,
+                                                      std::vector<Point>& given) const {
   const PixelGrid size{Window(grid)};
   const VoxelBits bits(size);
   const auto pixel = [](const Axis& axis, double coordinate) {
@@ -142,18 +121,19 @@ std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Po
   for (std::size_t id = 0; id < points.size(); ++id) {
     voxels.push_back(absent_voxel);
     if (!points.is_present(id)) continue;
-    const Point3 point = {points[id].x, points[id].y, points.z(id)};
+    const Point& point = given[id] = point_on(grid, points, id);
     const int x = pixel(grid.x(), point.x), y = pixel(grid.y(), point.y), z = pixel(grid.z(), point.z);
     if (x >= 0 && y >= 0 && z >= 0) {
       voxels.back() = bits.pack(x, y, z);
-    } else if (outside != Outside::absent || !is_finite(point)) {
-      throw outside_the_volume(id, point, grid);
+    } else if (outside != Outside::absent || !Snapping::is_finite(point)) {
+      throw Snapping::outside_the_grid(id, point, grid);
     }
   }
   return voxels;
 }
 
-void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels) {
+void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels,
+                                 std::shared_ptr<const std::vector<Point>> given) {
   check_count(voxels.size());
   std::vector<bool> there(voxels.size(), true);
   std::size_t absent = 0;
@@ -166,6 +146,7 @@ void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& 
   }
   SeedsFrame next = next_frame(grid, voxels.size(), lost);
   next.absent = absent;
+  next.given = std::move(given);
   way_is_unknown(next);
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(voxels.size());
   const PixelGrid volume{Window(grid)};
@@ -178,23 +159,22 @@ void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& 
 
 void SeedsState::place(const Grid& grid, const Points& points) {
   check_count(points.size());
-  if (points.have_z() != grid.is_volume() && points.size() > 0) {
-    throw Error(grid.is_volume() ? "the grid is a volume, and the points have no z"
-                                 : "the points have a z, and the grid is no volume");
+  if (grid.depth() > 1 && !points.have_z() && points.size() > 0) {
+    throw Error("the grid is a volume, and the points have no z");
   }
+  const std::shared_ptr<std::vector<Point>> given = points_.take();
+  given->resize(points.size());
   if (grid.is_volume()) {
     if (snap == Snap::none) throw Error("volumes know whole voxels alone: snap the points to pixels");
-    return place_in_volume(grid, snap_to_voxels(grid, points));
+    return place_in_volume(grid, snap_to_voxels(grid, points, *given), given);
   }
   const Snapping snapping(grid, outside);
-  const std::shared_ptr<std::vector<Point>> given = points_.take();
   const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
-  given->resize(points.size());
   pixels->resize(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     PlanePosition& at = (*pixels)[id];
     if (points.is_present(id)) {
-      (*given)[id] = points[id];
+      (*given)[id] = point_on(grid, points, id);
       at = snapping(id, (*given)[id]);
     } else {
       at = {{absent_coordinate, 0}};

@@ -67,8 +67,10 @@ struct SeedsState {
              std::shared_ptr<const std::vector<Point>> given,
              std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
 
-  /// Makes the next frame of seeds in these voxels of a grid (VoxelBits), or absent_voxel.
-  void place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels);
+  /// Makes the next frame of seeds in these voxels of a grid (VoxelBits), or absent_voxel. `given` may be
+  /// null.
+  void place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels,
+                       std::shared_ptr<const std::vector<Point>> given = nullptr);
 
   /// Empty lists, with the memory of ones that no frame remembers any more.
   std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
@@ -109,8 +111,9 @@ struct SeedsState {
 
   void place_on_the_device(const PointBuffer& points);
 
-  /// The voxels of points.
-  std::vector<std::uint32_t> snap_to_voxels(const Grid& grid, const Points& points) const;
+  /// The voxels of points, which are kept as they were given.
+  std::vector<std::uint32_t> snap_to_voxels(const Grid& grid, const Points& points,
+                                            std::vector<Point>& given) const;
 
   std::shared_ptr<const SeedsFrame> frame_;
   Recycled<PlanePosition> pixels_;

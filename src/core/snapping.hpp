@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/outer_seeds.hpp"
 #include "core/point_placement.hpp"
@@ -15,6 +16,13 @@
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
+
+/// A point that is present, in the grid's slice if it has no z.
+inline Point point_on(const Grid& grid, const Points& points, std::size_t i) {
+  Point point = points[i];
+  if (!points.have_z()) point.z = grid.z().from();
+  return point;
+}
 
 /// Snaps points to the pixels of a grid, by its axes.
 class Snapping {
@@ -31,13 +39,13 @@ class Snapping {
     return static_cast<cl_uint>(at.s[0]) < width_ && static_cast<cl_uint>(at.s[1]) < height_;
   }
 
-  /// The pixel of a point, counted from the grid's first one; absent_coordinate if it is outside and such
-  /// seeds are absent. Throws BadPoint for a point that is not finite, too far away, or outside where that is
-  /// refused.
+  /// The pixel of a point, counted from the first one of a grid of one slice; absent_coordinate if it is
+  /// outside and such seeds are absent. Throws BadPoint for a point that is not finite, too far away, beside
+  /// the slice, or outside where that is refused.
   PlanePosition operator()(std::size_t id, const Point& point) const {
     const Point in_box = grid_.in_box(point);
     const double x = grid_.x().pixel(in_box.x), y = grid_.y().pixel(in_box.y);
-    if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y)) return far(id, point);
+    if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y) || !is_in_slice(point)) return beyond(id, point);
     const PlanePosition at = {{static_cast<cl_int>(x), static_cast<cl_int>(y)}};
     if (outside_ == Outside::count || is_inside(at)) return at;
     if (outside_ == Outside::refuse) throw outside_the_grid(id, point, grid_);
@@ -51,11 +59,25 @@ class Snapping {
     return {fraction_of(grid_.x(), in_box.x, at.s[0]), fraction_of(grid_.y(), in_box.y, at.s[1])};
   }
 
-  /// "point 7 (nan, 3) is outside the grid; ...", or not finite.
+  /// "point 7 (nan, 3) is outside the grid; x must be in [0, 8) and y in [0, 6)", or not finite.
   static BadPoint outside_the_grid(std::size_t id, const Point& point, const Grid& grid) {
-    return {id, point,
-            complaint(point, "outside the grid") + "; " + range_text(grid.x(), "x must be in ") + " and " +
-                range_text(grid.y(), "y in ")};
+    std::vector<std::string> ranges;
+    const auto add = [&ranges](const char* name, const Axis& axis) {
+      if (axis.is_periodic()) return;  // it has all
+      ranges.push_back(range_text(axis, std::string(name) + (ranges.empty() ? " must be in " : " in ")));
+    };
+    add("x", grid.x());
+    add("y", grid.y());
+    if (grid.depth() > 1 || grid.z().pixel(point.z) != 0) add("z", grid.z());
+    std::string text = complaint(point, "outside the grid");
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      text += (i == 0 ? "; " : i + 1 < ranges.size() ? ", " : " and ") + ranges[i];
+    }
+    return {id, point, text};
+  }
+
+  static bool is_finite(const Point& point) {
+    return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
   }
 
  private:
@@ -68,10 +90,13 @@ class Snapping {
     return pixel >= static_cast<double>(axis.pixels()) - 2147483648.0 && pixel < 2147483648.0;
   }
 
-  /// What becomes of a point that is not finite or too far away.
-  PlanePosition far(std::size_t id, const Point& point) const {
-    const bool is_finite = std::isfinite(point.x) && std::isfinite(point.y);
-    if (is_finite && outside_ == Outside::absent) return {{absent_coordinate, 0}};
+  /// Whether a point lies in the one slice of the grid, along z.
+  bool is_in_slice(const Point& point) const { return grid_.z().pixel(point.z) == 0; }
+
+  /// What becomes of a point that is not finite, too far away or beside the slice.
+  PlanePosition beyond(std::size_t id, const Point& point) const {
+    if (is_finite(point) && outside_ == Outside::absent) return {{absent_coordinate, 0}};
+    if (is_finite(point) && !is_in_slice(point)) throw outside_the_grid(id, point, grid_);
     throw BadPoint(id, point,
                    complaint(point, "too far away") +
                        "; x and y must be less than 2^31 pixels from all pixels of the grid");
@@ -79,10 +104,10 @@ class Snapping {
 
   /// What is bad about a point that is not finite, or else.
   static std::string complaint(const Point& point, const char* otherwise) {
-    return std::string("is ") + (std::isfinite(point.x) && std::isfinite(point.y) ? otherwise : "not finite");
+    return std::string("is ") + (is_finite(point) ? otherwise : "not finite");
   }
 
-  static std::string range_text(const Axis& axis, const char* start) {
+  static std::string range_text(const Axis& axis, const std::string& start) {
     std::ostringstream text;
     text << start << '[' << axis.from() << ", " << axis.to() << (axis.is_closed() ? "]" : ")");
     return text.str();

@@ -250,9 +250,12 @@ ExactPolygons ExactCellsResult::read_polygons() const {
   if (size() == 0) return {{0}, {}, {}, {}};
   const std::size_t count = edges();
   const Device& device = *state_->device;
-  static_assert(sizeof(Point) == sizeof(cl_double2));
-  return {download<cl_uint>(device, state_->offsets, size() + 1),
-          download<Point>(device, state_->vertices, count),
+  std::vector<Point> vertices;
+  vertices.reserve(count);
+  for (const cl_double2& vertex : download<cl_double2>(device, state_->vertices, count)) {
+    vertices.push_back({vertex.s[0], vertex.s[1]});
+  }
+  return {download<cl_uint>(device, state_->offsets, size() + 1), std::move(vertices),
           download<cl_uint>(device, state_->edge_neighbours, count),
           download<cl_double>(device, state_->lengths, count)};
 }

@@ -18,14 +18,10 @@ const cl::Buffer& CellSumsResult::sum_y() const { return buffer_of(state_, &Cell
 const cl::Buffer& CellSumsResult::sum_z() const { return buffer_of(state_, &CellSumsState::sum_z); }
 
 Point CellSums::centroid() const {
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  if (area == 0) return {none, none};
-  return {static_cast<double>(sum_x) / area + 0.5, static_cast<double>(sum_y) / area + 0.5};
-}
-
-Point3 CellSums::centroid3() const {
-  const Point in_slice = centroid();
-  return {in_slice.x, in_slice.y, area == 0 ? in_slice.x : static_cast<double>(sum_z) / area + 0.5};
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  if (area == 0) return {none, none, none};
+  const auto mean = [this](std::int64_t sum) { return static_cast<double>(sum) / area + 0.5; };
+  return {mean(sum_x), mean(sum_y), mean(sum_z)};
 }
 
 Report cell_sums(const Diagram& diagram, CellSumsResult& result) {

@@ -12,8 +12,8 @@ double length_of_pixel(const Axis& axis) {
 
 /// A position in pixels from a window's first one, in the units of the data.
 Point point_in(const Window& window, const Point& position) {
-  return window.grid().point(
-      {position.x + static_cast<double>(window.x()), position.y + static_cast<double>(window.y())});
+  return window.grid().point({position.x + static_cast<double>(window.x()),
+                              position.y + static_cast<double>(window.y()), position.z});
 }
 
 }  // namespace

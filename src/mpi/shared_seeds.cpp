@@ -301,7 +301,7 @@ void SharedSeeds::add(const Points& points, std::uint64_t first) {
     const std::uint64_t id = first + i;
     if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
     if (!points.is_present(i)) continue;
-    const Point point = points[i];
+    const Point point = point_on(state_->grid, points, i);
     const PlanePosition at = snapping(id, point);
     seeds.push_back(seed_of_point(snapping, point, at, static_cast<std::uint32_t>(id), state_->snap));
   }

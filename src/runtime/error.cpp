@@ -63,7 +63,7 @@ void fail(cl_int code, const std::string& what) {
 
 BadPoint::BadPoint(std::size_t index, const Point& point, const std::string& what)
     : Error("point " + std::to_string(index) + " (" + std::to_string(point.x) + ", " +
-                std::to_string(point.y) + ") " + what,
+                std::to_string(point.y) + (point.z != 0 ? ", " + std::to_string(point.z) : "") + ") " + what,
             ErrorKind::bad_point),
       index_(index),
       point_(point) {}

@@ -46,7 +46,7 @@ void PlaneSeeds::add(const Points& points) {
     const std::uint64_t first = seeds.id_end;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!points.is_present(i)) continue;
-      const Point point = points[i];
+      const Point point = point_on(seeds.grid, points, i);
       const PlanePosition at = seeds.snapping(first + i, point);
       if (is_absent(at)) continue;
       seeds.add(seed_of_point(seeds.snapping, point, at, static_cast<std::uint32_t>(first + i), seeds.snap));

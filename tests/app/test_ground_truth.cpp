@@ -76,15 +76,15 @@ BOOST_AUTO_TEST_CASE(seeds_within_their_pixels_are_judged_where_they_are) {
 }
 
 BOOST_AUTO_TEST_CASE(axes_count_as_they_are_spaced) {
-  const std::vector<std::optional<Point3>> seeds = {Point3{1.5, 2.5, 0.5}, Point3{5.5, 0.5, 3.5},
-                                                    Point3{3.5, 3.5, 2.5}};
+  const std::vector<std::optional<Point>> seeds = {Point{1.5, 2.5, 0.5}, Point{5.5, 0.5, 3.5},
+                                                   Point{3.5, 3.5, 2.5}};
   const int sides[] = {7, 4, 5}, spacing[] = {1, 2, 5};
   for (const Metric metric : both_metrics) {
     const auto labels = [&](const auto& units) {  // z is periodic
       std::vector<std::uint32_t> nearest;
       for (int i = 0; i < 7 * 4 * 5; ++i) {
         const double at[] = {i % 7 + 0.5, i / 7 % 4 + 0.5, i / 28 + 0.5};
-        const auto distance = [&](const Point3& seed) {
+        const auto distance = [&](const Point& seed) {
           const double to[] = {seed.x, seed.y, seed.z};
           double sum = 0;
           for (int axis = 0; axis < 3; ++axis) {

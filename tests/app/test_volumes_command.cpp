@@ -168,7 +168,7 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_voxel_and_voxels_without_a_label_are_told) 
   const std::string crowded = "render --random 40 --size 3x2x2 --method jfa --labels a.npy";
   const Grid grid(3, 2, 2);
   std::set<std::size_t> taken;
-  for (const auto& voxel : Seeds::random(test_device(), grid, 40, 1).read_voxels()) {
+  for (const auto& voxel : Seeds::random(test_device(), grid, 40, 1).read_pixels()) {
     taken.insert(static_cast<std::size_t>(voxel->x) + 3 * static_cast<std::size_t>(voxel->y) +
                  6 * static_cast<std::size_t>(voxel->z));
   }
@@ -191,8 +191,8 @@ BOOST_AUTO_TEST_CASE(pictures_show_slices) {
   const auto label_at = [&](int x, int y, int z) {
     return labels[static_cast<std::size_t>((z * height + y) * width + x)];
   };
-  const auto seeds = Seeds::random(test_device(), Grid(width, height, depth), 12, 3).read_voxels();
-  const auto coordinate = [](const Point3& seed, char axis) {
+  const auto seeds = Seeds::random(test_device(), Grid(width, height, depth), 12, 3).read_pixels();
+  const auto coordinate = [](const Point& seed, char axis) {
     return axis == 'x' ? seed.x : axis == 'y' ? seed.y : seed.z;
   };
   struct Axis {
@@ -290,9 +290,9 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
 namespace {
 
 /// Voxels whose label is not at the least distance from a search of all seeds.
-std::size_t wrong_voxels(const Grid& grid, const std::vector<std::optional<Point3>>& seeds,
+std::size_t wrong_voxels(const Grid& grid, const std::vector<std::optional<Point>>& seeds,
                          const Labels& labels) {
-  const auto squared = [&](std::size_t voxel, const Point3& seed) {
+  const auto squared = [&](std::size_t voxel, const Point& seed) {
     const double at[] = {static_cast<double>(voxel % width), static_cast<double>(voxel / width % height),
                          static_cast<double>(voxel / (width * height))};
     const double of_seed[] = {seed.x, seed.y, seed.z};
@@ -330,8 +330,8 @@ BOOST_AUTO_TEST_CASE(volumes_are_compared_and_benched) {
     method("exact").run(placed, exact, {});
     method("jfa").run(placed, flooded, options);
     const Labels right = exact.read(), labels = flooded.read();
-    const std::size_t wrong = wrong_voxels(grid, placed.read_voxels(), labels);
-    BOOST_TEST((wrong > 0 && wrong_voxels(grid, placed.read_voxels(), right) == 0));
+    const std::size_t wrong = wrong_voxels(grid, placed.read_pixels(), labels);
+    BOOST_TEST((wrong > 0 && wrong_voxels(grid, placed.read_pixels(), right) == 0));
     std::size_t different = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) different += labels[i] != right[i] ? 1 : 0;
 

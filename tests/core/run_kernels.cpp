@@ -210,9 +210,9 @@ void make_volumes(const Device& device, const Grid& grid) {
   int vector_width = grid.periodic() == Periodic::none ? 1 : 4;
   for (const std::size_t count : {9u, 600u}) {
     const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
-    std::vector<Point3> points;
+    std::vector<Point> points;
     std::vector<At> voxels;
-    for (const auto& voxel : seeds.read_voxels()) {
+    for (const auto& voxel : seeds.read_pixels()) {
       points.push_back(*voxel);
       voxels.push_back({static_cast<int>(voxel->x), static_cast<int>(voxel->y), static_cast<int>(voxel->z)});
     }
@@ -234,11 +234,11 @@ void make_volumes(const Device& device, const Grid& grid) {
     distance_field(flooded, squares);
     distance_field(flooded, distances);
     expand_labels(flooded, 2, near_ones);
-    in_a_part.move_to(std::vector<Point3>{{1, 2, 3}});
+    in_a_part.move_to(std::vector<Point>{{1, 2, 3}});
     if (in_a_part.displacement() == 0) throw Error("the seeds' way is wrong");
     const Device measuring = device.with_tuning({vector_width, 4, 2, Shape::vector, 32});
     points[1].x = 1000;
-    const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point3));
+    const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point));
     Diagram measured(measuring, grid);
     jump_flooding(Seeds(measuring, grid, outside, Outside::absent), measured);
     measure_volume(measured);

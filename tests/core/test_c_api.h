@@ -33,8 +33,9 @@ static const vorocl_grid grid = {
 static const vorocl_window window = {
     {VOROCL_AXIS_OF_PIXELS(61), VOROCL_AXIS_OF_PIXELS(40), 0, {0, 0, 0, 0, 0, 0, 0}}, 0, 0, 61, 40};
 enum { width = 61, height = 40, pixels = width * height, seed_count = 8 };
-static const vorocl_point points[seed_count] = {{3.5, 2.5},  {50.5, 5.5},  {20.5, 30.5}, {60.5, 39.5},
-                                                {50.9, 5.1}, {33.5, 16.5}, {30, 20},     {0, 39.9}};
+static const vorocl_point points[seed_count] = {{3.5, 2.5, 0},   {50.5, 5.5, 0}, {20.5, 30.5, 0},
+                                                {60.5, 39.5, 0}, {50.9, 5.1, 0}, {33.5, 16.5, 0},
+                                                {30, 20, 0},     {0, 39.9, 0}};
 static const uint8_t present[seed_count] = {1, 1, 1, 1, 255, 1, 0, 1};
 
 /* All of a grid of this size, which is not periodic. */

@@ -207,7 +207,7 @@ static void test_bad_seeds(const vorocl_device* device) {
 
 /* A bad point says which it is, at once or, in a caller's buffer, at the waits of what was made of it. */
 static void test_bad_points(const vorocl_device* device) {
-  const vorocl_point list[3] = {{1, 1}, {2, 2}, {NAN, 3}};
+  const vorocl_point list[3] = {{1, 1, 0}, {2, 2, 0}, {NAN, 3, 0}};
   float pairs[6] = {1, 1, 61.5f, 7, 2, 2};
   cl_context context = NULL;
   cl_int code = CL_SUCCESS;
@@ -217,7 +217,7 @@ static void test_bad_points(const vorocl_device* device) {
   vorocl_cell_sums* sums = NULL;
   vorocl_cell_statistics statistics;
   vorocl_adjacency* adjacency = NULL;
-  vorocl_point point = {0, 0}, read[3];
+  vorocl_point point = {0, 0, 0}, read[3];
   uint32_t labels[pixels];
   size_t index = 0;
   FAILS(vorocl_bad_point(&index, &point), VOROCL_BAD_ARGUMENT, "no call");

@@ -188,7 +188,7 @@ static void test_failures(const vorocl_device* device) {
   vorocl_method_options options = VOROCL_METHOD_OPTIONS_DEFAULTS;
   vorocl_point vertex;
   uint8_t mask[pixels];
-  const vorocl_point outside = {-5, 5};
+  const vorocl_point outside = {-5, 5, 0};
   cl_mem values = NULL;
   size_t count = 0;
   double percent = 0;

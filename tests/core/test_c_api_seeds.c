@@ -13,7 +13,7 @@ static int is_grid(const vorocl_grid* a, const vorocl_grid* b) {
 static void test_seeds(const vorocl_device* device) {
   vorocl_seeds *seeds = make_seeds(device), *clone = NULL, *again = NULL;
   vorocl_diagram* diagram = NULL;
-  vorocl_point read[200], moved[200], one = {7, 7};
+  vorocl_point read[200], moved[200], one = {7, 7, 0};
   uint8_t mask[pixels] = {0};
   uint32_t nearest[pixels];
   size_t count = 0;
@@ -103,6 +103,7 @@ static void test_seeds(const vorocl_device* device) {
 /* Points, marks and labels in the caller's buffers. */
 static void test_own_buffers(const vorocl_device* device) {
   float pairs[2 * seed_count];
+  double in_doubles[2 * seed_count];
   uint32_t labels[pixels], nearest[pixels], nearest_of_all[pixels];
   cl_int code = CL_SUCCESS;
   cl_context context = NULL;
@@ -118,14 +119,14 @@ static void test_own_buffers(const vorocl_device* device) {
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
   search_all(points, NULL, seed_count, VOROCL_EUCLIDEAN, nearest_of_all);
   for (int i = 0; i < seed_count; ++i) {
-    pairs[2 * i] = (float)points[i].x;
-    pairs[2 * i + 1] = (float)points[i].y;
+    pairs[2 * i] = (float)(in_doubles[2 * i] = points[i].x);
+    pairs[2 * i + 1] = (float)(in_doubles[2 * i + 1] = points[i].y);
   }
   OK(vorocl_device_context(device, &context));
   OK(vorocl_device_queue(device, &queue));
   OK(vorocl_device_id(device, &id));
   own_points = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof pairs, NULL, &code);
-  same_points = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof points, (void*)(uintptr_t)points, &code);
+  same_points = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof in_doubles, in_doubles, &code);
   own_marks = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof present, (void*)(uintptr_t)present, &code);
   own_labels = clCreateBuffer(context, CL_MEM_READ_WRITE, sizeof labels, NULL, &code);
   CHECK(clEnqueueWriteBuffer(queue, own_points, CL_FALSE, 0, sizeof pairs, pairs, 0, NULL, &uploaded) ==
@@ -208,7 +209,7 @@ static void test_axes(const vorocl_device* device) {
 
 /* What becomes of points outside. */
 static void test_points_outside(const vorocl_device* device) {
-  const vorocl_point outside[2] = {{-0.5, 3}, {4, 1000}}, inside = {4, 4};
+  const vorocl_point outside[2] = {{-0.5, 3, 0}, {4, 1000, 0}}, inside = {4, 4, 0};
   vorocl_point read[2];
   vorocl_seeds *seeds = NULL, *few = NULL;
   vorocl_diagram* diagram = NULL;
@@ -272,8 +273,8 @@ static void search_all_points(const vorocl_point* list, uint32_t count, uint32_t
 /* Points that are not snapped: several of one pixel own pixels, and flooding methods snap them still. */
 static void test_true_positions(const vorocl_device* device) {
   enum { count = 6 };
-  const vorocl_point list[count] = {{20.1, 20.5},  {20.9, 20.5}, {20.5, 20.125},
-                                    {-3.25, 7.75}, {20.9, 20.5}, {50.3, 9.7}};
+  const vorocl_point list[count] = {{20.1, 20.5, 0},  {20.9, 20.5, 0}, {20.5, 20.125, 0},
+                                    {-3.25, 7.75, 0}, {20.9, 20.5, 0}, {50.3, 9.7, 0}};
   float pairs[2 * count];
   vorocl_point read[count], exact_in_float[count];
   uint32_t nearest[pixels], labels[pixels];
@@ -333,7 +334,7 @@ static void test_tilted_grid(const vorocl_device* device) {
   enum { half = height / 2, count = 3 };
   vorocl_grid tilted = vorocl_grid_of_pixels(width, half, VOROCL_PERIODIC_XY);
   const vorocl_grid twice = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_XY);
-  vorocl_point of_both[2 * count] = {{3.27, 2.71}, {50.53, 5.16}, {33.02, 16.48}};
+  vorocl_point of_both[2 * count] = {{3.27, 2.71, 0}, {50.53, 5.16, 0}, {33.02, 16.48, 0}};
   vorocl_grid read_grid;
   vorocl_seeds *few = NULL, *all = NULL;
   vorocl_diagram *diagram = NULL, *other = NULL;

@@ -6,9 +6,9 @@
 enum { columns = 13, rows = 10, slices = 7, voxels = columns * rows * slices, volume_seeds = 9 };
 
 /* Seed 3 has the voxel of seed 1, seed 5 is absent, and seeds 6 and 7 are equally far from many voxels. */
-static const vorocl_point3 places[volume_seeds] = {{2.5, 1.5, 0.5},  {11.2, 8.9, 6.5}, {6.5, 5.5, 3.5},
-                                                   {11.8, 8.1, 6.1}, {1.5, 8.5, 5.5},  {6, 6, 6},
-                                                   {9.5, 2.5, 1.5},  {9.5, 2.5, 5.5},  {0.5, 5.5, 3.5}};
+static const vorocl_point places[volume_seeds] = {{2.5, 1.5, 0.5},  {11.2, 8.9, 6.5}, {6.5, 5.5, 3.5},
+                                                  {11.8, 8.1, 6.1}, {1.5, 8.5, 5.5},  {6, 6, 6},
+                                                  {9.5, 2.5, 1.5},  {9.5, 2.5, 5.5},  {0.5, 5.5, 3.5}};
 static const uint8_t there[volume_seeds] = {1, 1, 1, 1, 1, 0, 1, 1, 1};
 
 static const int sides[3] = {columns, rows, slices}, steps[3] = {1, columns, columns*rows};
@@ -21,7 +21,7 @@ static uint32_t labels[voxels];
 
 static int is_periodic(int axis) { return (axes >> axis) & 1; }
 
-static int voxel_along(vorocl_point3 point, int axis) {
+static int voxel_along(vorocl_point point, int axis) {
   return (int)(axis == 0 ? point.x : axis == 1 ? point.y : point.z);
 }
 
@@ -104,7 +104,7 @@ static void test_cells(const vorocl_diagram* diagram) {
   int64_t sums[3][volume_seeds], ways[3][volume_seeds] = {{0}};
   int low[3][volume_seeds] = {{0}}, high[3][volume_seeds] = {{0}}, farthest[volume_seeds] = {0},
       border[volume_seeds] = {0};
-  vorocl_point3 centroids[volume_seeds];
+  vorocl_point centroids[volume_seeds];
   vorocl_cell_shape shapes_read[volume_seeds];
   vorocl_cell_pair pairs_read[volume_seeds * volume_seeds];
   vorocl_cell_sums* of_sums = NULL;
@@ -136,7 +136,7 @@ static void test_cells(const vorocl_diagram* diagram) {
   OK(vorocl_cell_sums_create(&of_sums));
   OK(vorocl_cell_sums_measure(of_sums, diagram));
   OK(vorocl_cell_sums_read(of_sums, area, sums[0], sums[1], sums[2], volume_seeds));
-  OK(vorocl_cell_sums_centroids3(of_sums, centroids, volume_seeds));
+  OK(vorocl_cell_sums_centroids(of_sums, centroids, volume_seeds));
   OK(vorocl_cell_sums_buffers(of_sums, NULL, NULL, NULL, &of_slices));
   CHECK(of_slices != NULL);
   OK(vorocl_cell_shapes_create(&of_shapes));
@@ -205,7 +205,7 @@ static void test_volume(const vorocl_device* device, vorocl_periodic periodic, i
   vorocl_window all;
   vorocl_seeds* seeds = NULL;
   vorocl_diagram *diagram = NULL, *right = NULL;
-  vorocl_point3 read[volume_seeds];
+  vorocl_point read[volume_seeds];
   axes = periodic;
   spacing[0] = 1;
   spacing[1] = of_y;
@@ -213,13 +213,15 @@ static void test_volume(const vorocl_device* device, vorocl_periodic periodic, i
   volume.y.spacing = of_y;
   volume.z.spacing = of_z;
   search_volume();
-  OK(vorocl_seeds_from_points3(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_IS_REFUSED,
-                               VOROCL_SNAP_TO_PIXELS, &seeds));
+  OK(vorocl_seeds_from_points(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_IS_REFUSED,
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_seeds_grid(seeds, &same));
   CHECK(same.z.pixels == slices && same.z.to == slices && same.z.periodic == (periodic & 4) / 4);
   CHECK(same.x.spacing == 1 && same.y.spacing == of_y && same.z.spacing == of_z);
-  OK(vorocl_seeds_read_voxels(seeds, read, volume_seeds));
+  OK(vorocl_seeds_read_pixels(seeds, read, volume_seeds));
   CHECK(read[1].x == 11.5 && read[1].y == 8.5 && read[1].z == 6.5 && isnan(read[5].z));
+  OK(vorocl_seeds_read(seeds, read, volume_seeds));
+  CHECK(read[1].x == places[1].x && read[1].y == places[1].y && read[1].z == places[1].z && isnan(read[5].z));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &diagram));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &right));
   OK(vorocl_diagram_window(diagram, &all));
@@ -237,20 +239,20 @@ static void test_volume(const vorocl_device* device, vorocl_periodic periodic, i
 static void test_moves(const vorocl_device* device) {
   const vorocl_grid volume = vorocl_grid_of_voxels(columns, rows, slices, VOROCL_PERIODIC_Z);
   vorocl_grid deep = volume;
-  const vorocl_point3 outside = {1, 1, -1.5}, far = {1, 1, 99};
+  const vorocl_point outside = {1, 1, -1.5}, far = {1, 1, 99};
   vorocl_seeds* seeds = NULL;
-  vorocl_point3 read[1];
+  vorocl_point read[1];
   size_t index = 7;
-  OK(vorocl_seeds_from_points3(device, volume, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
-                               &seeds));
-  OK(vorocl_seeds_move_to3(seeds, &outside, NULL, 1)); /* z wraps */
-  OK(vorocl_seeds_read_voxels(seeds, read, 1));
+  OK(vorocl_seeds_from_points(device, volume, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                              &seeds));
+  OK(vorocl_seeds_move_to(seeds, &outside, NULL, 1)); /* z wraps */
+  OK(vorocl_seeds_read_pixels(seeds, read, 1));
   CHECK(read[0].z == slices - 1.5);
   deep.z = (vorocl_axis){20, -10, 10, 0, 0, 0, 1};
-  OK(vorocl_seeds_move_to_grid3(seeds, deep, &outside, NULL, 1));
-  OK(vorocl_seeds_read_voxels(seeds, read, 1));
+  OK(vorocl_seeds_move_to_grid(seeds, deep, &outside, NULL, 1));
+  OK(vorocl_seeds_read_pixels(seeds, read, 1));
   CHECK(read[0].z == 8.5);
-  FAILS(vorocl_seeds_move_to3(seeds, &far, NULL, 1), VOROCL_BAD_POINT, "point 0");
+  FAILS(vorocl_seeds_move_to(seeds, &far, NULL, 1), VOROCL_BAD_POINT, "point 0");
   OK(vorocl_bad_point(&index, NULL));
   CHECK(index == 0);
   vorocl_seeds_free(seeds);
@@ -263,22 +265,18 @@ static void test_refusals(const vorocl_device* device) {
   vorocl_window part = vorocl_window_of_grid(volume);
   vorocl_seeds *seeds = NULL, *none = NULL;
   vorocl_diagram* diagram = NULL;
-  vorocl_point3 read3[seed_count];
-  vorocl_point read[volume_seeds];
+  vorocl_point read[seed_count];
   double number = 0;
-  OK(vorocl_seeds_from_points3(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_COUNTS,
-                               VOROCL_SNAP_TO_PIXELS, &seeds));
-  FAILS(vorocl_seeds_from_points3(device, volume, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
-                                  &none),
+  OK(vorocl_seeds_from_points(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_COUNTS,
+                              VOROCL_SNAP_TO_PIXELS, &seeds));
+  FAILS(vorocl_seeds_from_points(device, volume, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
+                                 &none),
         VOROCL_BAD_ARGUMENT, "whole voxels alone");
-  FAILS(vorocl_seeds_from_points3(device, grid, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
-                                  &none),
-        VOROCL_BAD_ARGUMENT, "is no volume");
-  FAILS(vorocl_seeds_from_points(device, volume, points, NULL, 1, VOROCL_OUTSIDE_COUNTS,
+  FAILS(vorocl_seeds_from_points(device, grid, places + 1, NULL, 1, VOROCL_OUTSIDE_COUNTS,
                                  VOROCL_SNAP_TO_PIXELS, &none),
-        VOROCL_BAD_ARGUMENT, "have no z");
-  FAILS(vorocl_seeds_from_points3(device, volume, NULL, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
-                                  &none),
+        VOROCL_BAD_POINT, "z in [0, 1)");
+  FAILS(vorocl_seeds_from_points(device, volume, NULL, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
+                                 &none),
         VOROCL_NULL_ARGUMENT, "points is NULL");
   FAILS(vorocl_seeds_random(device, unknown, 3, 1, &none), VOROCL_BAD_ARGUMENT, "must be 0 or 1");
   FAILS(vorocl_seeds_random(device, vorocl_grid_of_pixels(9, 9, VOROCL_PERIODIC_Z), 3, 1, &none),
@@ -288,9 +286,7 @@ static void test_refusals(const vorocl_device* device) {
   flat.x.spacing = 0;
   wrong.z.to = 5;
   FAILS(vorocl_seeds_random(device, wrong, 3, 1, &none), VOROCL_BAD_ARGUMENT, "0 pixels");
-  FAILS(vorocl_seeds_read(seeds, read, volume_seeds), VOROCL_BAD_ARGUMENT, "volume");
-  FAILS(vorocl_seeds_move_to(seeds, points, NULL, 1), VOROCL_BAD_ARGUMENT, "have no z");
-  FAILS(vorocl_seeds_move_to3(NULL, places, NULL, 1), VOROCL_NULL_ARGUMENT, "seeds is NULL");
+  FAILS(vorocl_seeds_move_to(NULL, places, NULL, 1), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   part.height = 3;
   FAILS(vorocl_diagram_create(device, part, &diagram), VOROCL_BAD_ARGUMENT, "volume");
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &diagram));
@@ -304,7 +300,8 @@ static void test_refusals(const vorocl_device* device) {
   /* A depth of 1 is a plane, whose z may say so or be left out. */
   OK(vorocl_seeds_from_points(device, flat, points, present, seed_count, VOROCL_OUTSIDE_COUNTS,
                               VOROCL_SNAP_TO_PIXELS, &seeds));
-  FAILS(vorocl_seeds_read_voxels(seeds, read3, seed_count), VOROCL_BAD_ARGUMENT, "in a plane");
+  OK(vorocl_seeds_read_pixels(seeds, read, seed_count));
+  CHECK(read[0].z == 0.5);
   OK(vorocl_diagram_create(device, window, &diagram));
   OK(vorocl_run("exact", seeds, diagram, NULL));
   vorocl_diagram_free(diagram);

@@ -242,7 +242,7 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
 
 BOOST_AUTO_TEST_CASE(volumes_that_fail_can_be_made_again) {
   const Grid volume(12, 10, 8);
-  const std::vector<Point3> points = {{9, 3, 1}, {2, 5, 6}, {11, 9, 7}};
+  const std::vector<Point> points = {{9, 3, 1}, {2, 5, 6}, {11, 9, 7}};
   const Seeds whole(test_device(), volume, points);
   Diagram fresh(test_device(), volume);
   jump_flooding(whole, fresh);
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(volumes_that_fail_can_be_made_again) {
   std::optional<Diagram> diagram, other;
   DistanceErrorsResult errors;
   const auto start = [&] {
-    seeds.emplace(test_device(), volume, std::vector<Point3>{{1, 1, 1}, {2, 2, 2}});
+    seeds.emplace(test_device(), volume, std::vector<Point>{{1, 1, 1}, {2, 2, 2}});
     diagram.emplace(test_device(), volume);
     other.emplace(test_device(), volume);
     errors = DistanceErrorsResult();

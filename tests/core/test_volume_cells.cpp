@@ -378,7 +378,7 @@ BOOST_AUTO_TEST_CASE(fields_of_volumes_are_those_of_the_host) {
 BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
   for (const Device& device : shapes()) {
     const Grid grid(3, 2000, 1500);
-    const Seeds seeds(device, grid, std::vector<Point3>{{1, 1900, 1400}});
+    const Seeds seeds(device, grid, std::vector<Point>{{1, 1900, 1400}});
     Diagram diagram(device, grid);
     diagram.write(Labels(grid.pixels(), 0), seeds, Metric::euclidean);
     CellSumsResult result;
@@ -387,15 +387,15 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
     BOOST_TEST(cell.sum_y == 1999ll * 2000 / 2 * 3 * 1500);
     BOOST_TEST(cell.sum_z == 1499ll * 1500 / 2 * 3 * 2000);
     BOOST_TEST(cell.sum_z > 0xffffffffll);
-    BOOST_TEST((cell.centroid3().x == 1.5 && cell.centroid3().y == 1000 && cell.centroid3().z == 750));
+    BOOST_TEST((cell.centroid().x == 1.5 && cell.centroid().y == 1000 && cell.centroid().z == 750));
   }
-  BOOST_TEST(std::isnan(CellSums().centroid3().z));
+  BOOST_TEST(std::isnan(CellSums().centroid().z));
 }
 
 /// Two cells side by side share one face for each voxel between them, a known area.
 BOOST_AUTO_TEST_CASE(halves_of_a_box_touch_in_their_section) {
   const Grid grid(20, 11, 7);
-  const Seeds seeds(test_device(), grid, std::vector<Point3>{{4, 5, 3}, {15, 5, 3}});
+  const Seeds seeds(test_device(), grid, std::vector<Point>{{4, 5, 3}, {15, 5, 3}});
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   AdjacencyResult pairs;

@@ -29,7 +29,7 @@ const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
 Seeds seeds_at(const Device& device, const Grid& grid, const std::vector<At>& voxels) {
   return {device, grid, transformed(voxels, [](const At& at) {
-            return Point3{at.x + 0.5, at.y + 0.25, at.z + 0.75};
+            return Point{at.x + 0.5, at.y + 0.25, at.z + 0.75};
           })};
 }
 
@@ -364,7 +364,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
   const Seeds seeds(test_device(), grid, points, Outside::absent);
   BOOST_TEST(seeds.size() == 4u);
   BOOST_TEST(seeds.alive() == 2u);
-  const auto voxels = seeds.read_voxels();
+  const auto voxels = seeds.read_pixels();
   BOOST_TEST((!voxels[1] && !voxels[3]));
   BOOST_TEST((voxels[2]->x == 17.5 && voxels[2]->y == 9.5 && voxels[2]->z == 5.5));
   Labels expected = brute_force(grid, {{2, 2, 2}, {17, 9, 5}});
@@ -379,26 +379,26 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
 
 BOOST_AUTO_TEST_CASE(points_lie_in_the_voxel_of_their_axes) {
   const Grid grid(Axis(8, -4, 4), Axis(4, 0, 1).reversed(), Axis(2, 10, 12).closed());
-  const Seeds seeds(test_device(), grid, std::vector<Point3>{{-4, 0, 10}, {3.9, 0.99, 12}});
-  const auto voxels = seeds.read_voxels();
+  const Seeds seeds(test_device(), grid, std::vector<Point>{{-4, 0, 10}, {3.9, 0.99, 12}});
+  const auto voxels = seeds.read_pixels();
   BOOST_TEST((voxels[0]->x == 0.5 && voxels[0]->y == 3.5 && voxels[0]->z == 0.5));
   BOOST_TEST((voxels[1]->x == 7.5 && voxels[1]->y == 0.5 && voxels[1]->z == 1.5));
 }
 
 BOOST_AUTO_TEST_CASE(seeds_say_how_far_they_went) {
   const Grid grid(20, 30, 40);
-  Seeds seeds(test_device(), grid, std::vector<Point3>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
-  seeds.move_to(std::vector<Point3>{{3, 1, 3}, {10, 20, 37.5}, {5, 5, 4}});
+  Seeds seeds(test_device(), grid, std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
+  seeds.move_to(std::vector<Point>{{3, 1, 3}, {10, 20, 37.5}, {5, 5, 4}});
   BOOST_TEST(seeds.displacement() == 7);
-  seeds.move_to(std::vector<Point3>{{3, 12, 3}});
+  seeds.move_to(std::vector<Point>{{3, 12, 3}});
   BOOST_TEST(seeds.displacement() == 11);
   Seeds wrapping(test_device(), periodic(grid, true, false, true),
-                 std::vector<Point3>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
-  wrapping.move_to(std::vector<Point3>{{-2, 1, -6}, {10, 22, 30}, {26, 5, 5}});
+                 std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
+  wrapping.move_to(std::vector<Point>{{-2, 1, -6}, {10, 22, 30}, {26, 5, 5}});
   BOOST_TEST(wrapping.displacement() == 9);
   Seeds random = Seeds::random(test_device(), grid, 3, 1);
-  random.move_to(std::vector<Point3>{{1, 2, 3}});
-  BOOST_TEST(random.read_voxels()[0]->z == 3.5);
+  random.move_to(std::vector<Point>{{1, 2, 3}});
+  BOOST_TEST((random.read_pixels()[0]->z == 3.5 && random.read()[0]->z == 3));
 }
 
 BOOST_AUTO_TEST_CASE(a_mask_gives_its_voxels_in_the_order_of_the_slices) {
@@ -406,7 +406,7 @@ BOOST_AUTO_TEST_CASE(a_mask_gives_its_voxels_in_the_order_of_the_slices) {
   std::vector<std::uint8_t> mask(grid.pixels());
   mask[7] = mask[23] = mask[59] = 1;
   const Seeds seeds = Seeds::from_mask(test_device(), grid, mask);
-  const auto voxels = seeds.read_voxels();
+  const auto voxels = seeds.read_pixels();
   BOOST_TEST_REQUIRE(voxels.size() == 3u);
   for (std::size_t id = 0; id < 3; ++id) {
     const auto at = [](double centre) { return static_cast<std::int64_t>(centre); };
@@ -417,7 +417,7 @@ BOOST_AUTO_TEST_CASE(a_mask_gives_its_voxels_in_the_order_of_the_slices) {
 
 BOOST_AUTO_TEST_CASE(random_voxels_are_the_same_for_all_widths_and_fill_the_volume) {
   const Grid grid(40, 30, 20);
-  const auto expected = Seeds::random(test_device(), grid, 4001, 9).read_voxels();
+  const auto expected = Seeds::random(test_device(), grid, 4001, 9).read_pixels();
   double sums[3] = {};
   for (const auto& voxel : expected) sums[0] += voxel->x, sums[1] += voxel->y, sums[2] += voxel->z;
   for (int axis = 0; axis < 3; ++axis) {  // the middle, within five standard errors
@@ -425,7 +425,7 @@ BOOST_AUTO_TEST_CASE(random_voxels_are_the_same_for_all_widths_and_fill_the_volu
     BOOST_TEST(std::abs(sums[axis] / 4001 - side / 2) < 5 * side / std::sqrt(12.0 * 4001));
   }
   for (const int width : {1, 8}) {
-    const auto voxels = Seeds::random(with_tuning(width, 4), grid, 4001, 9).read_voxels();
+    const auto voxels = Seeds::random(with_tuning(width, 4), grid, 4001, 9).read_pixels();
     for (std::size_t id = 0; id < voxels.size(); ++id) {
       BOOST_TEST_REQUIRE((voxels[id]->x == expected[id]->x && voxels[id]->y == expected[id]->y &&
                           voxels[id]->z == expected[id]->z));
@@ -617,16 +617,44 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
     check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
   const Grid grid(8, 8, 8);
   check_refusal("a window of a part cannot take", [&] { Window(grid, 0, 0, 4, 4); });
-  check_refusal("the points have no z", [&] { Seeds(device, grid, {{1, 1}}); });
-  const std::vector<Point3> point = {{1, 2, 3}}, outside = {{1, 2, 3}, {1, 2, 8}},
-                            not_a_number = {{1, 2, NAN}};
-  check_refusal("the grid is no volume", [&] { Seeds(device, Grid(8, 8), point); });
+  const double one = 1;
+  check_refusal("the points have no z", [&] { Seeds(device, grid, Points(&one, &one, 1)); });
+  const std::vector<Point> point = {{1, 2, 3}}, outside = {{1, 2, 3}, {1, 2, 8}},
+                           not_a_number = {{1, 2, NAN}};
   check_refusal("whole voxels alone", [&] { Seeds(device, grid, point, Outside::count, Snap::none); });
   for (const Outside count_or_refuse : {Outside::count, Outside::refuse}) {
-    check_refusal("has z = 8 and is outside the volume; x must be in [0, 8), y in [0, 8) and z in [0, 8)",
+    check_refusal("8.000000) is outside the grid; x must be in [0, 8), y in [0, 8) and z in [0, 8)",
                   [&] { Seeds(device, grid, outside, count_or_refuse); });
   }
   check_refusal("is not finite", [&] { Seeds(device, grid, not_a_number, Outside::absent); });
+}
+
+/// A plane is the one slice of its grid: it has the points whose z lies in it, or that have none.
+BOOST_AUTO_TEST_CASE(points_of_planes_lie_in_their_slice) {
+  const Device& device = test_device();
+  const std::vector<Point> points = {{1.25, 2, 5.5}, {6, 3, 7}, {4, 4, 4.99}};
+  const Grid slab(Axis(8), Axis(6), Axis(1, 5, 7).closed());
+  const Seeds seeds(device, slab, points, Outside::absent);
+  BOOST_TEST((seeds.alive() == 2u && seeds.read()[0]->z == 5.5 && seeds.read()[1]->z == 7));
+  BOOST_TEST((seeds.read_pixels()[1]->z == 0.5 && !seeds.read()[2]));
+  for (const Outside count_or_refuse : {Outside::count, Outside::refuse}) {
+    check_refusal(
+        "point 2 (4.000000, 4.000000, 4.990000) is outside the grid; x must be in [0, 8), y in [0, 6) "
+        "and z in [5, 7]",
+        [&] { Seeds(device, slab, points, count_or_refuse); });
+  }
+  const std::vector<float> x = {1.25f, 6}, y = {2, 3};
+  const Seeds without_z(device, slab, Points(x.data(), y.data(), 2), Outside::refuse, Snap::none);
+  BOOST_TEST((without_z.read()[0]->x == 1.25 && without_z.read()[0]->z == 5 && without_z.read()[1]->y == 3));
+  check_refusal(
+      "(1.000000, 1.000000, 1.000000) is outside the grid; x must be in [0, 8), y in [0, 6) and z in [0, 1)",
+      [&] {
+        Seeds(device, Grid(8, 6), {{1, 1, 1}});
+      });
+  check_refusal("nan) is not finite", [&] { Seeds(device, Grid(8, 6), {{1, 1, NAN}}, Outside::absent); });
+  PlaneSeeds of_tiles(slab, Outside::absent);
+  of_tiles.add(points);
+  BOOST_TEST(of_tiles.alive() == 2u);
 }
 
 BOOST_AUTO_TEST_CASE(seeds_of_another_spacing_are_refused) {
@@ -662,6 +690,4 @@ BOOST_AUTO_TEST_CASE(what_knows_planes_alone_refuses_volumes_by_name) {
   check_refusal(what + "Lloyd relaxation", [&] { relax(seeds, diagram, engine(method("jfa")), 1); });
   check_refusal(what + "tiles", [&] { Tiling(grid, 4); });
   check_refusal(what + "a plane of tiles", [&] { PlaneSeeds{grid}; });
-  check_refusal(what + "a list of points (x, y)", [&] { (void)seeds.read(); });
-  check_refusal("lie in a plane", [&] { (void)Seeds(device, Grid(8, 8), {}).read_voxels(); });
 }

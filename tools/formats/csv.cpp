@@ -337,8 +337,7 @@ bool CsvReader::next() {
                        std::to_string(columns_there_) + of_decimal_commas);
     }
     const auto at = [&](std::size_t index) { return coordinate(line, index, options_.decimal_comma); };
-    point_ = {at(indices_->x), at(indices_->y)};
-    if (indices_->z) z_ = at(*indices_->z);
+    point_ = {at(indices_->x), at(indices_->y), indices_->z ? at(*indices_->z) : 0};
     if (indices_->value) value_ = number(line, *indices_->value, options_.decimal_comma);
     if (indices_->id) id_ = parse_number<std::uint32_t>(field(line, *indices_->id)).value_or(no_label);
     return has_points_ = true;
@@ -380,7 +379,6 @@ void take_ids(const std::string& path, CsvPoints& read, const std::vector<std::u
   read.ids.clear();
   for (const IdAndRow row : rows) read.ids.push_back(id_of(row));
   arrange(read.points, rows);
-  arrange(read.z, rows);
   arrange(read.values, rows);
   arrange(read.kept, rows);
 }
@@ -393,11 +391,10 @@ CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_
   std::vector<std::uint32_t> ids;
   std::uint32_t rows = 0;
   for (; reader.next(); ++rows) {
-    if (std::isnan(reader.point().x) || std::isnan(reader.point().y) || (has_z && std::isnan(reader.z())))
-      continue;
-    read.points.push_back(reader.point());
+    const Point& point = reader.point();
+    if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) continue;
+    read.points.push_back(point);
     read.ids.push_back(rows);
-    if (has_z) read.z.push_back(reader.z());
     if (!options.value_column.empty()) read.values.push_back(reader.value());
     if (!options.keep.empty()) read.kept.push_back(reader.kept());
     if (reader.id()) ids.push_back(*reader.id());

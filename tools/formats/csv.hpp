@@ -69,9 +69,8 @@ class CsvReader {
   bool next();
 
   // Numbers that are absent (empty, NA, NaN, null) are NaN.
-  const Point& point() const { return point_; }
-  double z() const { return z_; }          ///< of a volume
-  double value() const { return value_; }  ///< of the value column
+  const Point& point() const { return point_; }  ///< z is that of a volume, or 0
+  double value() const { return value_; }        ///< of the value column
 
   /// Of the column id, if the header names one: no_label if it is none.
   std::optional<std::uint32_t> id() const { return indices_->id ? std::optional(id_) : std::nullopt; }
@@ -97,7 +96,6 @@ class CsvReader {
   bool has_points_ = false;
   std::vector<std::string> notes_;
   Point point_;
-  double z_ = 0;
   double value_ = 0;
   std::uint32_t id_ = no_label;
 };
@@ -105,7 +103,6 @@ class CsvReader {
 /// By point, those of its row; those of other columns are empty.
 struct CsvPoints {
   std::vector<Point> points;
-  std::vector<double> z;       ///< of a volume
   std::vector<double> values;  ///< of the value column
   std::vector<std::uint32_t>
       ids;  ///< ascending, of the column id, or the numbers of rows if some have no point

@@ -177,10 +177,10 @@ void write_array(const OutputFile& file, const std::vector<std::size_t>& shape,
 
 }  // namespace
 
-NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, std::size_t dimensions)
-    : dimensions_(dimensions), array_(std::make_unique<NpyArray>(path)) {
+NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, bool has_z)
+    : dimensions_(has_z ? 3 : 2), array_(std::make_unique<NpyArray>(path)) {
   const std::vector<std::size_t>& shape = array_->header().shape;
-  if (shape.size() != 2 || shape[1] != dimensions) {
+  if (shape.size() != 2 || shape[1] != dimensions_) {
     throw Error(path + " has the shape " + to_string(shape) + "; points of a plane need (N, 2), and " +
                 "those of a volume, which --size WxHxD asks for, (N, 3)");
   }
@@ -195,34 +195,20 @@ NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, std::size_t di
 
 NpyPoints::~NpyPoints() = default;
 
-std::vector<double> NpyPoints::read_values(std::uint64_t first, std::size_t count) {
+std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
   std::vector<double> values(count * dimensions_);
   array_->read(first * dimensions_, values.size(), values.data());
-  return values;
-}
-
-std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
-  const std::vector<double> values = read_values(first, count);
-  std::vector<Point> points(count);
-  for (std::size_t i = 0; i < count; ++i) points[i] = {values[2 * i], values[2 * i + 1]};
+  std::vector<Point> points;
+  points.reserve(count);
+  for (const double* at = values.data(); points.size() < count; at += dimensions_) {
+    points.push_back({at[0], at[1], dimensions_ == 3 ? at[2] : 0});
+  }
   return points;
 }
 
-std::vector<Point3> NpyPoints::read_of_volume(std::uint64_t first, std::size_t count) {
-  const std::vector<double> values = read_values(first, count);
-  std::vector<Point3> points(count);
-  for (std::size_t i = 0; i < count; ++i) points[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
-  return points;
-}
-
-std::vector<Point> read_npy_points(const std::string& path) {
-  NpyPoints points(path, Window::max_pixels);
+std::vector<Point> read_npy_points(const std::string& path, bool has_z) {
+  NpyPoints points(path, Window::max_pixels, has_z);
   return points.read(0, points.size());
-}
-
-std::vector<Point3> read_npy_points_of_volume(const std::string& path) {
-  NpyPoints points(path, Window::max_pixels, 3);
-  return points.read_of_volume(0, points.size());
 }
 
 namespace {

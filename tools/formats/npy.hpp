@@ -20,7 +20,7 @@ class NpyArray;
 class NpyPoints {
  public:
   /// Throws Error if the file is something else, ends early or holds no points or more than `most`.
-  explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1, std::size_t dimensions = 2);
+  explicit NpyPoints(const std::string& path, std::uint64_t most = no_label - 1, bool has_z = false);
   ~NpyPoints();
 
   std::uint64_t size() const { return size_; }
@@ -28,21 +28,14 @@ class NpyPoints {
   /// The points from `first` on, which are there. Throws Error if they cannot be read.
   std::vector<Point> read(std::uint64_t first, std::size_t count);
 
-  /// As read(), of a volume.
-  std::vector<Point3> read_of_volume(std::uint64_t first, std::size_t count);
-
  private:
-  /// The coordinates, point after point.
-  std::vector<double> read_values(std::uint64_t first, std::size_t count);
-
   std::size_t dimensions_;
   std::unique_ptr<NpyArray> array_;
   std::uint64_t size_ = 0;
 };
 
 /// All points of such a file, at most 2^30.
-std::vector<Point> read_npy_points(const std::string& path);
-std::vector<Point3> read_npy_points_of_volume(const std::string& path);
+std::vector<Point> read_npy_points(const std::string& path, bool has_z = false);
 
 /// One value per pixel (uint8, uint32 or float), row-major, to an array of shape (height, width). Throws
 /// Error if the file cannot be written.

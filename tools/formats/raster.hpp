@@ -103,8 +103,8 @@ struct Raster {
 /// The voxels of a volume's file, and where they lie in the data.
 struct VolumeRaster {
   VolumeSize size;
-  Point3 corner;  ///< of the first voxel, where the coordinates are least
-  Point3 voxel;   ///< its sides
+  Point corner;  ///< of the first voxel, where the coordinates are least
+  Point voxel;   ///< its sides
 };
 
 }  // namespace vorocl::command

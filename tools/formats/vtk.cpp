@@ -48,8 +48,8 @@ namespace {
 
 /// What stands before the bytes of an image of values: where its cells lie.
 template <typename T>
-std::string start_of_image(const std::string& name, const std::string& extent, const Point3& corner,
-                           const Point3& cell) {
+std::string start_of_image(const std::string& name, const std::string& extent, const Point& corner,
+                           const Point& cell) {
   return fmt::format(
       R"(<?xml version="1.0"?>
 <VTKFile type="ImageData" version="1.0" byte_order="{0}" header_type="UInt64">

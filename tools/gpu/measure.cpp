@@ -85,8 +85,10 @@ std::vector<Point> points_of(const std::string& path) {
   const std::size_t begin = preamble + static_cast<unsigned char>(bytes[8]) +
                             std::size_t{256} * static_cast<unsigned char>(bytes[9]);
   if (bytes.substr(0, begin).find("<f8") == std::string::npos) throw Error(path + " holds no doubles");
-  std::vector<Point> points((bytes.size() - begin) / sizeof(Point));
-  std::memcpy(points.data(), bytes.data() + begin, points.size() * sizeof(Point));
+  std::vector<double> pairs((bytes.size() - begin) / sizeof(double));
+  std::memcpy(pairs.data(), bytes.data() + begin, pairs.size() * sizeof(double));
+  std::vector<Point> points;
+  for (std::size_t i = 0; i + 1 < pairs.size(); i += 2) points.push_back({pairs[i], pairs[i + 1]});
   return points;
 }
 

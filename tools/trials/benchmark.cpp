@@ -130,8 +130,7 @@ std::vector<BenchmarkResult> benchmark(const std::vector<Method>& methods, const
     contenders.push_back(exact_on_host(seeds, diagram, metric, options.truth));
     contenders.push_back(exact_in_tiles(seeds, options.tile, metric, options.truth));
   }
-  const GroundTruth truth = seeds.grid().is_volume() ? GroundTruth(seeds.grid(), seeds.read_voxels(), metric)
-                                                     : GroundTruth(seeds.grid(), seeds.read_pixels(), metric);
+  const GroundTruth truth(seeds.grid(), seeds.read_pixels(), metric);
   std::vector<BenchmarkResult> results;
   for (const Contender& contender : contenders) {
     contender.prepare();

@@ -22,10 +22,9 @@ namespace vorocl::command {
 /// anywhere within their pixels.
 class GroundTruth {
  public:
-  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them, and of a volume read_voxels().
+  /// `seeds` holds the positions by id, as Seeds::read_pixels() gives them.
   /// Finds the least distance of every pixel: about a microsecond per pixel and core, and 8 bytes per pixel.
   GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric);
-  GroundTruth(const Grid& grid, const std::vector<std::optional<Point3>>& seeds, Metric metric);
 
   /// Pixels without a label, or with the label of a seed that is not there or not at the least distance.
   std::size_t wrong_pixels(const std::vector<std::uint32_t>& labels) const;

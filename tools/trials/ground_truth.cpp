@@ -76,21 +76,9 @@ class Tree {
   nanoflann::KDTreeSingleIndexAdaptor<Distance<double, Cloud, double, std::uint32_t>, Cloud, 3> tree_;
 };
 
-std::vector<std::optional<Point3>> in_a_slice(const std::vector<std::optional<Point>>& seeds) {
-  std::vector<std::optional<Point3>> points;
-  points.reserve(seeds.size());
-  for (const std::optional<Point>& seed : seeds) {
-    points.push_back(seed ? std::optional(Point3{seed->x, seed->y, 0.5}) : std::nullopt);
-  }
-  return points;
-}
-
 }  // namespace
 
 GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point>>& seeds, Metric metric)
-    : GroundTruth(grid, in_a_slice(seeds), metric) {}
-
-GroundTruth::GroundTruth(const Grid& grid, const std::vector<std::optional<Point3>>& seeds, Metric metric)
     : grid_(grid), metric_(metric), seeds_(seeds.size()), least_(grid.pixels()) {
   Cloud cloud;
   for (std::size_t id = 0; id < seeds.size(); ++id) {

@@ -17,7 +17,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
           return size == (is_there ? read.points.size() : 0);
         };
         require(!read.points.empty() && is_whole(read.values.size(), !options.value_column.empty()) &&
-                is_whole(read.kept.size(), !options.keep.empty()) && is_whole(read.z.size(), has_z));
+                is_whole(read.kept.size(), !options.keep.empty()));
       });
     }
   }

@@ -212,25 +212,17 @@ class Run {
     };
     const View& view = source_.view();
     const Grid& grid = view.window.grid();
-    if (grid.is_volume()) {
-      for (const std::optional<Point3>& voxel : simulation_.seeds().read_voxels()) {
-        const Point3 place = voxel.value_or(Point3{-1, -1, -1});
-        for (const double value : {place.x, place.y, place.z}) add(value);
-      }
-      for (const Axis* const axis : {&grid.x(), &grid.y(), &grid.z()}) {
-        for (const double value : {axis->from(), axis->to()}) add(value);
-      }
-    } else {
-      for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
-        const Point point = of_grid ? view.from_grid(*of_grid) : Point{-1, -1};
-        add(point.x);
-        add(point.y);
-      }
-      for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
-        add(value);
-      const Bounds bounds = view.picture.georeference ? view.picture.georeference->bounds : Bounds();
-      for (const double at : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) add(at);
+    for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
+      const Point place = of_grid ? view.from_grid(*of_grid) : Point{-1, -1, -1};
+      for (const double value : {place.x, place.y, place.z}) add(value);
     }
+    for (const Axis* const axis : {&grid.x(), &grid.y(), &grid.z()}) {
+      for (const double value : {axis->from(), axis->to()}) add(value);
+    }
+    for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
+      add(value);
+    const Bounds bounds = view.picture.georeference ? view.picture.georeference->bounds : Bounds();
+    for (const double at : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) add(at);
     add(grid.tilt());
     add(static_cast<double>(grid.periodic()));
     add(grid.z().is_periodic() ? 1 : 0);

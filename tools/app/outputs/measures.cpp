@@ -117,13 +117,6 @@ const std::vector<std::optional<Point>>& Measures::seeds() {
   });
 }
 
-const std::vector<std::optional<Point3>>& Measures::seed_voxels() {
-  return once(voxels_, [&] {
-    diagram();
-    return seeds_->read_voxels();
-  });
-}
-
 const std::vector<std::uint32_t>& Measures::pixels() {
   return once(pixels_, [&] {
     if (!sums_) return statistics_result().read_areas();
@@ -215,7 +208,6 @@ std::vector<double> Measures::areas() {
 
 std::vector<std::uint32_t> Measures::cells() {
   const auto is_inside = [this, size = view_.size()](std::size_t label) {
-    if (view_.window.grid().is_volume()) return seed_voxels()[label].has_value();
     const std::optional<Point>& seed = seeds()[label];
     return seed && size.holds(*seed);
   };

@@ -78,9 +78,8 @@ class Measures {
   const std::vector<float>& distances();
   const std::vector<std::uint8_t>& borders();
 
-  /// The centres of the seeds' pixels, and in a volume of their voxels.
+  /// Where the seeds are.
   const std::vector<std::optional<Point>>& seeds();
-  const std::vector<std::optional<Point3>>& seed_voxels();
 
   /// The pixels of the cells: alone in less time than their sums, if these were not read before.
   const std::vector<std::uint32_t>& pixels();
@@ -155,7 +154,6 @@ class Measures {
   const std::vector<std::uint32_t>* ids_in_picture_ = nullptr;
   std::optional<std::vector<std::uint8_t>> borders_;
   std::optional<std::vector<std::optional<Point>>> points_;
-  std::optional<std::vector<std::optional<Point3>>> voxels_;
   std::optional<std::vector<std::uint32_t>> pixels_, neighbours_, perimeters_;
   std::optional<std::vector<CellSums>> sums_;
   std::optional<std::vector<CellShape>> shapes_;

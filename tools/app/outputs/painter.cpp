@@ -107,7 +107,7 @@ Painter::Painter(const PictureOptions& options, bool many)
 void Painter::read(Measures& measures) const {
   if (options_.slice) {
     measures.labels();
-    if (options_.points_overlay) measures.seed_voxels();
+    if (options_.points_overlay) measures.seeds();
     return;
   }
   const Quantity quantity = options_.color.quantity;

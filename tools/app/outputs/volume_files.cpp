@@ -12,7 +12,7 @@ namespace vorocl::command {
 namespace {
 
 void read_cells(Measures& measures) {
-  measures.seed_voxels();
+  measures.seeds();
   measures.sums();
   measures.pixels();  // behind the sums, which have them
   measures.shapes();
@@ -25,8 +25,7 @@ void add_cells(GrowingFile& table, const std::string& first, Measures& measures)
   add_rows(table, first, measures.cells(), [&](RowText& text, std::uint32_t label) {
     const CellSums& sums = measures.sums()[label];
     const CellShape& shape = measures.shapes()[label];
-    const Point3 seed = units.position(*measures.seed_voxels()[label]),
-                 centroid = units.position(sums.centroid3());
+    const Point seed = units.position(*measures.seeds()[label]), centroid = units.position(sums.centroid());
     const auto side = [](int voxel) { return static_cast<double>(voxel); };
     const Extent box = units.extent({side(shape.left), side(shape.top), side(shape.right), side(shape.bottom),
                                      side(shape.front), side(shape.back)});

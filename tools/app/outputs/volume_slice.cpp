@@ -41,9 +41,9 @@ std::vector<std::uint32_t> labels_in(const Plane& plane, const std::vector<std::
 
 /// The seeds in the slice; the others are absent.
 std::vector<std::optional<Point>> seeds_in(const VolumeSlice& slice,
-                                           const std::vector<std::optional<Point3>>& voxels) {
+                                           const std::vector<std::optional<Point>>& voxels) {
   std::vector<std::optional<Point>> points;
-  for (const std::optional<Point3>& voxel : voxels) {
+  for (const std::optional<Point>& voxel : voxels) {
     std::optional<Point>& point = points.emplace_back();
     if (!voxel) continue;
     const double across = slice.axis == 'x' ? voxel->x : slice.axis == 'y' ? voxel->y : voxel->z;
@@ -66,7 +66,7 @@ Size size_of_slice(const Grid& grid, const VolumeSlice& slice) { return plane_of
 Measures in_slice(Measures& volume, const VolumeSlice& slice, bool with_seeds, MeasureBuffers& buffers) {
   const Plane plane = plane_of(volume.view().window.grid(), slice);
   std::vector<std::optional<Point>> seeds;
-  if (with_seeds) seeds = seeds_in(slice, volume.seed_voxels());
+  if (with_seeds) seeds = seeds_in(slice, volume.seeds());
   return {
       {plane.size, plane.grid()}, labels_in(plane, volume.labels()), std::move(seeds), volume.ids(), buffers};
 }

@@ -126,14 +126,7 @@ CsvPoints read_points(const SeedOptions& options, bool has_z) {
     return read;
   }
   CsvPoints read;
-  if (!has_z) {
-    read.points = read_npy_points(options.points);
-    return read;
-  }
-  for (const Point3& point : read_npy_points_of_volume(options.points)) {
-    read.points.push_back({point.x, point.y});
-    read.z.push_back(point.z);
-  }
+  read.points = read_npy_points(options.points, has_z);
   return read;
 }
 

@@ -68,11 +68,10 @@ class Units {
   /// Of a position in pixels of the picture.
   double x(double pixels) const { return x_.at(pixels); }
   double y(double pixels) const { return y_.at(pixels); }
-  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y)}; }
-  Point3 position(const Point3& voxels) const { return {x_.at(voxels.x), y_.at(voxels.y), z_.at(voxels.z)}; }
+  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y), z_.at(pixels.z)}; }
 
   /// The sides of a pixel.
-  Point3 sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
+  Point sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
 
   /// Where an area ends: in pixels its last column, row or slice, in data units the edge behind that.
   double x_end(double last) const { return x_.at(last + behind()); }
@@ -176,17 +175,17 @@ struct View {
   /// Of a volume.
   VolumeRaster voxels() const {
     const VolumeSize sides = {window.width(), window.height(), window.depth()};
-    return {sides, units.position(Point3{0, 0, 0}), units.sides()};
+    return {sides, units.position(Point{0, 0, 0}), units.sides()};
   }
 
   /// A position in pixels of the grid, in pixels of the diagram.
   Point from_grid(const Point& of_grid) const {
-    return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y)};
+    return {of_grid.x + static_cast<double>(first_x), of_grid.y + static_cast<double>(first_y), of_grid.z};
   }
 
   /// A position in pixels of the diagram, in the view's units.
   Point position(const Point& of_diagram) const {
-    return units.position(Point{of_diagram.x + x, of_diagram.y + y});
+    return units.position({of_diagram.x + x, of_diagram.y + y, of_diagram.z});
   }
 
   /// The picture of values by pixel of the diagram, with another value beyond them: these values where they

@@ -20,21 +20,21 @@ namespace {
 
 constexpr char names[] = {'x', 'y', 'z'};
 
-std::array<double, 3> coordinates(const Point3& point) { return {point.x, point.y, point.z}; }
+std::array<double, 3> coordinates(const Point& point) { return {point.x, point.y, point.z}; }
 
-std::vector<Point3> with_z(const std::vector<Point>& of_plane, const std::vector<double>& z) {
-  std::vector<Point3> points;
-  points.reserve(z.size());
-  for (std::size_t i = 0; i < z.size(); ++i) points.push_back({of_plane[i].x, of_plane[i].y, z[i]});
+std::vector<Point> points_of(const Frame& frame) {
+  std::vector<Point> points;
+  points.reserve(frame.positions.size());
+  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+    points.push_back({frame.positions[i].x, frame.positions[i].y, frame.z[i]});
+  }
   return points;
 }
 
-std::vector<Point3> points_of(const Frame& frame) { return with_z(frame.positions, frame.z); }
-
-VolumeSides bounding_sides(const std::vector<Point3>& points) {
+VolumeSides bounding_sides(const std::vector<Point>& points) {
   VolumeSides sides;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto is_less = [axis](const Point3& a, const Point3& b) {
+    const auto is_less = [axis](const Point& a, const Point& b) {
       return coordinates(a)[axis] < coordinates(b)[axis];
     };
     const auto [least, most] = std::minmax_element(points.begin(), points.end(), is_less);
@@ -77,8 +77,7 @@ Grid grid_of(const SeedOptions& options, const VolumeSides& sides) {
           axis(options.depth, sides[2])};
 }
 
-void check_inside(const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids,
-                  const Grid& grid) {
+void check_inside(const std::vector<Point>& points, const std::vector<std::uint32_t>& ids, const Grid& grid) {
   const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -181,7 +180,7 @@ View view_of(const Grid& grid, bool in_pixels) {
   return view;
 }
 
-Input input_from(const View& view, const std::vector<Point3>& points, const std::vector<std::uint32_t>& ids,
+Input input_from(const View& view, const std::vector<Point>& points, const std::vector<std::uint32_t>& ids,
                  std::optional<std::int64_t> timestep) {
   const auto place = [grid = view.window.grid(), points](const Device& device) {
     return Seeds(device, grid, points, Outside::refuse);
@@ -191,9 +190,9 @@ Input input_from(const View& view, const std::vector<Point3>& points, const std:
 
 Input input_from_points(const SeedOptions& options) {
   const CsvPoints read = read_points(options, true);
-  const std::vector<Point3> points = with_z(read.points, read.z);
+  const std::vector<Point>& points = read.points;
   try {
-    const auto is_bad = [](const Point3& point) {
+    const auto is_bad = [](const Point& point) {
       return !std::isfinite(point.x) || !std::isfinite(point.y) || !std::isfinite(point.z);
     };
     const auto bad = std::find_if(points.begin(), points.end(), is_bad);

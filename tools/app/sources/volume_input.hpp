@@ -45,7 +45,7 @@ class VolumeFrames {
   bool next();
 
   View view() const;
-  const std::vector<Point3>& points() const { return points_; }
+  const std::vector<Point>& points() const { return points_; }
 
   /// The particles' ids, by seed.
   const std::vector<std::uint32_t>& ids() const { return frame_.ids; }
@@ -69,7 +69,7 @@ class VolumeFrames {
   int number_ = -1;
   bool has_warned_ = false;   // of distances without a scale
   std::optional<Grid> grid_;  // set by the constructor
-  std::vector<Point3> points_;
+  std::vector<Point> points_;
 };
 
 /// Throws UsageError: volumes do not have this option.

@@ -149,7 +149,7 @@ Point SimulationBox::place(const LineReader& lines, std::uint32_t id, Point posi
   return position;
 }
 
-SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y,
                              Sides z) {
   const auto& [a, b, c] = edges;
   const double length = std::max(std::hypot(a[0], a[1]), std::hypot(b[0], b[1]));

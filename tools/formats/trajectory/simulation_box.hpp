@@ -86,7 +86,7 @@ struct Edges {
 
 /// The box with these edges, turned in its plane until the first lies along x. Throws Error, at the reader's
 /// line, unless the first two lie in the xy plane and the third along z, and where SimulationBox does.
-SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point3 origin, Sides x, Sides y,
+SimulationBox box_from_edges(const LineReader& lines, const Edges& edges, Point origin, Sides x, Sides y,
                              Sides z);
 
 /// Whether a length is so small beside another that it can be an error of rounding.

@@ -103,7 +103,7 @@ std::optional<SimulationBox> parse_box(const LineReader& lines, const Pairs& pai
   const auto lattice = pairs.find("lattice");
   if (lattice == pairs.end()) return std::nullopt;
   const std::vector<double> v = numbers(lines, "Lattice", lattice->second, 9);
-  Point3 origin;
+  Point origin;
   if (const auto found = pairs.find("origin"); found != pairs.end()) {
     const std::vector<double> corner = numbers(lines, "Origin", found->second, 3);
     origin = {corner[0], corner[1], corner[2]};
