@@ -122,7 +122,7 @@ Simulation::Engine engine(const Method& method, const MethodOptions& options) {
 void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
              const MethodOptions& options, Snap snap) {
   const Grid& grid = window.grid();
-  const bool fits = grid.is_volume() || fits_in_a_diagram(grid);
+  const bool fits = has_voxels(grid) || fits_in_a_diagram(grid);
   const Grid pixels(fits ? grid : Grid(window.width(), window.height(), window.periodic()));
   Diagram diagram(device, fits ? window : Window(pixels));
   const Seeds random = Seeds::random(device, pixels, seeds, 1);

@@ -23,14 +23,13 @@ namespace {
 /// What kernels are compiled for besides the device.
 struct Specialisation {
   Metric metric;
-  Periodic periodic;
+  Axes periodic;
 };
 
 /// What is prepared, the likeliest first. Each is a part of its own: it has programs that no other one has.
 constexpr Specialisation specialisations[] = {
-    {Metric::euclidean, Periodic::none}, {Metric::euclidean, Periodic::xy},
-    {Metric::manhattan, Periodic::none}, {Metric::euclidean, Periodic::x},
-    {Metric::manhattan, Periodic::xy},   {Metric::manhattan, Periodic::x},
+    {Metric::euclidean, Axes::none}, {Metric::euclidean, Axes::xy}, {Metric::manhattan, Axes::none},
+    {Metric::euclidean, Axes::x},    {Metric::manhattan, Axes::xy}, {Metric::manhattan, Axes::x},
 };
 
 /// Grids and their seeds. PoCL compiles kernels anew for 2^16 work-items and more, of which a kernel may have

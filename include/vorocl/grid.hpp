@@ -32,16 +32,17 @@ enum class Neighbourhood {
   von_neumann,  ///< the 4 neighbours at the step that share a row or a column with it; in a volume 6
 };
 
-/// Which axes of a grid are periodic.
-enum class Periodic { none, x, y, xy };
+/// Some of the axes of a grid, such as those that are periodic: a bit for each.
+enum class Axes { none = 0, x = 1, y = 2, xy = 3, z = 4, xz = 5, yz = 6, xyz = 7 };
 
-/// Whether x, or y, is among the periodic axes.
-constexpr bool has_x(Periodic axes) { return axes == Periodic::x || axes == Periodic::xy; }
-constexpr bool has_y(Periodic axes) { return axes == Periodic::y || axes == Periodic::xy; }
+/// Whether an axis is among them.
+constexpr bool has_x(Axes axes) { return (static_cast<unsigned>(axes) & 1u) != 0; }
+constexpr bool has_y(Axes axes) { return (static_cast<unsigned>(axes) & 2u) != 0; }
+constexpr bool has_z(Axes axes) { return (static_cast<unsigned>(axes) & 4u) != 0; }
 
-/// The axes that are periodic, from what is said of each.
-constexpr Periodic periodic_along(bool x, bool y) {
-  return x ? (y ? Periodic::xy : Periodic::x) : (y ? Periodic::y : Periodic::none);
+/// The axes, from what is said of each.
+constexpr Axes axes_of(bool x, bool y, bool z = false) {
+  return static_cast<Axes>((x ? 1 : 0) + (y ? 2 : 0) + (z ? 4 : 0));
 }
 
 /// One axis of a grid: how many pixels there are, and which stretch of the data they cover. The one place
@@ -154,32 +155,29 @@ class VOROCL_API Axis {
   int spacing_ = 1;
 };
 
-/// The pixels that there are: two axes, x to the right and y down, pixel (0, 0) at the top left. It may be
-/// far larger than what a diagram can hold, which covers a Window of it.
+/// The pixels that there are: three axes, x to the right, y down, z from slice to slice; pixel (0, 0, 0) at
+/// the top left of the first slice. It may be far larger than what a diagram can hold, which covers a Window
+/// of it. A grid of one slice is a plane, one of several is a volume, whose pixels are voxels too. Any axes
+/// may be periodic, and any may be spaced (Axis::spaced()): distances are in units of the spacing then, and
+/// measures of cells count pixels.
 ///
-/// With a third axis of two pixels or more it is a volume, whose pixels are voxels: slices of rows. Seeds,
-/// diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(), cell_shapes(),
-/// cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and expand_labels() take
-/// volumes; others throw Error. Any axes may be periodic.
-///
-/// A grid with an axis that is spaced (Axis::spaced()) is a volume too, be it of one slice. Its distances are
-/// in units of the spacing; measures of cells count voxels.
+/// Seeds, diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(),
+/// cell_shapes(), cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and
+/// expand_labels() take volumes, and planes with an axis that is spaced; others throw Error for them.
 class VOROCL_API Grid {
  public:
-  Grid(const Axis& x, const Axis& y) : x_(x), y_(y) {}
-  Grid(const Axis& x, const Axis& y, const Axis& z) : x_(x), y_(y), z_(z) {}
+  Grid(const Axis& x, const Axis& y, const Axis& z = Axis(1)) : x_(x), y_(y), z_(z) {}
 
   /// A grid whose unit is the pixel. Throws as Axis.
-  Grid(std::int64_t width, std::int64_t height, Periodic periodic = Periodic::none);
-
-  /// A volume whose unit is the voxel; of a depth of 1 it is a plane.
-  Grid(std::int64_t width, std::int64_t height, std::int64_t depth);
+  Grid(std::int64_t width, std::int64_t height, Axes periodic = Axes::none)
+      : Grid(width, height, 1, periodic) {}
+  Grid(std::int64_t width, std::int64_t height, std::int64_t depth, Axes periodic = Axes::none);
 
   /// The same grid as that of a box which is tilted in its plane: a parallelogram with the edges (width, 0)
   /// and (tilt, height), in the units of the data. What repeats at the same x without a tilt does so `tilt`
   /// further along x one period of y onward. The grid is the rectangle that has the same points. Any tilt is
   /// taken; those that differ by whole periods of x are the same, and that of 0 is none. Throws Error unless
-  /// it is finite, and unless both axes are periodic if there is one.
+  /// it is finite, and unless x and y are periodic if there is one.
   ///
   /// Exact diagrams, their measures and exact cells know tilted grids. Methods that flood, motions at random,
   /// relaxation and tiles throw Error.
@@ -191,11 +189,10 @@ class VOROCL_API Grid {
   std::int64_t width() const { return x_.pixels(); }
   std::int64_t height() const { return y_.pixels(); }
   std::int64_t depth() const { return z_.pixels(); }
-  bool is_volume() const { return depth() > 1 || is_spaced(); }
+  bool is_volume() const { return depth() > 1; }
   bool is_spaced() const { return x_.spacing() > 1 || y_.spacing() > 1 || z_.spacing() > 1; }
 
-  /// The axes of a plane, or of a volume's slices, that are periodic; for z see z().
-  Periodic periodic() const { return periodic_along(x_.is_periodic(), y_.is_periodic()); }
+  Axes periodic() const { return axes_of(x_.is_periodic(), y_.is_periodic(), z_.is_periodic()); }
   std::uint64_t pixels() const {
     return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()) *
            static_cast<std::uint64_t>(depth());
@@ -226,44 +223,50 @@ class VOROCL_API Grid {
   friend bool operator!=(const Grid& a, const Grid& b) { return !(a == b); }
 
  private:
-  Axis x_, y_, z_ = Axis(1);
+  Axis x_, y_, z_;
   double tilt_ = 0;
 };
 
-/// A rectangle of a grid's pixels: what a diagram covers, or a tile of it.
+/// A box of a grid's pixels: what a diagram covers, or a tile of it.
 ///
 /// Along a periodic axis a window may begin anywhere and cross the end of the period; a window that is longer
 /// than the period shows each pixel at most once, where the grid has it, and no labels beside. Of a tilted
-/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid. Of a
-/// volume a window shows all.
+/// grid a window shows the plane, whose rows of pixels beyond the grid lie between pixels of the grid.
+/// Diagrams of volumes, and of grids with an axis that is spaced, take the window that shows all.
 class VOROCL_API Window {
  public:
   static constexpr std::int64_t max_side = 32768;        ///< of a diagram: past it a label's way is too long
   static constexpr std::uint64_t max_pixels = 1u << 30;  ///< of a diagram
 
-  /// Of a volume: its sides, in units of the spacing; and the bits of the whole numbers below its voxels
-  /// along each of them, added up. A periodic side counts twice.
+  /// Of a volume, or with an axis that is spaced: its sides, in units of the spacing; and the bits of the
+  /// whole numbers below its voxels along each of them, added up. A periodic side counts twice.
   static constexpr std::int64_t max_side_of_volume = 16384;
   static constexpr int max_bits_of_volume = 31;  ///< such as 2048 x 1024 x 1024 voxels
 
   /// All pixels of a grid.
   Window(const Grid& grid);
 
-  /// The pixels from column x and row y of a grid on, which is no volume. Throws Error unless the sides are
-  /// from 1 to Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere,
-  /// but along y in a tilted grid it must begin less than a period from the grid's first row).
-  Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height);
+  /// The pixels from column x, row y and slice z of a grid on. Throws Error unless the sides are from 1 to
+  /// Axis::max_pixels and the window lies in the grid (along a periodic axis: it may lie anywhere, but along
+  /// y in a tilted grid it must begin less than a period from the grid's first row).
+  Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t width,
+         std::int64_t height, std::int64_t depth);
+
+  /// As above, with all slices.
+  Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height)
+      : Window(grid, x, y, 0, width, height, grid.depth()) {}
 
   const Grid& grid() const { return grid_; }
 
-  /// The first column and row; along a periodic axis in [0, pixels) unless the window is longer than the
-  /// period, or this is the row of a tilted grid.
+  /// The first column, row and slice; along a periodic axis in [0, pixels) unless the window is longer than
+  /// the period, or this is the row of a tilted grid.
   std::int64_t x() const { return x_; }
   std::int64_t y() const { return y_; }
+  std::int64_t z() const { return z_; }
 
   std::int64_t width() const { return width_; }
   std::int64_t height() const { return height_; }
-  std::int64_t depth() const { return grid_.depth(); }
+  std::int64_t depth() const { return depth_; }
   std::int64_t longest_side() const {
     const std::int64_t of_a_slice = width_ > height_ ? width_ : height_;
     return of_a_slice > depth() ? of_a_slice : depth();
@@ -274,28 +277,33 @@ class VOROCL_API Window {
   }
 
   /// Whether it is all of its grid.
-  bool is_whole() const { return x_ == 0 && y_ == 0 && width_ == grid_.width() && height_ == grid_.height(); }
+  bool is_whole() const {
+    return x_ == 0 && y_ == 0 && z_ == 0 && width_ == grid_.width() && height_ == grid_.height() &&
+           depth_ == grid_.depth();
+  }
 
-  /// The axes along which it shows exactly one period: its cells reach across its border. Of a tilted grid
-  /// both or none: both if the window has all rows of the grid, from the first one on, and all columns.
-  Periodic periodic() const {
+  /// The axes along which it shows exactly one period: its cells reach across its border. In a plane z is
+  /// none of them. Of a tilted grid x and y or none: if the window has all rows of the grid, from the first
+  /// one on, and all columns.
+  Axes periodic() const {
     if (grid_.is_tilted()) {
       const bool shows_all = width_ == grid_.width() && height_ == grid_.height() && y_ == 0;
-      return shows_all ? Periodic::xy : Periodic::none;
+      return shows_all ? Axes::xy : Axes::none;
     }
-    return periodic_along(grid_.x().is_periodic() && width_ == grid_.width(),
-                          grid_.y().is_periodic() && height_ == grid_.height());
+    return axes_of(grid_.x().is_periodic() && width_ == grid_.width(),
+                   grid_.y().is_periodic() && height_ == grid_.height(),
+                   grid_.z().is_periodic() && depth_ == grid_.depth() && grid_.is_volume());
   }
 
   friend bool operator==(const Window& a, const Window& b) {
-    return a.grid_ == b.grid_ && a.x_ == b.x_ && a.y_ == b.y_ && a.width_ == b.width_ &&
-           a.height_ == b.height_;
+    return a.grid_ == b.grid_ && a.x_ == b.x_ && a.y_ == b.y_ && a.z_ == b.z_ && a.width_ == b.width_ &&
+           a.height_ == b.height_ && a.depth_ == b.depth_;
   }
   friend bool operator!=(const Window& a, const Window& b) { return !(a == b); }
 
  private:
   Grid grid_;
-  std::int64_t x_ = 0, y_ = 0, width_, height_;
+  std::int64_t x_ = 0, y_ = 0, z_ = 0, width_, height_, depth_;
 };
 
 }  // namespace vorocl

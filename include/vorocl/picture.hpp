@@ -79,13 +79,13 @@ constexpr int widest_edge = 100;
 /// pixels. Throws Error unless the picture has the labels' size and the width is 1 to 100. Along the grid's
 /// periodic `axes` a border may lie between its last pixel and its first.
 VOROCL_API void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width = 1,
-                           Periodic axes = Periodic::none);
+                           Axes axes = Axes::none);
 
 /// Draws lines of equal distance to the nearest seed into a picture, one every `interval` pixels of distance:
 /// dark on bright colours and light on dark ones. A line's pixels are the nearest that are no nearer than its
 /// distance. Throws Error unless there is one distance per pixel and the interval is positive and finite.
 VOROCL_API void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval,
-                              Periodic axes = Periodic::none);
+                              Axes axes = Axes::none);
 
 /// Draws a dot on each seed that is not absent into a picture: dark with a light rim where there is room for
 /// it, down to one pixel where seeds are dense. Throws Error if a point is outside the picture.

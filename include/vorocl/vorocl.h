@@ -85,7 +85,7 @@ typedef int vorocl_metric;
 enum { VOROCL_EUCLIDEAN = 0, VOROCL_MANHATTAN = 1 };
 
 /// Which axes of a grid are periodic. VOROCL_PERIODIC_NONE, or a sum of VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y
-/// and, of a volume, VOROCL_PERIODIC_Z.
+/// and VOROCL_PERIODIC_Z.
 typedef int vorocl_periodic;
 enum {
   VOROCL_PERIODIC_NONE = 0,
@@ -93,6 +93,8 @@ enum {
   VOROCL_PERIODIC_Y = 2,
   VOROCL_PERIODIC_XY = 3,
   VOROCL_PERIODIC_Z = 4,
+  VOROCL_PERIODIC_XZ = 5,
+  VOROCL_PERIODIC_YZ = 6,
   VOROCL_PERIODIC_XYZ = 7
 };
 
@@ -110,8 +112,7 @@ typedef struct vorocl_axis {
   int closed;       ///< 1 if the coordinate `to` falls in the last pixel and not behind it, else 0
 
   /// As how many units distances count a pixel: 1 to 16 (vorocl::Axis::spaced()), or 0, as an initialiser
-  /// leaves it, which is 1. Where it is more for an axis, the grid is a volume, be it of one slice, and all
-  /// distances are in these units.
+  /// leaves it, which is 1. Where it is more for an axis, all distances are in these units.
   int spacing;
 } vorocl_axis;
 
@@ -119,25 +120,26 @@ typedef struct vorocl_axis {
 #define VOROCL_AXIS_OF_PIXELS(pixels) \
   { (pixels), 0, (pixels), 0, 0, 0, 1 }
 
-/// The pixels that there are: x to the right, y down, and in a volume z from slice to slice.
+/// The pixels that there are: x to the right, y down, z from slice to slice. With one slice it is a plane.
 typedef struct vorocl_grid {
   vorocl_axis x, y;
   double
       tilt;  ///< how far the copy of the grid at greater y is shifted along x, in the units of the data; or 0
-  vorocl_axis z;  ///< with 1 pixel, or all zeros as an initialiser leaves it: there is none
+  vorocl_axis z;  ///< all zeros, as an initialiser leaves it, are an axis of one pixel
 } vorocl_grid;
 
-/// What a diagram covers: `width` x `height` pixels from column x and row y of the grid on. Along a periodic
-/// axis it may begin anywhere. Of a volume it must show all, all slices too.
+/// What a diagram covers: `width` x `height` x `depth` pixels from column x, row y and slice z of the grid
+/// on. Along a periodic axis it may begin anywhere. Of a volume it must show all.
 typedef struct vorocl_window {
   vorocl_grid grid;
   int64_t x, y, width, height;
+  int64_t z, depth;  ///< both 0, as an initialiser leaves them: all slices
 } vorocl_window;
 
 /// A grid whose unit is the pixel. Never fails: what is wrong is told by the function that takes the grid.
 VOROCL_API vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic);
 
-/// A volume whose unit is the voxel, likewise; of a depth of 1 it is a plane.
+/// The same with a third axis: a volume, whose unit is the voxel.
 VOROCL_API vorocl_grid vorocl_grid_of_voxels(int64_t width, int64_t height, int64_t depth,
                                              vorocl_periodic periodic);
 

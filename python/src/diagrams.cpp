@@ -49,8 +49,7 @@ std::uintptr_t buffer(DiagramObject& diagram) {
 void show(Diagram& diagram, const Grid& grid) {
   const Grid& own = diagram.window().grid();
   const bool fits = own.width() == grid.width() && own.height() == grid.height() &&
-                    own.depth() == grid.depth() && own.periodic() == grid.periodic() &&
-                    own.z().is_periodic() == grid.z().is_periodic();
+                    own.depth() == grid.depth() && own.periodic() == grid.periodic();
   if (fits && own != grid) diagram = Diagram(diagram.device(), grid, diagram.labels());
 }
 

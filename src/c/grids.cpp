@@ -35,14 +35,6 @@ bool is_zero(const vorocl_axis& axis) {
          axis.closed == 0 && axis.spacing == 0;
 }
 
-/// What is no choice of axes makes an axis that is refused.
-vorocl_axis axis_of_pixels(std::int64_t pixels, vorocl_periodic periodic, vorocl_periodic axis,
-                           vorocl_periodic all) {
-  const bool is_known = periodic >= VOROCL_PERIODIC_NONE && periodic <= all;
-  const int flag = is_known ? (periodic & axis) / axis : -1;
-  return {pixels, 0, static_cast<double>(pixels), flag, 0, 0, 1};
-}
-
 }  // namespace
 
 Grid to_grid(const vorocl_grid& grid) {
@@ -52,15 +44,16 @@ Grid to_grid(const vorocl_grid& grid) {
 
 Window to_window(const vorocl_window& window) {
   const Grid grid = to_grid(window.grid);
-  const bool is_whole =
-      window.x == 0 && window.y == 0 && window.width == grid.width() && window.height == grid.height();
-  return is_whole ? Window(grid) : Window(grid, window.x, window.y, window.width, window.height);
+  const bool has_all_slices = window.z == 0 && window.depth == 0;
+  return Window(grid, window.x, window.y, window.z, window.width, window.height,
+                has_all_slices ? grid.depth() : window.depth);
 }
 
 vorocl_grid to_c(const Grid& grid) { return {to_c(grid.x()), to_c(grid.y()), grid.tilt(), to_c(grid.z())}; }
 
 vorocl_window to_c(const Window& window) {
-  return {to_c(window.grid()), window.x(), window.y(), window.width(), window.height()};
+  return {to_c(window.grid()), window.x(), window.y(),    window.width(),
+          window.height(),     window.z(), window.depth()};
 }
 
 }  // namespace vorocl
@@ -68,16 +61,19 @@ vorocl_window to_c(const Window& window) {
 using namespace vorocl;
 
 vorocl_grid vorocl_grid_of_pixels(int64_t width, int64_t height, vorocl_periodic periodic) {
-  return {axis_of_pixels(width, periodic, VOROCL_PERIODIC_X, VOROCL_PERIODIC_XY),
-          axis_of_pixels(height, periodic, VOROCL_PERIODIC_Y, VOROCL_PERIODIC_XY), 0,
-          axis_of_pixels(1, VOROCL_PERIODIC_NONE, VOROCL_PERIODIC_Z, VOROCL_PERIODIC_XYZ)};
+  return vorocl_grid_of_voxels(width, height, 1, periodic);
 }
 
 vorocl_grid vorocl_grid_of_voxels(int64_t width, int64_t height, int64_t depth, vorocl_periodic periodic) {
-  const auto axis = [periodic](std::int64_t voxels, vorocl_periodic its_own) {
-    return axis_of_pixels(voxels, periodic, its_own, VOROCL_PERIODIC_XYZ);
+  const auto axis = [periodic](std::int64_t pixels, vorocl_periodic its_own) -> vorocl_axis {
+    // What is no choice of axes makes an axis that is refused.
+    const bool is_known = periodic >= VOROCL_PERIODIC_NONE && periodic <= VOROCL_PERIODIC_XYZ;
+    const int flag = is_known ? (periodic & its_own) / its_own : -1;
+    return {pixels, 0, static_cast<double>(pixels), flag, 0, 0, 1};
   };
   return {axis(width, VOROCL_PERIODIC_X), axis(height, VOROCL_PERIODIC_Y), 0, axis(depth, VOROCL_PERIODIC_Z)};
 }
 
-vorocl_window vorocl_window_of_grid(vorocl_grid grid) { return {grid, 0, 0, grid.x.pixels, grid.y.pixels}; }
+vorocl_window vorocl_window_of_grid(vorocl_grid grid) {
+  return {grid, 0, 0, grid.x.pixels, grid.y.pixels, 0, grid.z.pixels};
+}

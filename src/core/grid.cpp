@@ -187,16 +187,16 @@ Axis axis_of_pixels(std::int64_t pixels, bool periodic) {
 }
 }  // namespace
 
-Grid::Grid(std::int64_t width, std::int64_t height, Periodic periodic)
-    : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic))) {}
-
-Grid::Grid(std::int64_t width, std::int64_t height, std::int64_t depth)
-    : Grid(Axis(width), Axis(height), Axis(depth)) {}
+Grid::Grid(std::int64_t width, std::int64_t height, std::int64_t depth, Axes periodic)
+    : Grid(axis_of_pixels(width, has_x(periodic)), axis_of_pixels(height, has_y(periodic)),
+           axis_of_pixels(depth, has_z(periodic))) {}
 
 Grid Grid::tilted(double tilt) const {
   if (!std::isfinite(tilt)) throw Error("the tilt must be a finite number");
   if (tilt != 0) refuse_volume(*this, "a tilt");
-  if (tilt != 0 && periodic() != Periodic::xy) throw Error("a tilted box must be periodic in x and y");
+  if (tilt != 0 && !(x_.is_periodic() && y_.is_periodic())) {
+    throw Error("a tilted box must be periodic in x and y");
+  }
   Grid grid = *this;
   grid.tilt_ = 0;
   if (tilt == 0) return grid;
@@ -212,16 +212,18 @@ std::int64_t Grid::shift() const {
   return x_.is_reversed() == y_.is_reversed() ? parts : -parts;
 }
 
-Window::Window(const Grid& grid) : grid_(grid), width_(grid.width()), height_(grid.height()) {}
+Window::Window(const Grid& grid)
+    : grid_(grid), width_(grid.width()), height_(grid.height()), depth_(grid.depth()) {}
 
-Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t width, std::int64_t height)
+Window::Window(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z, std::int64_t width,
+               std::int64_t height, std::int64_t depth)
     : grid_(grid),
       x_(checked_begin(grid.x(), "x", x, width)),
       y_(checked_begin(grid.y(), "y", y, height, grid.is_tilted())),
+      z_(checked_begin(grid.z(), "z", z, depth)),
       width_(width),
-      height_(height) {
-  refuse_volume(grid, "a window of a part");
-}
+      height_(height),
+      depth_(depth) {}
 
 // --- PixelGrid ---
 
@@ -283,8 +285,8 @@ void check_volume(const Grid& grid) {
   if (fits_in_a_volume(grid)) return;
   const bool is_spaced = grid.is_spaced();
   throw Error(
-      "a volume of " + voxels_text(grid) + periodic_text(grid) + " is too large: its sides can have " +
-      (is_spaced ? "16384 units of the spacing" : "16384 voxels") +
+      "a volume of " + voxels_text(grid) + periodic_text(grid.periodic()) +
+      " is too large: its sides can have " + (is_spaced ? "16384 units of the spacing" : "16384 voxels") +
       ", and a voxel's place must fit in 31 bits, as in 2048 x 1024 x 1024; a periodic side can have " +
       (is_spaced ? "8192 units" : "8192 voxels") +
       ", and takes a bit more; take fewer voxels, or cut the volume into parts that overlap");
@@ -295,10 +297,10 @@ void check_volume(const Grid& grid) {
 PixelGrid::PixelGrid(const Window& window)
     : PixelGrid(checked_side(window.width(), "width"), checked_side(window.height(), "height"),
                 window.periodic()) {
-  if (window.grid().is_volume()) {
+  if (has_voxels(window.grid())) {
+    if (!window.is_whole()) refuse_volume(window.grid(), "a window of a part");
     check_volume(window.grid());
     depth_ = static_cast<int>(window.depth());
-    periodic_z_ = window.grid().z().is_periodic();
     spacing_ = {window.grid().x().spacing(), window.grid().y().spacing(), window.grid().z().spacing()};
   } else if (window.pixels() > Window::max_pixels) {
     throw Error("a diagram of " + std::to_string(width_) + " x " + std::to_string(height_) +
@@ -317,16 +319,20 @@ VoxelBits::VoxelBits(const PixelGrid& grid)
   z = usual_z;
 }
 
+bool has_voxels(const Grid& grid) { return grid.is_volume() || grid.is_spaced(); }
+
 bool fits_in_a_diagram(const Grid& grid) {
-  if (grid.is_volume()) return fits_in_a_volume(grid);
+  if (has_voxels(grid)) return fits_in_a_volume(grid);
   return grid.width() <= Window::max_side && grid.height() <= Window::max_side &&
          grid.pixels() <= Window::max_pixels;
 }
 
 void refuse_volume(const Grid& grid, const char* what) {
-  if (!grid.is_volume()) return;
-  throw Error("the grid is a volume of " + voxels_text(grid) + ", which " + what +
-              " cannot take: it is for planes");
+  if (!has_voxels(grid)) return;
+  throw Error("the grid is a " +
+              (grid.is_volume() ? "volume of " + voxels_text(grid) : "plane of " + size_text(grid)) +
+              ", which " + what + " cannot take: it is for planes" +
+              (grid.is_volume() ? "" : " that are not spaced"));
 }
 
 void refuse_tilted_and_volumes(const Grid& grid, const char* what) {
@@ -336,28 +342,22 @@ void refuse_tilted_and_volumes(const Grid& grid, const char* what) {
               " cannot take; exact diagrams of a window of the grid do");
 }
 
-namespace {
-std::string periodic_text(bool x, bool y, bool z) {
+std::string periodic_text(Axes axes) {
   std::string text;
-  for (const char* const axis : {x ? "x" : "", y ? "y" : "", z ? "z" : ""}) {
+  for (const char* const axis : {has_x(axes) ? "x" : "", has_y(axes) ? "y" : "", has_z(axes) ? "z" : ""}) {
     if (*axis != 0) text += (text.empty() ? "" : " and ") + std::string(axis);
   }
   return text.empty() ? "" : ", periodic in " + text;
 }
-}  // namespace
-
-std::string periodic_text(const Grid& grid) {
-  return periodic_text(grid.x().is_periodic(), grid.y().is_periodic(), grid.z().is_periodic());
-}
 
 std::string size_text(const Grid& grid) {
-  return sides_text(sides_of(grid)) + spacing_text(spacing_of(grid)) + periodic_text(grid);
+  return sides_text(sides_of(grid)) + spacing_text(spacing_of(grid)) + periodic_text(grid.periodic());
 }
 
 std::string size_text(const PixelGrid& pixels) {
   const auto [x, y, z] = pixels.spacing();
   return sides_text({pixels.width(), pixels.height(), pixels.depth()}) + spacing_text({x, y, z}) +
-         periodic_text(pixels.periodic_x(), pixels.periodic_y(), pixels.periodic_z());
+         periodic_text(pixels.periodic());
 }
 
 }  // namespace vorocl

@@ -113,7 +113,8 @@ std::shared_ptr<const OuterSeeds> gather_outer_seeds(const Device& device, const
     outer.outside += is_inside(pixels, position) ? 0 : 1;
     near = near && is_near(pixels, position);
   }
-  if (outer.outside == 0 && window.grid().periodic() == Periodic::none) return nullptr;
+  const Axes periodic = window.grid().periodic();
+  if (outer.outside == 0 && !has_x(periodic) && !has_y(periodic)) return nullptr;
 
   const Periods periods(window.grid());
   const Region home = home_region(window), region = labelled_region(window, home);

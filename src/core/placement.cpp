@@ -34,7 +34,7 @@ bool are_crowded(const PixelGrid& volume, const std::vector<std::uint32_t>& voxe
 
 bool kernels_go_round(const Window& window, const PixelGrid& shown) {
   constexpr int most = 32000;  // margins of the exact engine's index must fit beside a period
-  return window.is_whole() && !window.grid().is_tilted() && shown.periodic() == window.grid().periodic() &&
+  return window.is_whole() && !window.grid().is_tilted() && shown.periodic() == window.periodic() &&
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// Throws Error for something ("a mask") that needs a diagram of all of the grid.
 PixelGrid pixels_of(const Grid& grid, const char* what) {
-  if (!grid.is_volume() && !fits_in_a_diagram(grid)) {
+  if (!has_voxels(grid) && !fits_in_a_diagram(grid)) {
     throw Error(std::string(what) + " needs a grid that is no larger than a diagram, " +
                 std::to_string(Window::max_side) + " pixels along a side; this one has " +
                 std::to_string(grid.width()) + " x " + std::to_string(grid.height()));
@@ -25,7 +25,7 @@ PixelGrid pixels_of(const Grid& grid, const char* what) {
 /// Where kernels cannot go round the ends themselves, the host places the images.
 void place_images_of_long_periods(SeedsState& state, const PixelGrid& pixels) {
   const Grid& grid = state.grid();
-  if (grid.is_volume() || kernels_go_round(grid, pixels)) return;
+  if (has_voxels(grid) || kernels_go_round(grid, pixels)) return;
   state.place(grid, std::make_shared<const std::vector<PlanePosition>>(state.frame()->read_pixels()),
               nullptr);
 }
@@ -60,7 +60,7 @@ Seeds::Seeds(Seeds&& other) noexcept = default;
 Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
 
 Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
-  const Snap snap = grid.is_volume() ? Snap::to_pixels : Snap::none;
+  const Snap snap = has_voxels(grid) ? Snap::to_pixels : Snap::none;
   return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count, snap));
 }
 
@@ -117,7 +117,7 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
   SeedsState& state = seeds.state();
   const std::shared_ptr<cl::Buffer> positions = state.room_for_positions(count);
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};
-  if (grid.is_volume()) {
+  if (has_voxels(grid)) {
     Kernel kernel(device, "volumes/seeds.cl", "random_voxels", pixels);
     kernel.over_items(count / kernel.vector_width() + 1, *positions, static_cast<cl_uint>(count),
                       pixels.width(), pixels.height(), pixels.depth(), key);

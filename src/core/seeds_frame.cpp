@@ -160,7 +160,7 @@ double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) 
 
 std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
   std::vector<std::optional<Point>> positions(size);
-  if (!grid.is_volume()) {
+  if (!has_voxels(grid)) {
     const std::vector<PlanePosition> at = read_pixels();
     for (std::size_t id = 0; id < size; ++id) {
       if (!is_absent(at[id])) positions[id] = position(id, at[id]);

@@ -164,7 +164,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   }
   const std::shared_ptr<std::vector<Point>> given = points_.take();
   given->resize(points.size());
-  if (grid.is_volume()) {
+  if (has_voxels(grid)) {
     if (snap == Snap::none) throw Error("volumes know whole voxels alone: snap the points to pixels");
     return place_in_volume(grid, snap_to_voxels(grid, points, *given), given);
   }

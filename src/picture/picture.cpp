@@ -142,7 +142,7 @@ std::optional<int> neighbour(int at, int step, int size, bool periodic) {
 }
 
 /// 255 for the pixels whose right or lower neighbour has another label.
-cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& size, Periodic axes) {
+cv::Mat thin_edges(const std::vector<std::uint32_t>& labels, const cv::Size& size, Axes axes) {
   cv::Mat edges(size, CV_8U, cv::Scalar(0));
   const auto row = [&](int y) { return labels.data() + static_cast<std::ptrdiff_t>(y) * size.width; };
   for (int y = 0; y < size.height; ++y) {
@@ -169,7 +169,7 @@ cv::Mat disk(int diameter) {
 }
 
 /// Edges made this wide; along periodic axes they go on at the other side.
-cv::Mat widened(const cv::Mat& edges, int width, Periodic axes) {
+cv::Mat widened(const cv::Mat& edges, int width, Axes axes) {
   const int x = has_x(axes) ? width : 0, y = has_y(axes) ? width : 0;
   cv::Mat padded;
   cv::copyMakeBorder(edges, padded, y, y, x, x, cv::BORDER_WRAP);
@@ -263,7 +263,7 @@ cv::Mat color_by_distance(const std::vector<float>& distances, const Window& win
   return picture;
 }
 
-void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width, Periodic axes) {
+void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int width, Axes axes) {
   check_picture(picture);
   check_count(labels.size(), "labels", picture.cols, picture.rows);
   if (width < 1 || width > widest_edge) {
@@ -274,7 +274,7 @@ void draw_edges(cv::Mat& picture, const std::vector<std::uint32_t>& labels, int 
   draw_mask(picture, width > 1 ? widened(edges, width, axes) : edges, labels);
 }
 
-void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval, Periodic axes) {
+void draw_contours(cv::Mat& picture, const std::vector<float>& distances, double interval, Axes axes) {
   check_picture(picture);
   check_count(distances.size(), "distances", picture.cols, picture.rows);
   if (!(interval > 0 && std::isfinite(interval))) {

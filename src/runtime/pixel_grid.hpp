@@ -15,7 +15,7 @@ namespace vorocl {
 /// the periodic axes, for vectors no longer than a row, and in a volume for its VoxelBits and its spacing.
 class PixelGrid {
  public:
-  PixelGrid(int width, int height, Periodic periodic = Periodic::none)
+  PixelGrid(int width, int height, Axes periodic = Axes::none)
       : width_(width), height_(height), periodic_(periodic) {}
 
   /// Those of a diagram's window, or a volume. Throws Error if it is larger than a diagram can be.
@@ -30,25 +30,24 @@ class PixelGrid {
   bool is_volume() const { return depth_ > 1 || is_spaced(); }
   bool is_spaced() const { return spacing_ != std::array<int, 3>{1, 1, 1}; }
   const std::array<int, 3>& spacing() const { return spacing_; }  ///< of x, y and z
-  Periodic periodic() const { return periodic_; }
+  Axes periodic() const { return periodic_; }                     ///< z in a volume alone
   bool periodic_x() const { return has_x(periodic_); }
   bool periodic_y() const { return has_y(periodic_); }
-  bool periodic_z() const { return periodic_z_; }
-  bool is_periodic() const { return periodic_ != Periodic::none || periodic_z_; }
+  bool periodic_z() const { return has_z(periodic_); }
+  bool is_periodic() const { return periodic_ != Axes::none; }
   int longest_side() const { return std::max({width_, height_, depth_}); }
   std::size_t rows() const { return static_cast<std::size_t>(height_) * static_cast<std::size_t>(depth_); }
   std::size_t pixels() const { return static_cast<std::size_t>(width_) * rows(); }
 
   friend bool operator==(const PixelGrid& a, const PixelGrid& b) {
     return a.width_ == b.width_ && a.height_ == b.height_ && a.depth_ == b.depth_ &&
-           a.periodic_ == b.periodic_ && a.periodic_z_ == b.periodic_z_ && a.spacing_ == b.spacing_;
+           a.periodic_ == b.periodic_ && a.spacing_ == b.spacing_;
   }
   friend bool operator!=(const PixelGrid& a, const PixelGrid& b) { return !(a == b); }
 
  private:
   int width_, height_, depth_ = 1;
-  Periodic periodic_;
-  bool periodic_z_ = false;  // of a volume
+  Axes periodic_;
   std::array<int, 3> spacing_ = {1, 1, 1};
 };
 
@@ -74,17 +73,20 @@ struct VoxelBits {
   int x, y, z;
 };
 
+/// Whether seeds lie in voxels (VoxelBits): in a volume, and in a plane with an axis that is spaced.
+bool has_voxels(const Grid& grid);
+
 /// Whether a diagram can show all of a grid.
 bool fits_in_a_diagram(const Grid& grid);
 
-/// Throws Error if a grid is a volume, for something ("a window") that knows planes alone.
+/// Throws Error if a grid has voxels, for something ("a window") that knows planes without spacings alone.
 void refuse_volume(const Grid& grid, const char* what);
 
 /// Throws Error if a grid is tilted or a volume, for something ("flooding") that knows neither.
 void refuse_tilted_and_volumes(const Grid& grid, const char* what);
 
 /// ", periodic in x and y", or nothing.
-std::string periodic_text(const Grid& grid);
+std::string periodic_text(Axes axes);
 
 /// "640 x 480, periodic in x".
 std::string size_text(const PixelGrid& pixels);

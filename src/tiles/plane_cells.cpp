@@ -125,7 +125,7 @@ void PlaneCellsState::add(const std::vector<char>& taken) {
   if (taken.empty()) return;
   TakenReader reader(taken);
   const TakenHead head = reader.next<TakenHead>(1).front();
-  const Grid grid(head.width, head.height, static_cast<Periodic>(head.periodic));
+  const Grid grid(head.width, head.height, static_cast<Axes>(head.periodic));
   const Tiling tiling(Window(grid, head.window_x, head.window_y, head.window_width, head.window_height),
                       head.side);
   if (!tiling_.empty() && (head.ids != ids || !is_same(tiling, tiling_.front()))) {

@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(bounds_map_to_pixels) {
 
 BOOST_AUTO_TEST_CASE(points_wrap_along_periodic_axes) {
   const Bounds world = {-180, -90, 180, 90};
-  const Grid grid(360, 180, Periodic::x);
+  const Grid grid(360, 180, Axes::x);
   BOOST_TEST((pixel({180, 0}, world, grid) == Pairs{{0.5, 90.5}}));  // the period begins again
   BOOST_TEST((pixel({-180, 90}, world, grid, true) == Pairs{{0.5, 0.5}}));
   check_error([&] { pixel({0, 91}, world, grid); }, {"(0, 91)", "outside the bounds"});
@@ -59,12 +59,12 @@ BOOST_AUTO_TEST_CASE(a_period_is_scaled_to_whole_pixels_where_it_is) {
   // ends.
   Mapping mapping;
   mapping.bounds = {0, 0, 20, 1};
-  mapping.periodic = Periodic::x;
+  mapping.periodic = Axes::x;
   mapping.domain = Bounds{3.3, 0, 10.7, 1};
   for (int i = 0; i < 740; ++i) {
     const double x = 3.3 + 0.01 * i;
     const MappedPoints mapped = map_points({{x, 0.5}, {x + 7.4, 0.5}, {x - 14.8, 0.5}}, mapping, Size(20, 1));
-    BOOST_TEST((mapped.view.window == Window(Grid(7, 1, Periodic::x))));
+    BOOST_TEST((mapped.view.window == Window(Grid(7, 1, Axes::x))));
     BOOST_TEST(mapped.view.x == 3);
     const double scaled = 7 + (x - 7) * 7 / 7.4;
     const double column = std::floor(scaled) < 3 ? 9 : std::floor(scaled) > 9 ? 3 : std::floor(scaled);
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(units_are_those_of_the_data) {
   BOOST_TEST(units(Size(8, 4)).of_area() == std::string("px"));
   // A period of 7.4 pixels has 7, which are longer.
   mapping.bounds = {0, 0, 20, 1};
-  mapping.periodic = Periodic::x;
+  mapping.periodic = Axes::x;
   mapping.domain = Bounds{3.3, 0, 10.7, 1};
   BOOST_TEST(units(Size(20, 1)).area(7) == 7.4, boost::test_tools::tolerance(1e-12));
 }

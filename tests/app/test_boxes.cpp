@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(measures_in_a_part_of_the_picture_are_those_of_its_pixels) 
              "--adjacency a%d.csv --method " +
                  method);
     const LabelImage picture = labels_of(folder, "l1.npy");
-    LabelledGrid box = {Grid(20, 24, Periodic::xy), {}};
+    LabelledGrid box = {Grid(20, 24, Axes::xy), {}};
     for (int y = 6; y < 30; ++y) {
       for (int x = 8; x < 28; ++x) box.labels.push_back(label_at(picture.size.grid(), picture.labels, x, y));
     }

@@ -21,7 +21,7 @@ const std::string all_files =
 
 /// Runs, and checks all files.
 json checked(const TemporaryFolder& folder, const std::string& arguments, const SeedsById& seeds,
-             Metric metric = Metric::euclidean, Periodic axes = Periodic::none) {
+             Metric metric = Metric::euclidean, Axes axes = Axes::none) {
   json result;
   BOOST_TEST_CONTEXT(arguments) {
     result = json::parse(succeeds(folder, arguments + all_files + " --units px --json"));
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(random_seeds_have_the_cells_of_a_recount) {
 
 BOOST_AUTO_TEST_CASE(cells_reach_across_periodic_borders) {
   const TemporaryFolder folder;
-  for (const auto& [name, axes] : {std::pair{"x", Periodic::x}, std::pair{"xy", Periodic::xy}}) {
+  for (const auto& [name, axes] : {std::pair{"x", Axes::x}, std::pair{"xy", Axes::xy}}) {
     const Grid grid(150, 90, axes);
     checked(folder, fmt::format("cells --random 40 --size 150x90 --periodic {}", name),
             numbered(random_seeds(grid, 40)), Metric::euclidean, axes);
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(a_whole_period_is_measured_across_its_ends_wherever_seeds_a
   run(folder,
       "cells --points p.csv --bounds 0,0,60,40 --size 60x40 --periodic x --cells c.csv --adjacency a.csv "
       "--labels l.npy --units px");
-  const LabelledGrid image = on_grid(command::read_labels(folder / "l.npy"), Periodic::x);
+  const LabelledGrid image = on_grid(command::read_labels(folder / "l.npy"), Axes::x);
   check_cells_table(folder / "c.csv", image, seeds, Metric::euclidean);
   check_adjacency_table(folder / "a.csv", image);
 }
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(particles_go_by_the_ids_of_the_file) {
     BOOST_TEST(seeds.begin()->first == 1u);  // not an index
     const json result = checked(
         folder, fmt::format("cells --snap --trajectory '{}' --y-down --width 170 --frame {}", path, number),
-        seeds, Metric::euclidean, Periodic::xy);
+        seeds, Metric::euclidean, Axes::xy);
     BOOST_TEST(result.at("empty_cells").get<int>() > 0);  // particles that share a pixel
   }
 }

@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(diagrams_are_exact_unless_a_method_is_named) {
   const json result = json::parse(succeeds(folder, "render" + seeds + "a.npy --json"));
   BOOST_TEST(result.at("method") == "exact");
   BOOST_TEST(result.at("periodic") == "y");
-  const Grid grid(70, 50, Periodic::y);
+  const Grid grid(70, 50, Axes::y);
   const std::vector<Pixel> pixels = pixels_of(points_of(Seeds::random(test_device(), grid, 40, 1)));
   BOOST_TEST(labels_of(folder, "a.npy") == brute_force(grid, pixels, Metric::euclidean));
   succeeds(folder, "simulate --frames 1 --step-length 0" + seeds + "s%d.npy");
@@ -212,9 +212,8 @@ BOOST_AUTO_TEST_CASE(a_period_may_be_as_long_as_a_diagram) {
   const TemporaryFolder folder;
   const std::string seeds = " --random 9 --size 32768x3 --periodic x --labels ";
   succeeds(folder, "render" + seeds + "a.npy");
-  const auto pixels = pixels_of(points_of(Seeds::random(test_device(), Grid(32768, 3, Periodic::x), 9, 1)));
-  BOOST_TEST(labels_of(folder, "a.npy") ==
-             brute_force(Grid(32768, 3, Periodic::x), pixels, Metric::euclidean));
+  const auto pixels = pixels_of(points_of(Seeds::random(test_device(), Grid(32768, 3, Axes::x), 9, 1)));
+  BOOST_TEST(labels_of(folder, "a.npy") == brute_force(Grid(32768, 3, Axes::x), pixels, Metric::euclidean));
 }
 
 BOOST_AUTO_TEST_CASE(compare_judges_by_the_truth) {

@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(seeds_within_their_pixels_are_judged_where_they_are) {
   const std::vector<std::optional<Point>> seeds = {Point{3.25, 3.5}, Point{3.75, 3.5}, Point{9.5, 0.5}};
   for (const Metric metric : both_metrics) {
     const GroundTruth truth(Grid(12, 7), seeds, metric);
-    const GroundTruth round(Grid(12, 7, Periodic::xy), seeds, metric);
+    const GroundTruth round(Grid(12, 7, Axes::xy), seeds, metric);
     const auto labels = [&](bool periodic) {
       const auto way = [periodic](double from, double to, double period) {
         const double straight = std::abs(from - to);

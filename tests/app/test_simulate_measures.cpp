@@ -15,8 +15,7 @@ using namespace vorocl;
 
 namespace {
 
-LabelledGrid labels_of(const TemporaryFolder& folder, const std::string& name,
-                       Periodic axes = Periodic::none) {
+LabelledGrid labels_of(const TemporaryFolder& folder, const std::string& name, Axes axes = Axes::none) {
   return on_grid(command::read_labels(folder / name), axes);
 }
 
@@ -205,7 +204,7 @@ BOOST_AUTO_TEST_CASE(particles_on_one_pixel_have_a_row_each) {
   BOOST_TEST_REQUIRE(table.rows.size() == frames.size());
   std::optional<LabelledGrid> before;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const LabelledGrid image = labels_of(folder, fmt::format("l{}.npy", i), Periodic::xy);
+    const LabelledGrid image = labels_of(folder, fmt::format("l{}.npy", i), Axes::xy);
     check_cells_table(folder / fmt::format("c{}.csv", i), image, frames[i], Metric::euclidean);
     check_adjacency_table(folder / fmt::format("a{}.csv", i), image);
     check_statistics(table.rows[i], statistics_on_host(static_cast<int>(i), image, before, frames[i]));

@@ -77,7 +77,7 @@ std::vector<Particles> drifting(int frames) {
 
 BOOST_AUTO_TEST_CASE(labels_are_the_ids_of_particles_that_come_and_go) {
   const TemporaryFolder folder;
-  const Grid grid(120, 120, Periodic::xy);
+  const Grid grid(120, 120, Axes::xy);
   const std::vector<Particles> frames = drifting(12);
   std::string text;
   for (const Particles& particles : frames) text += frame_text(particles);
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(of_particles_on_one_pixel_the_lowest_id_has_the_cell) {
   succeeds(folder, "simulate --trajectory t.lammpstrj --size 20x20 --method djfa --labels l%d.npy");
   for (std::size_t i = 0; i < 2; ++i) {
     BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) ==
-               exact_labels(frames[i], Grid(20, 20, Periodic::xy)));
+               exact_labels(frames[i], Grid(20, 20, Axes::xy)));
   }
 }
 
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(of_a_crowd_the_lowest_ids_have_the_cells) {
   succeeds(folder, "simulate --snap --trajectory t.lammpstrj --size 30x30 --labels l%d.npy");
   for (std::size_t i = 0; i < frames.size(); ++i) {
     BOOST_TEST(labels_of(folder, fmt::format("l{}.npy", i)) ==
-               exact_labels(frames[i], Grid(30, 30, Periodic::xy)));
+               exact_labels(frames[i], Grid(30, 30, Axes::xy)));
   }
 }
 
@@ -168,28 +168,28 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
                result.error);
     return labels_of(folder, "l.npy");
   };
-  const auto expected = [&](Periodic axes) { return exact_labels(particles, Grid(40, 40, axes)); };
-  BOOST_TEST(expected(Periodic::x) != expected(Periodic::none));
-  BOOST_TEST(labels("xy", "") == expected(Periodic::xy));
-  BOOST_TEST(labels("x", "") == expected(Periodic::x));
-  BOOST_TEST(labels("none", "") == expected(Periodic::none));
-  BOOST_TEST(labels("xy", "--periodic none") == expected(Periodic::none));
-  BOOST_TEST(labels("none", "--periodic x") == expected(Periodic::x));
-  BOOST_TEST(labels("xy", "--bounds 0,0,10,10") == expected(Periodic::xy));
-  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic x") == expected(Periodic::x));
-  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic none") == expected(Periodic::none));
+  const auto expected = [&](Axes axes) { return exact_labels(particles, Grid(40, 40, axes)); };
+  BOOST_TEST(expected(Axes::x) != expected(Axes::none));
+  BOOST_TEST(labels("xy", "") == expected(Axes::xy));
+  BOOST_TEST(labels("x", "") == expected(Axes::x));
+  BOOST_TEST(labels("none", "") == expected(Axes::none));
+  BOOST_TEST(labels("xy", "--periodic none") == expected(Axes::none));
+  BOOST_TEST(labels("none", "--periodic x") == expected(Axes::x));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10") == expected(Axes::xy));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic x") == expected(Axes::x));
+  BOOST_TEST(labels("xy", "--bounds 0,0,10,10 --periodic none") == expected(Axes::none));
 
   // A tilted box repeats with its tilt, unless the axes are told otherwise.
   folder.file("tilted.lammpstrj",
               dump("xy xz yz pp pp pp\n0 12 2\n0 10 0\n-0.5 0.5 0", "id x y", {"1 0.5 5", "2 6 5"}));
   const auto tilted = labels("tilted", "");
-  BOOST_TEST(tilted != expected(Periodic::xy));
+  BOOST_TEST(tilted != expected(Axes::xy));
   BOOST_TEST(labels("tilted", "--bounds 0,0,10,10") == tilted);
   BOOST_TEST(
       run(folder, "render --trajectory tilted.lammpstrj --size 40x40 --snap --labels t.npy --periodic xy")
           .error.empty());
   BOOST_TEST(labels_of(folder, "t.npy") == tilted);
-  BOOST_TEST(labels("tilted", "--periodic x") == expected(Periodic::x));
+  BOOST_TEST(labels("tilted", "--periodic x") == expected(Axes::x));
   // What repeats is told of bounds that are a window of the box, too.
   const std::string zoom = "render --trajectory x.lammpstrj --size 9x9 --bounds 2,2,4,4 --json -o zoom.png";
   BOOST_TEST(run(folder, zoom).out.find("\"periodic\":\"x\"") != std::string::npos);
@@ -198,8 +198,8 @@ BOOST_AUTO_TEST_CASE(the_axes_of_the_box_are_periodic_unless_told_otherwise) {
     succeeds(
         folder,
         "simulate --snap --trajectory both.lammpstrj --size 40x40 --labels both%d.npy --method " + method);
-    BOOST_TEST(labels_of(folder, "both0.npy") == expected(Periodic::xy));
-    BOOST_TEST(labels_of(folder, "both1.npy") == expected(Periodic::x));
+    BOOST_TEST(labels_of(folder, "both0.npy") == expected(Axes::xy));
+    BOOST_TEST(labels_of(folder, "both1.npy") == expected(Axes::x));
   }
 }
 

@@ -134,7 +134,7 @@ std::size_t wrong_pixels(const TemporaryFolder& folder, const std::string& argum
 BOOST_AUTO_TEST_CASE(points_are_taken_where_they_are_unless_they_are_snapped) {
   const TemporaryFolder folder;
   const std::string plane = " --points p.csv --bounds 0,0,90,60 --size 90x60";
-  for (const auto& [name, axes] : {std::pair{"none", Periodic::none}, std::pair{"xy", Periodic::xy}}) {
+  for (const auto& [name, axes] : {std::pair{"none", Axes::none}, std::pair{"xy", Axes::xy}}) {
     const Grid grid(90, 60, axes);
     const std::vector<Point> points = crowd(grid, 400);
     write_points(folder, points);

@@ -119,8 +119,8 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
 /// one, whose right and lower parts have no labels.
 void make_windows(const Device& device, Metric metric) {
   const Grid plain(40, 25);
-  for (const Window& window : {Window(plain), Window(Grid(50, 38, Periodic::xy), 20, 20, 40, 25),
-                               Window(Grid(30, 18, Periodic::xy), -3, -2, 40, 25)}) {
+  for (const Window& window : {Window(plain), Window(Grid(50, 38, Axes::xy), 20, 20, 40, 25),
+                               Window(Grid(30, 18, Axes::xy), -3, -2, 40, 25)}) {
     Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
     for (const int distance : {40, 100000}) {
       std::vector<Point> points = {{3, 4}, {30, 8}};
@@ -154,8 +154,8 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
   std::vector<Point> points = {{3.25, 4.5}, {3.5, 4.5}, {30.125, 8.75}};
   for (int i = 0; i < 70; ++i) points.push_back({20.5, 10.25});
   for (int i = 0; i < 90; ++i) points.push_back({i * 0.4375, i % 13 * 1.9});
-  for (const Window& window : {Window(Grid(40, 25)), Window(Grid(40, 25, Periodic::xy)),
-                               Window(Grid(30, 18, Periodic::xy), -3, -2, 40, 25)}) {
+  for (const Window& window : {Window(Grid(40, 25)), Window(Grid(40, 25, Axes::xy)),
+                               Window(Grid(30, 18, Axes::xy), -3, -2, 40, 25)}) {
     Seeds seeds(device, window.grid(), points, Outside::count, Snap::none);
     Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
     const Labels expected =
@@ -207,7 +207,7 @@ void measure_volume(const Diagram& diagram) {
 
 /// Volumes of few seeds, and of many in a part of them, one of which is measured with vectors.
 void make_volumes(const Device& device, const Grid& grid) {
-  int vector_width = grid.periodic() == Periodic::none ? 1 : 4;
+  int vector_width = grid.periodic() == Axes::none ? 1 : 4;
   for (const std::size_t count : {9u, 600u}) {
     const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
     std::vector<Point> points;
@@ -249,7 +249,7 @@ void make_volumes(const Device& device, const Grid& grid) {
 
 /// Images of planes and volumes by keys of 32 and of 64 bits, seeds of a mask, and seeds close together.
 void transform_images(const Device& device) {
-  for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Periodic::xy), Grid(18, 9, 6)}) {
+  for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Axes::xy), Grid(18, 9, 6)}) {
     std::vector<std::uint8_t> image(grid.pixels(), 1);
     for (std::size_t i = 0; i < image.size(); i += 1 + i % 67) image[i] = 0;
     std::vector<float> distances(image.size());
@@ -348,7 +348,7 @@ void make_tiles(const Device& device, Metric metric) {
 void cut_exact_cells(const Device& device) {
   std::vector<Point> star = {{50, 50}};
   for (int i = 0; i < 30; ++i) star.push_back({50 + 40 * std::cos(0.2 * i), 50 + 40 * std::sin(0.2 * i)});
-  for (const Grid& grid : {Grid(100, 100), Grid(100, 100, Periodic::xy)}) {
+  for (const Grid& grid : {Grid(100, 100), Grid(100, 100, Axes::xy)}) {
     ExactCellsResult cells;
     exact_cells(Seeds(device, grid, star), cells);
     const ExactCellsCheck check = cells.check();
@@ -372,13 +372,12 @@ int main() {
       make_seeds(shaped, grid);
     }
     make_exact_diagrams(shaped, Grid(176, 90), metric);
-    make_exact_diagrams(shaped, Grid(140, 66, Periodic::xy), other);
+    make_exact_diagrams(shaped, Grid(140, 66, Axes::xy), other);
     make_windows(shaped, metric);
     make_diagrams_of_points(shaped, metric);
     if (!in_groups) make_ring(shaped, metric);
     make_tiles(shaped, metric);
-    for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Periodic::xy)})
-      measure(shaped, grid, metric);
+    for (const Grid& grid : {Grid(40, 19), Grid(3, 11), Grid(70, 9, Axes::xy)}) measure(shaped, grid, metric);
   }
   measure_many_cells(device, Grid(13, 9));
   measure_islands(device);

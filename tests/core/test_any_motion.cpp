@@ -192,7 +192,7 @@ struct Similarities {
 };
 
 /// The greatest displacement along an axis of a seed that is there in both frames.
-double greatest_displacement(const Frame& before, const Frame& now, Periodic periodic) {
+double greatest_displacement(const Frame& before, const Frame& now, Axes periodic) {
   const auto along = [&](double way, bool wraps) {
     return wraps ? std::min(std::abs(way), side - std::abs(way)) : std::abs(way);
   };
@@ -206,7 +206,7 @@ double greatest_displacement(const Frame& before, const Frame& now, Periodic per
 }
 
 /// Holds dJFA against JFA over so many frames.
-void check_motion(const Motion& motion, Metric metric, Periodic periodic, int frames) {
+void check_motion(const Motion& motion, Metric metric, Axes periodic, int frames) {
   const Grid grid(side, side, periodic);
   Random random(7);
   Frame points = motion.start(random);
@@ -236,15 +236,15 @@ void check_motion(const Motion& motion, Metric metric, Periodic periodic, int fr
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(djfa_is_as_near_to_the_exact_diagram_as_jfa) {
-  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Periodic::none, 100);
+  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Axes::none, 100);
 }
 
 BOOST_AUTO_TEST_CASE(so_it_is_with_the_manhattan_distance) {
-  for (const Motion& motion : motions()) check_motion(motion, Metric::manhattan, Periodic::none, 10);
+  for (const Motion& motion : motions()) check_motion(motion, Metric::manhattan, Axes::none, 10);
 }
 
 BOOST_AUTO_TEST_CASE(so_it_is_on_periodic_grids) {
-  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Periodic::xy, 10);
+  for (const Motion& motion : motions()) check_motion(motion, Metric::euclidean, Axes::xy, 10);
 }
 
 // The paper's plan fails on most of these motions: if it did not, the cases above would show nothing.
@@ -285,7 +285,7 @@ BOOST_AUTO_TEST_CASE(evenly_spread_seeds_get_the_paper_s_labels) {
 // What is measured, and so every plan, is the same for all vector widths; the widths of the grid have vectors
 // that overlap.
 BOOST_AUTO_TEST_CASE(the_same_plans_for_every_kernel_shape) {
-  const Grid grid(143, 61, Periodic::x);
+  const Grid grid(143, 61, Axes::x);
   std::vector<std::string> expected;
   for (const Tuning& shape : {Tuning{1, 32, 8}, Tuning{2, 64, 1}, Tuning{4, 1, 16}, Tuning{16, 64, 1}}) {
     const Device device = test_device().with_tuning(shape);

@@ -225,7 +225,7 @@ static void test_volume(const vorocl_device* device, vorocl_periodic periodic, i
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &diagram));
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &right));
   OK(vorocl_diagram_window(diagram, &all));
-  CHECK(all.width == columns && all.height == rows && all.grid.z.pixels == slices);
+  CHECK(all.width == columns && all.height == rows && all.z == 0 && all.depth == slices);
   OK(vorocl_diagram_write(right, labels, voxels, seeds, VOROCL_EUCLIDEAN));
   test_methods(device, seeds, diagram, right);
   test_cells(right);
@@ -279,8 +279,6 @@ static void test_refusals(const vorocl_device* device) {
                                  &none),
         VOROCL_NULL_ARGUMENT, "points is NULL");
   FAILS(vorocl_seeds_random(device, unknown, 3, 1, &none), VOROCL_BAD_ARGUMENT, "must be 0 or 1");
-  FAILS(vorocl_seeds_random(device, vorocl_grid_of_pixels(9, 9, VOROCL_PERIODIC_Z), 3, 1, &none),
-        VOROCL_BAD_ARGUMENT, "must be 0 or 1");
   flat.x.spacing = 17;
   FAILS(vorocl_seeds_random(device, flat, 3, 1, &none), VOROCL_BAD_ARGUMENT, "a spacing of 17");
   flat.x.spacing = 0;
@@ -289,6 +287,11 @@ static void test_refusals(const vorocl_device* device) {
   FAILS(vorocl_seeds_move_to(NULL, places, NULL, 1), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   part.height = 3;
   FAILS(vorocl_diagram_create(device, part, &diagram), VOROCL_BAD_ARGUMENT, "volume");
+  part = vorocl_window_of_grid(volume);
+  part.depth = slices - 1;
+  FAILS(vorocl_diagram_create(device, part, &diagram), VOROCL_BAD_ARGUMENT, "volume");
+  part.depth = slices + 1;
+  FAILS(vorocl_diagram_create(device, part, &diagram), VOROCL_BAD_ARGUMENT, "from z = 0 on");
   OK(vorocl_diagram_create(device, vorocl_window_of_grid(volume), &diagram));
   OK(vorocl_run("jfa", seeds, diagram, NULL));
   FAILS(vorocl_energy(diagram, &number), VOROCL_BAD_ARGUMENT, "volume");

@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(a_table_is_in_the_units_of_the_data) {
   const Axis x(120, -3, 7), y(80, 1e4, 1e4 + 0.5);
   const Grid grids[] = {
       Grid(120, 80),
-      Grid(120, 80, Periodic::xy),
+      Grid(120, 80, Axes::xy),
       Grid(x, y),
       Grid(x, y.reversed()),
       Grid(x.periodic(), y),

@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
 
 // Labels that name an absent seed are as good as none to all measures that know seeds.
 BOOST_AUTO_TEST_CASE(absent_seeds_own_nothing) {
-  const Grid plain(83, 47), torus(83, 47, Periodic::xy);
+  const Grid plain(83, 47), torus(83, 47, Axes::xy);
   const std::vector<Device> all = shapes();
   std::size_t turn = 0;
   // Near, far away, and of the window's own: each in one shape, with VOROCL_LONG_TESTS in all.

@@ -68,7 +68,7 @@ Device shaped(Shape shape) {
   return test_device().with_tuning(tuning);
 }
 
-const Grid flat(2048, 2048), periodic(2048, 2048, Periodic::xy);
+const Grid flat(2048, 2048), periodic(2048, 2048, Axes::xy);
 
 Seeds random_seeds(const Device& device, const Grid& grid, Snap snap) {
   std::mt19937_64 random(1);

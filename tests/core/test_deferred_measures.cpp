@@ -54,7 +54,7 @@ class Film {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(measures_read_at_the_end_are_those_read_at_once) {
-  for (const Grid& grid : {Grid(143, 61), Grid(90, 90, Periodic::xy)}) {
+  for (const Grid& grid : {Grid(143, 61), Grid(90, 90, Axes::xy)}) {
     for (const Metric metric : both_metrics) {
       std::vector<std::vector<double>> expected;
       Film at_once(grid, metric);

@@ -60,7 +60,7 @@ std::vector<std::pair<std::string, Move>> moves(const Grid& grid) {
        }},
       {"to another grid",
        [=](std::optional<Seeds>& seeds) {
-         const Grid other(500, 30, Periodic::xy);
+         const Grid other(500, 30, Axes::xy);
          seeds->move_to(other, points_on(other, 60, 2));
        }},
       {"away", [](std::optional<Seeds>& seeds) { seeds.reset(); }},
@@ -70,7 +70,7 @@ std::vector<std::pair<std::string, Move>> moves(const Grid& grid) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(measures_are_of_the_frame_that_the_diagram_was_made_from) {
-  const Grid pixels(130, 70), torus(130, 70, Periodic::xy), data(Axis(130, -1, 1).periodic(), Axis(70, 0, 7));
+  const Grid pixels(130, 70), torus(130, 70, Axes::xy), data(Axis(130, -1, 1).periodic(), Axis(70, 0, 7));
   for (const Grid& grid : {pixels, torus, data}) {
     for (const Window& window : {Window(grid), Window(grid, 40, 11, 50, 37)}) {
       for (const Metric metric : both_metrics) {

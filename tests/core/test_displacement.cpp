@@ -22,7 +22,7 @@ int first_step_of(const Seeds& seeds, Diagram& diagram,
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(the_greatest_way_along_an_axis_in_pixels) {
-  const Grid pixels(100, 50), ring(100, 50, Periodic::x);
+  const Grid pixels(100, 50), ring(100, 50, Axes::x);
   const Grid data(Axis(100, 0, 1), Axis(50, -5, 5).reversed());
   Seeds on_pixels(test_device(), pixels, {{1, 1}, {50, 20}, {98, 40}});
   BOOST_TEST(on_pixels.displacement() == 0);

@@ -432,7 +432,7 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_named) {
   check_error([&] { DistanceTransform(device, Grid(4, 3), {1, 2000, 1}); }, {"1000 times"});
   check_error([&] { DistanceTransform(device, Grid(40000, 1)); }, {"40000 x 1", "32768"});
   check_error([&] { DistanceTransform(device, Grid(2, 2, 20000)); }, {"16384"});
-  check_error([&] { DistanceTransform(device, Grid(4, 3, Periodic::xy).tilted(1)); }, {"tilted"});
+  check_error([&] { DistanceTransform(device, Grid(4, 3, Axes::xy).tilted(1)); }, {"tilted"});
   DistanceTransform moved = std::move(transform);
   BOOST_TEST(moved.grid().width() == 4);
   check_error([&] { transform.found(); }, {"moved from"});
@@ -442,7 +442,7 @@ BOOST_AUTO_TEST_CASE(bad_arguments_are_named) {
 // shape.
 BOOST_AUTO_TEST_CASE(exact_diagrams_of_masks_have_the_labels_of_their_pixels_as_seeds) {
   for (const Grid& grid :
-       {Grid(67, 41), Grid(35, 30, Periodic::x), Grid(19, 44, Periodic::y), Grid(33, 40, Periodic::xy)}) {
+       {Grid(67, 41), Grid(35, 30, Axes::x), Grid(19, 44, Axes::y), Grid(33, 40, Axes::xy)}) {
     const Shape3 shape = {{static_cast<int>(grid.width()), static_cast<int>(grid.height()), 1}};
     for (const Bytes& image : images_of(shape, 8)) {
       std::vector<Pixel> pixels;

@@ -42,9 +42,9 @@ struct Set {
 };
 
 constexpr std::int64_t side = std::int64_t{1} << 30;
-constexpr Periodic all_periods[] = {Periodic::none, Periodic::x, Periodic::y, Periodic::xy};
+constexpr Axes all_periods[] = {Axes::none, Axes::x, Axes::y, Axes::xy};
 
-Grid grid_of(const Set& set, Periodic periodic) {
+Grid grid_of(const Set& set, Axes periodic) {
   const Axis x(10, 0, static_cast<double>(set.width)), y(10, 0, static_cast<double>(set.height));
   return Grid(has_x(periodic) ? x.periodic() : x, has_y(periodic) ? y.periodic() : y)
       .tilted(static_cast<double>(set.tilt));
@@ -56,7 +56,7 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
   });
 }
 
-ExactCellsResult cells_of(const Set& set, Periodic periodic) {
+ExactCellsResult cells_of(const Set& set, Axes periodic) {
   ExactCellsResult result;
   exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions)), result);
   return result;
@@ -201,7 +201,7 @@ std::optional<std::pair<Fraction, Fraction>> visible_part(const std::vector<Half
   return std::pair{*from, *to};
 }
 
-Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
+Cell reference_cell(const Set& set, Axes periodic, std::uint32_t id) {
   const Position& own = set.positions[id];
   std::vector<HalfPlane> planes;
   // Each way. The lattices of tilted sets have short vectors a few periods away.
@@ -248,7 +248,7 @@ Cell reference_cell(const Set& set, Periodic periodic, std::uint32_t id) {
 }
 
 /// Compares a set's cells with those of rational numbers, in steps.
-void check_by_rational_numbers(const Set& set, Periodic periodic) {
+void check_by_rational_numbers(const Set& set, Axes periodic) {
   const ExactCellsResult result = cells_of(set, periodic);
   const std::vector<ExactCell> cells = result.read();
   const ExactPolygons polygons = result.read_polygons();
@@ -308,7 +308,7 @@ void check_as_a_whole(const ExactCellsResult& result, const std::string& name) {
 
 BOOST_AUTO_TEST_CASE(hurtful_sets_have_the_cells_of_rational_numbers) {
   for (const Set& set : hurtful_sets()) {
-    for (const Periodic periodic : all_periods) {
+    for (const Axes periodic : all_periods) {
       BOOST_TEST_CONTEXT(set.name << ", periods " << static_cast<int>(periodic)) {
         check_by_rational_numbers(set, periodic);
         check_as_a_whole(cells_of(set, periodic), set.name);
@@ -342,8 +342,8 @@ BOOST_AUTO_TEST_CASE(tilted_boxes_have_the_cells_of_rational_numbers) {
   };
   for (const Set& set : sets) {
     BOOST_TEST_CONTEXT(set.name) {
-      check_by_rational_numbers(set, Periodic::xy);
-      check_as_a_whole(cells_of(set, Periodic::xy), set.name);
+      check_by_rational_numbers(set, Axes::xy);
+      check_as_a_whole(cells_of(set, Axes::xy), set.name);
     }
   }
 }
@@ -353,20 +353,20 @@ BOOST_AUTO_TEST_CASE(a_very_flat_tilted_box_is_filled) {
   for (const std::size_t count : {1, 3, 200}) {
     const Set set = {"very flat", side / 2, side / 2000, random_positions(side / 2, side / 2000, count, 34),
                      side / 4 - 3};
-    check_as_a_whole(cells_of(set, Periodic::xy), set.name);
+    check_as_a_whole(cells_of(set, Axes::xy), set.name);
   }
 }
 
 BOOST_AUTO_TEST_CASE(images_of_a_tilted_box_have_its_cells) {
   const Set set = {"random", 1000, 600, random_positions(1000, 600, 50, 35), 300};
-  const std::vector<ExactCell> cells = cells_of(set, Periodic::xy).read();
+  const std::vector<ExactCell> cells = cells_of(set, Axes::xy).read();
   Set moved = set;
   std::mt19937_64 random(36);
   for (Position& position : moved.positions) {
     const std::int64_t i = below(random, 7) - 3, j = below(random, 7) - 3;
     position = {position.x + i * set.width + j * set.tilt, position.y + j * set.height};
   }
-  const std::vector<ExactCell> found = cells_of(moved, Periodic::xy).read();
+  const std::vector<ExactCell> found = cells_of(moved, Axes::xy).read();
   BOOST_TEST_REQUIRE(found.size() == cells.size());
   for (std::size_t id = 0; id < cells.size(); ++id) {
     BOOST_TEST(found[id].area == cells[id].area);
@@ -379,8 +379,8 @@ BOOST_AUTO_TEST_CASE(seeds_outside_the_rectangle_have_what_of_it_is_nearest_to_t
   std::vector<Position> positions = {{-300, 500}, {1400, 400}, {500, -1}, {1001, 1003}, {-5000, 7000}};
   for (const Position& position : random_positions(1000, 1000, 8, 5)) positions.push_back(position);
   const Set set = {"outside", 1000, 1000, positions};
-  check_by_rational_numbers(set, Periodic::none);
-  check_as_a_whole(cells_of(set, Periodic::none), set.name);
+  check_by_rational_numbers(set, Axes::none);
+  check_as_a_whole(cells_of(set, Axes::none), set.name);
 }
 
 namespace {
@@ -469,7 +469,7 @@ BOOST_AUTO_TEST_CASE(large_sets_have_the_edges_that_another_library_finds) {
                       {"clusters", side, side, without_doubles(clusters(20000))},
                       {"star", side, side, star(3000)}};
   for (const Set& set : sets) {
-    const ExactCellsResult result = cells_of(set, Periodic::none);
+    const ExactCellsResult result = cells_of(set, Axes::none);
     const std::map<Ids, double> expected = edges_by_boost(set);
     std::map<Ids, double> found;
     for (const ExactPair& pair : result.read_pairs()) found[{pair.a, pair.b}] = pair.length;
@@ -490,7 +490,7 @@ BOOST_AUTO_TEST_CASE(large_sets_have_the_edges_that_another_library_finds) {
     BOOST_TEST(missing == 0u, set.name << ": " << missing);
     BOOST_TEST(different == 0u, set.name << ": " << different << " of " << compared);
     BOOST_TEST(other == 0u, set.name << ": " << other);
-    for (const Periodic periodic : all_periods) check_as_a_whole(cells_of(set, periodic), set.name);
+    for (const Axes periodic : all_periods) check_as_a_whole(cells_of(set, periodic), set.name);
   }
 }
 
@@ -503,9 +503,9 @@ BOOST_AUTO_TEST_CASE(large_lattices_and_duplicates_are_mutual_and_fill_the_recta
                       {"duplicates", side, side, coarse},
                       {"cities", 36000, 18000, samples}};
   for (const Set& set : sets) {
-    for (const Periodic periodic : all_periods) check_as_a_whole(cells_of(set, periodic), set.name);
+    for (const Axes periodic : all_periods) check_as_a_whole(cells_of(set, periodic), set.name);
   }
-  const ExactCellsResult torus = cells_of(sets[0], Periodic::xy);
+  const ExactCellsResult torus = cells_of(sets[0], Axes::xy);
   const double step = static_cast<double>(side) / 128;
   for (const ExactCell& cell : torus.read()) {
     BOOST_TEST_REQUIRE(cell.neighbours == 4u);
@@ -528,7 +528,7 @@ BOOST_AUTO_TEST_CASE(the_four_points_that_geos_cuts_wrong) {
 BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_none) {
   const double unit = 1.0 / 1024;
   const Set set = {"random", 4096, 2048, random_positions(4096, 2048, 50, 9)};
-  const ExactCellsResult steps = cells_of(set, Periodic::none);
+  const ExactCellsResult steps = cells_of(set, Axes::none);
   std::vector<std::optional<Point>> points;
   for (const Position& at : set.positions)
     points.emplace_back(Point{-3 + static_cast<double>(at.x) * unit, 10 + static_cast<double>(at.y) * unit});
@@ -559,7 +559,7 @@ BOOST_AUTO_TEST_CASE(polygons_begin_in_their_lowest_vertex) {
                       {"lattice", side, side, lattice(side / 8, 8, 8)},
                       {"star", side, side, star(100)}};
   for (const Set& set : sets) {
-    for (const Periodic periodic : all_periods) {
+    for (const Axes periodic : all_periods) {
       const ExactPolygons polygons = cells_of(set, periodic).read_polygons();
       for (std::size_t id = 0; id < set.positions.size(); ++id) {
         const auto begin = polygons.vertices.begin() + polygons.offsets[id];
@@ -595,8 +595,8 @@ BOOST_AUTO_TEST_CASE(buffers_hold_what_is_read_and_work_groups_change_no_bit) {
   tuning.group_height = 1;
   tuning.vector_width = 1;
   tuning.shape = Shape::group;
-  const Seeds seeds(test_device(), grid_of(set, Periodic::x), points_of(set.positions));
-  const Seeds others(test_device().with_tuning(tuning), grid_of(set, Periodic::x), points_of(set.positions));
+  const Seeds seeds(test_device(), grid_of(set, Axes::x), points_of(set.positions));
+  const Seeds others(test_device().with_tuning(tuning), grid_of(set, Axes::x), points_of(set.positions));
   ExactCellsResult result, other;
   exact_cells(seeds, result);
   exact_cells(others, other);
@@ -673,7 +673,7 @@ BOOST_AUTO_TEST_CASE(floats_in_a_buffer_have_the_cells_of_their_places_or_are_re
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_and_leaves_an_empty_result) {
   const Set set = {"random", side, side, random_positions(side, side, 10, 11)};
-  const Seeds seeds(test_device(), grid_of(set, Periodic::none), points_of(set.positions));
+  const Seeds seeds(test_device(), grid_of(set, Axes::none), points_of(set.positions));
   ExactCellsResult result;
   exact_cells(seeds, result);
   doubles_are_hidden = true;

@@ -42,10 +42,10 @@ const std::vector<Engine>& engines() {
 /// test_group_shape.cpp has the group shape's periodic axes.
 std::vector<Engine> engines(const Grid& grid, Metric metric) {
   std::vector<Engine> some;
-  const bool periodic = grid.periodic() != Periodic::none;
+  const bool periodic = grid.periodic() != Axes::none;
   for (const Engine& engine : engines()) {
     if (periodic && engine.device.tuning().shape == Shape::group) continue;
-    if (grid.periodic() != Periodic::xy && periodic && engine.lists != ListLength::full) continue;
+    if (grid.periodic() != Axes::xy && periodic && engine.lists != ListLength::full) continue;
     if (grid.width() < 16 && engine.lists != ListLength::full && (periodic || metric == Metric::manhattan))
       continue;
     some.push_back(engine);
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
     const int most_pixels = i % 32 == 0 ? 160 : 64;
     const bool periodic = rng() % 2 == 0;
     const Grid grid((periodic ? 16 : 1) + below(most_pixels), 1 + below(most_pixels),
-                    periodic ? Periodic::xy : Periodic::none);
+                    periodic ? Axes::xy : Axes::none);
     // All orders of magnitude alike, in a part of the grid, so that some of it is empty.
     const Grid part(1 + below(grid.width()), 1 + below(grid.height()));
     const double most = std::log(static_cast<double>(grid.pixels()) + 1);
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(random_small_cases_against_brute_force_and_the_reference) {
 }
 
 BOOST_AUTO_TEST_CASE(hurtful_sets_against_a_tree) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid = long_tests ? Grid(2048, 2048, axes) : Grid(509, 384, axes);
     for (const Metric metric : both_metrics) {
       for (const Case& c : hurtful_cases(grid)) {
@@ -142,11 +142,11 @@ BOOST_AUTO_TEST_CASE(large_diagrams_against_a_tree) {
   // Seeds that are as far apart as they can be: distances just below 2^31.
   check_against_tree({32768, 40}, {{0, 0}, {32767, 39}});
   // The longest periods, and seeds half of one away.
-  check_against_tree({32000, 40, Periodic::xy}, {{31999, 39}});
-  check_against_tree({40, 32000, Periodic::xy}, {{39, 31999}});
-  check_against_tree({32000, 64, Periodic::x}, random_pixels({32000, 64}, 30, 26));
-  check_against_tree({40, 31999, Periodic::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
-  const Grid torus(2048, 2048, Periodic::xy);
+  check_against_tree({32000, 40, Axes::xy}, {{31999, 39}});
+  check_against_tree({40, 32000, Axes::xy}, {{39, 31999}});
+  check_against_tree({32000, 64, Axes::x}, random_pixels({32000, 64}, 30, 26));
+  check_against_tree({40, 31999, Axes::xy}, random_pixels({40, 31999}, 900, 27), Metric::manhattan);
+  const Grid torus(2048, 2048, Axes::xy);
   for (const std::size_t count : {3u, 400u, 20000u})
     check_against_tree(torus, random_pixels(torus, count, 28));
   if (!long_tests) return;

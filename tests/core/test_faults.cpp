@@ -211,7 +211,7 @@ BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
 
 BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
   const std::vector<Point> points = {{-9, 3}, {20, 20}, {400, 90000}};
-  const Window window(Grid(95, 80, Periodic::x), 60, 20, 70, 50);
+  const Window window(Grid(95, 80, Axes::x), 60, 20, 70, 50);
   const Seeds around(test_device(), window.grid(), points);
   Diagram fresh(test_device(), window);
   exact_diagram(around, fresh);

@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(the_longest_distance_there_is) {
 
 BOOST_AUTO_TEST_CASE(labels_are_looked_up_in_a_table) {
   for (const Device& device : shapes()) {
-    for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Periodic::x)}) {
+    for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Axes::x)}) {
       if (!is_for(device, grid)) continue;
       const Seeds seeds(device, grid, centres(random_pixels(grid, 40, 1)));
       Diagram diagram(device, grid);
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(a_table_that_cannot_be_read_is_refused) {
 BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const Device& device : shapes()) {
-    for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Periodic::xy)}) {
+    for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Axes::xy)}) {
       const std::vector<Pixel> pixels = random_pixels(grid, 12, 3);
       const Seeds seeds(device, grid, centres(pixels));
       Diagram diagram(device, grid);

@@ -165,25 +165,23 @@ BOOST_AUTO_TEST_CASE(periodic_axes) {
   const std::vector<ListLength> both = {std::begin(both_lengths), std::end(both_lengths)},
                                 full = {ListLength::full};
   for (const auto& [width, height] : {std::pair{64, 97}, {161, 95}, {128, 64}}) {
-    for (const Case& c : cases({width, height, Periodic::xy})) {
+    for (const Case& c : cases({width, height, Axes::xy})) {
       check_lists(c, Metric::euclidean, both);
       check_lists(c, Metric::manhattan, full);
     }
-    for (const Case& c : cases({width, height, Periodic::x})) check_lists(c, Metric::euclidean, full);
-    for (const Case& c : cases({width, height, Periodic::y})) check_lists(c, Metric::manhattan, full);
+    for (const Case& c : cases({width, height, Axes::x})) check_lists(c, Metric::euclidean, full);
+    for (const Case& c : cases({width, height, Axes::y})) check_lists(c, Metric::manhattan, full);
   }
   for (const auto& [width, height] : {std::pair{33, 70}, {1, 40}, {90, 7}}) {
-    for (const Case& c : cases({width, height, Periodic::xy})) check_lists(c, Metric::euclidean, both);
+    for (const Case& c : cases({width, height, Axes::xy})) check_lists(c, Metric::euclidean, both);
   }
-  check_lists({"circle", {300, 290, Periodic::xy}, circle({300, 290}, 300, 140)}, Metric::euclidean, both);
-  check_lists({"torus", {1001, 700, Periodic::xy}, random_pixels({1001, 700}, 3000, 5)}, Metric::euclidean,
-              both);
+  check_lists({"circle", {300, 290, Axes::xy}, circle({300, 290}, 300, 140)}, Metric::euclidean, both);
+  check_lists({"torus", {1001, 700, Axes::xy}, random_pixels({1001, 700}, 3000, 5)}, Metric::euclidean, both);
   // The longest period that the index has images for, and one whose images are outer seeds.
   for (const int width : {16000, 16001}) {
-    check_lists({"long", {width, 90, Periodic::x}, random_pixels({width, 90}, 40, 6)}, Metric::euclidean,
-                full);
+    check_lists({"long", {width, 90, Axes::x}, random_pixels({width, 90}, 40, 6)}, Metric::euclidean, full);
   }
-  const Grid tall(70, 31999, Periodic::xy);
+  const Grid tall(70, 31999, Axes::xy);
   for (const std::size_t seeds : {3u, 900u})
     check_lists({"tall", tall, random_pixels(tall, seeds, 7)}, Metric::manhattan, full);
 }
@@ -202,8 +200,7 @@ BOOST_AUTO_TEST_CASE(random_cases) {
   for (int i = 0; i < (long_tests ? 100000 : 2000) / sets_of_a_grid; ++i) {
     const auto side = [&] { return std::max(32 * below(rng, 5) + below(rng, 5) - 2, 1 + below(rng, 32)); };
     const Grid plain(side(), side());
-    const Grid grid(plain.width(), plain.height(),
-                    long_tests && i / 2 % 2 == 0 ? Periodic::xy : Periodic::none);
+    const Grid grid(plain.width(), plain.height(), long_tests && i / 2 % 2 == 0 ? Axes::xy : Axes::none);
     const Metric metric = both_metrics[i % 2];
     const std::vector<Engine> some = engines(metric);
     std::vector<Diagram> diagrams;

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(steps_out_of_range_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(a_part_of_a_grid_is_not_flooded) {
-  const Grid grid(8, 8), ring(40000, 8, Periodic::x);
+  const Grid grid(8, 8), ring(40000, 8, Axes::x);
   Diagram whole(test_device(), grid), part(test_device(), Window(grid, 2, 2, 4, 4));
   check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}}), part); }, {"exact"});
   check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}), whole); }, {"exact"});
@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_grid_is_not_flooded) {
 
 // A window of the whole grid is the grid.
 BOOST_AUTO_TEST_CASE(points_are_in_the_units_of_the_data) {
-  const Grid pixels(90, 60, Periodic::y);
+  const Grid pixels(90, 60, Axes::y);
   const Grid data(Axis(90, 10, 11).reversed(), Axis(60, -180, 180).periodic());
   const std::vector<Pixel> seeds = random_pixels(pixels, 200, 3);
   Diagram diagram(test_device(), Window(data, 0, 0, 90, 60));

@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(impossible_options_are_refused) {
 
 // Those that say so take a window, and seeds outside it; the others refuse them.
 BOOST_AUTO_TEST_CASE(windows_are_for_those_that_say_so) {
-  const Grid grid(60, 40, Periodic::y);
+  const Grid grid(60, 40, Axes::y);
   const Seeds seeds(test_device(), grid, {{3, 3}, {50, 30}});
   for (const Method& each : methods()) {
     BOOST_TEST_CONTEXT(each.name) {

@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(impossible_steps_are_refused) {
 
 // The numbers are those of pixels, whatever the unit of the data and the way that rows count.
 BOOST_AUTO_TEST_CASE(steps_are_in_pixels) {
-  const Grid pixels(80, 60, Periodic::x);
+  const Grid pixels(80, 60, Axes::x);
   const Grid data(Axis(80, -1, 1).periodic(), Axis(60, 0, 30).reversed());
   const std::vector<Pixel> from = random_pixels(pixels, 100, 1);
   Seeds a(test_device(), pixels, centres(from));

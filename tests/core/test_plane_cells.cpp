@@ -10,7 +10,7 @@
 using namespace vorocl;
 
 BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_grid) {
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::x, Axes::y, Axes::xy}) {
     for (const std::size_t count : {1u, 3u, 40u, 3000u}) {
       const Grid grid(231, 190, axes);
       const std::vector<Point> points = centres(random_pixels(grid, count, 4));
@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_grid) {
 }
 
 BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(231, 190, axes);
     const std::vector<Point> points = centres(random_pixels(grid, 300, 4));
     const PlaneSeeds seeds(grid, points);

@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(marks_say_which_seeds_are_there) {
 // On the device as on the host, whatever the units.
 BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
   std::mt19937 rng(5);
-  for (const Grid& grid : {Grid(20, 10), Grid(20, 10, Periodic::x), Grid(20, 10, Periodic::xy),
+  for (const Grid& grid : {Grid(20, 10), Grid(20, 10, Axes::x), Grid(20, 10, Axes::xy),
                            Grid(Axis(20, -1, 9).periodic(), Axis(10, 0, 5).reversed()),
                            Grid(Axis(20).closed(), Axis(10).reversed())}) {
     std::vector<Point> points = {{20, 5}, {5, 10}, {0, 0}, {-0.0, 0}, {1e9, -1e9}};
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
         exact_diagram(on_host, diagram_on_host);
         BOOST_TEST((diagram.read() == diagram_on_host.read()));
       }
-      if (grid.periodic() == Periodic::xy) {
+      if (grid.periodic() == Axes::xy) {
         BOOST_TEST(Seeds(test_device(), grid, buffer).alive() == points.size());
       } else {
         check_error([&] { Seeds(test_device(), grid, buffer).read(); }, {"outside the grid"});
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
 }
 
 BOOST_AUTO_TEST_CASE(points_wrap_however_far_away_they_are) {
-  const Grid grid(21, 10, Periodic::xy);
+  const Grid grid(21, 10, Axes::xy);
   const std::vector<Point> points = {{3e9, 5}, {-16777216, 8589934592}, {-1e-30, 1}, {1, -1e30}};
   const Seeds on_host(test_device(), grid, points);
   for (const PointBuffer& buffer : {in_floats(points), in_doubles(points)}) {
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(points_wrap_however_far_away_they_are) {
 }
 
 BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
-  const Grid grid(40, 30, Periodic::x);
+  const Grid grid(40, 30, Axes::x);
   Seeds seeds(test_device(), grid, in_floats({{1, 1}, {20, 20}, {5, 5}}));
   BOOST_TEST(seeds.displacement() == 0);
   seeds.move_to(in_floats({{38, 2}, {20, 20}, {5, 4}}));

@@ -196,10 +196,10 @@ BOOST_AUTO_TEST_CASE(weighted_rounds_are_those_of_the_definition) {
 BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
   constexpr std::int64_t parts = 4096;
   // Each kind of axes in one shape: kernels are built anew for each pair.
-  constexpr Periodic kinds_of_axes[] = {Periodic::none, Periodic::x, Periodic::xy};
+  constexpr Axes kinds_of_axes[] = {Axes::none, Axes::x, Axes::xy};
   for (std::size_t kind = 0; kind < shapes().size(); ++kind) {
     const Device device = shapes()[kind];
-    const Periodic periodic = kinds_of_axes[kind % std::size(kinds_of_axes)];
+    const Axes periodic = kinds_of_axes[kind % std::size(kinds_of_axes)];
     const Grid grid(300, 190, periodic);
     const std::vector<float> density = random_density(grid);
     const Weights weights = weights_of(density);
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
 }
 
 BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
-  const Grid grid(200, 150, Periodic::x);
+  const Grid grid(200, 150, Axes::x);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
     const std::vector<Point> points = random_points(grid, 120, 2);
     Seeds one(test_device(), grid, points, Outside::count, snap);
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
 
 // Gersho's law in the plane: many seeds come to lie as densely as the square root of the density.
 BOOST_AUTO_TEST_CASE(seeds_come_to_lie_as_the_square_root_of_the_density) {
-  const Grid grid(384, 384, Periodic::xy);
+  const Grid grid(384, 384, Axes::xy);
   const auto wanted = [](std::size_t x) {
     return 2 + std::cos(2 * 3.14159265358979 * (static_cast<double>(x % 384) + 0.5) / 384);  // 3 to 1
   };
@@ -392,7 +392,7 @@ BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
 
 // Pixels are what seeds move on, whatever the unit of their points.
 BOOST_AUTO_TEST_CASE(rounds_are_the_same_in_units_of_the_data) {
-  const Grid pixels(120, 90, Periodic::x);
+  const Grid pixels(120, 90, Axes::x);
   const Grid data(Axis(120, -6, 6).periodic(), Axis(90, 0, 1).reversed());
   const std::vector<Pixel> from = random_pixels(pixels, 60, 1);
   Seeds a(test_device(), pixels, centres(from));

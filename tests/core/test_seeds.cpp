@@ -146,12 +146,11 @@ BOOST_AUTO_TEST_CASE(points_in_units_of_the_data) {
   BOOST_TEST(seeds.outside() == 0u);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
-  BOOST_TEST(
-      (diagram.read() == brute_force(Grid(72, 37, Periodic::x), pixels_of(centres), Metric::euclidean)));
+  BOOST_TEST((diagram.read() == brute_force(Grid(72, 37, Axes::x), pixels_of(centres), Metric::euclidean)));
 }
 
 BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
-  const Grid grid(20, 10, Periodic::y);
+  const Grid grid(20, 10, Axes::y);
   const std::vector<Point> points = {{1, 1}, {-0.5, 3}, {19.9, -3}, {20, 25}};
   const Seeds counted(test_device(), grid, points);
   BOOST_TEST(counted.alive() == 4u);
@@ -192,7 +191,7 @@ BOOST_AUTO_TEST_CASE(seeds_on_another_grid) {
   exact_diagram(seeds, of_large);
   BOOST_TEST((of_small.read() == brute_force(small, {{1, 1}, {19, 9}}, Metric::euclidean)));
   BOOST_TEST((of_large.read() ==
-              brute_force(Grid(60, 40, Periodic::x), {{2, 2}, {38, 18}, {2, 38}}, Metric::euclidean)));
+              brute_force(Grid(60, 40, Axes::x), {{2, 2}, {38, 18}, {2, 38}}, Metric::euclidean)));
   check_error([&] { exact_diagram(seeds, of_small); }, {"20 x 10", "60 x 40"});
   check_error([&] { seeds.move_to(small, std::vector<Point>{{infinity, 1}}); }, {"point 0"});
   BOOST_TEST((seeds.grid() == large));
@@ -201,7 +200,7 @@ BOOST_AUTO_TEST_CASE(seeds_on_another_grid) {
 
 BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
   std::mt19937 rng(2);
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
     const Grid grid(41, 30, axes);
     Seeds seeds(test_device(), grid, {});
     SomePoints before;
@@ -264,7 +263,7 @@ BOOST_AUTO_TEST_CASE(philox_has_its_published_answers) {
 BOOST_AUTO_TEST_CASE(random_seeds_are_philox_numbers) {
   const std::uint64_t rng_seed = 0x123456789abcdef0;
   // The host places those of the second one, whose period is too long for kernels.
-  for (const Grid& grid : {Grid(1000, 37), Grid(32500, 37, Periodic::x)}) {
+  for (const Grid& grid : {Grid(1000, 37), Grid(32500, 37, Axes::x)}) {
     const std::vector<Point> read = points_of(Seeds::random(test_device(), grid, 5000, rng_seed));
     for (std::uint32_t id = 0; id < read.size(); ++id) {
       const auto bits = philox({id, 0, 0, 0}, {0x9abcdef0, 0x12345678});

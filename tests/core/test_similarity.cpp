@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(the_device_counts_as_the_host_does) {
 // Against distances in 64 bits on the host: seeds inside and outside the grid, pixels without a label.
 BOOST_AUTO_TEST_CASE(distances_that_differ_by_less_than_the_tolerance_are_equal) {
   std::mt19937_64 rng(4);
-  for (const Grid& grid : {Grid(40, 30), Grid(33, 41, Periodic::x), Grid(64, 20, Periodic::xy)}) {
+  for (const Grid& grid : {Grid(40, 30), Grid(33, 41, Axes::x), Grid(64, 20, Axes::xy)}) {
     for (const std::int64_t reach : {0, 50, 2000000}) {
       std::vector<Pixel> points;
       std::uniform_int_distribution<std::int64_t> x(-reach, grid.width() - 1 + reach),

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(a_simulation_makes_a_frame_again_whose_motion_has_thrown) {
 
 // A box that changes: the motion brings other seeds, on another grid.
 BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
-  const Grid before(40, 30), after(50, 20, Periodic::x);
+  const Grid before(40, 30), after(50, 20, Axes::x);
   const std::vector<Pixel> pixels = random_pixels(after, 12, 8);
   for (const bool other_seeds : {false, true}) {
     Simulation simulation(Seeds::random(test_device(), before, 5, 1), [&](Seeds& seeds, Window&, int frame) {
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
 
 // A camera: the seeds' grid stays, and the window goes over it.
 BOOST_AUTO_TEST_CASE(a_simulation_can_move_its_window) {
-  const Grid grid(60, 40, Periodic::x);
+  const Grid grid(60, 40, Axes::x);
   const std::vector<Pixel> pixels = random_pixels(grid, 12, 8);
   const std::vector<std::uint32_t> whole = brute_force(grid, pixels, Metric::euclidean);
   const int x[] = {0, 50, 50};

@@ -34,7 +34,7 @@ Labels brute_force(const Window& window, const std::vector<Point>& points, Metri
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_grid_is_cut_into_tiles) {
-  const Grid grid(100, 70), large(2147483647, 2147483647), torus(100, 70, Periodic::xy);
+  const Grid grid(100, 70), large(2147483647, 2147483647), torus(100, 70, Axes::xy);
   const Tiling whole(grid, 32);
   BOOST_TEST(whole.columns() == 4u);
   BOOST_TEST(whole.rows() == 3u);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_whole_grid) {
 }
 
 BOOST_AUTO_TEST_CASE(tiles_and_their_order_do_not_matter) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(700, 500, axes);
     const std::vector<Pixel> pixels = random_pixels(grid, 900, 5);
     const PlaneSeeds seeds(grid, centres(pixels));
@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
   const std::vector<Point> points = {{0.5, 0.5},           {side - 0.5, side - 0.5},     {side - 0.5, 0.5},
                                      {side / 3, side / 2}, {side / 3 + 1, side / 2 - 1}, {1.5, side / 2},
                                      {-0.5, side / 2}};
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
     const Grid grid(Axis::max_pixels, Axis::max_pixels, axes);
     const PlaneSeeds seeds(grid, points);
     const std::int64_t last = Axis::max_pixels - 1, middle = last / 2;
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
                                    {grid, last - 39, middle - 15, 40, 30},
                                    {grid, last / 3 * 2 - 20, 0, 40, 30},
                                    {grid, middle - 20, last / 4 - 15, 40, 30}};
-    if (axes == Periodic::xy) windows.push_back({grid, -20, -15, 40, 30});
+    if (axes == Axes::xy) windows.push_back({grid, -20, -15, 40, 30});
     for (const Window& window : windows) {
       for (const Metric metric : both_metrics) {
         const Labels labels = labels_of(seeds, Tiling(window, 17), {metric});
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
 
 // A cluster seen from afar: what a tile needs is little of it, and that is all it needs.
 BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(65536, 65536, axes);
     const std::vector<Point> points = disc({20000, 30000}, 1000, 20000, 3);
     const PlaneSeeds seeds(grid, points);
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(tiles_of_windows) {
     return static_cast<std::int64_t>(rng() % static_cast<unsigned>(end));
   };
   for (int number = 0; number < 40; ++number) {
-    const auto axes = static_cast<Periodic>(number % 4);
+    const auto axes = static_cast<Axes>(number % 4);
     const std::int64_t columns = 20 + below(150);
     const Grid grid(columns, 20 + below(150), axes);
     const std::int64_t width = 1 + below(grid.width()), height = 1 + below(grid.height());
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(tiles_of_points_are_one_grid) {
     return coarse ? std::floor(at * 2) / 2 : at;  // many are as far from a pixel
   };
   for (const std::size_t count : {1u, 7u, 300u, 9000u}) {
-    for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
+    for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
       const Grid grid(120, 90, axes);
       std::vector<Point> points;
       for (std::size_t i = 0; i < count; ++i) {
@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(tiles_of_points_are_one_grid) {
 // The cells of tiles are those of one diagram.
 BOOST_AUTO_TEST_CASE(cells_of_tiles_of_points_are_those_of_one_grid) {
   std::mt19937 rng(13);
-  const Grid grid(100, 80, Periodic::xy);
+  const Grid grid(100, 80, Axes::xy);
   std::vector<Point> points;
   for (int i = 0; i < 40; ++i)
     points.push_back({static_cast<double>(rng()) * 0x1p-32 * 100, static_cast<double>(rng()) * 0x1p-32 * 80});
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(points_are_taken_as_by_seeds) {
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
-  const Grid grid(100, 100), torus(100, 100, Periodic::x);
+  const Grid grid(100, 100), torus(100, 100, Axes::x);
   check_error([&] { Tiling(grid, 40000); }, {"40000"});
   check_error([&] { Tiling(grid, 0); }, {"0 pixels"});
   check_error([&] { Tiling({torus, 0, 0, 101, 5}, 10); }, {"101 pixels along x", "repeats after 100"});

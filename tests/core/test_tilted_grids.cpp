@@ -42,7 +42,7 @@ struct TiltedBox {
   std::int64_t width, height;  // in pixels
   std::int64_t shift;          // in parts
 
-  Grid grid() const { return Grid(width, height, Periodic::xy).tilted(in_pixels(shift)); }
+  Grid grid() const { return Grid(width, height, Axes::xy).tilted(in_pixels(shift)); }
 
   Wide distance(std::int64_t x, std::int64_t y, Metric metric) const {
     return metric == Metric::euclidean ? Wide{x} * x + Wide{y} * y : Wide{std::abs(x)} + std::abs(y);
@@ -202,9 +202,8 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_nearest_images) {
     const TiltedBox& box = random.box;
     const Window& window = *random.window;
     if (window.width() > box.width || window.height() > box.height) continue;  // some pixels have no labels
-    const bool is_whole = window.periodic() == Periodic::xy;
-    if (!is_whole && window.periodic() != Periodic::none)
-      continue;  // of flat grids, for test_window_measures
+    const bool is_whole = window.periodic() == Axes::xy;
+    if (!is_whole && window.periodic() != Axes::none) continue;  // of flat grids, for test_window_measures
     const Metric metric = number % 3 == 0 ? Metric::manhattan : Metric::euclidean;
     const Seeds seeds(test_device(), box.grid(), random.points, Outside::count, random.snap);
     Diagram diagram(test_device(), window);
@@ -397,15 +396,15 @@ BOOST_AUTO_TEST_CASE(grids_know_their_tilt) {
   BOOST_TEST(both.tilted(3).shift() == 6 * parts);
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL})
     check_error([&] { plain.tilted(bad); }, {"tilt", "finite"});
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::y}) {
+  for (const Axes axes : {Axes::none, Axes::x, Axes::y}) {
     check_error([&] { Grid(20, 8, axes).tilted(2); }, {"tilted", "periodic in x and y"});
     BOOST_TEST(!Grid(20, 8, axes).tilted(0).is_tilted());
   }
   const Grid grid = plain.tilted(3);
-  BOOST_TEST((Window(grid).periodic() == Periodic::xy));
-  BOOST_TEST((Window(grid, 3, 0, 20, 8).periodic() == Periodic::xy));
-  BOOST_TEST((Window(grid, 0, 1, 20, 8).periodic() == Periodic::none));
-  BOOST_TEST((Window(grid, 0, 0, 20, 7).periodic() == Periodic::none));
+  BOOST_TEST((Window(grid).periodic() == Axes::xy));
+  BOOST_TEST((Window(grid, 3, 0, 20, 8).periodic() == Axes::xy));
+  BOOST_TEST((Window(grid, 0, 1, 20, 8).periodic() == Axes::none));
+  BOOST_TEST((Window(grid, 0, 0, 20, 7).periodic() == Axes::none));
   BOOST_TEST(Window(grid, 23, -7, 5, 3).x() == 3);
   BOOST_TEST(Window(grid, 23, -7, 5, 3).y() == -7);
   for (const std::int64_t row : {-8, 8}) check_error([&] { Window(grid, 0, row, 5, 3); }, {"tilted", "y = "});
@@ -429,7 +428,7 @@ BOOST_AUTO_TEST_CASE(seeds_that_the_device_makes_are_tilted_too) {
 }
 
 BOOST_AUTO_TEST_CASE(seeds_move_the_shortest_way) {
-  const Grid grid = Grid(100, 40, Periodic::xy).tilted(30);
+  const Grid grid = Grid(100, 40, Axes::xy).tilted(30);
   Seeds seeds(test_device(), grid, {{50.5, 1.5}, {10.5, 20.5}});
   // Up through the first row, and into the last one 30 pixels further along x.
   seeds.move_to({{81.5, 39.5}, {10.5, 21.5}});
@@ -439,7 +438,7 @@ BOOST_AUTO_TEST_CASE(seeds_move_the_shortest_way) {
 }
 
 BOOST_AUTO_TEST_CASE(what_knows_no_tilt_says_so) {
-  const Grid grid = Grid(64, 48, Periodic::xy).tilted(10);
+  const Grid grid = Grid(64, 48, Axes::xy).tilted(10);
   const std::vector<Point> points = {{3, 4}, {40, 30}};
   Seeds seeds(test_device(), grid, points);
   Diagram diagram(test_device(), grid);
@@ -455,10 +454,10 @@ BOOST_AUTO_TEST_CASE(what_knows_no_tilt_says_so) {
   check_error([&] { energy(diagram); }, {"tilted", "Lloyd relaxation"});
   check_error([&] { Tiling(grid, 32); }, {"tilted", "tiles"});
   check_error([&] { PlaneSeeds(grid, points); }, {"tilted", "tiles"});
-  const Grid large = Grid(200000, 48, Periodic::xy).tilted(10);
+  const Grid large = Grid(200000, 48, Axes::xy).tilted(10);
   Diagram part(test_device(), Window(large, 0, 0, 64, 48));
   check_error([&] { exact_diagram(Seeds(test_device(), large, points), part); },
               {"tilted", "200000", "131072"});
-  check_error([&] { exact_diagram(Seeds(test_device(), Grid(64, 48, Periodic::xy), points), diagram); },
+  check_error([&] { exact_diagram(Seeds(test_device(), Grid(64, 48, Axes::xy), points), diagram); },
               {"grid"});
 }

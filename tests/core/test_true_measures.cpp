@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_points) {
   for (unsigned number = 0; number < 80; ++number) {
     const std::int64_t beyond_a_block = number % 5 == 1 ? 300 : 0;  // of a CPU's work-items, too
     const std::int64_t columns = 16 + below(50) + beyond_a_block;
-    const Grid grid(columns, 1 + below(60) + beyond_a_block, static_cast<Periodic>(number % 4));
+    const Grid grid(columns, 1 + below(60) + beyond_a_block, static_cast<Axes>(number % 4));
     const auto begin = [&](const Axis& axis) { return below(axis.pixels()); };
     const std::int64_t x = begin(grid.x()), y = begin(grid.y());
     const bool is_part = number % 3 == 0;
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(labels_expand_to_distances_from_points) {
 }
 
 BOOST_AUTO_TEST_CASE(relaxed_points_are_no_lattice) {
-  const Grid grid(300, 300, Periodic::xy);
+  const Grid grid(300, 300, Axes::xy);
   const std::vector<Point> points = random_points(grid, 200, 3);
   double deviations[2] = {};
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {

@@ -23,7 +23,7 @@ struct RandomCase {
   explicit RandomCase(unsigned number) : rng(number) {
     const auto side = [&] { return below(4) == 0 ? 1 + below(8) : 1 + below(90); };
     const std::int64_t width = side();
-    grid.emplace(width, side(), static_cast<Periodic>(below(4)));
+    grid.emplace(width, side(), static_cast<Axes>(below(4)));
     window.emplace(below(3) == 0 ? part() : Window(*grid));
     make_points();
   }
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(many_points_in_tiles_of_all_densities) {
   std::mt19937_64 rng(3);
   for (const std::size_t count :
        {std::size_t{1}, std::size_t{40}, std::size_t{700}, std::size_t{9000}, std::size_t{60000}}) {
-    const Grid grid(300, 200, count % 700 == 0 ? Periodic::xy : Periodic::none);
+    const Grid grid(300, 200, count % 700 == 0 ? Axes::xy : Axes::none);
     std::vector<std::optional<Point>> points;
     for (std::size_t i = 0; i < count; ++i) {
       // Half of them in a corner, so that tiles and bins differ.
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(crowds_that_no_list_holds) {
 
 BOOST_AUTO_TEST_CASE(points_on_pixel_centres_give_the_labels_of_snapped_seeds) {
   for (unsigned kind = 0; kind < kinds_of_planes; ++kind) {
-    const Grid grid(150, 110, static_cast<Periodic>(kind % 4));
+    const Grid grid(150, 110, static_cast<Axes>(kind % 4));
     const std::vector<Pixel> pixels = seeds_of_plane(grid, kind, kind);
     for (const Metric metric : both_metrics) {
       Diagram snapped(test_device(), grid), true_one(test_device(), grid);
@@ -218,7 +218,7 @@ BOOST_AUTO_TEST_CASE(seeds_are_near_across_the_ends_of_periods_of_any_length) {
   };
   for (const std::int64_t period : {262144, 262145, 300000, 700000, 1 << 21, 1 << 30}) {
     for (const bool along_x : {true, false}) {
-      const Grid grid = along_x ? Grid(period, 24, Periodic::x) : Grid(24, period, Periodic::xy);
+      const Grid grid = along_x ? Grid(period, 24, Axes::x) : Grid(24, period, Axes::xy);
       std::vector<std::optional<Point>> points;
       for (int i = 0; i < 40; ++i) {
         // On both sides of the ends, half of them on a lattice, whose pixels are as far from several.

@@ -579,7 +579,7 @@ BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
 }
 
 BOOST_AUTO_TEST_CASE(a_volume_of_one_slice_is_a_plane) {
-  BOOST_TEST(!Grid(8, 4, 1).is_volume());
+  BOOST_TEST((!Grid(8, 4, 1).is_volume() && !spaced(Grid(8, 4), 1, 2, 1).is_volume()));
   BOOST_TEST((Grid(8, 4, 1) == Grid(8, 4)));
   BOOST_TEST((Grid(8, 4, 2) != Grid(8, 4)));
   BOOST_TEST((Grid(8, 4, 2).pixels() == 64 && Window(Grid(8, 4, 2)).pixels() == 64));
@@ -616,7 +616,13 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
   for (const int spacing : {0, 17})
     check_refusal("it must be from 1 to 16", [&] { (void)Axis(3).spaced(spacing); });
   const Grid grid(8, 8, 8);
-  check_refusal("a window of a part cannot take", [&] { Window(grid, 0, 0, 4, 4); });
+  check_refusal("a window of a part cannot take", [&] { Diagram(device, Window(grid, 0, 0, 4, 4)); });
+  check_refusal("a window of a part cannot take", [&] { Diagram(device, Window(grid, 0, 0, 1, 8, 8, 7)); });
+  check_refusal("a window of a part cannot take",
+                [&] { Diagram(device, Window(spaced(Grid(8, 8), 1, 2, 1), 0, 0, 4, 8)); });
+  check_refusal("from z = 2 on; the grid has 8", [&] { Window(grid, 0, 0, 2, 8, 8, 7); });
+  BOOST_TEST((Window(grid, 0, 0, 0, 8, 8, 8) == Window(grid) && !Window(grid, 0, 0, 0, 8, 8, 7).is_whole()));
+  BOOST_TEST((Window(Grid(8, 8, 8, Axes::xz), 0, 0, -1, 8, 8, 8).z() == 7));
   const double one = 1;
   check_refusal("the points have no z", [&] { Seeds(device, grid, Points(&one, &one, 1)); });
   const std::vector<Point> point = {{1, 2, 3}}, outside = {{1, 2, 3}, {1, 2, 8}},

@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
     };
     const auto side = [&] { return 1 + below(number % 3 == 0 ? 30 : 200); };
     const std::int64_t columns = side();
-    const Grid grid(columns, side(), static_cast<Periodic>(1 + number % 3));
+    const Grid grid(columns, side(), static_cast<Axes>(1 + number % 3));
     // Where a window begins along an axis, and how long it is.
     const auto stretch = [&](const Axis& axis) -> std::pair<std::int64_t, std::int64_t> {
       const std::int64_t most = std::min<std::int64_t>(axis.pixels(), 90);
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(windows_of_periodic_grids) {
 BOOST_AUTO_TEST_CASE(long_periods) {
   std::mt19937_64 rng(8);
   for (const std::int64_t period : {std::int64_t{60000}, std::int64_t{70001}, Axis::max_pixels}) {
-    for (const Periodic axes : {Periodic::x, Periodic::y, Periodic::xy}) {
+    for (const Axes axes : {Axes::x, Axes::y, Axes::xy}) {
       const Grid grid(period, period, axes);
       const Window window(grid, has_x(axes) ? -25 : period / 2, has_y(axes) ? -20 : period / 2, 50, 40);
       for (const Engine& engine : engines()) {
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(long_periods) {
 // though some of them are methods of their own inside the engine.
 BOOST_AUTO_TEST_CASE(all_spellings_of_a_torus) {
   const std::int64_t w = 211, h = 130;
-  for (const Periodic axes : {Periodic::x, Periodic::y, Periodic::xy}) {
+  for (const Axes axes : {Axes::x, Axes::y, Axes::xy}) {
     for (const std::size_t count : {1u, 5u, 100u, 3000u}) {
       const Grid grid(w, h, axes);
       const std::vector<Pixel> seeds = random_pixels(grid, count, 9);
@@ -207,7 +207,7 @@ BOOST_AUTO_TEST_CASE(all_spellings_of_a_torus) {
 
 // Diagrams are of the frame that the seeds had, whatever window they show.
 BOOST_AUTO_TEST_CASE(frames_with_seeds_outside) {
-  const Grid grid(20, 10, Periodic::x);
+  const Grid grid(20, 10, Axes::x);
   Seeds seeds(test_device(), grid, {{-0.5, 13}, {5, 3}, {19.9, 3}});
   BOOST_TEST(seeds.alive() == 3u);
   BOOST_TEST(seeds.outside() == 1u);
@@ -240,7 +240,7 @@ BOOST_AUTO_TEST_CASE(points_that_are_too_far_away) {
 }
 
 BOOST_AUTO_TEST_CASE(what_floods_cannot_take_is_refused) {
-  const Grid grid(20, 10), torus(20, 10, Periodic::xy), long_torus(32001, 10, Periodic::x);
+  const Grid grid(20, 10), torus(20, 10, Axes::xy), long_torus(32001, 10, Axes::x);
   Seeds outside(test_device(), grid, {{1, 1}, {-1, 1}, {1, 99}});
   const Seeds inside(test_device(), grid, {{1, 1}}), on_torus(test_device(), torus, {{1, 1}}),
       on_long_torus(test_device(), long_torus, {{1, 1}});

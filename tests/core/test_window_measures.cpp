@@ -19,7 +19,7 @@ struct MeasuredWindow {
 /// Windows with seeds all around, near and far, parts of periods, and one whole period in some spellings.
 std::vector<MeasuredWindow> measured_windows() {
   std::mt19937_64 rng(10);
-  const Grid plain(61, 47), torus(61, 47, Periodic::xy), cylinder(61, 47, Periodic::x);
+  const Grid plain(61, 47), torus(61, 47, Axes::xy), cylinder(61, 47, Axes::x);
   const auto between = [&](const Pixel& first, const Pixel& last, std::size_t count) {
     return random_pixels_between(first, last, count, rng);
   };
@@ -28,16 +28,16 @@ std::vector<MeasuredWindow> measured_windows() {
   windows.push_back({plain, between({-20000, -20000}, {20000, 20000}, 60)});
   windows.push_back({plain, between({-2000000000, -2000000000}, {-1999990000, 0}, 60)});
   windows.push_back({{Grid(200, 100), 90, 30, 61, 47}, between({0, 0}, {199, 99}, 60)});
-  windows.push_back({{Grid(80, 70, Periodic::xy), 40, 30, 61, 47}, between({0, 0}, {79, 69}, 12)});
-  windows.push_back({{Grid(30, 25, Periodic::xy), -10, -5, 61, 47}, between({0, 0}, {29, 24}, 12)});
-  windows.push_back({{Grid(30, 90000, Periodic::xy), -10, 50000, 61, 47}, between({0, 0}, {29, 89999}, 12)});
-  windows.push_back({{Grid(50, 47, Periodic::x), -1, 0, 61, 47}, between({0, -90}, {49, 90}, 60)});
+  windows.push_back({{Grid(80, 70, Axes::xy), 40, 30, 61, 47}, between({0, 0}, {79, 69}, 12)});
+  windows.push_back({{Grid(30, 25, Axes::xy), -10, -5, 61, 47}, between({0, 0}, {29, 24}, 12)});
+  windows.push_back({{Grid(30, 90000, Axes::xy), -10, 50000, 61, 47}, between({0, 0}, {29, 89999}, 12)});
+  windows.push_back({{Grid(50, 47, Axes::x), -1, 0, 61, 47}, between({0, -90}, {49, 90}, 60)});
   windows.push_back({torus, between({0, 0}, {60, 46}, 12)});
   windows.push_back({{torus, 20, 30, 61, 47}, between({0, 0}, {60, 46}, 12)});
-  windows.push_back({{Grid(61, 70, Periodic::xy), 20, 30, 61, 47}, between({0, 0}, {60, 69}, 12)});
+  windows.push_back({{Grid(61, 70, Axes::xy), 20, 30, 61, 47}, between({0, 0}, {60, 69}, 12)});
   windows.push_back({cylinder, between({0, -90}, {60, 90}, 60)});
-  windows.push_back({{Grid(61, 60, Periodic::x), -7, 3, 61, 47}, between({0, 0}, {60, 59}, 12)});
-  windows.push_back({Grid(32011, 9, Periodic::x), between({0, 0}, {32010, 8}, 60)});
+  windows.push_back({{Grid(61, 60, Axes::x), -7, 3, 61, 47}, between({0, 0}, {60, 59}, 12)});
+  windows.push_back({Grid(32011, 9, Axes::x), between({0, 0}, {32010, 8}, 60)});
   return windows;
 }
 
@@ -47,7 +47,7 @@ std::vector<MeasuredWindow> measured_windows() {
 std::vector<Engine> engines_for(const Window& window, Metric metric) {
   const Engine &wide = engines()[0], &narrow = engines()[1], &without_vectors = engines()[2];
   if (metric == Metric::manhattan) return {without_vectors};
-  if (window.periodic() != Periodic::none) return {wide};
+  if (window.periodic() != Axes::none) return {wide};
   return {wide, narrow};
 }
 

@@ -84,7 +84,7 @@ std::vector<Pixel> cluster(const Grid& grid, std::size_t count, unsigned rng_see
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
-  for (const Periodic axes : {Periodic::none, Periodic::x, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
     const Grid grids[] = {{300, 210, axes}, {997, 503, axes}, {1, 700, axes}};
     for (const Grid& grid : grids) {
       const std::vector<Pixel> planes[] = {
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
 }
 
 BOOST_AUTO_TEST_CASE(labels_of_points_are_those_of_one_device) {
-  for (const Periodic axes : {Periodic::none, Periodic::xy}) {
+  for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(300, 210, axes);
     for (const std::size_t count : {3u, 400u, 30000u}) {
       std::mt19937 rng(9);

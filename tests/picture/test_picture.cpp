@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(edges_go_on_across_a_periodic_border) {
     }
     cv::Mat picture(height, width, CV_8UC3, cv::Scalar::all(200));
     cv::Mat expected(3 * height, 3 * width, CV_8UC3, cv::Scalar::all(200));
-    draw_edges(picture, labels, edge_width, Periodic::xy);
+    draw_edges(picture, labels, edge_width, Axes::xy);
     draw_edges(expected, copies, edge_width);
     BOOST_TEST(cv::norm(picture, expected(middle), cv::NORM_INF) == 0, edge_width << " pixels");
   }

@@ -250,7 +250,7 @@ inline std::vector<Case> edge_cases() {
 
 /// The same with periodic axes, not all of them: kernels are built anew for these.
 inline std::vector<Case> periodic_cases() {
-  constexpr Periodic x = Periodic::x, y = Periodic::y, xy = Periodic::xy;
+  constexpr Axes x = Axes::x, y = Axes::y, xy = Axes::xy;
   return cases_on(
       {{1, 17, xy}, {31, 1, xy}, {130, 5, xy}, {64, 64, xy}, {101, 97, xy}, {67, 65, x}, {16, 80, y}});
 }

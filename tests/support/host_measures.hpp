@@ -32,7 +32,7 @@ struct LabelledGrid {
   Labels labels;
 };
 
-inline LabelledGrid on_grid(const command::LabelImage& image, Periodic axes = Periodic::none) {
+inline LabelledGrid on_grid(const command::LabelImage& image, Axes axes = Axes::none) {
   return {image.size.grid(axes), image.labels};
 }
 

@@ -56,8 +56,8 @@ inline std::vector<Case> measured_cases(const Device& shape) {
   cases.push_back({"few seeds", wide, random_pixels(wide, 7, 5)});
   cases.push_back({"random seeds", wide, random_pixels(wide, 1000, 6)});
   cases.push_back({"dense seeds", wide, random_pixels(wide, 30000, 7)});
-  const Grid torus(700, 300, Periodic::xy), cylinder(700, 300, Periodic::x);
-  for (const Case& small : cases_on({{1, 17, Periodic::xy}, {67, 29, Periodic::xy}})) cases.push_back(small);
+  const Grid torus(700, 300, Axes::xy), cylinder(700, 300, Axes::x);
+  for (const Case& small : cases_on({{1, 17, Axes::xy}, {67, 29, Axes::xy}})) cases.push_back(small);
   cases.push_back({"one seed on a torus", torus, random_pixels(torus, 1, 5)});
   cases.push_back({"few seeds on a torus", torus, random_pixels(torus, 7, 5)});
   cases.push_back({"random seeds on a torus", torus, random_pixels(torus, 1000, 6)});

@@ -31,7 +31,7 @@ class Size {
   }
 
   /// A grid of this size.
-  Grid grid(Periodic periodic = Periodic::none) const { return {width_, height_, periodic}; }
+  Grid grid(Axes periodic = Axes::none) const { return {width_, height_, periodic}; }
 
   friend bool operator==(const Size& a, const Size& b) {
     return a.width_ == b.width_ && a.height_ == b.height_;

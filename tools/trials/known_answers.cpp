@@ -55,7 +55,7 @@ std::vector<Point> blocks(const Setting& setting) {
 
 const std::vector<KnownAnswer>& known_answers() {
   constexpr Metric euclidean = Metric::euclidean, manhattan = Metric::manhattan;
-  constexpr Periodic none = Periodic::none, xy = Periodic::xy;
+  constexpr Axes none = Axes::none, xy = Axes::xy;
   constexpr Scene plain = Scene::scattered;
   static const std::vector<KnownAnswer> all = {
       {"standard-flooding", euclidean, none, plain, 0x3108721ca3f0548f},
@@ -98,8 +98,8 @@ const std::vector<KnownAnswer>& known_answers() {
       {"exact", manhattan, none, Scene::blocks, 0xb7aa335c714b0dcc},
       {"exact", euclidean, none, Scene::few, 0xc31094612a376823},
       {"exact", manhattan, none, Scene::few, 0x2fe792820a313112},
-      {"exact", euclidean, Periodic::x, Scene::long_period, 0xef105ace872187fd},
-      {"exact", manhattan, Periodic::x, Scene::long_period, 0x31ebfe0273924a41},
+      {"exact", euclidean, Axes::x, Scene::long_period, 0xef105ace872187fd},
+      {"exact", manhattan, Axes::x, Scene::long_period, 0x31ebfe0273924a41},
       {"jfa", euclidean, none, Scene::full_size, 0xf001996b02f60428},
       {"djfa", euclidean, none, Scene::full_size, 0xa22b41d04a969ed5},
   };
@@ -140,7 +140,7 @@ std::vector<std::vector<Point>> known_frames(const KnownAnswer& answer) {
 
 std::string to_string(const KnownAnswer& answer) {
   return answer.method + ", " + to_string(answer.metric) +
-         (answer.periodic == Periodic::none ? "" : ", periodic") +
+         (answer.periodic == Axes::none ? "" : ", periodic") +
          (answer.scene == Scene::scattered ? "" : std::string(", ") + setting_of(answer.scene).name);
 }
 

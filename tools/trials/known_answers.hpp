@@ -26,7 +26,7 @@ enum class Scene {
 struct KnownAnswer {
   std::string method;
   Metric metric;
-  Periodic periodic;
+  Axes periodic;
   Scene scene;
   std::uint64_t hash;  // of the labels of all frames, as Hash has it
 };

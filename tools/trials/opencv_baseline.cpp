@@ -17,7 +17,7 @@ OpenCvBaseline::OpenCvBaseline(const Grid& grid, const std::vector<std::optional
     : seeds_(seeds),
       metric_(metric),
       image_(Size(grid).height(), Size(grid).width(), CV_8U, cv::Scalar(255)) {
-  if (grid.periodic() != Periodic::none) throw Error("opencv knows no periodic axes; leave it out");
+  if (grid.periodic() != Axes::none) throw Error("opencv knows no periodic axes; leave it out");
   for (const std::optional<Point>& seed : seeds_) {
     if (seed) image_.at<std::uint8_t>(pixel_of(*seed)) = 0;
   }

@@ -4,7 +4,7 @@
 
 int main() {
   const vorocl::Device device = vorocl::Device::select();
-  const vorocl::Grid torus(90, 90, vorocl::Periodic::xy);
+  const vorocl::Grid torus(90, 90, vorocl::Axes::xy);
   vorocl::Diagram diagram(device, torus);
   vorocl::exact_diagram(vorocl::Seeds(device, torus, {{2.5, 2.5}, {47.5, 2.5}, {2.5, 47.5}, {47.5, 47.5}}),
                         diagram);

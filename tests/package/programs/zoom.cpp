@@ -4,7 +4,7 @@
 
 int main() {
   const vorocl::Device device = vorocl::Device::select();
-  const vorocl::Grid torus(1000000, 1000000, vorocl::Periodic::xy);
+  const vorocl::Grid torus(1000000, 1000000, vorocl::Axes::xy);
   const vorocl::Seeds seeds(device, torus, {{999899, 999899}, {100, 999899}, {999899, 100}, {100, 100}});
   vorocl::Diagram zoom(device, vorocl::Window(torus, -500, -500, 1000, 1000));
   vorocl::exact_diagram(seeds, zoom);

@@ -225,7 +225,6 @@ class Run {
     for (const double at : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) add(at);
     add(grid.tilt());
     add(static_cast<double>(grid.periodic()));
-    add(grid.z().is_periodic() ? 1 : 0);
     for (const std::uint32_t id : source_.ids()) course_.seeds.add(id);
     for (const double value : source_.values()) add(value);
     course_.seeds.add(static_cast<std::uint64_t>(source_.timestep().value_or(0)));

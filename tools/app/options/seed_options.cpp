@@ -120,26 +120,13 @@ void add_outside_option(Command& command, SeedOptions& options) {
       .default_text("count");
 }
 
-Option add_periodic_option(Command& command, SeedOptions& options, const std::string& about) {
-  Choices<std::optional<Periodic>> axes;
-  for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
-    axes.emplace_back(to_string(some), some);
+/// Of some of the axes x and y or, where there are volumes, of all three.
+Option add_periodic_option(Command& command, SeedOptions& options, bool volumes, const std::string& about) {
+  Choices<std::optional<Axes>> axes;
+  for (int some = 0; some <= static_cast<int>(volumes ? Axes::xyz : Axes::xy); ++some) {
+    axes.emplace_back(to_string(static_cast<Axes>(some)), static_cast<Axes>(some));
   }
   return command.add_choice("--periodic", options.periodic, axes, about);
-}
-
-/// The same where there are volumes, of which z is set apart.
-Option add_periodic_option_with_z(Command& command, SeedOptions& options, const std::string& about) {
-  Choices<std::pair<Periodic, bool>> axes;
-  for (const bool z : {false, true}) {
-    for (const Periodic some : {Periodic::none, Periodic::x, Periodic::y, Periodic::xy}) {
-      axes.push_back({to_string(some, z), {some, z}});
-    }
-  }
-  const auto set = [&options, axes](const std::string& text) {
-    std::tie(options.periodic, options.periodic_z) = choose(axes, text);
-  };
-  return command.add("--periodic", set, about + ": " + names_of(axes)).value_name("NAME");
 }
 
 void add_y_options(Command& command, SeedOptions& options, const std::string& about_up) {
@@ -279,11 +266,9 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
           "of it")
       .value_name("X0,Y0,X1,Y1")
       .default_text("the bounds");
-  const std::string about_periodic =
-      "Axes along which the plane repeats: distances go the shorter way round, cells reach across the "
-      "border, and points outside the domain wrap";
-  (volumes ? add_periodic_option_with_z(command, options, about_periodic)
-           : add_periodic_option(command, options, about_periodic))
+  add_periodic_option(command, options, volumes,
+                      "Axes along which the plane repeats: distances go the shorter way round, cells reach "
+                      "across the border, and points outside the domain wrap")
       .default_text("what a trajectory's file says, else none");
   add_y_options(command, options, "The data's y axis points up (the default for trajectories)");
 }
@@ -303,7 +288,7 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   add_bounds_option(command, seeds,
                     "Rectangle in data units that the plane shows; else the bounding box of the points");
   add_outside_option(command, seeds);
-  add_periodic_option(command, seeds,
+  add_periodic_option(command, seeds, false,
                       "Axes along which the plane repeats: distances go the shorter way round, cells reach "
                       "across the border, and points outside the bounds wrap")
       .default_text("none");

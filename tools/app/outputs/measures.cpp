@@ -257,7 +257,7 @@ Json json_of_grid(Metric metric, const Seeds& seeds, std::int64_t width, std::in
       {"metric", to_string(metric)}, {"device", seeds.device().name()}, {"width", width}, {"height", height}};
   if (grid.is_volume()) json["depth"] = grid.depth();
   if (grid.is_spaced()) json["spacing"] = {grid.x().spacing(), grid.y().spacing(), grid.z().spacing()};
-  json["periodic"] = to_string(grid.periodic(), grid.z().is_periodic());
+  json["periodic"] = to_string(grid.periodic());
   return json;
 }
 

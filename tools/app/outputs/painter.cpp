@@ -130,8 +130,7 @@ cv::Mat Painter::draw_plane(Measures& measures, const std::vector<double>& value
   const Size size = view.size();
   // Of a tilted box the last row does not lie on the first one, so that no line is drawn between them.
   const Window& window = view.window;
-  const Periodic axes =
-      window.grid().is_tilted() && has_x(window.periodic()) ? Periodic::x : window.periodic();
+  const Axes axes = window.grid().is_tilted() && has_x(window.periodic()) ? Axes::x : window.periodic();
   const int enlargement = options_.enlargement;
   cv::Mat picture = enlarged(color(measures, values), enlargement);
   if (options_.contours) draw_contour_lines(picture, enlarged(measures.distances(), size, enlargement), axes);
@@ -267,7 +266,7 @@ void Painter::note_of_scale() const {
                   scale_->low, scale_->high, seen_->low, seen_->high));
 }
 
-void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes) {
+void Painter::draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Axes axes) {
   if (!contour_interval_) {
     const double step = round_step({0, range_of(distances).value_or(Scale{0, 0}).high}, most_contours);
     if (step == 0) return;  // no pixel but the seeds'

@@ -78,7 +78,7 @@ class Painter {
   Scale scale(const std::function<std::vector<double>()>& values);
   template <typename T>
   void watch(const std::vector<T>& values);
-  void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Periodic axes);
+  void draw_contour_lines(cv::Mat& picture, const std::vector<float>& distances, Axes axes);
 
   PictureOptions options_;
   bool many_;

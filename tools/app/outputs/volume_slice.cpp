@@ -14,7 +14,7 @@ struct Plane {
   std::size_t first, along_row, along_column;  // of its pixels in the volume
   bool is_periodic_x, is_periodic_y;
 
-  Grid grid() const { return size.grid(periodic_along(is_periodic_x, is_periodic_y)); }
+  Grid grid() const { return size.grid(axes_of(is_periodic_x, is_periodic_y)); }
 };
 
 Plane plane_of(const Grid& grid, const VolumeSlice& slice) {

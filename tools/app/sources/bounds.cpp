@@ -15,7 +15,7 @@
 
 namespace vorocl::command {
 
-void check_bounds(const Bounds& bounds, Periodic axes) {
+void check_bounds(const Bounds& bounds, Axes axes) {
   const auto refuse = [&](const std::string& why) {
     throw Error("the bounds " + to_string(bounds) + " " + why);
   };
@@ -50,10 +50,9 @@ std::string to_string(const Bounds& bounds) {
   return fmt::format("{},{},{},{}", bounds.x0, bounds.y0, bounds.x1, bounds.y1);
 }
 
-std::string to_string(Periodic axes, bool z) {
-  static const char* const names[] = {"none", "x", "y", "xy"};
-  const std::string name = names[static_cast<std::size_t>(axes)];
-  return !z ? name : axes == Periodic::none ? "z" : name + 'z';
+std::string to_string(Axes axes) {
+  static const char* const names[] = {"none", "x", "y", "xy", "z", "xz", "yz", "xyz"};
+  return names[static_cast<std::size_t>(axes)];
 }
 
 Bounds bounding_box(const std::vector<Point>& points) {
@@ -133,14 +132,14 @@ void note_of_turn(const Frame& frame) {
                   frame.box->turned));
 }
 
-void note_of_frame(const Frame& frame, int number, const std::optional<Periodic>& told) {
+void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told) {
   note_of_turn(frame);
   if (frame.z_span > 0) {
     print_note(fmt::format("z is left out, along which the particles of frame {} span {:.6g}", number,
                            frame.z_span));
   }
   if (!frame.box || !told) return;
-  const Periodic axes = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
+  const Axes axes = axes_of(frame.box->periodic_x, frame.box->periodic_y);
   if (*told == axes) return;
   print_note(fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead",
                          to_string(axes), to_string(*told)));

@@ -15,7 +15,7 @@ namespace vorocl::command {
 
 /// Throws Error unless the bounds are finite, with x0 <= x1 and y0 <= y1, have an extent along the periodic
 /// axes, and are neither so far apart nor so near that an Axis has no scale for them.
-void check_bounds(const Bounds& bounds, Periodic axes = Periodic::none);
+void check_bounds(const Bounds& bounds, Axes axes = Axes::none);
 
 /// "X0,Y0,X1,Y1" to bounds. Throws Error unless these are four finite numbers with X0 < X1 and Y0 < Y1.
 Bounds parse_bounds(const std::string& text);
@@ -23,7 +23,7 @@ Bounds parse_bounds(const std::string& text);
 std::string to_string(const Bounds& bounds);
 
 /// The axes by the names that --periodic and JSON give them.
-std::string to_string(Periodic axes, bool z = false);
+std::string to_string(Axes axes);
 
 /// The least bounds that hold all points (at least one). Throws Error if one is not finite.
 Bounds bounding_box(const std::vector<Point>& points);
@@ -53,7 +53,7 @@ void note_of_turn(const Frame& frame);
 
 /// Says on standard error what may surprise of a trajectory, by one of its frames: that z is left out, and
 /// that its box has other periodic axes than what counts instead, if that is told.
-void note_of_frame(const Frame& frame, int number, const std::optional<Periodic>& told);
+void note_of_frame(const Frame& frame, int number, const std::optional<Axes>& told);
 
 /// A frame's box, else the bounding box of its particles; none if it has neither.
 std::optional<Bounds> bounds_of(const Frame& frame);

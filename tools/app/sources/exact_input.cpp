@@ -21,7 +21,7 @@ Axis axis_of(double low, double high, bool is_periodic, bool is_closed) {
 }
 
 /// `repeats` is what does along the periodic axes, with a tilt: bounds that are given must be the same there.
-Grid grid_of(const SeedOptions& options, const Bounds& repeats, Periodic periodic, const char* name,
+Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, const char* name,
              double tilt = 0) {
   const Bounds& shown = options.bounds ? *options.bounds : repeats;
   const bool parts_x = has_x(periodic) && (shown.x0 != repeats.x0 || shown.x1 != repeats.x1);
@@ -68,7 +68,7 @@ ExactInput exact_input_from_points(const SeedOptions& options) {
     const Bounds repeats = options.domain   ? *options.domain
                            : options.bounds ? *options.bounds
                                             : bounding_box(points);
-    const Grid grid = grid_of(options, repeats, options.periodic.value_or(Periodic::none), "the domain");
+    const Grid grid = grid_of(options, repeats, options.periodic.value_or(Axes::none), "the domain");
     note_points(options, grid, points);
     ExactInput input = input_of(options, options.points, grid, std::move(points), std::move(read.ids));
     input.kept = {std::move(read.kept_names), std::move(read.kept)};
@@ -84,10 +84,10 @@ ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number, b
   if (!filled && !options.bounds) {
     throw Error(fmt::format("frame {} has neither a box nor particles: give --bounds", number));
   }
-  Periodic periodic = options.periodic.value_or(Periodic::none);
-  if (frame.box && !options.periodic) periodic = periodic_along(frame.box->periodic_x, frame.box->periodic_y);
+  Axes periodic = options.periodic.value_or(Axes::none);
+  if (frame.box && !options.periodic) periodic = axes_of(frame.box->periodic_x, frame.box->periodic_y);
   const double tilt = frame.box ? frame.box->tilt : 0;
-  if (tilt != 0 && periodic != Periodic::xy) {
+  if (tilt != 0 && periodic != Axes::xy) {
     throw Error(
         fmt::format("the box of frame {} is tilted: --exact cuts it as periodic in x and y, so leave "
                     "--periodic out, or give --periodic xy",

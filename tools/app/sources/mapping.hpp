@@ -22,7 +22,7 @@ struct Mapping {
   bool y_up = false;
   std::optional<Crs> crs;            ///< of the data
   Outside outside = Outside::count;  ///< the bounds; Outside::absent is not asked for
-  Periodic periodic = Periodic::none;
+  Axes periodic = Axes::none;
   std::optional<Bounds> domain;  ///< the rectangle that repeats along the periodic axes; else the bounds
   Ends ends;                     ///< of the domain, along the other axes
   double tilt = 0;               ///< of the domain, if both axes are periodic: see Grid::tilted()

@@ -117,7 +117,7 @@ PlaneFacts map_points(const SeedOptions& options, const Grid& plane, const Surve
   };
   read_in_blocks(options.points, options.csv(), reading.slice, add);
   warn_of_scales(bounds, plane, "give a --size of the same shape");
-  if (plane.periodic() != Periodic::none && !options.bounds) {
+  if (plane.periodic() != Axes::none && !options.bounds) {
     print_note(fmt::format("the period is the bounding box of the points, {}; --bounds says another one",
                            to_string(bounds)));
   }
@@ -156,7 +156,7 @@ PlaneFacts make_random(const SeedOptions& options, const Grid& plane, const Plan
 
 Grid PlaneInputOptions::plane() const {
   if (!size) throw UsageError("--size WxH is required");
-  return {size->width(), size->height(), seeds.periodic.value_or(Periodic::none)};
+  return {size->width(), size->height(), seeds.periodic.value_or(Axes::none)};
 }
 
 void check_plane_options(const PlaneInputOptions& options) {

@@ -17,7 +17,7 @@ namespace vorocl::command {
 
 namespace {
 
-Periodic axes_of(const SeedOptions& options) { return options.periodic.value_or(Periodic::none); }
+Axes periodic_axes(const SeedOptions& options) { return options.periodic.value_or(Axes::none); }
 
 /// The bounds, else the domain, else the points' bounding box.
 Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points) {
@@ -31,7 +31,7 @@ Mapping mapping_of(const SeedOptions& options, const std::vector<Point>& points)
   mapping.y_up = points_up(options);
   mapping.crs = options.crs;
   mapping.outside = options.outside.value_or(Outside::count);
-  mapping.periodic = axes_of(options);
+  mapping.periodic = periodic_axes(options);
   mapping.domain = options.domain;
   mapping.in_pixels = in_pixels(options);
   mapping.snap = options.snapping();
@@ -46,7 +46,7 @@ Input plane_from_points(const SeedOptions& options) {
     const Size picture = options.size ? *options.size : size_of_width(mapping.bounds, options.width);
     const MappedPoints mapped = map_points(points, mapping, picture, read.ids);
     warn_of_scales(mapping.bounds, picture.grid());
-    if (mapping.periodic != Periodic::none && !options.bounds && !options.domain) {
+    if (mapping.periodic != Axes::none && !options.bounds && !options.domain) {
       print_note(fmt::format("the period is the bounding box of the points, {}; --domain says another one",
                              to_string(mapping.bounds)));
     }
@@ -73,7 +73,7 @@ Input plane_from_mask(const SeedOptions& options) {
                             options.mask, mask.size.width(), mask.size.height(), options.size->width(),
                             options.size->height()));
   }
-  const Grid grid = mask.size.grid(axes_of(options));
+  const Grid grid = mask.size.grid(periodic_axes(options));
   return {
       {mask.size, grid},
       [grid, pixels = mask.pixels](const Device& device) { return Seeds::from_mask(device, grid, pixels); },
@@ -87,7 +87,7 @@ constexpr std::size_t most_on_host = std::size_t{1} << 20;
 
 Input plane_at_random(const SeedOptions& options) {
   if (!options.size) throw UsageError("--size WxH is required with --random");
-  const Grid grid = options.size->grid(axes_of(options));
+  const Grid grid = options.size->grid(periodic_axes(options));
   return {{*options.size, grid},
           [grid, options](const Device& device) {
             if (options.random > most_on_host) {
@@ -143,8 +143,8 @@ void refuse_csv_options(const SeedOptions& options) {
 
 void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.depth > 1) throw UsageError(std::string("--size ") + volumes_are_for);
-  const char* const of_volumes = options.z_bounds     ? "--bounds with six numbers"
-                                 : options.periodic_z ? "--periodic with z"
+  const char* const of_volumes = options.z_bounds                ? "--bounds with six numbers"
+                                 : has_z(periodic_axes(options)) ? "--periodic with z"
                                  : options.columns && !options.columns->z.empty() ? "--columns X,Y,Z"
                                                                                   : nullptr;
   if (of_volumes != nullptr) {
@@ -153,7 +153,7 @@ void check_seed_options(const SeedOptions& options, bool needs_size) {
   if (options.domain && options.points.empty()) {
     throw UsageError("--domain is for --points; the domain of a trajectory is its box");
   }
-  if (options.domain && axes_of(options) == Periodic::none) {
+  if (options.domain && periodic_axes(options) == Axes::none) {
     throw UsageError("--domain needs --periodic x, y or xy");
   }
   if (!options.points.empty() || !options.trajectory.empty()) {

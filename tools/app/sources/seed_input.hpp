@@ -34,9 +34,8 @@ struct SeedOptions {
   std::optional<Crs> crs;            // of points
   std::optional<Bounds> domain;      // of points: what repeats along the periodic axes; else the bounds
   std::optional<Outside> outside;    // the bounds; else they count
-  std::optional<Periodic> periodic;  // else none, or what the trajectory says
+  std::optional<Axes> periodic;  // else none, or what the trajectory says
   std::optional<std::pair<double, double>> z_bounds;  // of a volume, as those of `bounds`
-  bool periodic_z = false;                            // of a volume, where `periodic` is given
   std::optional<Snap> snap;                           // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;
   Snap of_pixels = Snap::to_pixels;   // of masks and random seeds

@@ -18,7 +18,7 @@ namespace vorocl::command {
 
 namespace {
 
-Periodic periodic_axes(const Box& box) { return periodic_along(box.periodic_x, box.periodic_y); }
+Axes periodic_axes(const Box& box) { return axes_of(box.periodic_x, box.periodic_y); }
 
 /// The first particle at each place, in a table with room for twice as many or more.
 class FirstAtPlaces {
@@ -149,8 +149,8 @@ std::optional<Bounds> TrajectorySeeds::shown_bounds() {
   return fitted_;
 }
 
-Periodic TrajectorySeeds::axes_of_frame() const {
-  return told_axes_ || !frame_.box ? told_axes_.value_or(Periodic::none) : periodic_axes(*frame_.box);
+Axes TrajectorySeeds::axes_of_frame() const {
+  return told_axes_ || !frame_.box ? told_axes_.value_or(Axes::none) : periodic_axes(*frame_.box);
 }
 
 Size TrajectorySeeds::make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const {
@@ -180,15 +180,15 @@ Mapping TrajectorySeeds::mapping_of_frame(const Bounds& bounds) const {
   if (const std::optional<Box>& box = frame_.box) {
     mapping.domain = bounds_of(frame_);
     mapping.ends = {!box->open_x0, !box->open_y0, !box->open_x1, !box->open_y1};
-    if (mapping.periodic == Periodic::xy) mapping.tilt = box->tilt;
-    if (box->tilt != 0 && mapping.periodic == Periodic::y) {
+    if (mapping.periodic == Axes::xy) mapping.tilt = box->tilt;
+    if (box->tilt != 0 && mapping.periodic == Axes::y) {
       throw Error("the box is tilted, so it does not repeat straight along y; give --periodic xy or x");
     }
     if (mapping.tilt != 0 && !keeps_inside_.empty()) {
       throw Error("the box is tilted, which " + keeps_inside_ +
                   "; with --periodic x cells end at its border in y instead");
     }
-  } else if (given_bounds_ && has_boxes_ && mapping.periodic != Periodic::none) {
+  } else if (given_bounds_ && has_boxes_ && mapping.periodic != Axes::none) {
     throw Error("there is no box to say what repeats along the axes of --periodic; give --periodic none");
   }
   return mapping;

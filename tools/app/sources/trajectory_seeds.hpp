@@ -79,7 +79,7 @@ class TrajectorySeeds {
   /// What the picture shows; none if the frame, and those before it, have neither a box nor particles.
   std::optional<Bounds> shown_bounds();
   /// Along which axes the frame's box repeats, or the bounds where there is no box.
-  Periodic axes_of_frame() const;
+  Axes axes_of_frame() const;
   Mapping mapping_of_frame(const Bounds& bounds) const;
   Size make_picture(const SeedOptions& options, const std::optional<Bounds>& bounds) const;
   void note_of_scales(const Bounds& bounds, std::size_t outside);
@@ -91,8 +91,8 @@ class TrajectorySeeds {
   std::optional<Bounds> given_bounds_;
   std::string keeps_inside_;  // see note_outside()
   Fit fit_;
-  std::optional<Bounds> fitted_;       // the same for all frames
-  std::optional<Periodic> told_axes_;  // by the caller, not by the file
+  std::optional<Bounds> fitted_;   // the same for all frames
+  std::optional<Axes> told_axes_;  // by the caller, not by the file
   Outside outside_is_;
   bool y_up_;
   Snap snap_;

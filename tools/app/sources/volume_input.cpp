@@ -60,7 +60,7 @@ void take_periodic_axes(const SeedOptions& options, VolumeSides& sides) {
   if (!options.periodic) return;
   sides[0].is_periodic = has_x(*options.periodic);
   sides[1].is_periodic = has_y(*options.periodic);
-  sides[2].is_periodic = options.periodic_z;
+  sides[2].is_periodic = has_z(*options.periodic);
 }
 
 Grid grid_of(const SeedOptions& options, const VolumeSides& sides) {
@@ -220,12 +220,8 @@ Input input_from_points(const SeedOptions& options) {
 }
 
 Input input_at_random(const SeedOptions& options) {
-  const auto axis = [](std::int64_t voxels, bool is_periodic) {
-    return is_periodic ? Axis(voxels).periodic() : Axis(voxels);
-  };
-  const Periodic periodic = options.periodic.value_or(Periodic::none);
-  const Grid grid(axis(options.size->width(), has_x(periodic)), axis(options.size->height(), has_y(periodic)),
-                  axis(options.depth, options.periodic_z));
+  const Grid grid(options.size->width(), options.size->height(), options.depth,
+                  options.periodic.value_or(Axes::none));
   return {view_of(grid, true),
           [grid, count = options.random, seed = options.rng_seed](const Device& device) {
             return Seeds::random(device, grid, count, seed);
@@ -264,8 +260,8 @@ VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::opt
   note_of_turn(frame_);
   if (!frame_.box || !options_.periodic) return;
   const Box& box = *frame_.box;
-  const std::string of_file = to_string(periodic_along(box.periodic_x, box.periodic_y), box.periodic_z);
-  const std::string told = to_string(*options_.periodic, options_.periodic_z);
+  const std::string of_file = to_string(axes_of(box.periodic_x, box.periodic_y, box.periodic_z));
+  const std::string told = to_string(*options_.periodic);
   if (told == of_file) return;
   print_note(
       fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead", of_file, told));
