@@ -126,8 +126,9 @@ void prepare(const Method& method, const Device& device, const Window& window, s
   const Grid pixels(fits ? grid : Grid(window.width(), window.height(), window.periodic()));
   Diagram diagram(device, fits ? window : Window(pixels));
   const Seeds random = Seeds::random(device, pixels, seeds, 1);
-  method.run(snap == Snap::none ? Seeds(device, pixels, random.read(), Outside::count, snap) : random.clone(),
-             diagram, options);
+  method.run(
+      snap == Snap::none ? Seeds(device, pixels, random.read(), {Outside::count, snap}) : random.clone(),
+      diagram, options);
   if (method.continues) {
     // The second frame runs the longest plan and, because its seeds are others, the search for pixels without
     // a label; the third one starts from its labels: all need kernels that the first frame does not.

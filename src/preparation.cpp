@@ -150,7 +150,7 @@ void prepare_images(const Device& device) {
   }
   if (device.tuning().shape == Shape::group) return;
   const Grid thin(4096, 1, 2);
-  std::vector<Point3> crowded;
+  std::vector<Point> crowded;
   for (int i = 0; i < 100; ++i) {
     for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
   }
@@ -162,7 +162,7 @@ void prepare_images(const Device& device) {
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
-  for (const Method& each : methods()) prepare(each, device, grid, scale.seeds, options);
+  for (const Method& each : methods()) prepare(each, device, grid, scale.seeds, options, Snap::to_pixels);
   Seeds random = Seeds::random(device, grid, scale.seeds, 1);
   random_step(random, 1, Border::reflect, 1, 1);
   Diagram diagram(device, grid), other(device, grid);
@@ -171,7 +171,7 @@ void prepare_at(const Scale& scale, const Device& device, const Specialisation& 
   by_weight.density.assign(grid.pixels(), 1.0F);
   const std::vector<Point> points = spread_points(scale.seeds, scale.width, scale.height);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
-    Seeds seeds(device, grid, points, Outside::count, snap);
+    Seeds seeds(device, grid, points, {Outside::count, snap});
     relax(seeds, diagram, engine(exact, options), 1);
     relax(seeds, diagram, engine(exact, options), 1, {}, by_weight);
     exact.run(seeds, other, options);
@@ -184,7 +184,8 @@ void prepare_windows(const Device& device, const Specialisation& what) {
   for (const int side : {4096, 100000}) {
     const Window window(Grid(side, side, what.periodic), 0, 0, 2048, 2048);
     Diagram diagram(device, window), other(device, window);
-    const Seeds seeds(device, window.grid(), spread_points(10000, side, side));
+    const Seeds seeds(device, window.grid(), spread_points(10000, side, side),
+                      {Outside::count, Snap::to_pixels});
     method("exact").run(seeds, diagram, {what.metric});
     method("exact").run(seeds, other, {what.metric});
     measure(diagram, other, Snap::to_pixels);

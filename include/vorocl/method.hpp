@@ -62,6 +62,6 @@ VOROCL_API Simulation::Engine engine(const Method& method, const MethodOptions& 
 /// method on random seeds and a diagram of its own, of this size, which it gives back. `snap` is that of the
 /// seeds. Waits. Throws as the method.
 VOROCL_API void prepare(const Method& method, const Device& device, const Window& window, std::size_t seeds,
-                        const MethodOptions& options = {}, Snap snap = Snap::to_pixels);
+                        const MethodOptions& options = {}, Snap snap = Snap::none);
 
 }  // namespace vorocl

@@ -31,7 +31,7 @@ struct SharedSeedsState;
 class VOROCL_API SharedSeeds : public SeedSource {
  public:
   /// Collective. The communicator is copied.
-  SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap = Snap::to_pixels);
+  SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap = Snap::none);
 
   /// Collective, for it frees what the ranks share.
   ~SharedSeeds() override;

@@ -83,18 +83,15 @@ class VOROCL_API Points {
   const std::uint8_t* present_ = nullptr;
 };
 
-/// What a buffer of points holds.
-enum class PointFormat {
-  float2,   ///< two floats per point
-  double2,  ///< two doubles per point
-};
+/// What a buffer of points holds for each: two numbers or, with a z, three, without gaps.
+enum class PointFormat { floats_xy, doubles_xy, floats_xyz, doubles_xyz };
 
 /// Points in the caller's buffer on the device, in the units of the data.
 struct PointBuffer {
   /// `present` says which seeds there are: one byte per seed, 0 for a seed that is absent, whose point is not
   /// looked at; a null buffer says that all are there.
   PointBuffer(cl::Buffer points_of_seeds, std::size_t count_of_seeds,
-              PointFormat format_of_points = PointFormat::float2, cl::Buffer marks = cl::Buffer())
+              PointFormat format_of_points = PointFormat::floats_xy, cl::Buffer marks = cl::Buffer())
       : points(std::move(points_of_seeds)),
         count(count_of_seeds),
         format(format_of_points),

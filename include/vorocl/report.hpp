@@ -28,6 +28,10 @@ class VOROCL_API Report {
   /// Of the waves that made the labels: those that ran before a new start are not looked at.
   const FloodStart& start() const { return start_; }
 
+  /// Whether the labels are those of the centres of the seeds' pixels, although the seeds' points lie
+  /// elsewhere in them (Snap::none): engines that flood snap, and so do all engines in volumes.
+  bool snapped() const { return snapped_; }
+
   /// Completes with the diagram.
   const cl::Event& event() const { return last_; }
 
@@ -46,14 +50,15 @@ class VOROCL_API Report {
   friend struct Internal;
   Report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
          const FloodStart& start, std::vector<std::pair<cl::Event, cl::Event>>&& first_launches,
-         std::int64_t process)
+         std::int64_t process, bool snapped)
       : waves_(waves),
         first_(first),
         last_(last),
         first_launches_(std::move(first_launches)),
         host_milliseconds_(host_milliseconds),
         start_(start),
-        process_(process) {}
+        process_(process),
+        snapped_(snapped) {}
 
   int waves_ = 0;
   cl::Event first_;
@@ -62,6 +67,7 @@ class VOROCL_API Report {
   double host_milliseconds_ = 0;
   FloodStart start_;
   std::int64_t process_ = 0;  // that made it
+  bool snapped_ = false;
 };
 
 }  // namespace vorocl

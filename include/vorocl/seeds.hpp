@@ -30,25 +30,33 @@ enum class Snap {
   none,       ///< exact diagrams take the point itself, rounded to 1/4096 of a pixel along each axis
 };
 
+/// How points become seeds, in all frames.
+struct SeedsOptions {
+  Outside outside = Outside::count;
+  Snap snap = Snap::none;
+};
+
 /// The seeds of a diagram, in their present frame. A seed's id is its index in the caller's list. A seed may
 /// be absent: it has an id and no cell. A seed lies in the pixel of its point (Axis::pixel()). Seeds that
 /// share a pixel are allowed: the lowest id owns the cell, the others have empty cells.
 ///
 /// With Snap::none an exact diagram is exact for the points themselves, each rounded to 1/4096 of a pixel of
 /// the grid, once and never out of its pixel: several of one pixel may own pixels then, and measures take the
-/// same positions. Flooding methods know whole pixels, and random(), from_mask() and random_step() make them;
-/// points that seeds of random() and from_mask() move to later are taken as with Snap::none.
+/// same positions. Flooding methods snap, so that all measures of a flooded diagram take the centres of the
+/// pixels (Report::snapped()): what judges it by an exact diagram wants that of seeds with Snap::to_pixels.
+/// random(), from_mask() and random_step() make whole pixels; points that seeds of random() and from_mask()
+/// move to later are taken as with Snap::none.
 ///
 /// Points are in the units of the data; along periodic axes they wrap. Exact diagrams and the measures know
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
 /// whole grid, which is not tilted, and holds all seeds, and periods of at most 32,000 pixels.
 ///
-/// In a volume all seeds lie at the centres of their voxels and in the volume: points outside it are absent
-/// or refused.
+/// In a volume, and in a plane with an axis that is spaced, exact diagrams snap too, and all seeds lie in the
+/// grid: points outside it are absent or refused, with Outside::count too.
 ///
 /// Memory: on the device 4 bytes per seed and frame that is remembered, 12 in a loop over frames, and where a
 /// diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that may own a
-/// pixel, which the host finds and sorts. On the host about 50 bytes per seed whose point came from there.
+/// pixel, which the host finds and sorts. On the host about 60 bytes per seed whose point came from there.
 ///
 /// Threads: one thread at a time.
 ///
@@ -59,15 +67,13 @@ enum class Snap {
 /// Ordering: points are read, and seeds moved, in the order of the calls on the device's queue.
 class VOROCL_API Seeds {
  public:
-  /// From points on the host. `outside` and `snap` hold for all frames. Throws BadPoint naming the first
-  /// point that is NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid
-  /// along an axis, before any device work. No points at all are allowed. Throws Error if the points are
-  /// those of a volume and the grid is not one, or the other way round, and for Snap::none in a volume; there
-  /// Outside::count refuses points outside.
-  Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside = Outside::count,
-        Snap snap = Snap::to_pixels);
+  /// From points on the host. The options hold for all frames. Throws BadPoint naming the first point that is
+  /// NaN, infinite, refused, or counts and is 2^31 pixels or more away from a pixel of the grid along an
+  /// axis, before any device work. No points at all are allowed. Throws Error if the grid is a volume and the
+  /// points have no z.
+  Seeds(const Device& device, const Grid& grid, const Points& points, const SeedsOptions& options = {});
   Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
-        Outside outside = Outside::count, Snap snap = Snap::to_pixels);
+        const SeedsOptions& options = {});
 
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
   /// small, of another context or not readable by kernels, or the points' buffer is null.
@@ -78,8 +84,7 @@ class VOROCL_API Seeds {
   /// this frame.
   ///
   /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
-  Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside = Outside::refuse,
-        Snap snap = Snap::to_pixels);
+  Seeds(const Device& device, const Grid& grid, const PointBuffer& points, const SeedsOptions& options = {});
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order. That
   /// of a volume is slice after slice.

@@ -80,9 +80,8 @@ struct PlaneSeedsState;
 class VOROCL_API PlaneSeeds : public SeedSource {
  public:
   /// What becomes of points outside the grid, and within their pixels, is as for Seeds.
-  explicit PlaneSeeds(const Grid& grid, Outside outside = Outside::count, Snap snap = Snap::to_pixels);
-  PlaneSeeds(const Grid& grid, const Points& points, Outside outside = Outside::count,
-             Snap snap = Snap::to_pixels);
+  explicit PlaneSeeds(const Grid& grid, const SeedsOptions& options = {});
+  PlaneSeeds(const Grid& grid, const Points& points, const SeedsOptions& options = {});
   ~PlaneSeeds() override;
   PlaneSeeds(PlaneSeeds&& other) noexcept;
   PlaneSeeds& operator=(PlaneSeeds&& other) noexcept;

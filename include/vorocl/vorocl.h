@@ -241,25 +241,26 @@ typedef int vorocl_outside;
 enum { VOROCL_OUTSIDE_COUNTS = 0, VOROCL_OUTSIDE_IS_ABSENT = 1, VOROCL_OUTSIDE_IS_REFUSED = 2 };
 
 /// What becomes of a point within its pixel: see vorocl::Snap. With VOROCL_SNAP_NONE exact diagrams take the
-/// point itself, rounded to 1/4096 of a pixel; with VOROCL_SNAP_TO_PIXELS the centre of its pixel. Flooding
-/// methods snap.
+/// point itself, rounded to 1/4096 of a pixel, as C++ does unless it is told otherwise; with
+/// VOROCL_SNAP_TO_PIXELS the centre of its pixel. Flooding methods snap: see vorocl_diagram_snapped().
 typedef int vorocl_snap;
 enum { VOROCL_SNAP_TO_PIXELS = 0, VOROCL_SNAP_NONE = 1 };
 
-/// `outside` and `snap` hold for all frames. In a volume all points lie at the centres of their voxels:
-/// VOROCL_SNAP_NONE is refused, and VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
+/// `outside` and `snap` hold for all frames. In a volume all points are snapped to their voxels, and
+/// VOROCL_OUTSIDE_COUNTS refuses points outside. See vorocl::Seeds.
 VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid grid,
                                                   const vorocl_point* points, const uint8_t* present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
                                                   vorocl_seeds** seeds);
 
-/// What a buffer of points holds: two floats or two doubles per point. One of VOROCL_FLOAT2, VOROCL_DOUBLE2.
+/// What a buffer of points holds for each, without gaps: two floats or doubles or, with a z, three. A
+/// vorocl_point is VOROCL_DOUBLES_XYZ.
 typedef int vorocl_point_format;
-enum { VOROCL_FLOAT2 = 0, VOROCL_DOUBLE2 = 1 };
+enum { VOROCL_FLOATS_XY = 0, VOROCL_DOUBLES_XY = 1, VOROCL_FLOATS_XYZ = 2, VOROCL_DOUBLES_XYZ = 3 };
 
-/// From the caller's buffers, which hold points of a plane. Floats that are snapped stay on the device unless
-/// points outside count: it checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call
-/// that waits for what was made of them.
+/// From the caller's buffers. VOROCL_FLOATS_XY that are snapped stay on the device unless points outside
+/// count: it checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call that waits for
+/// what was made of them.
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, vorocl_point_format format, cl_mem present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
@@ -375,6 +376,10 @@ VOROCL_API vorocl_status vorocl_diagram_event(const vorocl_diagram* diagram, cl_
 /// where vorocl_diagram_event() gives NULL. Each may be NULL.
 VOROCL_API vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves,
                                                double* milliseconds, double* host_milliseconds);
+
+/// 1 if the labels of the last method are those of the centres of the seeds' pixels, although their points
+/// lie elsewhere in them (VOROCL_SNAP_NONE), else 0: see vorocl::Report::snapped().
+VOROCL_API vorocl_status vorocl_diagram_snapped(const vorocl_diagram* diagram, int* snapped);
 
 /// Copies the labels to the host: `count` must be width * height. Waits.
 VOROCL_API vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count);

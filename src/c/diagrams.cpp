@@ -83,6 +83,10 @@ vorocl_status vorocl_diagram_report(const vorocl_diagram* diagram, int* waves, d
   });
 }
 
+vorocl_status vorocl_diagram_snapped(const vorocl_diagram* diagram, int* snapped) {
+  return answer(snapped, "snapped", [&] { return given(diagram, "diagram").report.snapped() ? 1 : 0; });
+}
+
 vorocl_status vorocl_diagram_read(const vorocl_diagram* diagram, uint32_t* labels, size_t count) {
   return guarded([&] {
     check_count(of(diagram).window().pixels(), "pixels", count);

@@ -19,9 +19,10 @@ Points to_points(const vorocl_point* points, const uint8_t* present, std::size_t
 
 PointBuffer to_points(cl_mem points, vorocl_point_format format, cl_mem present, std::size_t count) {
   given(points, "points");
-  if (format != VOROCL_FLOAT2 && format != VOROCL_DOUBLE2) refuse("format of points", format);
-  return {retained(points), count, format == VOROCL_FLOAT2 ? PointFormat::float2 : PointFormat::double2,
-          retained(present)};
+  constexpr PointFormat formats[] = {PointFormat::floats_xy, PointFormat::doubles_xy, PointFormat::floats_xyz,
+                                     PointFormat::doubles_xyz};
+  if (format < VOROCL_FLOATS_XY || format > VOROCL_DOUBLES_XYZ) refuse("format of points", format);
+  return {retained(points), count, formats[format], retained(present)};
 }
 
 Outside to_outside(vorocl_outside outside) {
@@ -58,7 +59,7 @@ vorocl_status vorocl_seeds_from_points(const vorocl_device* device, vorocl_grid 
                                        vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, present, count),
-                              to_outside(outside), to_snap(snap))};
+                              {to_outside(outside), to_snap(snap)})};
   });
 }
 
@@ -67,7 +68,7 @@ vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid 
                                        vorocl_outside outside, vorocl_snap snap, vorocl_seeds** seeds) {
   return make_object(seeds, "seeds", [&] {
     return vorocl_seeds{Seeds(of(device), to_grid(grid), to_points(points, format, present, count),
-                              to_outside(outside), to_snap(snap))};
+                              {to_outside(outside), to_snap(snap)})};
   });
 }
 

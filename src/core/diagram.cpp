@@ -137,7 +137,9 @@ Report Filling::commit(int waves, const cl::Event& first, const cl::Event& last,
   next_.last = last;
   next_.age = age;
   diagram_.contents = next_;
-  return Internal::report(waves, first, last, stopwatch_.milliseconds(), first_launches_.take(), start);
+  const bool snapped = next_.seeds->is_off_centre && !next_.points;
+  return Internal::report(waves, first, last, stopwatch_.milliseconds(), first_launches_.take(), start,
+                          snapped);
 }
 
 // --- Diagram ---

@@ -60,8 +60,7 @@ Seeds::Seeds(Seeds&& other) noexcept = default;
 Seeds& Seeds::operator=(Seeds&& other) noexcept = default;
 
 Seeds Internal::no_seeds(const Device& device, const Grid& grid) {
-  const Snap snap = has_voxels(grid) ? Snap::to_pixels : Snap::none;
-  return Seeds(std::make_unique<SeedsState>(device, grid, Outside::count, snap));
+  return Seeds(std::make_unique<SeedsState>(device, grid, SeedsOptions{}));
 }
 
 SeedsState& Seeds::state() const {
@@ -70,17 +69,17 @@ SeedsState& Seeds::state() const {
   return *state_;
 }
 
-Seeds::Seeds(const Device& device, const Grid& grid, const Points& points, Outside outside, Snap snap)
-    : state_(std::make_unique<SeedsState>(device, grid, outside, snap)) {
+Seeds::Seeds(const Device& device, const Grid& grid, const Points& points, const SeedsOptions& options)
+    : state_(std::make_unique<SeedsState>(device, grid, options)) {
   state_->place(grid, points);
 }
 
-Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points, Outside outside,
-             Snap snap)
-    : Seeds(device, grid, Points(points), outside, snap) {}
+Seeds::Seeds(const Device& device, const Grid& grid, std::initializer_list<Point> points,
+             const SeedsOptions& options)
+    : Seeds(device, grid, Points(points), options) {}
 
-Seeds::Seeds(const Device& device, const Grid& grid, const PointBuffer& points, Outside outside, Snap snap)
-    : state_(std::make_unique<SeedsState>(device, grid, outside, snap)) {
+Seeds::Seeds(const Device& device, const Grid& grid, const PointBuffer& points, const SeedsOptions& options)
+    : state_(std::make_unique<SeedsState>(device, grid, options)) {
   state_->place(points);
 }
 
@@ -133,7 +132,7 @@ Seeds Seeds::random(const Device& device, const Grid& grid, std::size_t count, s
 }
 
 Seeds Seeds::clone() const {
-  auto copied = std::make_unique<SeedsState>(device(), grid(), state().outside, state().snap);
+  auto copied = std::make_unique<SeedsState>(device(), grid(), state().options);
   copied->copy_from(state());
   return Seeds(std::move(copied));
 }

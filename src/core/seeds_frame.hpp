@@ -86,6 +86,9 @@ struct SeedsFrame {
   /// The marks whose numbers are the ids; null unless the seeds were made from a mask.
   std::shared_ptr<const Marks> marks = nullptr;
 
+  /// Whether its points are not snapped: an engine may do that.
+  bool is_off_centre = false;
+
   /// All of the grid in a diagram, made with the frame; null if that is not possible, or needs outer seeds.
   std::shared_ptr<const Placement> whole = nullptr;
 

@@ -20,12 +20,20 @@ void check_count(std::size_t count) {
   }
 }
 
+std::size_t coordinates_of(const PointBuffer& points) {
+  return points.format == PointFormat::floats_xyz || points.format == PointFormat::doubles_xyz ? 3 : 2;
+}
+
+bool are_doubles(const PointBuffer& points) {
+  return points.format == PointFormat::doubles_xy || points.format == PointFormat::doubles_xyz;
+}
+
 void check_buffers(const Device& device, const PointBuffer& points) {
   check_count(points.count);
   const std::string number = std::to_string(points.count);
-  const std::size_t bytes = points.format == PointFormat::float2 ? sizeof(cl_float2) : sizeof(cl_double2);
-  check_foreign_buffer(device, points.points, points.count * bytes, "the buffer of " + number + " points",
-                       Access::read);
+  const std::size_t bytes = are_doubles(points) ? sizeof(cl_double) : sizeof(cl_float);
+  check_foreign_buffer(device, points.points, points.count * coordinates_of(points) * bytes,
+                       "the buffer of " + number + " points", Access::read);
   if (points.present() != nullptr) {
     check_foreign_buffer(device, points.present, points.count,
                          "the buffer that says which of " + number + " seeds are present", Access::read);
@@ -42,23 +50,18 @@ bool device_snaps_to(const Axis& axis) {
   return axis == (axis.is_periodic() ? Axis(axis.pixels()).periodic() : Axis(axis.pixels()));
 }
 
-/// The points of a buffer, on the host. Waits.
-std::vector<std::optional<Point>> read_points(const Device& device, const PointBuffer& from) {
-  std::vector<std::optional<Point>> points;
-  points.reserve(from.count);
-  if (from.format == PointFormat::float2) {
-    for (const cl_float2& point : download<cl_float2>(device, from.points, from.count))
-      points.emplace_back(Point{static_cast<double>(point.s[0]), static_cast<double>(point.s[1])});
-  } else {
-    for (const cl_double2& point : download<cl_double2>(device, from.points, from.count))
-      points.emplace_back(Point{point.s[0], point.s[1]});
-  }
-  if (from.present() == nullptr) return points;
-  const auto marks = download<cl_uchar>(device, from.present, from.count);
-  for (std::size_t id = 0; id < marks.size(); ++id) {
-    if (marks[id] == 0) points[id].reset();
-  }
-  return points;
+/// Calls `use` with a view of the points of a buffer, on the host. Waits.
+template <typename Real, typename Use>
+void read_points(const Device& device, const PointBuffer& from, const Use& use) {
+  const std::size_t coordinates = coordinates_of(from);
+  const auto values = download<Real>(device, from.points, from.count * coordinates);
+  std::vector<cl_uchar> marks;
+  if (from.present() != nullptr) marks = download<cl_uchar>(device, from.present, from.count);
+  const Real* const x = values.data();
+  const Real* const z = coordinates == 3 && from.count > 0 ? x + 2 : nullptr;
+  const Points points(x, from.count > 0 ? x + 1 : x, z, from.count,
+                      static_cast<std::ptrdiff_t>(coordinates * sizeof(Real)));
+  use(marks.empty() ? points : points.marked(marks.data()));
 }
 
 /// The positions in a diagram of all of the grid, with the one behind them; empty if kernels cannot have them
@@ -77,8 +80,8 @@ std::vector<std::uint32_t> packed_positions(const Window& window, std::size_t ou
 
 }  // namespace
 
-SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, Outside outside_is, Snap snap_is)
-    : device(device_of_seeds), outside(outside_is), snap(snap_is) {
+SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, const SeedsOptions& of_seeds)
+    : device(device_of_seeds), options(of_seeds) {
   SeedsFrame none{device, grid};
   none.owner = next_number();
   none.placements = no_placements();
@@ -125,7 +128,7 @@ std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Po
     const int x = pixel(grid.x(), point.x), y = pixel(grid.y(), point.y), z = pixel(grid.z(), point.z);
     if (x >= 0 && y >= 0 && z >= 0) {
       voxels.back() = bits.pack(x, y, z);
-    } else if (outside != Outside::absent || !Snapping::is_finite(point)) {
+    } else if (options.outside != Outside::absent || !Snapping::is_finite(point)) {
       throw Snapping::outside_the_grid(id, point, grid);
     }
   }
@@ -146,6 +149,7 @@ void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& 
   }
   SeedsFrame next = next_frame(grid, voxels.size(), lost);
   next.absent = absent;
+  next.is_off_centre = given && options.snap == Snap::none;
   next.given = std::move(given);
   way_is_unknown(next);
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(voxels.size());
@@ -165,10 +169,9 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   const std::shared_ptr<std::vector<Point>> given = points_.take();
   given->resize(points.size());
   if (has_voxels(grid)) {
-    if (snap == Snap::none) throw Error("volumes know whole voxels alone: snap the points to pixels");
     return place_in_volume(grid, snap_to_voxels(grid, points, *given), given);
   }
-  const Snapping snapping(grid, outside);
+  const Snapping snapping(grid, options.outside);
   const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
   pixels->resize(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
@@ -181,7 +184,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
     }
   }
   std::shared_ptr<std::vector<Fraction>> fractions;
-  if (snap == Snap::none) {
+  if (options.snap == Snap::none) {
     fractions = fractions_.take();
     fractions->resize(points.size());
     for (std::size_t id = 0; id < points.size(); ++id) {
@@ -195,7 +198,7 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
                        std::shared_ptr<const std::vector<Point>> given,
                        std::shared_ptr<const std::vector<Fraction>> fractions) {
   const std::vector<PlanePosition>& pixels = *placed;
-  const Snapping snapping(grid, outside);
+  const Snapping snapping(grid, options.outside);
   std::vector<bool> there(pixels.size(), true);
   bool lost = there.size() < present.size();
   std::size_t inside = 0, absent = 0;
@@ -210,6 +213,7 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
   next.absent = absent;
   next.outside = pixels.size() - inside - absent;
   next.given = std::move(given);
+  next.is_off_centre = fractions != nullptr;
   next.fractions = std::move(fractions);
   if (grid.is_tilted() && !next.fractions) {
     const std::shared_ptr<std::vector<Fraction>> centres = fractions_.take();
@@ -236,23 +240,25 @@ void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Plane
 }
 
 void SeedsState::place(const PointBuffer& points) {
-  refuse_volume(grid(), "a buffer of points (x, y)");
   check_buffers(device, points);
   const Window window(grid());
-  const bool on_the_device = points.format == PointFormat::float2 && outside != Outside::count &&
-                             snap == Snap::to_pixels && device_snaps_to(grid().x()) &&
-                             device_snaps_to(grid().y()) && fits_in_a_diagram(grid()) &&
-                             kernels_go_round(window, PixelGrid(window));
+  const bool on_the_device = points.format == PointFormat::floats_xy && options.outside != Outside::count &&
+                             options.snap == Snap::to_pixels && !has_voxels(grid()) &&
+                             device_snaps_to(grid().x()) && device_snaps_to(grid().y()) &&
+                             fits_in_a_diagram(grid()) && kernels_go_round(window, PixelGrid(window));
+  const auto place_them = [this](const Points& on_host) { place(grid(), on_host); };
   if (on_the_device) {
     place_on_the_device(points);
+  } else if (are_doubles(points)) {
+    read_points<cl_double>(device, points, place_them);
   } else {
-    place(grid(), Points(read_points(device, points)));
+    read_points<cl_float>(device, points, place_them);
   }
 }
 
 void SeedsState::place_on_the_device(const PointBuffer& points) {
   const bool marked = points.present() != nullptr;
-  const bool counted = marked || outside == Outside::absent;
+  const bool counted = marked || options.outside == Outside::absent;
   const PixelGrid pixels{Window(grid())};
   // Which are present, only the device knows.
   SeedsFrame next = next_frame(grid(), points.count, counted || points.count < size());
@@ -267,7 +273,7 @@ void SeedsState::place_on_the_device(const PointBuffer& points) {
   check->reset(grid());
   kernels.get(device, "core/seeds.cl", "snap_points", pixels)
       .over_items(points.count + 1, points.points, marked ? points.present : points.points, cl_int{marked},
-                  cl_int{outside == Outside::absent}, *positions, static_cast<cl_uint>(points.count),
+                  cl_int{options.outside == Outside::absent}, *positions, static_cast<cl_uint>(points.count),
                   pixels.width(), pixels.height(), check->found());
   kernels.get(device, "core/seeds.cl", "note_bad_point", pixels).over_items(1, points.points, check->found());
   commit(std::move(made), std::move(there));
@@ -319,6 +325,7 @@ void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way)
   next.marks = nullptr;
   next.pixels = nullptr;
   next.fractions = nullptr;
+  next.is_off_centre = false;
   next.before = nullptr;
   next.placements = no_placements();
   next.way.last = way;

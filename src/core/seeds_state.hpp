@@ -41,11 +41,10 @@ class Recycled {
 };
 
 struct SeedsState {
-  SeedsState(const Device& device, const Grid& grid, Outside outside, Snap snap = Snap::to_pixels);
+  SeedsState(const Device& device, const Grid& grid, const SeedsOptions& options);
 
   Device device;
-  Outside outside;
-  Snap snap;
+  SeedsOptions options;
   std::vector<bool> present;  // by id, as far as the host knows
   KernelSet kernels;
 

@@ -101,7 +101,7 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 
 Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
-  if (state.snap == Snap::none) return move_points_to_centroids(seeds, rounds, tolerance);
+  if (state.options.snap == Snap::none) return move_points_to_centroids(seeds, rounds, tolerance);
   const std::shared_ptr<cl::Buffer> positions = state.copy_to_move("Lloyd relaxation");
   const Device& device = state.device;
   const PixelGrid grid{Window(state.grid())};

@@ -210,7 +210,7 @@ struct SharedSeedsState {
     near.erase(std::unique(near.begin(), near.end()), near.end());
     for (const std::size_t block : near) request(block);
     MPI_Win_flush_all(window);
-    PlaneSeeds seeds(grid, Outside::count, snap);
+    PlaneSeeds seeds(grid, {Outside::count, snap});
     seeds.reserve(near.size() * block_size);
     for (const std::size_t block : near) {
       const std::size_t rank = owner_of(block);

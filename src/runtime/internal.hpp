@@ -22,8 +22,10 @@ struct Internal {
   static DiagramState& state(const Diagram& diagram) { return diagram.state(); }
 
   static Report report(int waves, const cl::Event& first, const cl::Event& last, double host_milliseconds,
-                       std::vector<FirstLaunch>&& first_launches, const FloodStart& start = {}) {
-    return {waves, first, last, host_milliseconds, start, std::move(first_launches), process_number()};
+                       std::vector<FirstLaunch>&& first_launches, const FloodStart& start = {},
+                       bool snapped = false) {
+    return {waves,  first, last, host_milliseconds, start, std::move(first_launches), process_number(),
+            snapped};
   }
 
   /// Seeds of which there are none yet, and which are not snapped: see SeedsState::place().

@@ -17,12 +17,12 @@ constexpr std::uint64_t most_ids = no_label;  // 0 to no_label - 1
 
 SeedSource::~SeedSource() = default;
 
-PlaneSeeds::PlaneSeeds(const Grid& grid, Outside outside, Snap snap)
-    : state_(std::make_unique<PlaneSeedsState>(grid, outside, snap)) {
+PlaneSeeds::PlaneSeeds(const Grid& grid, const SeedsOptions& options)
+    : state_(std::make_unique<PlaneSeedsState>(grid, options)) {
   refuse_tilted_and_volumes(grid, "a plane of tiles");
 }
-PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, Outside outside, Snap snap)
-    : PlaneSeeds(grid, outside, snap) {
+PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, const SeedsOptions& options)
+    : PlaneSeeds(grid, options) {
   reserve(points.size());
   add(points);
 }

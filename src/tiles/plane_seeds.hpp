@@ -13,8 +13,8 @@
 namespace vorocl {
 
 struct PlaneSeedsState {
-  PlaneSeedsState(const Grid& grid_of_seeds, Outside outside_is, Snap snap_is)
-      : grid(grid_of_seeds), snapping(grid, outside_is), snap(snap_is), tree(snap) {}
+  PlaneSeedsState(const Grid& grid_of_seeds, const SeedsOptions& options)
+      : grid(grid_of_seeds), snapping(grid, options.outside), snap(options.snap), tree(snap) {}
 
   /// Calls a function that adds seeds. If it throws, none is there.
   template <typename Add>

@@ -18,6 +18,7 @@
 #include "runtime/opencl_info.hpp"
 #include "runtime/program.hpp"
 #include "seed_tree.hpp"
+#include "snapped_seeds.hpp"
 #include "true_positions.hpp"
 #include "vorocl/vorocl.hpp"
 
@@ -64,7 +65,7 @@ void expect(const Labels& labels, const Labels& expected, const std::string& wha
 void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
   const std::vector<Pixel> pixels = random_pixels(grid, 9, 1);
   const Labels exact = brute_force(grid, pixels, metric);
-  Seeds seeds(device, grid, centres(pixels));
+  Seeds seeds(device, grid, centres(pixels), to_centres);
   for (const Method& method : methods()) {
     for (const auto mix : {NeighbourhoodMix::moore, NeighbourhoodMix::von_neumann}) {
       if (method.name == "low-resolution" && mix == NeighbourhoodMix::von_neumann) continue;
@@ -106,7 +107,7 @@ void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) 
   std::vector<Pixel> pixels = every_pixel({35, grid.height()});
   for (Pixel pixel : random_pixels({40, grid.height()}, 40, 4)) pixels.push_back({pixel.x + 35, pixel.y});
   pixels.push_back(pixels.back());
-  const Seeds seeds(device, grid, centres(pixels));
+  const Seeds seeds(device, grid, centres(pixels), to_centres);
   const Labels expected = tree_labels(grid, pixels, metric);
   for (const ListLength length : both_lengths) {
     Diagram diagram(with_lists(device, length), grid);
@@ -126,7 +127,7 @@ void make_windows(const Device& device, Metric metric) {
       std::vector<Point> points = {{3, 4}, {30, 8}};
       for (int i = 0; i < 90; ++i)
         points.push_back({i * 1.5 - 40, i % 2 == 0 ? -3.0 - i % 7 : distance + i % 9});
-      const Seeds seeds(device, window.grid(), points);
+      const Seeds seeds(device, window.grid(), points, to_centres);
       const Labels expected = brute_force(window, pixels_of(points), metric);
       exact_diagram(seeds, by_short_lists, {metric});
       exact_diagram(seeds, diagram, {metric});
@@ -156,7 +157,7 @@ void make_diagrams_of_points(const Device& device, Metric metric) {
   for (int i = 0; i < 90; ++i) points.push_back({i * 0.4375, i % 13 * 1.9});
   for (const Window& window : {Window(Grid(40, 25)), Window(Grid(40, 25, Axes::xy)),
                                Window(Grid(30, 18, Axes::xy), -3, -2, 40, 25)}) {
-    Seeds seeds(device, window.grid(), points, Outside::count, Snap::none);
+    Seeds seeds(device, window.grid(), points, {Outside::count, Snap::none});
     Diagram diagram(device, window), by_short_lists(with_lists(device, ListLength::two_entries), window);
     const Labels expected =
         labels_by_definition(window, positions_of(window.grid(), {points.begin(), points.end()}), metric);
@@ -187,7 +188,7 @@ void make_ring(const Device& device, Metric metric) {
     points.push_back(
         {48 + 25 * std::cos(std::acos(-1.0) * i / 150), 32 + 25 * std::sin(std::acos(-1.0) * i / 150)});
   Diagram diagram(device, grid);
-  exact_diagram(Seeds(device, grid, points, Outside::count, Snap::none), diagram, {metric});
+  exact_diagram(Seeds(device, grid, points, {Outside::count, Snap::none}), diagram, {metric});
   expect(diagram.read(),
          labels_by_definition(grid, positions_of(grid, {points.begin(), points.end()}), metric), "a ring");
 }
@@ -217,7 +218,7 @@ void make_volumes(const Device& device, const Grid& grid) {
       voxels.push_back({static_cast<int>(voxel->x), static_cast<int>(voxel->y), static_cast<int>(voxel->z)});
     }
     const Labels expected = brute_force(grid, voxels);
-    Seeds in_a_part(device, grid, points);
+    Seeds in_a_part(device, grid, points, to_centres);
     Diagram flooded(device, grid), exact(device, grid),
         by_short_lists(with_lists(device, ListLength::two_entries), grid);
     jump_flooding(in_a_part, flooded, {Metric::euclidean, Neighbourhood::von_neumann});
@@ -240,7 +241,7 @@ void make_volumes(const Device& device, const Grid& grid) {
     points[1].x = 1000;
     const Points outside(&points[0].x, &points[0].y, &points[0].z, points.size(), sizeof(Point));
     Diagram measured(measuring, grid);
-    jump_flooding(Seeds(measuring, grid, outside, Outside::absent), measured);
+    jump_flooding(Seeds(measuring, grid, outside, {Outside::absent}), measured);
     measure_volume(measured);
     device.finish();
     vector_width = 5 - vector_width;
@@ -266,7 +267,7 @@ void transform_images(const Device& device) {
     diagram.wait();
   }
   const Grid thin(4096, 1, 2);
-  std::vector<Point3> crowded;
+  std::vector<Point> crowded;
   for (int i = 0; i < 100; ++i) {
     for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
   }
@@ -281,11 +282,11 @@ void make_seeds(const Device& device, const Grid& grid) {
   const auto points_in = [&](const std::vector<cl_float2>& points) {
     return PointBuffer(cl::Buffer(device.queue(), points.begin(), points.end(), true), points.size());
   };
-  Seeds seeds(device, grid, points_in({{{1, 2}}, {{2, 4}}}));
+  Seeds seeds(device, grid, points_in({{{1, 2}}, {{2, 4}}}), kept_on_device);
   seeds.move_to(points_in({{{2, 2}}, {{2, 8}}}));
   if (seeds.displacement() != 4) throw Error("the seeds' way is wrong");
   try {
-    Seeds(device, grid, points_in({{{1, 2}}, {{2, 400}}})).check();
+    Seeds(device, grid, points_in({{{1, 2}}, {{2, 400}}}), kept_on_device).check();
   } catch (const BadPoint&) {
     return;
   }
@@ -296,7 +297,7 @@ void measure(const Device& device, const Grid& grid, Metric metric) {
   const std::vector<Point> points = centres(random_pixels(grid, 9, 2));
   std::vector<std::optional<Point>> one_absent(points.begin(), points.end());
   one_absent.push_back(std::nullopt);
-  Seeds seeds(device, grid, one_absent);
+  Seeds seeds(device, grid, one_absent, to_centres);
   Diagram diagram(device, grid), other(device, grid);
   const auto engine = [&](const Seeds& moved, Diagram& filled) {
     return jump_flooding(moved, filled, {metric});
@@ -340,7 +341,7 @@ void make_tiles(const Device& device, Metric metric) {
     expect({tile.labels, tile.labels + tile.tile.pixels()}, brute_force(tile.tile, pixels_of(points), metric),
            "tiles");
   };
-  exact_tiles(device, PlaneSeeds(grid, points), Tiling(grid, 16), check, {metric});
+  exact_tiles(device, PlaneSeeds(grid, points, to_centres), Tiling(grid, 16), check, {metric});
   device.finish();
 }
 
@@ -350,7 +351,7 @@ void cut_exact_cells(const Device& device) {
   for (int i = 0; i < 30; ++i) star.push_back({50 + 40 * std::cos(0.2 * i), 50 + 40 * std::sin(0.2 * i)});
   for (const Grid& grid : {Grid(100, 100), Grid(100, 100, Axes::xy)}) {
     ExactCellsResult cells;
-    exact_cells(Seeds(device, grid, star), cells);
+    exact_cells(Seeds(device, grid, star, to_centres), cells);
     const ExactCellsCheck check = cells.check();
     if (check.not_mutual > 0 || check.uncertified > 0) throw Error("exact cells are wrong");
   }

@@ -2,6 +2,7 @@
 // crashes. Prints nothing.
 #include <memory>
 
+#include "snapped_seeds.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;
@@ -52,12 +53,12 @@ int main() {
     const Device device = Device(context, cl::CommandQueue(context, cl_device)).with_tuning(small);
     return Diagram(device, grid, cl::Buffer(context, CL_MEM_READ_WRITE, grid.pixels() * 4));
   }();
-  jump_flooding(Seeds(adopted.device(), grid, points), adopted);
+  jump_flooding(Seeds(adopted.device(), grid, points, to_centres), adopted);
   adopted.read();
 
   last_device = std::make_unique<Device>(Device::select().with_tuning(small));
   last_diagram = std::make_unique<Diagram>(*last_device, grid);
-  jump_flooding(Seeds(*last_device, grid, points), *last_diagram);
+  jump_flooding(Seeds(*last_device, grid, points, to_centres), *last_diagram);
 
   forgotten = new Parts;
   jump_flooding(*forgotten->seeds, *forgotten->diagram);

@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(pairs_and_vertices_are_those_of_a_recount) {
     AdjacencyResult result;  // one for all: its buffers grow, and hold what the last case left
     VerticesResult corners;
     for (const Case& test : measured_cases(device)) {
-      const Seeds seeds(device, test.grid, centres(test.seeds));
+      const Seeds seeds(device, test.grid, centres(test.seeds), to_centres);
       Diagram diagram(device, test.grid);
       fill(seeds, diagram);
       recount(test.name, seeds.size(), diagram, result, corners);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(pairs_and_vertices_are_those_of_a_recount) {
 BOOST_AUTO_TEST_CASE(more_pairs_than_the_first_table_holds) {
   const Grid grid(600, 290);
   for (const Device& device : shapes()) {
-    const Seeds seeds(device, grid, centres(random_pixels(grid, 120, 1)));
+    const Seeds seeds(device, grid, centres(random_pixels(grid, 120, 1)), to_centres);
     Diagram diagram(device, grid);
     // 7140 pairs, nearly all there are
     diagram.write(random_labels(grid, 120, 2), seeds, Metric::euclidean);
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(one_cell_around_all_others) {
       labels[static_cast<std::size_t>(y) * 301 + static_cast<std::size_t>(x)] = ++id;
     }
   }
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, id + 1, 1)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, id + 1, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   diagram.write(labels, seeds, Metric::euclidean);
   AdjacencyResult result;
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_have_the_delaunay_neighbours) {
                         {"clusters", wide, clusters(wide, 3000)},
                         {"cities", map, cities(map)}};
   for (const Case& test : cases) {
-    const Seeds seeds(test_device(), test.grid, centres(test.seeds));
+    const Seeds seeds(test_device(), test.grid, centres(test.seeds), to_centres);
     Diagram diagram(test_device(), test.grid);
     exact_diagram(seeds, diagram);
     AdjacencyResult result;
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(exact_diagrams_have_the_delaunay_neighbours) {
 // The table may be too small for the pairs: the result finds them again, if the labels are still there.
 BOOST_AUTO_TEST_CASE(a_diagram_that_was_filled_anew_has_lost_the_pairs_that_did_not_fit) {
   const Grid grid(600, 290);
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 120, 1)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 120, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   AdjacencyResult result;
   diagram.write(random_labels(grid, 120, 2), seeds, Metric::euclidean);
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_adjacency) {
   const Grid grid(20, 10);
   Diagram diagram(test_device(), grid);
   AdjacencyResult result;
-  exact_diagram(Seeds(test_device(), grid, {{1, 1}, {9, 9}}), diagram);
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}, {9, 9}}, to_centres), diagram);
   adjacency(diagram, result);
   BOOST_TEST(result.pairs() == 1u);
   diagram.write(diagram.read());

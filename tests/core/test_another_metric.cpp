@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(standard_flooding_by_the_chebyshev_metric) {
   const Grid grid(157, 93);
   const std::vector<Point> points = {{3.5, 80.5},  {20.5, 11.5}, {21.5, 11.5},  {70.5, 45.5},  {71.5, 47.5},
                                      {99.5, 90.5}, {130.5, 2.5}, {156.5, 92.5}, {130.5, 60.5}, {44.5, 70.5}};
-  const Seeds seeds(test_device(), grid, points);
+  const Seeds seeds(test_device(), grid, points, to_centres);
   Diagram diagram(test_device(), grid);
   standard_flooding(seeds, diagram, {Metric::manhattan, Neighbourhood::moore});
   const auto labels = diagram.read();

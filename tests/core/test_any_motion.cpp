@@ -210,7 +210,7 @@ void check_motion(const Motion& motion, Metric metric, Axes periodic, int frames
   const Grid grid(side, side, periodic);
   Random random(7);
   Frame points = motion.start(random);
-  Seeds seeds(test_device(), grid, points);
+  Seeds seeds(test_device(), grid, points, to_centres);
   Diagram dynamic(test_device(), grid), jfa(test_device(), grid), exact(test_device(), grid);
   dynamic_jump_flooding(seeds, dynamic, {metric});
   Similarities of_dynamic, of_jfa;
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(the_paper_s_plan_does_not_reach_seeds_in_a_corner) {
   Random random(7);
   const Motion& corner = motions()[3];
   Frame points = corner.start(random);
-  Seeds seeds(test_device(), grid, points);
+  Seeds seeds(test_device(), grid, points, to_centres);
   Diagram dynamic(test_device(), grid), exact(test_device(), grid);
   const DynamicJumpFloodingOptions paper = {Metric::euclidean, {}, 0, Reach::paper};
   dynamic_jump_flooding(seeds, dynamic, paper);
@@ -290,7 +290,7 @@ BOOST_AUTO_TEST_CASE(the_same_plans_for_every_kernel_shape) {
   for (const Tuning& shape : {Tuning{1, 32, 8}, Tuning{2, 64, 1}, Tuning{4, 1, 16}, Tuning{16, 64, 1}}) {
     const Device device = test_device().with_tuning(shape);
     Diagram diagram(device, grid);
-    Seeds seeds(device, grid, centres(random_pixels(Grid(110, 61), 150, 8)));
+    Seeds seeds(device, grid, centres(random_pixels(Grid(110, 61), 150, 8)), to_centres);
     for (std::size_t frame = 0; frame < 12; ++frame) {
       const Report report = dynamic_jump_flooding(seeds, diagram);
       const std::string plan =

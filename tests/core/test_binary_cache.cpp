@@ -124,8 +124,8 @@ int build_and_keep(bool keeps = true) {
   const Device device = Device::select();
   Diagram diagram(device, grid);
   builds_from_source = 0;
-  jump_flooding(Seeds(device, grid, centres(pixels)), diagram);
-  exact_diagram(Seeds(device, grid, centres(pixels)), diagram);
+  jump_flooding(Seeds(device, grid, centres(pixels), to_centres), diagram);
+  exact_diagram(Seeds(device, grid, centres(pixels), to_centres), diagram);
   BOOST_TEST((diagram.read() == brute_force(grid, pixels, Metric::euclidean)));
   const int from_source = builds_from_source;
   if (keeps) {
@@ -345,7 +345,7 @@ BOOST_AUTO_TEST_CASE(a_slow_compiler_is_told_once) {
   Diagram diagram(device, grid);
   int told = 0;
   device.on_compiling([&] { ++told; });
-  const Seeds seeds(device, grid, centres(pixels));
+  const Seeds seeds(device, grid, centres(pixels), to_centres);
   setenv("VOROCL_BINARY_CACHE", "0", 1);
   compiler_is_slow = true;
   jump_flooding(seeds, diagram);
@@ -359,7 +359,7 @@ BOOST_AUTO_TEST_CASE(a_slow_compiler_is_told_once) {
 // By made-up times: what passes before the first launch of a kernel is the compiler's time.
 BOOST_AUTO_TEST_CASE(the_compilers_time_is_not_the_devices) {
   const Device device = Device::select();
-  const Seeds seeds(device, grid, centres(pixels));
+  const Seeds seeds(device, grid, centres(pixels), to_centres);
   seeds.read();
   const auto milliseconds = [&](Diagram& diagram) {
     commands = 0;

@@ -73,7 +73,7 @@ static void test_bad_devices(const vorocl_device* device) {
 
   /* Objects of another context. */
   foreign = clCreateBuffer(other, CL_MEM_READ_WRITE, pixels * sizeof(uint32_t), NULL, &code);
-  FAILS(vorocl_seeds_from_buffer(device, grid, foreign, VOROCL_FLOAT2, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, foreign, VOROCL_FLOATS_XY, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &seeds),
         VOROCL_BAD_ARGUMENT, "another OpenCL context");
   FAILS(vorocl_diagram_over_buffer(device, window, foreign, &diagram), VOROCL_BAD_ARGUMENT,
@@ -130,37 +130,37 @@ static void test_bad_seeds(const vorocl_device* device) {
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_READ_ONLY, 5 * 2 * sizeof(float), NULL, &code);
   few_marks = clCreateBuffer(context, CL_MEM_READ_ONLY, 4, NULL, &code);
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 6, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, NULL, 6, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "40 bytes; 48 are needed");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, few_marks, 5, VOROCL_OUTSIDE_IS_REFUSED,
-                                 VOROCL_SNAP_TO_PIXELS, &made),
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, few_marks, 5,
+                                 VOROCL_OUTSIDE_IS_REFUSED, VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "4 bytes; 5 are needed");
-  FAILS(vorocl_seeds_from_buffer(device, grid, NULL, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, NULL, VOROCL_FLOATS_XY, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_NULL_ARGUMENT, "points is NULL");
-  FAILS(vorocl_seeds_from_buffer(NULL, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(NULL, grid, buffer, VOROCL_FLOATS_XY, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_NULL_ARGUMENT, "device is NULL");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, NULL, 1, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, NULL),
         VOROCL_NULL_ARGUMENT, "seeds is NULL");
 
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_DOUBLE2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_DOUBLES_XY, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, 2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, 4, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
                                  VOROCL_SNAP_TO_PIXELS, &made),
-        VOROCL_BAD_ARGUMENT, "format of points 2");
-  FAILS(
-      vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 5, 3, VOROCL_SNAP_TO_PIXELS, &made),
-      VOROCL_BAD_ARGUMENT, "points outside 3");
+        VOROCL_BAD_ARGUMENT, "format of points 4");
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, NULL, 5, 3, VOROCL_SNAP_TO_PIXELS,
+                                 &made),
+        VOROCL_BAD_ARGUMENT, "points outside 3");
   FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, -1, VOROCL_SNAP_TO_PIXELS, &made),
         VOROCL_BAD_ARGUMENT, "points outside -1");
   FAILS(vorocl_seeds_from_points(device, grid, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, 2, &made),
         VOROCL_BAD_ARGUMENT, "points within a pixel 2");
-  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED, -1,
-                                 &made),
+  FAILS(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, NULL, 5, VOROCL_OUTSIDE_IS_REFUSED,
+                                 -1, &made),
         VOROCL_BAD_ARGUMENT, "points within a pixel -1");
   CHECK(made == NULL);
 
@@ -184,11 +184,11 @@ static void test_bad_seeds(const vorocl_device* device) {
   FAILS(vorocl_seeds_move_to_buffer(seeds, buffer, 9, NULL, 1), VOROCL_BAD_ARGUMENT, "format of points 9");
   FAILS(vorocl_seeds_move_to(NULL, points, NULL, 1), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_seeds_move_to(seeds, NULL, NULL, 1), VOROCL_NULL_ARGUMENT, "points is NULL");
-  FAILS(vorocl_seeds_move_to_buffer(NULL, buffer, VOROCL_FLOAT2, NULL, 1), VOROCL_NULL_ARGUMENT,
+  FAILS(vorocl_seeds_move_to_buffer(NULL, buffer, VOROCL_FLOATS_XY, NULL, 1), VOROCL_NULL_ARGUMENT,
         "seeds is NULL");
-  FAILS(vorocl_seeds_move_to_buffer(seeds, NULL, VOROCL_FLOAT2, NULL, 1), VOROCL_NULL_ARGUMENT,
+  FAILS(vorocl_seeds_move_to_buffer(seeds, NULL, VOROCL_FLOATS_XY, NULL, 1), VOROCL_NULL_ARGUMENT,
         "points is NULL");
-  FAILS(vorocl_seeds_move_to_buffer(seeds, buffer, VOROCL_FLOAT2, NULL, 6), VOROCL_BAD_ARGUMENT,
+  FAILS(vorocl_seeds_move_to_buffer(seeds, buffer, VOROCL_FLOATS_XY, NULL, 6), VOROCL_BAD_ARGUMENT,
         "48 are needed");
   FAILS(vorocl_random_step(NULL, 1, VOROCL_REFLECT, 0, 0), VOROCL_NULL_ARGUMENT, "seeds is NULL");
   FAILS(vorocl_random_step(seeds, 1, 9, 0, 0), VOROCL_BAD_ARGUMENT, "border 9");
@@ -239,7 +239,7 @@ static void test_bad_points(const vorocl_device* device) {
   OK(vorocl_diagram_create(device, window, &diagram));
   OK(vorocl_cell_sums_create(&sums));
   OK(vorocl_adjacency_create(&adjacency));
-  OK(vorocl_seeds_move_to_buffer(seeds, buffer, VOROCL_FLOAT2, NULL, 3));
+  OK(vorocl_seeds_move_to_buffer(seeds, buffer, VOROCL_FLOATS_XY, NULL, 3));
   OK(vorocl_run("exact", seeds, diagram, NULL));
   OK(vorocl_cell_sums_measure(sums, diagram));
   OK(vorocl_adjacency_find(adjacency, diagram));
@@ -293,7 +293,7 @@ static void test_bad_diagrams(const vorocl_device* device) {
         "device is NULL");
   FAILS(vorocl_diagram_over_buffer(device, window_of(2, 2), buffer, NULL), VOROCL_NULL_ARGUMENT,
         "diagram is NULL");
-  FAILS(vorocl_diagram_create(device, vorocl_window_of_grid(vorocl_grid_of_pixels(2, 2, 4)), &made),
+  FAILS(vorocl_diagram_create(device, vorocl_window_of_grid(vorocl_grid_of_pixels(2, 2, 8)), &made),
         VOROCL_BAD_ARGUMENT, "periodic");
   wrong = window;
   wrong.grid.y.closed = 2;
@@ -332,6 +332,8 @@ static void test_bad_diagrams(const vorocl_device* device) {
   FAILS(vorocl_diagram_event(NULL, &event), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_diagram_event(diagram, NULL), VOROCL_NULL_ARGUMENT, "event is NULL");
   FAILS(vorocl_diagram_report(NULL, &waves, NULL, NULL), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_diagram_snapped(NULL, &waves), VOROCL_NULL_ARGUMENT, "diagram is NULL");
+  FAILS(vorocl_diagram_snapped(diagram, NULL), VOROCL_NULL_ARGUMENT, "snapped is NULL");
   FAILS(vorocl_diagram_read(NULL, labels, pixels), VOROCL_NULL_ARGUMENT, "diagram is NULL");
   FAILS(vorocl_diagram_read(diagram, labels, 7), VOROCL_BAD_ARGUMENT, "2440 pixels");
   FAILS(vorocl_diagram_read(diagram, NULL, pixels), VOROCL_NULL_ARGUMENT, "labels is NULL");

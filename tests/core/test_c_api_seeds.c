@@ -103,7 +103,6 @@ static void test_seeds(const vorocl_device* device) {
 /* Points, marks and labels in the caller's buffers. */
 static void test_own_buffers(const vorocl_device* device) {
   float pairs[2 * seed_count];
-  double in_doubles[2 * seed_count];
   uint32_t labels[pixels], nearest[pixels], nearest_of_all[pixels];
   cl_int code = CL_SUCCESS;
   cl_context context = NULL;
@@ -119,20 +118,20 @@ static void test_own_buffers(const vorocl_device* device) {
   search_all(points, present, seed_count, VOROCL_EUCLIDEAN, nearest);
   search_all(points, NULL, seed_count, VOROCL_EUCLIDEAN, nearest_of_all);
   for (int i = 0; i < seed_count; ++i) {
-    pairs[2 * i] = (float)(in_doubles[2 * i] = points[i].x);
-    pairs[2 * i + 1] = (float)(in_doubles[2 * i + 1] = points[i].y);
+    pairs[2 * i] = (float)points[i].x;
+    pairs[2 * i + 1] = (float)points[i].y;
   }
   OK(vorocl_device_context(device, &context));
   OK(vorocl_device_queue(device, &queue));
   OK(vorocl_device_id(device, &id));
   own_points = clCreateBuffer(context, CL_MEM_READ_ONLY, sizeof pairs, NULL, &code);
-  same_points = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof in_doubles, in_doubles, &code);
+  same_points = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof points, (void*)(uintptr_t)points, &code);
   own_marks = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof present, (void*)(uintptr_t)present, &code);
   own_labels = clCreateBuffer(context, CL_MEM_READ_WRITE, sizeof labels, NULL, &code);
   CHECK(clEnqueueWriteBuffer(queue, own_points, CL_FALSE, 0, sizeof pairs, pairs, 0, NULL, &uploaded) ==
         CL_SUCCESS);
   OK(vorocl_device_wait_for(device, 1, &uploaded));
-  OK(vorocl_seeds_from_buffer(device, grid, own_points, VOROCL_FLOAT2, own_marks, seed_count,
+  OK(vorocl_seeds_from_buffer(device, grid, own_points, VOROCL_FLOATS_XY, own_marks, seed_count,
                               VOROCL_OUTSIDE_IS_REFUSED, VOROCL_SNAP_TO_PIXELS, &seeds));
   OK(vorocl_seeds_alive(seeds, &alive));
   CHECK(alive == seed_count - 1);
@@ -143,10 +142,10 @@ static void test_own_buffers(const vorocl_device* device) {
   CHECK(clEnqueueReadBuffer(queue, own_labels, CL_TRUE, 0, sizeof labels, labels, 0, NULL, NULL) ==
         CL_SUCCESS);
   CHECK(memcmp(labels, nearest, sizeof labels) == 0);
-  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOAT2, NULL, seed_count));
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOATS_XY, NULL, seed_count));
   OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
   CHECK(has_labels(diagram, nearest_of_all));
-  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOAT2, own_marks, seed_count));
+  OK(vorocl_seeds_move_to_buffer(seeds, own_points, VOROCL_FLOATS_XY, own_marks, seed_count));
   clReleaseMemObject(own_points); /* retained until they are read */
   OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
   OK(vorocl_diagram_wait(diagram));
@@ -154,7 +153,7 @@ static void test_own_buffers(const vorocl_device* device) {
 
   /* Points in doubles, where the device knows them. */
   clGetDeviceInfo(id, CL_DEVICE_DOUBLE_FP_CONFIG, sizeof doubles, &doubles, NULL);
-  status = vorocl_seeds_move_to_buffer(seeds, same_points, VOROCL_DOUBLE2, NULL, seed_count);
+  status = vorocl_seeds_move_to_buffer(seeds, same_points, VOROCL_DOUBLES_XYZ, NULL, seed_count);
   CHECK(status == (doubles != 0 ? VOROCL_SUCCESS : VOROCL_BAD_ARGUMENT));
   clReleaseMemObject(same_points);
   clReleaseMemObject(own_marks);
@@ -283,10 +282,13 @@ static void test_true_positions(const vorocl_device* device) {
   cl_context context = NULL;
   cl_mem buffer = NULL;
   cl_int code = CL_SUCCESS;
+  int snapped = 2;
   OK(vorocl_diagram_create(device, window, &diagram));
   OK(vorocl_seeds_from_points(device, grid, list, NULL, count, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
                               &seeds));
   OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
+  OK(vorocl_diagram_snapped(diagram, &snapped));
+  CHECK(snapped == 0);
   search_all_points(list, count, nearest);
   CHECK(has_labels(diagram, nearest));
   CHECK(nearest[20 * width + 19] == 0 && nearest[20 * width + 21] == 1 && nearest[19 * width + 20] == 2);
@@ -306,6 +308,8 @@ static void test_true_positions(const vorocl_device* device) {
   OK(run("jfa", seeds, diagram, VOROCL_EUCLIDEAN));
   memset(labels, 0, sizeof labels); /* the lowest id of the pixel */
   CHECK(has_labels(diagram, labels));
+  OK(vorocl_diagram_snapped(diagram, &snapped));
+  CHECK(snapped == 1);
   vorocl_seeds_free(seeds);
 
   /* The same points in a buffer. */
@@ -317,7 +321,7 @@ static void test_true_positions(const vorocl_device* device) {
   }
   OK(vorocl_device_context(device, &context));
   buffer = clCreateBuffer(context, CL_MEM_COPY_HOST_PTR, sizeof pairs, pairs, &code);
-  OK(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOAT2, NULL, count, VOROCL_OUTSIDE_IS_ABSENT,
+  OK(vorocl_seeds_from_buffer(device, grid, buffer, VOROCL_FLOATS_XY, NULL, count, VOROCL_OUTSIDE_IS_ABSENT,
                               VOROCL_SNAP_NONE, &seeds));
   OK(run("exact", seeds, diagram, VOROCL_EUCLIDEAN));
   exact_in_float[3] =
@@ -379,7 +383,7 @@ static void test_tilted_grid(const vorocl_device* device) {
 /* A window shows the labels of its pixels of the grid, across the end of a period too. */
 static void test_windows(const vorocl_device* device) {
   const vorocl_grid periodic = vorocl_grid_of_pixels(width, height, VOROCL_PERIODIC_X);
-  const vorocl_window across = {periodic, -7, 5, 30, 20};
+  const vorocl_window across = {periodic, -7, 5, 30, 20, 0, 0};
   vorocl_window read_window;
   vorocl_point moved[seed_count];
   vorocl_seeds *seeds = NULL, *wrapped = NULL;

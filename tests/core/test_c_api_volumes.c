@@ -269,9 +269,6 @@ static void test_refusals(const vorocl_device* device) {
   double number = 0;
   OK(vorocl_seeds_from_points(device, volume, places, there, volume_seeds, VOROCL_OUTSIDE_COUNTS,
                               VOROCL_SNAP_TO_PIXELS, &seeds));
-  FAILS(vorocl_seeds_from_points(device, volume, places, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_NONE,
-                                 &none),
-        VOROCL_BAD_ARGUMENT, "whole voxels alone");
   FAILS(vorocl_seeds_from_points(device, grid, places + 1, NULL, 1, VOROCL_OUTSIDE_COUNTS,
                                  VOROCL_SNAP_TO_PIXELS, &none),
         VOROCL_BAD_POINT, "z in [0, 1)");

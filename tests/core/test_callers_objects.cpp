@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(labels_go_to_the_callers_buffer) {
   const cl::Buffer labels = make_buffer(bytes);
   Diagram diagram(test_device(), grid, labels);
   BOOST_TEST(diagram.labels()() == labels());
-  exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram);
+  exact_diagram(Seeds(test_device(), grid, centres(pixels), to_centres), diagram);
   const auto ground_truth = brute_force(grid, pixels, Metric::euclidean);
   BOOST_TEST((diagram.read() == ground_truth));
   BOOST_TEST((content_of(labels, 0, grid.pixels()) == ground_truth));
@@ -42,7 +42,8 @@ BOOST_AUTO_TEST_CASE(labels_go_to_the_hosts_memory) {
   const auto pixels = random_pixels(grid, 20, 3), others = random_pixels(grid, 30, 4);
   const auto ground_truth = brute_force(grid, pixels, Metric::euclidean),
              other_truth = brute_force(grid, others, Metric::euclidean);
-  const Seeds seeds(test_device(), grid, centres(pixels)), other_seeds(test_device(), grid, centres(others));
+  const Seeds seeds(test_device(), grid, centres(pixels), to_centres),
+      other_seeds(test_device(), grid, centres(others), to_centres);
   const std::uint32_t mark = 0xabcd1234;
   std::vector<std::uint32_t> memory(grid.pixels() + 2, mark), second = memory, elsewhere(grid.pixels());
   const auto holds = [&](const std::vector<std::uint32_t>& labels) {
@@ -79,7 +80,7 @@ BOOST_AUTO_TEST_CASE(labels_go_to_the_hosts_memory) {
 
 // Under the address sanitizer, a device that still writes is found.
 BOOST_AUTO_TEST_CASE(memory_may_go_once_its_diagram_is_gone) {
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 20, 3)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 20, 3)), to_centres);
   for (int i = 0; i < 20; ++i) {
     const auto memory = std::make_unique<std::uint32_t[]>(grid.pixels());
     Diagram diagram(test_device(), grid, memory.get());
@@ -99,7 +100,7 @@ BOOST_AUTO_TEST_CASE(a_larger_buffer_and_a_sub_buffer_keep_what_lies_outside) {
   Diagram diagram(test_device(), grid, part);
   BOOST_TEST(diagram.read().front() == mark);  // nothing is written before an engine runs
   for (int frame = 0; frame < 2; ++frame) {
-    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}), diagram);
+    dynamic_jump_flooding(Seeds(test_device(), grid, {{3, 4}}, to_centres), diagram);
     BOOST_TEST((diagram.read() == std::vector<std::uint32_t>(grid.pixels(), 0)));
   }
   BOOST_TEST((content_of(whole, 0, before / 4) == std::vector<std::uint32_t>(before / 4, mark)));
@@ -156,7 +157,8 @@ BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
   const cl::Buffer points(test_device().queue(), values.begin(), values.end(), true);
   const cl::Buffer marks = make_buffer(2), labels = make_buffer(bytes);
   test_device().queue().enqueueFillBuffer(marks, cl_uchar{1}, 0, 2);
-  const Seeds seeds(test_device(), grid, PointBuffer(points, 2, PointFormat::float2, marks));
+  const Seeds seeds(test_device(), grid, PointBuffer(points, 2, PointFormat::floats_xy, marks),
+                    kept_on_device);
   CellSumsResult sums;
   Field<float> field;
   {
@@ -173,8 +175,9 @@ BOOST_AUTO_TEST_CASE(the_callers_buffers_are_held_no_longer_than_needed) {
 }
 
 BOOST_AUTO_TEST_CASE(write_only_points_are_refused) {
-  check_error([] { Seeds(test_device(), grid, PointBuffer(make_buffer(80, CL_MEM_WRITE_ONLY), 10)); },
-              {"10 points", "write-only"});
+  check_error(
+      [] { Seeds(test_device(), grid, PointBuffer(make_buffer(80, CL_MEM_WRITE_ONLY), 10), kept_on_device); },
+      {"10 points", "write-only"});
 }
 
 BOOST_AUTO_TEST_CASE(the_device_waits_for_the_callers_events) {
@@ -194,7 +197,7 @@ BOOST_AUTO_TEST_CASE(the_device_waits_for_the_callers_events) {
 
   device.wait_for({});
   device.wait_for({uploaded});
-  const Seeds seeds(device, grid, PointBuffer(points, 2));
+  const Seeds seeds(device, grid, PointBuffer(points, 2), kept_on_device);
   Diagram diagram(device, grid);
   const Report report = jump_flooding(seeds, diagram);
   BOOST_TEST(report.event().getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() != CL_COMPLETE);

@@ -56,7 +56,7 @@ void check_table(const Grid& grid, const std::vector<std::optional<Point>>& poin
   const auto pixels = transformed(points, [&](const std::optional<Point>& point) {
     return point ? Pixel{pixel_along(grid.x(), point->x), pixel_along(grid.y(), point->y)} : Pixel{0, 0};
   });
-  const Seeds seeds(test_device(), grid, points);
+  const Seeds seeds(test_device(), grid, points, to_centres);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram, {metric});
   const std::vector<Row> expected = rows_on_host(grid, pixels, diagram.read());
@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_table_is_in_the_units_of_the_data) {
 BOOST_AUTO_TEST_CASE(a_cell_across_the_end_of_a_period) {
   const Grid grid(Axis(10, 0, 1).periodic(), Axis(4, 0, 8).reversed());
   Diagram diagram(test_device(), grid);
-  exact_diagram(Seeds(test_device(), grid, {{0.05, 7}, {0.55, 7}}), diagram);
+  exact_diagram(Seeds(test_device(), grid, {{0.05, 7}, {0.55, 7}}, to_centres), diagram);
   const std::vector<CellRow> table = cell_table(diagram);
   BOOST_TEST_REQUIRE(table.size() == 2u);
   // Columns 8, 9, 0, 1 and 2, and the 5 others.
@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(a_cell_across_the_end_of_a_period) {
 // A window that is a part of the grid: what it shows, in the same units; seeds outside it own pixels of it.
 BOOST_AUTO_TEST_CASE(a_table_of_a_window_counts_what_it_shows) {
   const Grid grid(Axis(100, 0, 10).periodic(), Axis(100, 0, 10));
-  const Seeds seeds(test_device(), grid, {{9.85, 0.45}, {0.25, 0.45}, {5, 5}});
+  const Seeds seeds(test_device(), grid, {{9.85, 0.45}, {0.25, 0.45}, {5, 5}}, to_centres);
   Diagram diagram(test_device(), Window(grid, 95, 0, 10, 10));  // crosses the end of x
   exact_diagram(seeds, diagram);
   const std::vector<CellRow> table = cell_table(diagram);

@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(sums_and_shapes_are_those_of_the_host) {
   for (const Device& device : shapes()) {
     CellSumsResult result;  // one for all: its buffers grow, and hold what the last case left
     for (const Case& test : measured_cases(device)) {
-      const Seeds seeds(device, test.grid, centres(test.seeds));
+      const Seeds seeds(device, test.grid, centres(test.seeds), to_centres);
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
       fill(seeds, diagram, metric);
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(cells_in_many_pieces) {
   const Grid grid(600, 290);
   const std::vector<Pixel> pixels = random_pixels(grid, 300, 1);
   for (const Device& device : shapes()) {
-    const Seeds seeds(device, grid, centres(pixels));
+    const Seeds seeds(device, grid, centres(pixels), to_centres);
     Diagram diagram(device, grid);
     CellSumsResult result;
     for (const Metric metric : both_metrics) {
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(cells_in_many_pieces) {
 BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
   const Grid grid(4099, 2100);
   for (const Device& device : shapes()) {
-    const Seeds seeds(device, grid, std::vector<Point>{{4000.5, 2000.5}});
+    const Seeds seeds(device, grid, std::vector<Point>{{4000.5, 2000.5}}, to_centres);
     Diagram diagram(device, grid);
     diagram.write(std::vector<std::uint32_t>(grid.pixels(), 0), seeds, Metric::euclidean);
     CellSumsResult result;
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
 
 BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   const Grid grid(4, 3);
-  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}, {3.5, 0.5}, {2.5, 2.5}});
+  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}, {3.5, 0.5}, {2.5, 2.5}}, to_centres);
   seeds.move_to(
       std::vector<std::optional<Point>>{Point{0.5, 0.5}, Point{0.5, 0.5}, Point{3.5, 0.5}, std::nullopt});
   Diagram diagram(test_device(), grid);
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   BOOST_TEST(statistics.area_deviation == std::sqrt((25 + 36) / 3.0 - 121 / 9.0),
              boost::test_tools::tolerance(1e-12));
 
-  const Seeds none(test_device(), grid, std::vector<Point>{});
+  const Seeds none(test_device(), grid, std::vector<Point>{}, to_centres);
   Diagram without(test_device(), grid);
   jump_flooding(none, without);
   const CellStatistics empty = statistics_of(without);
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(statistics_of_areas) {
   BOOST_TEST(empty.mean_area == 0);
 
   const Grid large(700, 300);
-  const Seeds many(test_device(), large, centres(random_pixels(large, 30000, 9)));
+  const Seeds many(test_device(), large, centres(random_pixels(large, 30000, 9)), to_centres);
   Diagram dense(test_device(), large);
   jump_flooding(many, dense);
   std::map<std::uint32_t, double> areas;
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_own_nothing) {
     for (std::uint32_t& label : without) label = label == 7 || label == 11 ? no_label : label;
     const Device& own = all[turn++ % all.size()];
     for (const Device& device : long_tests ? all : std::vector<Device>{own}) {
-      const Seeds seeds(device, grid, points);
+      const Seeds seeds(device, grid, points, to_centres);
       Diagram diagram(device, grid), expected(device, grid);
       diagram.write(labels, seeds, Metric::euclidean);
       expected.write(without, seeds, Metric::euclidean);
@@ -224,7 +224,7 @@ BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_cells) {
   CellShapesResult shapes;
   CellStatisticsResult statistics;
   check_error([&] { cell_sums(diagram, sums); }, {"seeds"});  // never filled
-  exact_diagram(Seeds(test_device(), grid, {{1, 1}}), diagram);
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}}, to_centres), diagram);
   cell_sums(diagram, sums);
   cell_shapes(diagram, shapes);
   cell_statistics(diagram, statistics);

@@ -75,7 +75,7 @@ Seeds random_seeds(const Device& device, const Grid& grid, Snap snap) {
   std::uniform_real_distribution<double> place(0, 2048);
   std::vector<Point> points(16384);
   for (Point& point : points) point = {place(random), place(random)};
-  return {device, grid, points, Outside::refuse, snap};
+  return {device, grid, points, {Outside::refuse, snap}};
 }
 
 std::size_t to_size(int number) { return static_cast<std::size_t>(number); }

@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(the_callers_context_and_queue_are_adopted) {
   BOOST_TEST(device.queue()() == queue());
   const Grid grid(20, 10);
   Diagram diagram(device, grid);
-  const Report report = jump_flooding(Seeds(device, grid, {{3, 4}}), diagram);
+  const Report report = jump_flooding(Seeds(device, grid, {{3, 4}}, to_centres), diagram);
   BOOST_TEST(diagram.read() == std::vector<std::uint32_t>(200, 0));
   BOOST_TEST(report.milliseconds() == 0.0);
 }
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(work_groups_are_no_higher_than_the_device_allows) {
 }
 
 BOOST_AUTO_TEST_CASE(seeds_and_diagrams_must_fit_together) {
-  const Seeds seeds(test_device(), Grid(10, 20), {{1, 1}});
+  const Seeds seeds(test_device(), Grid(10, 20), {{1, 1}}, to_centres);
   Diagram other_grid(test_device(), Grid(20, 10));
   check_error([&] { jump_flooding(seeds, other_grid); }, {"10 x 20", "20 x 10"});
   Diagram other_units(test_device(), Grid(Axis(10, 0, 1), Axis(20)));
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
     threads.emplace_back([&, i] {
       const Device device = i % 2 == 0 ? shared : Device::select();
       Diagram diagram(device, grid);
-      standard_flooding(Seeds(device, grid, centres(pixels)), diagram, {Metric::manhattan});
+      standard_flooding(Seeds(device, grid, centres(pixels), to_centres), diagram, {Metric::manhattan});
       labels[i] = diagram.read();
     });
   }
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(threads_may_share_a_device_or_own_one) {
 BOOST_AUTO_TEST_CASE(a_forked_child_is_refused_at_once) {
   const Device device = Device::select();
   const Grid grid(40, 30);
-  Seeds seeds(device, grid, {{1, 2}, {30, 20}});
+  Seeds seeds(device, grid, {{1, 2}, {30, 20}}, to_centres);
   Diagram diagram(device, grid);
   const Report report = exact_diagram(seeds, diagram);
   seeds.move_to({{3, 4}, {20, 20}});

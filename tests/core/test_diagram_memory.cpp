@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(measures_are_of_the_frame_that_the_diagram_was_made_from) {
     for (const Window& window : {Window(grid), Window(grid, 40, 11, 50, 37)}) {
       for (const Metric metric : both_metrics) {
         for (const auto& [name, move] : moves(grid)) {
-          std::optional<Seeds> seeds(std::in_place, test_device(), grid, points_on(grid, 60, 1));
+          std::optional<Seeds> seeds(std::in_place, test_device(), grid, points_on(grid, 60, 1), to_centres);
           Diagram exact(test_device(), window), diagram(test_device(), window);
           exact_diagram(*seeds, exact, {metric});
           std::vector<std::uint32_t> labels = exact.read();
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(measures_are_of_the_frame_that_the_diagram_was_made_from) {
 BOOST_AUTO_TEST_CASE(a_manhattan_diagram_is_measured_by_manhattan) {
   const Grid grid(97, 53);
   const std::vector<Pixel> pixels = random_pixels(grid, 40, 1);
-  const Seeds seeds(test_device(), grid, centres(pixels));
+  const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   for (const Method& each : methods()) {
     for (const Metric metric : both_metrics) {
       Diagram diagram(test_device(), grid);
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(a_manhattan_diagram_is_measured_by_manhattan) {
 
 BOOST_AUTO_TEST_CASE(labels_written_without_seeds_cannot_be_measured) {
   const Grid grid(30, 20);
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 9, 1)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 9, 1)), to_centres);
   Diagram diagram(test_device(), grid), exact(test_device(), grid);
   exact_diagram(seeds, diagram);
   exact_diagram(seeds, exact);
@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(a_bad_point_is_remembered_with_its_frame) {
   const Grid grid(64, 64);
   const cl::Buffer good = buffer_of({{3, 3}, {60, 60}});
   const cl::Buffer bad = buffer_of({{3, 3}, {std::numeric_limits<double>::quiet_NaN(), 60}});
-  Seeds seeds(test_device(), grid, PointBuffer(bad, 2));
+  Seeds seeds(test_device(), grid, PointBuffer(bad, 2), kept_on_device);
   Diagram from_bad(test_device(), grid), from_good(test_device(), grid);
   exact_diagram(seeds, from_bad);
   CellSumsResult sums;

@@ -24,7 +24,7 @@ int first_step_of(const Seeds& seeds, Diagram& diagram,
 BOOST_AUTO_TEST_CASE(the_greatest_way_along_an_axis_in_pixels) {
   const Grid pixels(100, 50), ring(100, 50, Axes::x);
   const Grid data(Axis(100, 0, 1), Axis(50, -5, 5).reversed());
-  Seeds on_pixels(test_device(), pixels, {{1, 1}, {50, 20}, {98, 40}});
+  Seeds on_pixels(test_device(), pixels, {{1, 1}, {50, 20}, {98, 40}}, to_centres);
   BOOST_TEST(on_pixels.displacement() == 0);
   on_pixels.move_to({{4, 1}, {50, 13}, {98, 40}});
   BOOST_TEST(on_pixels.displacement() == 7);
@@ -33,11 +33,11 @@ BOOST_AUTO_TEST_CASE(the_greatest_way_along_an_axis_in_pixels) {
   on_pixels.move_to({{99, 1}, {50, 13}, {98, 40}});
   BOOST_TEST(on_pixels.displacement() == 95);
 
-  Seeds on_ring(test_device(), ring, {{1, 1}, {50, 20}, {98, 40}});
+  Seeds on_ring(test_device(), ring, {{1, 1}, {50, 20}, {98, 40}}, to_centres);
   on_ring.move_to({{97, 1}, {50, 20}, {102, 40}});  // 4 pixels to the left, and 4 to the right
   BOOST_TEST(on_ring.displacement() == 4);
 
-  Seeds on_data(test_device(), data, {{0.015, 4.9}, {0.505, 1}});
+  Seeds on_data(test_device(), data, {{0.015, 4.9}, {0.505, 1}}, to_centres);
   on_data.move_to({{0.035, 4.9}, {0.505, 0}});  // 2 pixels, and 5 down
   BOOST_TEST(on_data.displacement() == 5, boost::test_tools::tolerance(1e-9));
 }
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(the_greatest_way_along_an_axis_in_pixels) {
 BOOST_AUTO_TEST_CASE(seeds_that_come_and_go_have_not_moved) {
   const Grid grid(100, 50);
   using Frame = std::vector<std::optional<Point>>;
-  Seeds seeds(test_device(), grid, Frame{Point{1, 1}, std::nullopt, Point{50, 20}});
+  Seeds seeds(test_device(), grid, Frame{Point{1, 1}, std::nullopt, Point{50, 20}}, to_centres);
   seeds.move_to(Frame{std::nullopt, Point{90, 3}, Point{51, 20}});
   BOOST_TEST(seeds.displacement() == 1);
   seeds.move_to(Frame{Point{80, 1}, Point{90, 6}});
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(from_buffers_and_from_random_steps) {
                                later = {{{55.5f, 3.f}}, {{2.f, 62.f}}};
   const cl::Buffer buffer(test_device().queue(), values.begin(), values.end(), true);
   const cl::Buffer next(test_device().queue(), later.begin(), later.end(), true);
-  Seeds seeds(test_device(), grid, {{58, 3}, {2, 60}});
+  Seeds seeds(test_device(), grid, {{58, 3}, {2, 60}}, to_centres);
   seeds.move_to(PointBuffer(buffer, 2));
   BOOST_TEST(seeds.displacement() >= 2);
   BOOST_TEST(seeds.displacement() <= 2.5);  // by points or by pixels

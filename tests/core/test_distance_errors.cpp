@@ -40,7 +40,7 @@ DistanceErrors on_the_host(const Grid& grid, const std::vector<Pixel>& seeds, Me
 
 void check(const std::string& name, const Device& device, const Case& example, Metric metric,
            const Labels& labels, const Labels& ground_truth) {
-  const Seeds seeds(device, example.grid, centres(example.seeds));
+  const Seeds seeds(device, example.grid, centres(example.seeds), to_centres);
   Diagram exact(device, example.grid), diagram(device, example.grid);
   exact.write(ground_truth, seeds, metric);
   diagram.write(labels, seeds, metric);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(comparisons_are_the_same_in_every_shape_and_group) {
     std::optional<DistanceErrors> first;
     for (const Tuning& tuning : tunings) {
       const Device device = test_device().with_tuning(tuning);
-      const Seeds seeds(device, grid, centres(pixels));
+      const Seeds seeds(device, grid, centres(pixels), to_centres);
       Diagram exact(device, grid), diagram(device, grid);
       exact.write(truth, seeds, Metric::euclidean);
       diagram.write(labels, seeds, Metric::euclidean);
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(comparisons_are_the_same_in_every_shape_and_group) {
 
 BOOST_AUTO_TEST_CASE(errors_of_flooding_are_few_and_small) {
   const Grid grid(700, 300);
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 2000, 6)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 2000, 6)), to_centres);
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   jump_flooding(seeds, diagram);
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(errors_of_flooding_are_few_and_small) {
 
 BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
   const Grid grid(5, 1);
-  const Seeds seeds(test_device(), grid, centres({{0, 0}, {4, 0}, {0, 0}}));
+  const Seeds seeds(test_device(), grid, centres({{0, 0}, {4, 0}, {0, 0}}), to_centres);
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   BOOST_REQUIRE((exact.read() == std::vector<std::uint32_t>{0, 0, 0, 1, 1}));
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_tie_is_not_wrong) {
 
 BOOST_AUTO_TEST_CASE(the_longest_distances_there_are) {
   const Grid grid(Window::max_side, 2);
-  const Seeds seeds(test_device(), grid, centres({{0, 0}, {32767, 1}}));
+  const Seeds seeds(test_device(), grid, centres({{0, 0}, {32767, 1}}), to_centres);
   for (const Metric metric : both_metrics) {
     Diagram exact(test_device(), grid), diagram(test_device(), grid);
     exact_diagram(seeds, exact, {metric});
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(the_longest_distances_there_are) {
 // A result that serves frame after frame holds the last one's errors alone.
 BOOST_AUTO_TEST_CASE(one_result_serves_one_diagram_after_another) {
   const Grid grid(31, 17);
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 9, 1)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 9, 1)), to_centres);
   Diagram exact(test_device(), grid), diagram(test_device(), grid);
   exact_diagram(seeds, exact);
   DistanceErrorsResult result;
@@ -174,8 +174,8 @@ BOOST_AUTO_TEST_CASE(one_result_serves_one_diagram_after_another) {
 
 BOOST_AUTO_TEST_CASE(diagrams_that_do_not_fit_are_refused) {
   const Grid grid(10, 20);
-  Seeds seeds(test_device(), grid, {{1, 1}});
-  const Seeds others(test_device(), Grid(20, 10), {{1, 1}});
+  Seeds seeds(test_device(), grid, {{1, 1}}, to_centres);
+  const Seeds others(test_device(), Grid(20, 10), {{1, 1}}, to_centres);
   Diagram exact(test_device(), grid), diagram(test_device(), grid), other(test_device(), Grid(20, 10));
   exact_diagram(seeds, exact);
   DistanceErrorsResult result;

@@ -471,7 +471,7 @@ BOOST_AUTO_TEST_CASE(crowded_seeds_of_volumes_have_the_labels_of_their_voxels) {
   for (const Grid& grid : {plain, spaced}) {
     std::mt19937 rng(9);
     const auto below = [&](unsigned end) { return static_cast<unsigned>(rng() % end); };
-    std::vector<Point3> points;
+    std::vector<Point> points;
     Bytes mask(grid.pixels());
     std::vector<std::uint32_t> ids(grid.pixels(), no_label);
     for (std::uint32_t id = 0; id < 9000; ++id) {
@@ -485,7 +485,7 @@ BOOST_AUTO_TEST_CASE(crowded_seeds_of_volumes_have_the_labels_of_their_voxels) {
     }
     ids.erase(std::remove(ids.begin(), ids.end(), no_label), ids.end());  // by the ranks of the mask
     Diagram diagram(test_device(), grid), of_mask(test_device(), grid);
-    const Seeds seeds(test_device(), grid, points, Outside::absent);
+    const Seeds seeds(test_device(), grid, points, {Outside::absent});
     exact_diagram(seeds, diagram);
     exact_diagram(Seeds::from_mask(test_device(), grid, mask), of_mask);
     Labels expected = of_mask.read();

@@ -149,7 +149,7 @@ void check_vanished_seeds(Reach reach) {
   const Grid grid(200, 150);
   std::vector<Pixel> pixels = random_pixels(grid, 300, 21);
   auto points = present(pixels);
-  Seeds seeds(test_device(), grid, centres(pixels));
+  Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram, options);
   // All seeds on the left vanish: a hole far wider than 2 L, which only the full JFA that follows can fill.
@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(single_seeds_come_and_go) {
   // force.
   const Grid grid(120, 100);
   const std::vector<Pixel> pixels = random_pixels(grid, 200, 22);
-  Seeds seeds(test_device(), grid, centres(pixels));
+  Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   std::size_t wrong = 0;
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(few_deaths_and_births_keep_the_paper_s_plan) {
   const Grid grid(250, 250);
   std::vector<Pixel> pixels = random_pixels(grid, 1250, 23);
   const std::vector<Pixel> places = random_pixels(grid, 1250, 24);
-  Seeds seeds(test_device(), grid, centres(pixels));
+  Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   Diagram diagram(test_device(), grid), jfa(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   std::size_t wrong = 0, wrong_by_jfa = 0;
@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(births_among_few_seeds_start_anew) {
   const Grid grid(400, 300);
   std::vector<Pixel> pixels = random_pixels(grid, 30, 23);
   const std::vector<Pixel> places = random_pixels(grid, 30, 24);
-  Seeds seeds(test_device(), grid, centres(pixels));
+  Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   for (std::size_t frame = 0; frame < 5; ++frame) {
@@ -292,7 +292,7 @@ BOOST_AUTO_TEST_CASE(births_among_few_seeds_start_anew) {
 
 BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
   const Grid grid(90, 70);
-  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)));
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   for (const unsigned count : {80u, 20u, 1u, 300u}) {
@@ -308,7 +308,7 @@ BOOST_AUTO_TEST_CASE(the_number_of_seeds_may_change) {
 
 BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_each_frame) {
   const Grid grid(64, 64);
-  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}});
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}}, to_centres);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   const std::vector<cl_float2> values = {{{60.5f, 3.f}}, {{2.f, 62.f}}};
@@ -328,7 +328,7 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
   std::vector<cl_uchar> second = {0, 1};
   const cl::Buffer marks(test_device().queue(), second.begin(), second.end(), true);
   prepare(method("djfa"), test_device(), grid, 2);
-  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}}, Outside::refuse);
+  Seeds seeds(test_device(), grid, {{1, 1}, {60, 60}}, {Outside::refuse, Snap::to_pixels});
   Diagram first(test_device(), grid), next(test_device(), grid);
   dynamic_jump_flooding(seeds, next);
   test_device().finish();
@@ -341,7 +341,7 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
     dynamic_jump_flooding(seeds, next, paper);
     all = seeds.alive();
     // Which are there, the device alone knows.
-    seeds.move_to(PointBuffer(buffer, 2, PointFormat::float2, marks));
+    seeds.move_to(PointBuffer(buffer, 2, PointFormat::floats_xy, marks));
     paper.alive = 1;
     dynamic_jump_flooding(seeds, first, paper);
     dynamic_jump_flooding(seeds, next, paper);
@@ -359,7 +359,7 @@ BOOST_AUTO_TEST_CASE(points_from_the_callers_buffer_are_not_waited_for) {
 
 BOOST_AUTO_TEST_CASE(options_out_of_range_are_refused) {
   const Grid grid(8, 8);
-  const Seeds seeds(test_device(), grid, {{1, 1}});
+  const Seeds seeds(test_device(), grid, {{1, 1}}, to_centres);
   Diagram diagram(test_device(), grid);
   const NeighbourhoodMix mixed = NeighbourhoodMix::mixed;
   const auto run = [&](double max_displacement, const DynamicPlanOptions& plan, int refresh) {

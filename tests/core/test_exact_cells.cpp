@@ -58,7 +58,7 @@ std::vector<Point> points_of(const std::vector<Position>& positions) {
 
 ExactCellsResult cells_of(const Set& set, Axes periodic) {
   ExactCellsResult result;
-  exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions)), result);
+  exact_cells(Seeds(test_device(), grid_of(set, periodic), points_of(set.positions), to_centres), result);
   return result;
 }
 
@@ -520,7 +520,7 @@ BOOST_AUTO_TEST_CASE(the_four_points_that_geos_cuts_wrong) {
                                      {6.6572000000000005, 53.5842}};
   const Grid grid(Axis(10, 6.65, 6.67), Axis(10, 53.57, 53.6));
   ExactCellsResult result;
-  exact_cells(Seeds(test_device(), grid, points), result);
+  exact_cells(Seeds(test_device(), grid, points, to_centres), result);
   check_as_a_whole(result, "GEOS 1040");
   for (const ExactCell& cell : result.read()) BOOST_TEST((cell.neighbours >= 1 && cell.neighbours <= 3));
 }
@@ -538,7 +538,7 @@ BOOST_AUTO_TEST_CASE(cells_are_in_the_units_of_the_data_and_absent_seeds_have_no
   BOOST_TEST(result.size() == 0u);
   BOOST_TEST(result.read().empty());
   BOOST_TEST(result.areas()() == nullptr);
-  exact_cells(Seeds(test_device(), grid, points), result);
+  exact_cells(Seeds(test_device(), grid, points, to_centres), result);
   const auto cells = result.read(), in_steps = steps.read();
   BOOST_TEST_REQUIRE(cells.size() == in_steps.size() + 1);
   BOOST_TEST(cells[20].area == 0);
@@ -595,8 +595,9 @@ BOOST_AUTO_TEST_CASE(buffers_hold_what_is_read_and_work_groups_change_no_bit) {
   tuning.group_height = 1;
   tuning.vector_width = 1;
   tuning.shape = Shape::group;
-  const Seeds seeds(test_device(), grid_of(set, Axes::x), points_of(set.positions));
-  const Seeds others(test_device().with_tuning(tuning), grid_of(set, Axes::x), points_of(set.positions));
+  const Seeds seeds(test_device(), grid_of(set, Axes::x), points_of(set.positions), to_centres);
+  const Seeds others(test_device().with_tuning(tuning), grid_of(set, Axes::x), points_of(set.positions),
+                     to_centres);
   ExactCellsResult result, other;
   exact_cells(seeds, result);
   exact_cells(others, other);
@@ -659,21 +660,21 @@ BOOST_AUTO_TEST_CASE(floats_in_a_buffer_have_the_cells_of_their_places_or_are_re
   const Grid grid(4, 4);
   ExactCellsResult expected, found;
   exact_cells(Seeds(test_device(), grid, {{0.25, 0.5}, {3.75, 0.5}, {2.5, 3.25}}), expected);
-  exact_cells(Seeds(test_device(), grid, points, Outside::refuse, Snap::none), found);
+  exact_cells(Seeds(test_device(), grid, points, {Outside::refuse, Snap::none}), found);
   for (std::size_t i = 0; i < floats.size(); ++i) BOOST_TEST(found.read()[i].area == expected.read()[i].area);
   for (const Outside outside : {Outside::refuse, Outside::absent}) {
     const auto names_snapping = [](const Error& error) {
       return std::string(error.what()).find("Snap::none") != std::string::npos;
     };
-    BOOST_CHECK_EXCEPTION(exact_cells(Seeds(test_device(), grid, points, outside), found), Error,
-                          names_snapping);
+    BOOST_CHECK_EXCEPTION(exact_cells(Seeds(test_device(), grid, points, {outside, Snap::to_pixels}), found),
+                          Error, names_snapping);
     BOOST_TEST(found.size() == 0u);
   }
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_and_leaves_an_empty_result) {
   const Set set = {"random", side, side, random_positions(side, side, 10, 11)};
-  const Seeds seeds(test_device(), grid_of(set, Axes::none), points_of(set.positions));
+  const Seeds seeds(test_device(), grid_of(set, Axes::none), points_of(set.positions), to_centres);
   ExactCellsResult result;
   exact_cells(seeds, result);
   doubles_are_hidden = true;
@@ -682,8 +683,13 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_is_refused_and_leaves_an_empty_result) {
   BOOST_TEST(result.size() == 0u);
   BOOST_TEST(result.read_polygons().offsets.size() == 1u);
   const Grid flat(Axis(10, 0, 10), Axis(10, 3, 3));
-  check_error([&] { exact_cells(Seeds(test_device(), flat, {{1, 3}}), result); }, {"extent", "10 x 0"});
-  exact_cells(Seeds(test_device(), Grid(10, 10), Points(static_cast<const Point*>(nullptr), 0)), result);
+  check_error(
+      [&] {
+        exact_cells(Seeds(test_device(), flat, {{1, 3}}, to_centres), result);
+      },
+      {"extent", "10 x 0"});
+  exact_cells(Seeds(test_device(), Grid(10, 10), Points(static_cast<const Point*>(nullptr), 0), to_centres),
+              result);
   BOOST_TEST(result.size() == 0u);
   BOOST_TEST(result.read_pairs().empty());
   exact_cells(seeds, result);

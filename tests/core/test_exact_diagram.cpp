@@ -54,7 +54,7 @@ std::vector<Engine> engines(const Grid& grid, Metric metric) {
 }
 
 Labels reference_labels(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
-  return vorocl::reference_labels(Seeds(test_device(), grid, centres(seeds)), metric);
+  return vorocl::reference_labels(Seeds(test_device(), grid, centres(seeds), to_centres), metric);
 }
 
 void check_against_tree(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric = Metric::euclidean,
@@ -232,8 +232,8 @@ BOOST_AUTO_TEST_CASE(frame_after_frame_in_one_diagram) {
   Diagram diagram(test_device(), grid);
   for (unsigned frame = 0; frame < 40; ++frame) {
     const auto seeds = random_pixels(grid, frame % 2 == 0 ? 12000 : frame, frame);
-    if (frame % 5 == 4) jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);
-    const Report report = exact_diagram(Seeds(test_device(), grid, centres(seeds)), diagram);
+    if (frame % 5 == 4) jump_flooding(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
+    const Report report = exact_diagram(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
     BOOST_TEST(count_differences(diagram.read(), tree_labels(grid, seeds, Metric::euclidean)) == 0);
     BOOST_TEST(report.waves() == 0);
     BOOST_TEST(report.milliseconds() > 0);
@@ -243,13 +243,13 @@ BOOST_AUTO_TEST_CASE(frame_after_frame_in_one_diagram) {
 BOOST_AUTO_TEST_CASE(bad_input) {
   const Grid grid(20, 10);
   Diagram diagram(test_device(), grid);
-  const Seeds seeds(test_device(), {10, 20}, {{1, 1}});
+  const Seeds seeds(test_device(), {10, 20}, {{1, 1}}, to_centres);
   check_error([&] { exact_diagram(seeds, diagram); }, {"10 x 20", "20 x 10"});
   // A point in a device buffer that turns out bad leaves no seed, and is named at the next wait.
   const std::vector<cl_float2> points = {{{3, 3}}, {{7, 70}}};
   cl::Buffer buffer(test_device().context(), CL_MEM_READ_WRITE, sizeof(cl_float2) * points.size());
   test_device().queue().enqueueWriteBuffer(buffer, CL_TRUE, 0, sizeof(cl_float2) * points.size(),
                                            points.data());
-  exact_diagram(Seeds(test_device(), grid, PointBuffer(buffer, points.size())), diagram);
+  exact_diagram(Seeds(test_device(), grid, PointBuffer(buffer, points.size()), kept_on_device), diagram);
   check_error([&] { diagram.read(); }, {"point 1", "outside"});
 }

@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
   std::optional<Seeds> seeds;
   bool moved = false;
   const auto start = [&] {
-    seeds.emplace(test_device(), grid, before);
+    seeds.emplace(test_device(), grid, before, to_centres);
     moved = false;
   };
   const auto judge = [&] {
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(seeds_that_fail_to_move_have_the_points_that_they_had) {
 BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
   const std::vector<Point> points = {{-9, 3}, {20, 20}, {400, 90000}};
   const Window window(Grid(95, 80, Axes::x), 60, 20, 70, 50);
-  const Seeds around(test_device(), window.grid(), points);
+  const Seeds around(test_device(), window.grid(), points, to_centres);
   Diagram fresh(test_device(), window);
   exact_diagram(around, fresh);
   const std::vector<std::uint32_t> expected = fresh.read();
@@ -222,7 +222,7 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
   std::optional<Diagram> diagram;
   CellShapesResult shapes;
   const auto start = [&] {
-    seeds.emplace(test_device(), window.grid(), std::vector<Point>{{1, 1}, {2, 2}});
+    seeds.emplace(test_device(), window.grid(), std::vector<Point>{{1, 1}, {2, 2}}, to_centres);
     diagram.emplace(test_device(), window);
     shapes = CellShapesResult();
   };
@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
 BOOST_AUTO_TEST_CASE(volumes_that_fail_can_be_made_again) {
   const Grid volume(12, 10, 8);
   const std::vector<Point> points = {{9, 3, 1}, {2, 5, 6}, {11, 9, 7}};
-  const Seeds whole(test_device(), volume, points);
+  const Seeds whole(test_device(), volume, points, to_centres);
   Diagram fresh(test_device(), volume);
   jump_flooding(whole, fresh);
   const std::vector<std::uint32_t> flooded = fresh.read();
@@ -368,7 +368,7 @@ BOOST_AUTO_TEST_CASE(measures_that_fail_are_empty) {
   // A cell with more edges than the first kernel has room for is cut when it is asked for.
   std::vector<Point> star = {{20, 15}};
   for (int i = 0; i < 40; ++i) star.push_back({20 + 10 * std::cos(0.15 * i), 15 + 10 * std::sin(0.15 * i)});
-  const Seeds around(test_device(), grid, star);
+  const Seeds around(test_device(), grid, star, to_centres);
   exact_cells(around, exact);
   const double area = exact.read().front().area;
   fail_each_call([&] { exact_cells(around, exact); }, [&] { exact.areas(); },

@@ -54,7 +54,7 @@ void check_fields(const std::string& name, const std::vector<Pixel>& pixels, con
 BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
   for (const Device& device : shapes()) {
     for (const Case& test : measured_cases(device)) {
-      const Seeds seeds(device, test.grid, centres(test.seeds));
+      const Seeds seeds(device, test.grid, centres(test.seeds), to_centres);
       Diagram diagram(device, test.grid);
       const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
       fill(seeds, diagram, metric);
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
     const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
     Diagram pieces(device, grid);
     for (const Metric metric : both_metrics) {
-      pieces.write(random_labels(grid, 20, 2), Seeds(device, grid, centres(pixels)), metric);
+      pieces.write(random_labels(grid, 20, 2), Seeds(device, grid, centres(pixels), to_centres), metric);
       check_fields("pieces", pixels, pieces, metric);
     }
   }
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
 
 BOOST_AUTO_TEST_CASE(the_longest_distance_there_is) {
   const Grid grid(Window::max_side, 3);
-  const Seeds seeds(test_device(), grid, std::vector<Point>{{0.5, 0.5}});
+  const Seeds seeds(test_device(), grid, std::vector<Point>{{0.5, 0.5}}, to_centres);
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   Field<std::int32_t> field;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(labels_are_looked_up_in_a_table) {
   for (const Device& device : shapes()) {
     for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Axes::x)}) {
       if (!is_for(device, grid)) continue;
-      const Seeds seeds(device, grid, centres(random_pixels(grid, 40, 1)));
+      const Seeds seeds(device, grid, centres(random_pixels(grid, 40, 1)), to_centres);
       Diagram diagram(device, grid);
       const std::vector<std::uint32_t> labels = random_labels(grid, 40, 2);
       diagram.write(labels, seeds, Metric::euclidean);
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(labels_are_looked_up_in_a_table) {
 
 BOOST_AUTO_TEST_CASE(a_table_that_cannot_be_read_is_refused) {
   const Grid grid(20, 10);
-  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 40, 1)));
+  const Seeds seeds(test_device(), grid, centres(random_pixels(grid, 40, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
   Field<std::uint32_t> field;
@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
   for (const Device& device : shapes()) {
     for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Axes::xy)}) {
       const std::vector<Pixel> pixels = random_pixels(grid, 12, 3);
-      const Seeds seeds(device, grid, centres(pixels));
+      const Seeds seeds(device, grid, centres(pixels), to_centres);
       Diagram diagram(device, grid);
       for (const Metric metric : both_metrics) {
         fill(seeds, diagram, metric);
@@ -150,7 +150,7 @@ BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
 // Distances of more than 31 bits.
 BOOST_AUTO_TEST_CASE(labels_of_seeds_far_away_expand_too) {
   const Grid grid(61, 47);
-  const Seeds seeds(test_device(), grid, {{-3e6 + 0.5, 10.5}, {3e6 + 60.5, 40.5}});
+  const Seeds seeds(test_device(), grid, {{-3e6 + 0.5, 10.5}, {3e6 + 60.5, 40.5}}, to_centres);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
   const std::vector<std::uint32_t> labels = diagram.read();
@@ -175,7 +175,7 @@ BOOST_AUTO_TEST_CASE(labels_of_no_seeds_have_no_distances) {
   Field<float> distances;
   Field<std::uint32_t> labels;
   Field<std::uint8_t> mask;
-  exact_diagram(Seeds(test_device(), grid, {{1, 1}}), diagram);
+  exact_diagram(Seeds(test_device(), grid, {{1, 1}}, to_centres), diagram);
   distance_field(diagram, distances);
   BOOST_TEST(distances.read().size() == grid.pixels());
   for (const double bad : {-0.1, std::nan("")}) {

@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(random_cases) {
     for (int set = 0; set < sets_of_a_grid; ++set) {
       const std::size_t which = static_cast<std::size_t>(set) % some.size();
       const std::vector<Pixel> seeds = random_set(rng, grid);
-      exact_diagram(Seeds(some[which].device, grid, centres(seeds)), diagrams[which], {metric});
+      exact_diagram(Seeds(some[which].device, grid, centres(seeds), to_centres), diagrams[which], {metric});
       const std::size_t wrong = count_differences(diagrams[which].read(), true_labels(grid, seeds, metric));
       BOOST_TEST(wrong == 0, "grid " << i << ", set " << set << ": " << wrong << " wrong pixels of "
                                      << grid.width() << " x " << grid.height() << " with " << seeds.size()

@@ -18,7 +18,7 @@ constexpr JumpFloodingVariant all_variants[] = {JumpFloodingVariant::jfa, JumpFl
 std::vector<std::uint32_t> labels_of(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
                                      const JumpFloodingOptions& options = {}) {
   Diagram diagram(device, grid);
-  jump_flooding(Seeds(device, grid, centres(seeds)), diagram, options);
+  jump_flooding(Seeds(device, grid, centres(seeds), to_centres), diagram, options);
   return diagram.read();
 }
 
@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(the_example_of_the_paper) {
   const Grid grid(8, 8);
   const Plan plan = jump_flooding_plan(grid);
   BOOST_TEST(to_string(plan) == "4 2 1");
-  const Seeds seeds(test_device(), grid, {{0, 0}});
+  const Seeds seeds(test_device(), grid, {{0, 0}}, to_centres);
   Diagram diagram(test_device(), grid);
   const std::size_t expected[] = {1, 4, 16, 64};
   for (std::size_t waves = 0; waves <= plan.size(); ++waves) {
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(the_example_of_the_paper) {
 
 BOOST_AUTO_TEST_CASE(steps_out_of_range_are_refused) {
   const Grid grid(8, 8);
-  const Seeds seeds(test_device(), grid, {{0, 0}});
+  const Seeds seeds(test_device(), grid, {{0, 0}}, to_centres);
   Diagram diagram(test_device(), grid);
   check_error([&] { flood(seeds, diagram, {{4}, {0}}, {}); }, {"step is 0"});
   check_error([&] { flood(seeds, diagram, {{1 << 20}}, {}); }, {"step is 1048576"});
@@ -86,13 +86,22 @@ BOOST_AUTO_TEST_CASE(steps_out_of_range_are_refused) {
 BOOST_AUTO_TEST_CASE(a_part_of_a_grid_is_not_flooded) {
   const Grid grid(8, 8), ring(40000, 8, Axes::x);
   Diagram whole(test_device(), grid), part(test_device(), Window(grid, 2, 2, 4, 4));
-  check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}}), part); }, {"exact"});
-  check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}), whole); }, {"exact"});
-  check_error([&] { jump_flooding(Seeds(test_device(), Grid(9, 8), {{3, 3}}), whole); }, {"grid"});
+  check_error([&] { jump_flooding(Seeds(test_device(), grid, {{3, 3}}, to_centres), part); }, {"exact"});
+  check_error(
+      [&] {
+        jump_flooding(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}, to_centres), whole);
+      },
+      {"exact"});
+  check_error(
+      [&] {
+        jump_flooding(Seeds(test_device(), Grid(9, 8), {{3, 3}}, to_centres), whole);
+      },
+      {"grid"});
   Diagram zoom(test_device(), Window(ring, 0, 0, 8, 8));
-  check_error([&] { jump_flooding(Seeds(test_device(), ring, {{3, 3}}), zoom); }, {"exact"});
+  check_error([&] { jump_flooding(Seeds(test_device(), ring, {{3, 3}}, to_centres), zoom); }, {"exact"});
   // Outside is where the point is, and not where its pixel would be after wrapping.
-  jump_flooding(Seeds(test_device(), Grid(8, 8), {{3, 3}, {-1, 3}}, Outside::absent), whole);
+  jump_flooding(Seeds(test_device(), Grid(8, 8), {{3, 3}, {-1, 3}}, {Outside::absent, Snap::to_pixels}),
+                whole);
   BOOST_TEST((whole.read() == std::vector<std::uint32_t>(64, 0)));
 }
 
@@ -107,7 +116,7 @@ BOOST_AUTO_TEST_CASE(points_are_in_the_units_of_the_data) {
     point.y += 360 * static_cast<double>(pixel.x % 3 - 1);  // which wraps
     return point;
   });
-  jump_flooding(Seeds(test_device(), data, points), diagram);
+  jump_flooding(Seeds(test_device(), data, points, to_centres), diagram);
   BOOST_TEST((diagram.read() == labels_of(test_device(), pixels, seeds)));
 }
 
@@ -147,7 +156,7 @@ BOOST_AUTO_TEST_CASE(the_same_labels_in_every_run) {
   const auto expected = labels_of(test_device(), grid, seeds);
   Diagram diagram(test_device(), grid);
   for (int run = 0; run < 20; ++run) {
-    jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);
+    jump_flooding(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
     BOOST_TEST((diagram.read() == expected));
   }
 }
@@ -189,7 +198,7 @@ BOOST_AUTO_TEST_CASE(one_diagram_serves_one_set_of_seeds_after_another) {
   Diagram diagram(test_device(), grid);
   for (const unsigned count : {2000u, 3u, 0u, 70u}) {
     const auto seeds = random_pixels(grid, count, count);
-    jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);
+    jump_flooding(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
     BOOST_TEST((diagram.read() == labels_of(test_device(), grid, seeds)));
   }
 }

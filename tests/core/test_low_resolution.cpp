@@ -13,7 +13,7 @@ namespace {
 Labels labels_of(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
                  Metric metric = Metric::euclidean) {
   Diagram diagram(device, grid);
-  BOOST_TEST(low_resolution(Seeds(device, grid, centres(seeds)), diagram, {metric}).waves() == 0);
+  BOOST_TEST(low_resolution(Seeds(device, grid, centres(seeds), to_centres), diagram, {metric}).waves() == 0);
   return diagram.read();
 }
 
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(evenly_spread_seeds_are_as_right_as_by_jfa) {
     std::size_t wrong = 0, by_jfa = 0;
     for (unsigned rng_seed = 1; rng_seed <= 5; ++rng_seed) {
       const auto pixels = random_pixels(grid, grid.pixels() / pixels_per_seed, rng_seed);
-      const Seeds seeds(test_device(), grid, centres(pixels));
+      const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
       Diagram exact(test_device(), grid), diagram(test_device(), grid);
       exact_diagram(seeds, exact);
       const auto count = [&] {
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(the_workspace_fits_the_next_frame) {
   Diagram diagram(test_device(), grid);
   for (unsigned frame = 1; frame <= 3; ++frame) {
     const auto seeds = random_pixels(grid, std::size_t{40} * frame, frame);
-    low_resolution(Seeds(test_device(), grid, centres(seeds)), diagram);
+    low_resolution(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
     BOOST_TEST((diagram.read() == reference_low_resolution(grid, seeds, Metric::euclidean)));
   }
 }
@@ -95,6 +95,10 @@ BOOST_AUTO_TEST_CASE(the_workspace_fits_the_next_frame) {
 BOOST_AUTO_TEST_CASE(a_part_of_a_grid_is_not_flooded) {
   const Grid grid(8, 8);
   Diagram whole(test_device(), grid), part(test_device(), Window(grid, 2, 2, 4, 4));
-  check_error([&] { low_resolution(Seeds(test_device(), grid, {{3, 3}}), part); }, {"exact"});
-  check_error([&] { low_resolution(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}), whole); }, {"exact"});
+  check_error([&] { low_resolution(Seeds(test_device(), grid, {{3, 3}}, to_centres), part); }, {"exact"});
+  check_error(
+      [&] {
+        low_resolution(Seeds(test_device(), grid, {{3, 3}, {-1, 3}}, to_centres), whole);
+      },
+      {"exact"});
 }

@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(methods_by_name) {
 BOOST_AUTO_TEST_CASE(methods_are_what_they_say) {
   const Grid grid(90, 61);
   const std::vector<Pixel> pixels = random_pixels(grid, 400, 5);
-  const Seeds seeds(test_device(), grid, centres(pixels));
+  const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   for (const Metric metric : both_metrics) {
     const std::vector<std::uint32_t> ground_truth = brute_force(grid, pixels, metric);
     for (const Method& each : methods()) {
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(methods_are_what_they_say) {
 // Mixed waves are djfa's alone. Who checks the options beforehand hears the same.
 BOOST_AUTO_TEST_CASE(impossible_options_are_refused) {
   const Grid grid(9, 5);
-  const Seeds seeds(test_device(), grid, {{1, 1}});
+  const Seeds seeds(test_device(), grid, {{1, 1}}, to_centres);
   Diagram diagram(test_device(), grid);
   const MethodOptions mixed = {Metric::euclidean, NeighbourhoodMix::mixed};
   for (const Method& each : methods()) {
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(impossible_options_are_refused) {
 // Those that say so take a window, and seeds outside it; the others refuse them.
 BOOST_AUTO_TEST_CASE(windows_are_for_those_that_say_so) {
   const Grid grid(60, 40, Axes::y);
-  const Seeds seeds(test_device(), grid, {{3, 3}, {50, 30}});
+  const Seeds seeds(test_device(), grid, {{3, 3}, {50, 30}}, to_centres);
   for (const Method& each : methods()) {
     BOOST_TEST_CONTEXT(each.name) {
       Diagram part(test_device(), Window(grid, 10, 35, 20, 10));
@@ -110,8 +110,8 @@ BOOST_AUTO_TEST_CASE(after_prepare_nothing_is_built) {
   const Grid grid(130, 70);
   for (const Method& each : methods()) {
     const Device device = Device::select();  // with no program yet
-    prepare(each, device, grid, 50, {Metric::manhattan});
-    Seeds seeds(device, grid, Seeds::random(device, grid, 50, 3).read());  // snapped: what was prepared for
+    prepare(each, device, grid, 50, {Metric::manhattan}, Snap::to_pixels);
+    Seeds seeds(device, grid, Seeds::random(device, grid, 50, 3).read(), to_centres);
     Diagram diagram(device, grid);
     const int before = builds;
     BOOST_TEST(before > 0);
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(labels_are_written) {
 
   // dJFA goes on from them: with the right ones it has nothing to mend.
   const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
-  const Seeds seeds(test_device(), grid, centres(pixels));
+  const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   const std::vector<std::uint32_t> ground_truth = brute_force(grid, pixels, Metric::euclidean);
   const auto waves = static_cast<int>(dynamic_jump_flooding_plan(grid, pixels.size(), 0).size());
   DynamicJumpFloodingOptions unmoved;
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(labels_are_written) {
   BOOST_TEST((diagram.read() == ground_truth));
 
   // Seeds of another grid have no labels here.
-  const Seeds others(test_device(), Grid(30, 40), {{1, 1}});
+  const Seeds others(test_device(), Grid(30, 40), {{1, 1}}, to_centres);
   check_error([&] { diagram.write(ground_truth, others, Metric::euclidean); }, {"grid"});
 
   const Diagram taken = std::move(diagram);

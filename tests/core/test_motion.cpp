@@ -12,7 +12,7 @@ namespace {
 
 std::vector<Point> moved(const Grid& grid, const std::vector<Point>& from, int most, Border border,
                          std::uint32_t frame) {
-  Seeds seeds(test_device(), grid, from);
+  Seeds seeds(test_device(), grid, from, to_centres);
   random_step(seeds, most, border, 42, frame);
   return points_of(seeds);
 }
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(steps_are_the_same_for_every_vector_width) {
   const Grid grid(30000, 20000);
   const std::vector<Point> from = centres(random_pixels(grid, 1003, 1));
   const auto moved_by = [&](int width) {
-    Seeds seeds(test_device().with_tuning({width, 64, 1}), grid, from);
+    Seeds seeds(test_device().with_tuning({width, 64, 1}), grid, from, to_centres);
     random_step(seeds, 32768, Border::reflect, 0x9e3779b97f4a7c15, 77);
     return points_of(seeds);
   };
@@ -95,12 +95,12 @@ BOOST_AUTO_TEST_CASE(borders_reflect_or_wrap) {
 }
 
 BOOST_AUTO_TEST_CASE(impossible_steps_are_refused) {
-  Seeds seeds(test_device(), Grid(8, 8), {{1, 1}});
+  Seeds seeds(test_device(), Grid(8, 8), {{1, 1}}, to_centres);
   check_error([&] { random_step(seeds, -1, Border::reflect, 1, 1); }, {"displacement of at most -1"});
   check_error([&] { random_step(seeds, 1 << 16, Border::reflect, 1, 1); }, {"displacement of at most 65536"});
-  Seeds outside(test_device(), Grid(8, 8), {{1, 1}, {-1, 3}});
+  Seeds outside(test_device(), Grid(8, 8), {{1, 1}, {-1, 3}}, to_centres);
   check_error([&] { random_step(outside, 1, Border::reflect, 1, 1); }, {"outside"});
-  Seeds far(test_device(), Grid(100000, 8), {{1, 1}});
+  Seeds far(test_device(), Grid(100000, 8), {{1, 1}}, to_centres);
   check_error([&] { random_step(far, 1, Border::reflect, 1, 1); }, {"100000"});
 }
 
@@ -109,9 +109,9 @@ BOOST_AUTO_TEST_CASE(steps_are_in_pixels) {
   const Grid pixels(80, 60, Axes::x);
   const Grid data(Axis(80, -1, 1).periodic(), Axis(60, 0, 30).reversed());
   const std::vector<Pixel> from = random_pixels(pixels, 100, 1);
-  Seeds a(test_device(), pixels, centres(from));
+  Seeds a(test_device(), pixels, centres(from), to_centres);
   Seeds b(test_device(), data,
-          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
+          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }), to_centres);
   BOOST_TEST(a.displacement() == 0);
   random_step(a, 7, Border::reflect, 5, 1);
   random_step(b, 7, Border::reflect, 5, 1);
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(steps_are_in_pixels) {
 }
 
 BOOST_AUTO_TEST_CASE(absent_seeds_stay_absent) {
-  Seeds seeds(test_device(), Grid(50, 50), {{10, 10}, {20, 20}, {30, 30}});
+  Seeds seeds(test_device(), Grid(50, 50), {{10, 10}, {20, 20}, {30, 30}}, to_centres);
   seeds.move_to(std::vector<std::optional<Point>>{Point{10, 10}, std::nullopt, Point{30, 30}});
   BOOST_TEST(seeds.alive() == 2u);
   random_step(seeds, 5, Border::reflect, 1, 1);

@@ -14,7 +14,7 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_grid) {
     for (const std::size_t count : {1u, 3u, 40u, 3000u}) {
       const Grid grid(231, 190, axes);
       const std::vector<Point> points = centres(random_pixels(grid, count, 4));
-      const Seeds seeds(test_device(), grid, points);
+      const Seeds seeds(test_device(), grid, points, to_centres);
       Diagram diagram(test_device(), grid);
       exact_diagram(seeds, diagram);
       const auto expected = sums_of(diagram);
@@ -24,7 +24,7 @@ BOOST_AUTO_TEST_CASE(cells_are_those_of_the_whole_grid) {
         PlaneCells cells;
         TileOptions options;
         options.cells = &cells;
-        labels_of(PlaneSeeds(grid, points), Tiling(grid, side), options);
+        labels_of(PlaneSeeds(grid, points, to_centres), Tiling(grid, side), options);
         BOOST_TEST(cells.size() == count);
         for (std::size_t id = 0; id < count; ++id) {
           const PlaneCell cell = cells.cell(id);
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(sums_can_be_given_away_and_added) {
   for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(231, 190, axes);
     const std::vector<Point> points = centres(random_pixels(grid, 300, 4));
-    const PlaneSeeds seeds(grid, points);
+    const PlaneSeeds seeds(grid, points, to_centres);
     const Tiling tiling(grid, 50);
     PlaneCells whole;
     TileOptions options;
@@ -120,7 +120,7 @@ BOOST_AUTO_TEST_CASE(sums_may_pass_64_bits) {
   TileOptions options;
   options.cells = &cells;
   exact_tiles(
-      test_device(), PlaneSeeds(grid, {{0.5, 0.5}}), tiling, [](const TileLabels&) {}, options);
+      test_device(), PlaneSeeds(grid, {{0.5, 0.5}}, to_centres), tiling, [](const TileLabels&) {}, options);
   const PlaneCell cell = cells.cell(0);
   BOOST_TEST(cell.area == 8192u * 4096u);
   BOOST_TEST(cell.centroid.x == static_cast<double>(side) - 4096);

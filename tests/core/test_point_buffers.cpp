@@ -25,7 +25,7 @@ PointBuffer points_in(const std::vector<cl_float2>& values) { return {buffer_of(
 
 PointBuffer in_doubles(const std::vector<Point>& points) {
   const auto values = transformed(points, [](const Point& p) { return cl_double2{{p.x, p.y}}; });
-  return {buffer_of(values), values.size(), PointFormat::double2};
+  return {buffer_of(values), values.size(), PointFormat::doubles_xy};
 }
 
 PointBuffer in_floats(const std::vector<Point>& points) {
@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(points_in_the_callers_buffer) {
   for (const Pixel& pixel : random_pixels(grid, 1000, 3)) {
     values.push_back({{static_cast<float>(pixel.x) + 0.75f, static_cast<float>(pixel.y) + 0.25f}});
   }
-  const Seeds seeds(test_device(), grid, points_in(values));
+  const Seeds seeds(test_device(), grid, points_in(values), kept_on_device);
   const std::vector<Point> read = centres_of(seeds);
   BOOST_REQUIRE(read.size() == values.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -57,14 +57,14 @@ BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_w
   std::vector<cl_float2> values(100, {{5, 5}});
   values[70] = {{-1, 0}};
   values[41] = {{3, static_cast<float>(not_a_number)}};
-  const Seeds seeds(test_device(), grid, points_in(values));
+  const Seeds seeds(test_device(), grid, points_in(values), kept_on_device);
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   check_error([&] { diagram.read(); }, {"point 41", "nan"});
   check_error([&] { seeds.read(); }, {"point 41", "nan"});
   const float next_to_none = -std::numeric_limits<float>::min();
   for (const cl_float2 beside : {cl_float2{{30, 1}}, {{1, 20}}, {{next_to_none, 1}}, {{1, next_to_none}}}) {
-    check_error([&] { Seeds(test_device(), grid, points_in({beside})).read(); }, {"point 0"});
+    check_error([&] { Seeds(test_device(), grid, points_in({beside}), kept_on_device).read(); }, {"point 0"});
   }
 }
 
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(bad_points_in_the_callers_buffer_are_reported_at_the_next_w
 BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
   const Grid grid(30, 20);
   const std::vector<cl_float2> good = {{{1, 1}}, {{2, 9}}, {{3, 3}}}, bad = {{{1, 1}}, {{2, 99}}, {{3, 3}}};
-  Seeds seeds(test_device(), grid, points_in(bad));
+  Seeds seeds(test_device(), grid, points_in(bad), kept_on_device);
   Diagram of_bad(test_device(), grid), of_good(test_device(), grid);
   exact_diagram(seeds, of_bad);
   CellSumsResult sums_of_bad, sums_of_good;
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
   BOOST_TEST(centres_of(seeds)[1].y == 9.5);
 
   try {
-    Seeds(test_device(), grid, points_in(bad)).check();
+    Seeds(test_device(), grid, points_in(bad), kept_on_device).check();
     BOOST_ERROR("nothing was thrown");
   } catch (const BadPoint& error) {
     BOOST_TEST(error.index() == 1u);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_bad_point_is_an_error_of_its_frame) {
 // Seeds of a good frame are no help where the diagram is of a bad one.
 BOOST_AUTO_TEST_CASE(a_bad_point_reaches_all_measures_of_its_diagram) {
   const Grid grid(30, 20);
-  Seeds seeds(test_device(), grid, points_in({{{1, 1}}, {{2, 99}}}));
+  Seeds seeds(test_device(), grid, points_in({{{1, 1}}, {{2, 99}}}), kept_on_device);
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
   seeds.move_to({{1, 1}, {2, 9}});
@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_bad_point_reaches_all_measures_of_its_diagram) {
 BOOST_AUTO_TEST_CASE(a_frame_after_a_bad_one_is_a_fresh_diagram) {
   const Grid grid(64, 64);
   const std::vector<cl_float2> good = {{{1, 1}}, {{60, 60}}};
-  Seeds seeds(test_device(), grid, points_in(good));
+  Seeds seeds(test_device(), grid, points_in(good), kept_on_device);
   Diagram diagram(test_device(), grid);
   dynamic_jump_flooding(seeds, diagram);
   seeds.move_to(points_in({{{1, 1}}, {{99, 60}}}));
@@ -153,9 +153,9 @@ BOOST_AUTO_TEST_CASE(marks_say_which_seeds_are_there) {
   const std::vector<Point> points = {{3, 4}, {-1, 0}, {15, 5}, {1, 1}, {3, 9}};
   for (PointBuffer marked : {in_floats(points), in_doubles(points)}) {
     marked.present = present;
-    Seeds moved(test_device(), grid, {{1, 1}});
+    Seeds moved(test_device(), grid, {{1, 1}}, to_centres);
     moved.move_to(marked);
-    const Seeds constructed(test_device(), grid, marked);
+    const Seeds constructed(test_device(), grid, marked, kept_on_device);
     for (const Seeds* const seeds : {&constructed, &std::as_const(moved)}) {
       BOOST_TEST(seeds->size() == 5u);
       BOOST_TEST(seeds->alive() == 3u);
@@ -173,7 +173,8 @@ BOOST_AUTO_TEST_CASE(marks_say_which_seeds_are_there) {
   const cl::Buffer few(test_device().context(), CL_MEM_READ_WRITE, 3);
   check_error(
       [&] {
-        Seeds(test_device(), grid, {buffer_of(std::vector<cl_float2>(4)), 4, PointFormat::float2, few});
+        Seeds(test_device(), grid, {buffer_of(std::vector<cl_float2>(4)), 4, PointFormat::floats_xy, few},
+              kept_on_device);
       },
       {"4 seeds are present", "3 bytes"});
 }
@@ -190,8 +191,8 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
     }
     for (const PointBuffer& buffer : {in_floats(points), in_doubles(points)}) {
       for (const Outside outside : {Outside::count, Outside::absent}) {
-        const Seeds on_host(test_device(), grid, points, outside);
-        const Seeds seeds(test_device(), grid, buffer, outside);
+        const Seeds on_host(test_device(), grid, points, {outside, Snap::to_pixels});
+        const Seeds seeds(test_device(), grid, buffer, {outside, Snap::to_pixels});
         BOOST_TEST(seeds.alive() == on_host.alive());
         BOOST_TEST(seeds.outside() == on_host.outside());
         const auto read = seeds.read_pixels(), expected = on_host.read_pixels();
@@ -207,9 +208,9 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
         BOOST_TEST((diagram.read() == diagram_on_host.read()));
       }
       if (grid.periodic() == Axes::xy) {
-        BOOST_TEST(Seeds(test_device(), grid, buffer).alive() == points.size());
+        BOOST_TEST(Seeds(test_device(), grid, buffer, kept_on_device).alive() == points.size());
       } else {
-        check_error([&] { Seeds(test_device(), grid, buffer).read(); }, {"outside the grid"});
+        check_error([&] { Seeds(test_device(), grid, buffer, kept_on_device).read(); }, {"outside the grid"});
       }
     }
   }
@@ -218,9 +219,9 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
 BOOST_AUTO_TEST_CASE(points_wrap_however_far_away_they_are) {
   const Grid grid(21, 10, Axes::xy);
   const std::vector<Point> points = {{3e9, 5}, {-16777216, 8589934592}, {-1e-30, 1}, {1, -1e30}};
-  const Seeds on_host(test_device(), grid, points);
+  const Seeds on_host(test_device(), grid, points, to_centres);
   for (const PointBuffer& buffer : {in_floats(points), in_doubles(points)}) {
-    const std::vector<Point> read = centres_of(Seeds(test_device(), grid, buffer));
+    const std::vector<Point> read = centres_of(Seeds(test_device(), grid, buffer, kept_on_device));
     for (std::size_t id = 0; id < 3; ++id) {
       BOOST_TEST(read[id].x == centres_of(on_host)[id].x);
       BOOST_TEST(read[id].y == centres_of(on_host)[id].y);
@@ -231,7 +232,7 @@ BOOST_AUTO_TEST_CASE(points_wrap_however_far_away_they_are) {
 
 BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
   const Grid grid(40, 30, Axes::x);
-  Seeds seeds(test_device(), grid, in_floats({{1, 1}, {20, 20}, {5, 5}}));
+  Seeds seeds(test_device(), grid, in_floats({{1, 1}, {20, 20}, {5, 5}}), kept_on_device);
   BOOST_TEST(seeds.displacement() == 0);
   seeds.move_to(in_floats({{38, 2}, {20, 20}, {5, 4}}));
   BOOST_TEST(seeds.displacement() == 3);  // round the end
@@ -247,14 +248,15 @@ BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
 
 BOOST_AUTO_TEST_CASE(unfit_buffers_are_refused) {
   const Grid grid(30, 20);
-  check_error([&] { Seeds(test_device(), grid, PointBuffer(cl::Buffer(), 1)); }, {"null"});
+  check_error([&] { Seeds(test_device(), grid, PointBuffer(cl::Buffer(), 1), kept_on_device); }, {"null"});
   const cl::Buffer small = buffer_of(std::vector<cl_float2>(9));
-  check_error([&] { Seeds(test_device(), grid, PointBuffer(small, 10)); },
+  check_error([&] { Seeds(test_device(), grid, PointBuffer(small, 10), kept_on_device); },
               {"10 points", "72 bytes", "80 are needed"});
-  check_error([&] { Seeds(test_device(), grid, PointBuffer(small, 9, PointFormat::double2)); },
-              {"9 points", "72 bytes", "144 are needed"});
+  check_error(
+      [&] { Seeds(test_device(), grid, PointBuffer(small, 9, PointFormat::doubles_xy), kept_on_device); },
+      {"9 points", "72 bytes", "144 are needed"});
   const Device other = Device::select();
-  check_error([&] { Seeds(other, grid, PointBuffer(small, 9)); }, {"another OpenCL context"});
+  check_error([&] { Seeds(other, grid, PointBuffer(small, 9), kept_on_device); }, {"another OpenCL context"});
 }
 
 BOOST_AUTO_TEST_CASE(a_mask_gives_ids_in_row_major_order) {

@@ -58,7 +58,7 @@ const std::vector<Pixel> pixels = random_pixels(grid, 5, 1);
 std::vector<std::uint32_t> labels() {
   const Device device = Device::select();
   Diagram diagram(device, grid);
-  exact_diagram(Seeds(device, grid, centres(pixels)), diagram);
+  exact_diagram(Seeds(device, grid, centres(pixels), to_centres), diagram);
   return diagram.read();
 }
 

@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(rounds_are_those_of_the_definition) {
     for (const Case& test : measured_cases(device)) {
       if (test.grid.pixels() > 300000) continue;
       std::vector<Pixel> pixels = test.seeds;
-      Seeds seeds(device, test.grid, centres(pixels));
+      Seeds seeds(device, test.grid, centres(pixels), to_centres);
       Diagram diagram(device, test.grid);
       by_one_engine(seeds, diagram);
       for (int round = 0; round < 2; ++round) {
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(seeds_of_whole_pixels_relax_as_the_points_at_their_centres)
   Seeds random = Seeds::random(test_device(), grid, 90, 4);
   Seeds masked = Seeds::from_mask(test_device(), grid, mask);
   for (Seeds* const seeds : {&random, &walked, &masked}) {
-    Seeds points(test_device(), grid, points_of(*seeds), Outside::count, Snap::none);
+    Seeds points(test_device(), grid, points_of(*seeds), {Outside::count, Snap::none});
     Diagram diagram(test_device(), grid), of_points(test_device(), grid);
     const Relaxation one = relax(*seeds, diagram, exactly, 40), other = relax(points, of_points, exactly, 40);
     BOOST_TEST(!one.converged);  // whole pixels end earlier
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(seeds_of_whole_pixels_relax_as_the_points_at_their_centres)
     for (std::size_t id = 0; id < found.size(); ++id)
       BOOST_TEST((found[id].x == expected[id].x && found[id].y == expected[id].y));
   }
-  Seeds snapped(test_device(), grid, points_of(Seeds::random(test_device(), grid, 90, 4)));
+  Seeds snapped(test_device(), grid, points_of(Seeds::random(test_device(), grid, 90, 4)), to_centres);
   Diagram diagram(test_device(), grid);
   BOOST_TEST(relax(snapped, diagram, exactly, 40).converged);
 }
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(weighted_rounds_are_those_of_the_definition) {
       const double unit = *std::max_element(density.begin(), density.end()) / 65535.0;
       if (unit == 0) continue;
       std::vector<Pixel> pixels = test.seeds;
-      Seeds seeds(device, test.grid, centres(pixels));
+      Seeds seeds(device, test.grid, centres(pixels), to_centres);
       Diagram diagram(device, test.grid);
       by_one_engine(seeds, diagram);
       for (int round = 0; round < 2; ++round) {
@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
     const Grid grid(300, 190, periodic);
     const std::vector<float> density = random_density(grid);
     const Weights weights = weights_of(density);
-    Seeds seeds(device, grid, random_points(grid, 200, 5), Outside::count, Snap::none);
+    Seeds seeds(device, grid, random_points(grid, 200, 5), {Outside::count, Snap::none});
     Diagram diagram(device, grid);
     exact_diagram(seeds, diagram);
     // From the seeds' pixels the way to a pixel is not always the shorter one: cells are too small here.
@@ -233,8 +233,8 @@ BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
   const Grid grid(200, 150, Axes::x);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
     const std::vector<Point> points = random_points(grid, 120, 2);
-    Seeds one(test_device(), grid, points, Outside::count, snap);
-    Seeds other(test_device(), grid, points, Outside::count, snap);
+    Seeds one(test_device(), grid, points, {Outside::count, snap});
+    Seeds other(test_device(), grid, points, {Outside::count, snap});
     Diagram of_one(test_device(), grid), of_other(test_device(), grid);
     const Relaxation evenly = relax(one, of_one, exactly, 8);
     const Relaxation weighted =
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(seeds_come_to_lie_as_the_square_root_of_the_density) {
   };
   std::vector<float> density(grid.pixels());
   for (std::size_t i = 0; i < density.size(); ++i) density[i] = static_cast<float>(std::pow(wanted(i), 2));
-  Seeds seeds(test_device(), grid, random_points(grid, 320, 4), Outside::count, Snap::none);
+  Seeds seeds(test_device(), grid, random_points(grid, 320, 4), {Outside::count, Snap::none});
   Diagram diagram(test_device(), grid);
   const Relaxation relaxation = relax(seeds, diagram, exactly, 1500, {}, with_density(density));
   for (std::size_t round = 1; round < relaxation.energies.size(); ++round) {
@@ -276,7 +276,7 @@ BOOST_AUTO_TEST_CASE(seeds_whose_cells_weigh_nothing_stay) {
   std::vector<float> density(grid.pixels());
   for (std::size_t i = 0; i < density.size(); ++i) density[i] = i % 40 < 20 ? 0.0F : 1.0F;
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
-    Seeds seeds(test_device(), grid, {{3.5, 4.5}, {7.5, 9.5}, {25.5, 9.5}}, Outside::count, snap);
+    Seeds seeds(test_device(), grid, {{3.5, 4.5}, {7.5, 9.5}, {25.5, 9.5}}, {Outside::count, snap});
     Diagram diagram(test_device(), grid);
     const Relaxation relaxation = relax(seeds, diagram, exactly, 1, {}, with_density(density));
     const std::vector<Point> moved = points_of(seeds);
@@ -289,7 +289,7 @@ BOOST_AUTO_TEST_CASE(seeds_whose_cells_weigh_nothing_stay) {
 
 BOOST_AUTO_TEST_CASE(densities_that_cannot_be_are_refused) {
   const Grid grid(10, 20);
-  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}});
+  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}}, to_centres);
   Diagram diagram(test_device(), grid);
   const auto refused = [&](std::vector<float> density, std::initializer_list<std::string> parts) {
     check_error([&] { relax(seeds, diagram, exactly, 1, {}, with_density(std::move(density))); }, parts);
@@ -311,7 +311,7 @@ BOOST_AUTO_TEST_CASE(with_the_exact_engine_the_energy_falls_until_no_seed_moves)
                         {"clusters", grid, clusters(grid, 300)},
                         {"corner", grid, {{0, 0}, {1, 0}, {0, 1}, {1, 1}, {2, 0}}}};
   for (const Case& test : cases) {
-    Seeds seeds(test_device(), grid, centres(test.seeds));
+    Seeds seeds(test_device(), grid, centres(test.seeds), to_centres);
     Diagram diagram(test_device(), grid);
     const Relaxation relaxation = relax(seeds, diagram, exactly, 1000);
     BOOST_TEST_MESSAGE(test.name << ": " << relaxation.rounds() << " rounds, energy "
@@ -333,7 +333,7 @@ BOOST_AUTO_TEST_CASE(with_the_exact_engine_the_energy_falls_until_no_seed_moves)
 
 BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_can_ask_how_far_seeds_moved) {
   const Grid grid(300, 200);
-  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 200, 1)));
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 200, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   std::vector<Pixel> before = pixels_of(points_of(seeds));
   const auto engine = [&](const Seeds& moved, Diagram& filled) {
@@ -355,7 +355,7 @@ BOOST_AUTO_TEST_CASE(any_engine_relaxes_and_can_ask_how_far_seeds_moved) {
 BOOST_AUTO_TEST_CASE(a_diagram_from_before_a_move_is_no_start) {
   const Grid grid(256, 256);
   std::vector<Pixel> pixels = random_pixels(Grid(32, 32), 256, 1);
-  Seeds seeds(test_device(), grid, centres(pixels));
+  Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   for (Pixel& pixel : pixels) pixel = {pixel.x + 224, pixel.y + 224};
@@ -366,7 +366,7 @@ BOOST_AUTO_TEST_CASE(a_diagram_from_before_a_move_is_no_start) {
 
 BOOST_AUTO_TEST_CASE(an_observer_sees_every_round_and_can_end_it) {
   const Grid grid(120, 90);
-  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 60, 1)));
+  Seeds seeds(test_device(), grid, centres(random_pixels(grid, 60, 1)), to_centres);
   Diagram diagram(test_device(), grid);
   std::vector<Pixel> before;
   int calls = 0;
@@ -395,9 +395,9 @@ BOOST_AUTO_TEST_CASE(rounds_are_the_same_in_units_of_the_data) {
   const Grid pixels(120, 90, Axes::x);
   const Grid data(Axis(120, -6, 6).periodic(), Axis(90, 0, 1).reversed());
   const std::vector<Pixel> from = random_pixels(pixels, 60, 1);
-  Seeds a(test_device(), pixels, centres(from));
+  Seeds a(test_device(), pixels, centres(from), to_centres);
   Seeds b(test_device(), data,
-          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }));
+          transformed(from, [&](const Pixel& pixel) { return data.point(centre(pixel)); }), to_centres);
   Diagram of_a(test_device(), pixels), of_b(test_device(), data);
   const Relaxation first = relax(a, of_a, exactly, 5), second = relax(b, of_b, exactly, 5);
   BOOST_TEST(first.energies == second.energies, boost::test_tools::per_element());
@@ -411,7 +411,7 @@ BOOST_AUTO_TEST_CASE(rounds_are_the_same_in_units_of_the_data) {
 
 BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {
   const Grid grid(9, 9);
-  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}});
+  Seeds seeds(test_device(), grid, {{0.5, 0.5}, {0.5, 0.5}}, to_centres);
   seeds.move_to(std::vector<std::optional<Point>>{Point{0.5, 0.5}, Point{0.5, 0.5}, std::nullopt});
   Diagram diagram(test_device(), grid);
   const Relaxation relaxation = relax(seeds, diagram, exactly, 1);
@@ -424,19 +424,19 @@ BOOST_AUTO_TEST_CASE(seeds_without_a_cell_stay) {
 
 BOOST_AUTO_TEST_CASE(bad_calls_and_nothing_to_do) {
   const Grid grid(10, 20);
-  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}});
+  Seeds seeds(test_device(), grid, std::vector<Point>{{5, 5}}, to_centres);
   Diagram diagram(test_device(), grid), other(test_device(), Grid(20, 10));
   check_error([&] { relax(seeds, diagram, exactly, -1); }, {"-1 rounds"});
   check_error([&] { relax(seeds, other, exactly, 1); }, {"10 x 20", "20 x 10"});
   check_error([&] { energy(other); }, {"seeds"});
-  Seeds outside(test_device(), grid, {{5, 5}, {-3, 5}});
+  Seeds outside(test_device(), grid, {{5, 5}, {-3, 5}}, to_centres);
   check_error([&] { relax(outside, diagram, exactly, 1); }, {"outside"});
   exact_diagram(outside, diagram);
   check_error([&] { energy(diagram); }, {"outside"});
   check_error([&] { relax(seeds, diagram, {}, 1); }, {"engine"});
   BOOST_TEST(relax(seeds, diagram, exactly, 0).rounds() == 0);
   BOOST_TEST(points_of(seeds).front().x == 5);  // where it was put, for nothing moved it
-  Seeds none(test_device(), grid, std::vector<Point>{});
+  Seeds none(test_device(), grid, std::vector<Point>{}, to_centres);
   const Relaxation nothing = relax(none, diagram, exactly, 5);
   BOOST_TEST(nothing.converged);
   BOOST_TEST(nothing.energies == std::vector<std::uint64_t>{0}, boost::test_tools::per_element());

@@ -40,7 +40,7 @@ std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c, std::array<s
 
 BOOST_AUTO_TEST_CASE(points_are_snapped_to_the_pixel_that_contains_them) {
   const SomePoints points = {Point{0, 0}, Point{9.999, 7.999}, Point{3.0, 2.999}, Point{0.5, 5}};
-  const Seeds seeds(test_device(), Grid(10, 8), points);
+  const Seeds seeds(test_device(), Grid(10, 8), points, to_centres);
   BOOST_TEST(same(seeds.read(), points));
   const SomePoints centres = {Point{0.5, 0.5}, Point{9.5, 7.5}, Point{3.5, 2.5}, Point{0.5, 5.5}};
   BOOST_TEST(same(seeds.read_pixels(), centres));
@@ -48,7 +48,9 @@ BOOST_AUTO_TEST_CASE(points_are_snapped_to_the_pixel_that_contains_them) {
 
 BOOST_AUTO_TEST_CASE(bad_points_are_named) {
   const Grid grid(10, 8);
-  const auto seeds_with = [&](Point bad) { Seeds(test_device(), grid, {{1, 1}, {2, 2}, bad, bad}); };
+  const auto seeds_with = [&](Point bad) {
+    Seeds(test_device(), grid, {{1, 1}, {2, 2}, bad, bad}, to_centres);
+  };
   check_error([&] { seeds_with({not_a_number, 1}); }, {"point 2", "nan", "not finite"});
   check_error([&] { seeds_with({1, infinity}); }, {"point 2", "inf", "not finite"});
   check_error([&] { seeds_with({1e300, 1}); }, {"point 2", "too far away", "2^31"});
@@ -70,25 +72,26 @@ BOOST_AUTO_TEST_CASE(views_of_points) {
   for (const Points& view : {Points(points), Points(points.data(), 3), Points(expected),
                              Points(&particles[0].x, &particles[0].y, 3, sizeof(Particle)),
                              Points(&columns[2], &columns[5], 3, -stride)}) {
-    BOOST_TEST(same(Seeds(test_device(), grid, view).read(), expected));
-    Seeds moved(test_device(), grid, {{7, 7}});
+    BOOST_TEST(same(Seeds(test_device(), grid, view, to_centres).read(), expected));
+    Seeds moved(test_device(), grid, {{7, 7}}, to_centres);
     moved.move_to(view);
     BOOST_TEST(same(moved.read(), expected));
     BOOST_TEST(moved.size() == 3u);
   }
-  BOOST_TEST(same(Seeds(test_device(), grid, Points(columns.data(), columns.data() + 3, 3)).read(),
-                  {Point{3, 3}, Point{2.5, 9}, Point{1, 1}}));
+  BOOST_TEST(
+      same(Seeds(test_device(), grid, Points(columns.data(), columns.data() + 3, 3), to_centres).read(),
+           {Point{3, 3}, Point{2.5, 9}, Point{1, 1}}));
 }
 
 BOOST_AUTO_TEST_CASE(points_in_braces) {
   const Grid grid(20, 10);
-  BOOST_TEST(Seeds(test_device(), grid, {}).size() == 0u);
-  const Seeds one(test_device(), grid, {{1, 1}});
+  BOOST_TEST(Seeds(test_device(), grid, {}, to_centres).size() == 0u);
+  const Seeds one(test_device(), grid, {{1, 1}}, to_centres);
   BOOST_TEST(one.size() == 1u);
   BOOST_TEST(points_of(one).front().y == 1);
-  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, Point{2, 2}}).alive() == 2u);
-  BOOST_TEST(Seeds(test_device(), grid, {{25, 1}, {2, 2}}, Outside::absent).alive() == 1u);
-  Seeds seeds(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}});
+  BOOST_TEST(Seeds(test_device(), grid, {Point{1, 1}, Point{2, 2}}, to_centres).alive() == 2u);
+  BOOST_TEST(Seeds(test_device(), grid, {{25, 1}, {2, 2}}, {Outside::absent, Snap::to_pixels}).alive() == 1u);
+  Seeds seeds(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}}, to_centres);
   seeds.move_to(std::vector<Point>{{4, 4}, {5, 5}});
   BOOST_TEST(centres_of(seeds)[1].x == 5.5);
   seeds.move_to({{6, 6}});
@@ -109,9 +112,10 @@ BOOST_AUTO_TEST_CASE(absent_seeds) {
   const std::vector<Point> values = {{3, 4}, {not_a_number, 0}, {15, 5}, {1e300, 1}};
   const std::vector<std::uint8_t> marks = {1, 0, 255, 0};
   const Points marked = Points(values).marked(marks.data());
-  Seeds moved(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}, {4, 4}});
+  Seeds moved(test_device(), grid, {{1, 1}, {2, 2}, {3, 3}, {4, 4}}, to_centres);
   moved.move_to(points);
-  const Seeds constructed(test_device(), grid, points), of_marks(test_device(), grid, marked);
+  const Seeds constructed(test_device(), grid, points, to_centres),
+      of_marks(test_device(), grid, marked, to_centres);
   for (const Seeds* const seeds : {&constructed, &std::as_const(moved), &of_marks}) {
     BOOST_TEST(seeds->size() == 4u);
     BOOST_TEST(seeds->alive() == 2u);
@@ -134,7 +138,7 @@ BOOST_AUTO_TEST_CASE(points_in_units_of_the_data) {
   std::uniform_real_distribution<double> degrees(-900, 900), latitude(-90, 90);
   std::vector<Point> points = {{180, 90}, {-180, -90}, {540, 0}};
   for (int i = 0; i < 200; ++i) points.push_back({degrees(rng), latitude(rng)});
-  const Seeds seeds(test_device(), grid, points, Outside::refuse);
+  const Seeds seeds(test_device(), grid, points, {Outside::refuse, Snap::to_pixels});
   const std::vector<Point> as_given = points_of(seeds), centres = centres_of(seeds);
   BOOST_REQUIRE(centres.size() == points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -152,7 +156,7 @@ BOOST_AUTO_TEST_CASE(points_in_units_of_the_data) {
 BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
   const Grid grid(20, 10, Axes::y);
   const std::vector<Point> points = {{1, 1}, {-0.5, 3}, {19.9, -3}, {20, 25}};
-  const Seeds counted(test_device(), grid, points);
+  const Seeds counted(test_device(), grid, points, to_centres);
   BOOST_TEST(counted.alive() == 4u);
   BOOST_TEST(counted.outside() == 2u);
   const SomePoints centres = {Point{1.5, 1.5}, Point{-0.5, 3.5}, Point{19.5, 7.5}, Point{20.5, 5.5}};
@@ -161,7 +165,7 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
   exact_diagram(counted, diagram);
   BOOST_TEST((diagram.read() == brute_force(grid, {{1, 1}, {-1, 3}, {19, 7}, {20, 5}}, Metric::euclidean)));
 
-  Seeds some(test_device(), grid, points, Outside::absent);
+  Seeds some(test_device(), grid, points, {Outside::absent, Snap::to_pixels});
   BOOST_TEST(some.size() == 4u);
   BOOST_TEST(some.alive() == 2u);
   BOOST_TEST(some.outside() == 0u);
@@ -170,18 +174,22 @@ BOOST_AUTO_TEST_CASE(points_outside_the_grid) {
   BOOST_TEST(same(some.read_pixels(), {Point{1.5, 1.5}, Point{5.5, 5.5}, std::nullopt}));
   check_error([&] { some.move_to({{1, 1}, {not_a_number, 5}}); }, {"point 1", "not finite"});
 
-  check_error([&] { Seeds(test_device(), grid, points, Outside::refuse); },
-              {"point 1 (-0.5", "outside the grid", "[0, 20)"});
-  Seeds all(test_device(), grid, {{1, 1}, {2, 2}}, Outside::refuse);
+  check_error(
+      [&] {
+        Seeds(test_device(), grid, points, {Outside::refuse, Snap::to_pixels});
+      },
+      {"point 1 (-0.5", "outside the grid", "[0, 20)"});
+  Seeds all(test_device(), grid, {{1, 1}, {2, 2}}, {Outside::refuse, Snap::to_pixels});
   check_error([&] { all.move_to({{3, 3}, {20, 2}}); }, {"point 1 (20", "outside the grid"});
   BOOST_TEST(same(all.read(), {Point{1, 1}, Point{2, 2}}));  // where they were
   const Grid closed(Axis(20).closed(), Axis(10));
-  BOOST_TEST(centres_of(Seeds(test_device(), closed, {{20, 2}}, Outside::refuse))[0].x == 19.5);
+  BOOST_TEST(centres_of(Seeds(test_device(), closed, {{20, 2}}, {Outside::refuse, Snap::to_pixels}))[0].x ==
+             19.5);
 }
 
 BOOST_AUTO_TEST_CASE(seeds_on_another_grid) {
   const Grid small(20, 10), large(Axis(60, 0, 30).periodic(), Axis(40, 0, 20));
-  Seeds seeds(test_device(), small, {{1, 1}, {19, 9}});
+  Seeds seeds(test_device(), small, {{1, 1}, {19, 9}}, to_centres);
   const std::vector<Point> points = {{1, 1}, {19, 9}, {31, 19}};
   Diagram of_small(test_device(), small), of_large(test_device(), large);
   exact_diagram(seeds, of_small);
@@ -202,7 +210,7 @@ BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
   std::mt19937 rng(2);
   for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
     const Grid grid(41, 30, axes);
-    Seeds seeds(test_device(), grid, {});
+    Seeds seeds(test_device(), grid, {}, to_centres);
     SomePoints before;
     BOOST_TEST(seeds.displacement() == 0);
     for (int frame = 0; frame < 30; ++frame) {
@@ -234,7 +242,7 @@ BOOST_AUTO_TEST_CASE(the_greatest_way_of_a_seed) {
 BOOST_AUTO_TEST_CASE(a_clone_moves_on_its_own) {
   const Grid grid(20, 10);
   const SomePoints points = {Point{3, 4}, std::nullopt, Point{15, 5}};
-  Seeds seeds(test_device(), grid, points);
+  Seeds seeds(test_device(), grid, points, to_centres);
   Seeds copy = seeds.clone();
   seeds.move_to({Point{1, 1}, Point{2, 2}, Point{3, 3}, Point{4, 4}});
   random_step(seeds, 3, Border::reflect, 1, 1);

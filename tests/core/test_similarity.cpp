@@ -21,8 +21,8 @@ BOOST_AUTO_TEST_CASE(matching_pixels_in_percent) {
 BOOST_AUTO_TEST_CASE(the_device_counts_as_the_host_does) {
   for (const Grid& grid : {Grid(1, 1), Grid(13, 7), Grid(1000, 333), Grid(1023, 5)}) {
     Diagram a(test_device(), grid), b(test_device(), grid);
-    jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 1))), a);
-    jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 2))), b);
+    jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 1)), to_centres), a);
+    jump_flooding(Seeds(test_device(), grid, centres(random_pixels(grid, 50, 2)), to_centres), b);
     BOOST_TEST(similarity_of(a, b) == similarity(a.read(), b.read()));
     BOOST_TEST(similarity_of(a, a) == 100.0);
   }
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(distances_that_differ_by_less_than_the_tolerance_are_equal)
         const std::int64_t column = x(rng);
         points.push_back({column, y(rng)});
       }
-      const Seeds seeds(test_device(), grid, centres(points));
+      const Seeds seeds(test_device(), grid, centres(points), to_centres);
       std::vector<std::uint32_t> labels_a(grid.pixels()), labels_b(grid.pixels());
       for (std::uint32_t& label : labels_a) label = static_cast<std::uint32_t>(rng() % 32);
       for (std::uint32_t& label : labels_b) label = static_cast<std::uint32_t>(rng() % 32);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(diagrams_that_do_not_fit_together_are_refused) {
   check_error([&] { similarity(a, b, result); }, {"different windows"});
   check_error([&] { similarity(a, c, result); }, {"different devices"});
   check_error([&] { similarity(a, a, 1, result); }, {"seeds"});
-  Seeds seeds(test_device(), grid, {{1, 1}});
+  Seeds seeds(test_device(), grid, {{1, 1}}, to_centres);
   exact_diagram(seeds, a);
   check_error([&] { similarity(a, b, 1, result); }, {"different windows"});
   check_error([&] { similarity(a, a, -0.1, result); }, {"tolerance", "-0.1"});

@@ -27,7 +27,7 @@ Report exactly(const Seeds& seeds, Diagram& diagram) { return exact_diagram(seed
 
 BOOST_AUTO_TEST_CASE(a_simulation_refuses_what_it_has_not) {
   const Grid grid(8, 8);
-  check_error([&] { Simulation(Seeds(test_device(), grid, {}), nullptr); }, {"motion"});
+  check_error([&] { Simulation(Seeds(test_device(), grid, {}, to_centres), nullptr); }, {"motion"});
   Simulation simulation = random_walk(1);
   check_error([&] { simulation.add_engine(nullptr); }, {"engine", "empty"});
   simulation.add_engine(exactly);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(a_simulation_goes_on_with_seeds_on_another_grid) {
     Simulation simulation(Seeds::random(test_device(), before, 5, 1), [&](Seeds& seeds, Window&, int frame) {
       if (frame != 1) return;
       if (other_seeds) {
-        seeds = Seeds(test_device(), after, centres(pixels));
+        seeds = Seeds(test_device(), after, centres(pixels), to_centres);
       } else {
         seeds.move_to(after, centres(pixels));
       }
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(a_simulation_can_move_its_window) {
   const std::vector<std::uint32_t> whole = brute_force(grid, pixels, Metric::euclidean);
   const int x[] = {0, 50, 50};
   Simulation simulation(
-      Seeds(test_device(), grid, centres(pixels)), Window(grid, x[0], 5, 20, 30),
+      Seeds(test_device(), grid, centres(pixels), to_centres), Window(grid, x[0], 5, 20, 30),
       [&](Seeds&, Window& window, int frame) { window = Window(grid, x[frame], 5, 20, 30); });
   simulation.add_engine(exactly);
   for (const int left : x) {
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_simulation_can_move_its_window) {
 
 BOOST_AUTO_TEST_CASE(a_window_of_another_grid_is_refused) {
   const Grid grid(60, 40);
-  Simulation simulation(Seeds(test_device(), grid, {{1, 1}}),
+  Simulation simulation(Seeds(test_device(), grid, {{1, 1}}, to_centres),
                         [&](Seeds&, Window& window, int) { window = Window(Grid(90, 90), 0, 0, 60, 40); });
   simulation.add_engine(exactly);
   simulation.step();

@@ -56,7 +56,7 @@ void make_frames(unsigned number, int frames, std::atomic<int>& wrong, std::atom
   const Grid grid(256, 256);
   const Metric metric = number % 2 == 0 ? Metric::euclidean : Metric::manhattan;
   std::mt19937 random(number);
-  Seeds seeds(test_device(), grid, {});
+  Seeds seeds(test_device(), grid, {}, to_centres);
   Diagram diagram(test_device(), grid);
   for (int frame = 0; frame < frames; ++frame) {
     const auto pixels = some_seeds(grid, random);

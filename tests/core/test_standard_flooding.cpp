@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(edge_cases_against_brute_force) {
         const auto ground_truth = brute_force(c.grid, c.seeds, metric);
         Diagram diagram(test_device(), c.grid);
         const Report report =
-            standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds)), diagram, {metric});
+            standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds), to_centres), diagram, {metric});
         const auto labels = diagram.read();
         const Verdict verdict = judge(c.grid, c.seeds, metric, labels, ground_truth);
         BOOST_TEST(verdict.unlabelled == 0);
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(von_neumann_labels_all_pixels_with_existing_seeds) {
     for (const Case& c : all_edge_cases(metric)) {
       BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric)) {
         Diagram diagram(test_device(), c.grid);
-        standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds)), diagram,
+        standard_flooding(Seeds(test_device(), c.grid, centres(c.seeds), to_centres), diagram,
                           {metric, Neighbourhood::von_neumann});
         const auto ground_truth = brute_force(c.grid, c.seeds, metric);
         const Verdict verdict = judge(c.grid, c.seeds, metric, diagram.read(), ground_truth);
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(many_waves_between_two_reads_of_the_flag) {
   // 299 waves: the flag is read in between, and the last interval is not full.
   const Grid grid(300, 4);
   Diagram diagram(test_device(), grid);
-  const Report report = standard_flooding(Seeds(test_device(), grid, {{0, 0}}), diagram);
+  const Report report = standard_flooding(Seeds(test_device(), grid, {{0, 0}}, to_centres), diagram);
   BOOST_TEST(report.waves() == 299);
   const auto labels = diagram.read();
   BOOST_TEST(std::count(labels.begin(), labels.end(), 0u) == 1200);

@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_whole_grid) {
   std::size_t number = 0;
   for (const Metric metric : both_metrics) {
     for (const Case& c : all_edge_cases(metric)) {
-      const PlaneSeeds seeds(c.grid, centres(c.seeds));
+      const PlaneSeeds seeds(c.grid, centres(c.seeds), to_centres);
       constexpr int sides[] = {64, 33, 16, 50, 40};
       const int side = sides[number++ % std::size(sides)];
       const Labels labels = labels_of(seeds, Tiling(c.grid, side), {metric});
@@ -69,10 +69,10 @@ BOOST_AUTO_TEST_CASE(tiles_and_their_order_do_not_matter) {
   for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(700, 500, axes);
     const std::vector<Pixel> pixels = random_pixels(grid, 900, 5);
-    const PlaneSeeds seeds(grid, centres(pixels));
+    const PlaneSeeds seeds(grid, centres(pixels), to_centres);
     Diagram diagram(test_device(), grid);
     for (const Metric metric : both_metrics) {
-      exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram, {metric});
+      exact_diagram(Seeds(test_device(), grid, centres(pixels), to_centres), diagram, {metric});
       const Labels expected = diagram.read();
       for (const int side : {100, 256, 700}) {
         const Tiling tiling(grid, side);
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(distances_may_pass_32_bits) {
                                      {-0.5, side / 2}};
   for (const Axes axes : {Axes::none, Axes::x, Axes::xy}) {
     const Grid grid(Axis::max_pixels, Axis::max_pixels, axes);
-    const PlaneSeeds seeds(grid, points);
+    const PlaneSeeds seeds(grid, points, to_centres);
     const std::int64_t last = Axis::max_pixels - 1, middle = last / 2;
     std::vector<Window> windows = {{grid, 0, 0, 40, 30},
                                    {grid, last - 39, last - 29, 40, 30},
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(few_seeds_of_a_far_cluster_matter) {
   for (const Axes axes : {Axes::none, Axes::xy}) {
     const Grid grid(65536, 65536, axes);
     const std::vector<Point> points = disc({20000, 30000}, 1000, 20000, 3);
-    const PlaneSeeds seeds(grid, points);
+    const PlaneSeeds seeds(grid, points, to_centres);
     std::mt19937 rng(8);
     const auto below = [&](unsigned end) { return static_cast<std::int64_t>(rng() % end); };
     for (int i = 0; i < 6; ++i) {
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(tiles_of_windows) {
     for (int i = 0; i < 60; ++i)
       points.push_back(
           centre({below(3 * grid.width()) - grid.width(), below(3 * grid.height()) - grid.height()}));
-    const PlaneSeeds seeds(grid, points);
-    BOOST_TEST(seeds.outside() == Seeds(test_device(), grid, points).outside());
+    const PlaneSeeds seeds(grid, points, to_centres);
+    BOOST_TEST(seeds.outside() == Seeds(test_device(), grid, points, to_centres).outside());
     const Metric metric = both_metrics[number % 2];
     BOOST_TEST(count_differences(labels_of(seeds, Tiling(window, 1 + below(60)), {metric}),
                                  brute_force(window, points, metric)) == 0u);
@@ -187,8 +187,8 @@ BOOST_AUTO_TEST_CASE(tiles_of_points_are_one_grid) {
         points.push_back({within(-30, 150, i % 2 == 0), within(-30, 120, i % 2 == 0)});
         if (i % 5 == 0) points.push_back(points[i / 2]);  // at one place
       }
-      const PlaneSeeds seeds(grid, points, Outside::count, Snap::none);
-      const Seeds whole(test_device(), grid, points, Outside::count, Snap::none);
+      const PlaneSeeds seeds(grid, points, {Outside::count, Snap::none});
+      const Seeds whole(test_device(), grid, points, {Outside::count, Snap::none});
       Diagram diagram(test_device(), grid), snapped(test_device(), grid);
       for (const Metric metric : both_metrics) {
         exact_diagram(whole, diagram, {metric});
@@ -197,10 +197,11 @@ BOOST_AUTO_TEST_CASE(tiles_of_points_are_one_grid) {
           BOOST_TEST(count_differences(labels_of(seeds, Tiling(grid, side), {metric}), expected) == 0u,
                      count << " points, tiles of " << side << ", " << name_of(metric));
         }
-        exact_diagram(Seeds(test_device(), grid, points), snapped, {metric});
+        exact_diagram(Seeds(test_device(), grid, points, to_centres), snapped, {metric});
         if (count > 7) BOOST_TEST(count_differences(snapped.read(), expected) > 100u);
-        BOOST_TEST(count_differences(labels_of(PlaneSeeds(grid, points), Tiling(grid, 50), {metric}),
-                                     snapped.read()) == 0u);
+        BOOST_TEST(
+            count_differences(labels_of(PlaneSeeds(grid, points, to_centres), Tiling(grid, 50), {metric}),
+                              snapped.read()) == 0u);
       }
     }
   }
@@ -216,14 +217,14 @@ BOOST_AUTO_TEST_CASE(cells_of_tiles_of_points_are_those_of_one_grid) {
   // One owns more than half a period, along which pixels lie the shorter way round from it.
   for (const std::size_t count : {points.size(), std::size_t{2}, std::size_t{1}}) {
     points.resize(count);
-    const PlaneSeeds seeds(grid, points, Outside::count, Snap::none);
+    const PlaneSeeds seeds(grid, points, {Outside::count, Snap::none});
     PlaneCells cells;
     TileOptions options;
     options.cells = &cells;
     exact_tiles(
         test_device(), seeds, Tiling(grid, 33), [](const TileLabels&) {}, options);
     Diagram diagram(test_device(), grid);
-    exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+    exact_diagram(Seeds(test_device(), grid, points, {Outside::count, Snap::none}), diagram);
     CellSumsResult sums;
     CellShapesResult shapes;
     cell_sums(diagram, sums);
@@ -245,13 +246,14 @@ BOOST_AUTO_TEST_CASE(cells_of_tiles_of_points_are_those_of_one_grid) {
 BOOST_AUTO_TEST_CASE(seeds_may_come_with_ids_of_their_own) {
   const Grid grid(300, 200);
   const std::vector<Point> points = {{10, 10}, {200, 100}, {10.5, 10.5}, {250, 150}};
-  PlaneSeeds seeds(grid);
+  PlaneSeeds seeds(grid, to_centres);
   const std::vector<PlaneSeed> shuffled = {{10, 10, 2}, {250, 150, 3}, {10, 10, 0}, {200, 100, 1}};
   seeds.add(shuffled.data(), shuffled.size());
   BOOST_TEST(seeds.alive() == 4u);
   BOOST_TEST(seeds.id_end() == 4u);
   const Tiling tiling(grid, 128);
-  BOOST_TEST(count_differences(labels_of(seeds, tiling), labels_of(PlaneSeeds(grid, points), tiling)) == 0u);
+  BOOST_TEST(count_differences(labels_of(seeds, tiling),
+                               labels_of(PlaneSeeds(grid, points, to_centres), tiling)) == 0u);
 }
 
 BOOST_AUTO_TEST_CASE(points_are_taken_as_by_seeds) {
@@ -259,21 +261,24 @@ BOOST_AUTO_TEST_CASE(points_are_taken_as_by_seeds) {
   const std::vector<std::optional<Point>> points = {Point{190, 80},   std::nullopt,   Point{0, 90.1},
                                                     Point{-700, -90}, Point{17, -17}, Point{0, -90.1}};
   for (const Outside outside : {Outside::count, Outside::absent}) {
-    PlaneSeeds seeds(grid, outside);
+    PlaneSeeds seeds(grid, {outside, Snap::to_pixels});
     seeds.add(Points(points));
     seeds.add(std::vector<Point>{{100, 3}});
     BOOST_TEST(seeds.id_end() == 7u);
     std::vector<std::optional<Point>> all = points;
     all.push_back(Point{100, 3});
-    const Seeds expected(test_device(), grid, all, outside);
+    const Seeds expected(test_device(), grid, all, {outside, Snap::to_pixels});
     BOOST_TEST(seeds.alive() == expected.alive());
     BOOST_TEST(seeds.outside() == expected.outside());
     Diagram diagram(test_device(), grid);
     exact_diagram(expected, diagram);
     BOOST_TEST(count_differences(labels_of(seeds, Tiling(grid, 32)), diagram.read()) == 0u);
   }
-  check_error([&] { PlaneSeeds(grid, points, Outside::refuse); },
-              {"point 2", "outside the grid", "[-90, 90)"});
+  check_error(
+      [&] {
+        PlaneSeeds(grid, points, {Outside::refuse, Snap::to_pixels});
+      },
+      {"point 2", "outside the grid", "[-90, 90)"});
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
@@ -284,7 +289,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
   check_error([&] { Tiling(grid, 10).tile(100); }, {"no tile 100"});
 
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  PlaneSeeds seeds(grid), periodic(torus);
+  PlaneSeeds seeds(grid, to_centres), periodic(torus, to_centres);
   const std::vector<Point> good = {{1, 1}, {99, 99}}, bad = {{2, 2}, {nan, 3}}, far = {{3e9, 3}};
   seeds.add(good);
   check_error([&] { seeds.add(bad); }, {"point 3", "not finite"});
@@ -301,8 +306,9 @@ BOOST_AUTO_TEST_CASE(what_is_not_possible_is_refused) {
   seeds.find_near(grid, Metric::euclidean, near);
   BOOST_TEST(near.size() == 2u);
   check_error([&] { seeds.add(good); }, {"asked for already"});
-  check_error([&] { PlaneSeeds(Grid(40000, 1)).find_near(Grid(40000, 1), Metric::euclidean, near); },
-              {"40000 x 1", "32768"});
+  check_error(
+      [&] { PlaneSeeds(Grid(40000, 1), to_centres).find_near(Grid(40000, 1), Metric::euclidean, near); },
+      {"40000 x 1", "32768"});
   check_error([&] { exact_tiles(test_device(), seeds, Tiling(Grid(50, 100), 10), [](const TileLabels&) {}); },
               {"another grid"});
 

@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_all_images) {
     const Engine& engine =
         long_tests ? engines()[number % engines().size()] : engine_for(*random.window, metric, number);
     Diagram diagram(engine.device, *random.window);
-    exact_diagram(Seeds(engine.device, random.box.grid(), random.points, Outside::count, random.snap),
+    exact_diagram(Seeds(engine.device, random.box.grid(), random.points, {Outside::count, random.snap}),
                   diagram, {metric});
     const std::size_t wrong = count_differences(
         diagram.read(), labels_by_definition(random.box, *random.window, random.seeds, metric));
@@ -205,7 +205,7 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_nearest_images) {
     const bool is_whole = window.periodic() == Axes::xy;
     if (!is_whole && window.periodic() != Axes::none) continue;  // of flat grids, for test_window_measures
     const Metric metric = number % 3 == 0 ? Metric::manhattan : Metric::euclidean;
-    const Seeds seeds(test_device(), box.grid(), random.points, Outside::count, random.snap);
+    const Seeds seeds(test_device(), box.grid(), random.points, {Outside::count, random.snap});
     Diagram diagram(test_device(), window);
     exact_diagram(seeds, diagram, {metric});
     const Labels labels = diagram.read();
@@ -329,12 +329,12 @@ BOOST_AUTO_TEST_CASE(axes_in_data_units_tilt_the_way_that_they_point) {
     std::vector<Point> points, in_pixels;
     for (int i = 0; i < 30; ++i) points.push_back({between(-3, 9), between(2, 7)});
     Diagram diagram(test_device(), grid);
-    const Seeds seeds(test_device(), grid, points, Outside::count, Snap::none);
+    const Seeds seeds(test_device(), grid, points, {Outside::count, Snap::none});
     exact_diagram(seeds, diagram);
     // In floats, with all images near: what is not a tie is the same.
     const Labels labels = diagram.read();
     const std::vector<Point> rounded =
-        points_of(Seeds(test_device(), grid, points, Outside::count, Snap::none));
+        points_of(Seeds(test_device(), grid, points, {Outside::count, Snap::none}));
     std::size_t wrong = 0;
     for (std::size_t i = 0; i < labels.size(); ++i) {
       const Point at = grid.point({static_cast<double>(i % 48) + 0.5, static_cast<double>(i / 48) + 0.5});
@@ -364,8 +364,8 @@ BOOST_AUTO_TEST_CASE(images_of_points_are_one_seed) {
   const std::vector<Point> points = {{-4.9, 1.01}, {0.3, 2.2}, {4.99, 3.999}};
   std::vector<Point> images;
   for (const Point& point : points) images.push_back({point.x + 20 - 3 * tilt, point.y - 9});
-  const std::vector<Point> at = centres_of({test_device(), grid, points, Outside::count, Snap::none});
-  const std::vector<Point> found = centres_of({test_device(), grid, images, Outside::refuse, Snap::none});
+  const std::vector<Point> at = centres_of({test_device(), grid, points, {Outside::count, Snap::none}});
+  const std::vector<Point> found = centres_of({test_device(), grid, images, {Outside::refuse, Snap::none}});
   for (std::size_t id = 0; id < at.size(); ++id) {
     BOOST_TEST(std::abs(found[id].x - at[id].x) <= 1.0 / parts);
     BOOST_TEST(std::abs(found[id].y - at[id].y) <= 1.0 / parts);
@@ -429,7 +429,7 @@ BOOST_AUTO_TEST_CASE(seeds_that_the_device_makes_are_tilted_too) {
 
 BOOST_AUTO_TEST_CASE(seeds_move_the_shortest_way) {
   const Grid grid = Grid(100, 40, Axes::xy).tilted(30);
-  Seeds seeds(test_device(), grid, {{50.5, 1.5}, {10.5, 20.5}});
+  Seeds seeds(test_device(), grid, {{50.5, 1.5}, {10.5, 20.5}}, to_centres);
   // Up through the first row, and into the last one 30 pixels further along x.
   seeds.move_to({{81.5, 39.5}, {10.5, 21.5}});
   BOOST_TEST(seeds.displacement() == 2);
@@ -440,7 +440,7 @@ BOOST_AUTO_TEST_CASE(seeds_move_the_shortest_way) {
 BOOST_AUTO_TEST_CASE(what_knows_no_tilt_says_so) {
   const Grid grid = Grid(64, 48, Axes::xy).tilted(10);
   const std::vector<Point> points = {{3, 4}, {40, 30}};
-  Seeds seeds(test_device(), grid, points);
+  Seeds seeds(test_device(), grid, points, to_centres);
   Diagram diagram(test_device(), grid);
   for (const Method& method : methods()) {
     if (method.exact) continue;
@@ -453,11 +453,12 @@ BOOST_AUTO_TEST_CASE(what_knows_no_tilt_says_so) {
   exact_diagram(seeds, diagram);
   check_error([&] { energy(diagram); }, {"tilted", "Lloyd relaxation"});
   check_error([&] { Tiling(grid, 32); }, {"tilted", "tiles"});
-  check_error([&] { PlaneSeeds(grid, points); }, {"tilted", "tiles"});
+  check_error([&] { PlaneSeeds(grid, points, to_centres); }, {"tilted", "tiles"});
   const Grid large = Grid(200000, 48, Axes::xy).tilted(10);
   Diagram part(test_device(), Window(large, 0, 0, 64, 48));
-  check_error([&] { exact_diagram(Seeds(test_device(), large, points), part); },
+  check_error([&] { exact_diagram(Seeds(test_device(), large, points, to_centres), part); },
               {"tilted", "200000", "131072"});
-  check_error([&] { exact_diagram(Seeds(test_device(), Grid(64, 48, Axes::xy), points), diagram); },
-              {"grid"});
+  check_error(
+      [&] { exact_diagram(Seeds(test_device(), Grid(64, 48, Axes::xy), points, to_centres), diagram); },
+      {"grid"});
 }

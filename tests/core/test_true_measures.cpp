@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_points) {
     const Metric metric = number % 5 == 0 ? Metric::manhattan : Metric::euclidean;
     std::vector<Point> points = random_points(grid, 1 + static_cast<std::size_t>(below(80)), number);
     for (Point& point : points) point = {point.x * 1.2 - 3, point.y * 1.2 - 3};
-    const Seeds seeds(test_device(), grid, points, Outside::count, Snap::none);
+    const Seeds seeds(test_device(), grid, points, {Outside::count, Snap::none});
     Diagram diagram(test_device(), window);
     exact_diagram(seeds, diagram, {metric});
     Measured of = {window, metric, diagram.read(), {}};
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(measures_are_those_of_the_points) {
 
 BOOST_AUTO_TEST_CASE(flooding_is_judged_by_pixels_or_by_points) {
   const Grid grid(200, 150);
-  const Seeds seeds(test_device(), grid, random_points(grid, 400, 5), Outside::count, Snap::none);
+  const Seeds seeds(test_device(), grid, random_points(grid, 400, 5), {Outside::count, Snap::none});
   Diagram of_points(test_device(), grid), flooded(test_device(), grid);
   exact_diagram(seeds, of_points);
   jump_flooding(seeds, flooded);
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(flooding_is_judged_by_pixels_or_by_points) {
 
 BOOST_AUTO_TEST_CASE(whole_numbers_are_refused) {
   const Grid grid(30, 20);
-  const Seeds seeds(test_device(), grid, {{3.25, 4.5}}, Outside::count, Snap::none);
+  const Seeds seeds(test_device(), grid, {{3.25, 4.5}}, {Outside::count, Snap::none});
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
   Field<std::int32_t> distances;
@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(whole_numbers_are_refused) {
 
 BOOST_AUTO_TEST_CASE(labels_expand_to_distances_from_points) {
   const Grid grid(40, 30);
-  const Seeds seeds(test_device(), grid, {{10.25, 10.75}, {30.5, 20.125}}, Outside::count, Snap::none);
+  const Seeds seeds(test_device(), grid, {{10.25, 10.75}, {30.5, 20.125}}, {Outside::count, Snap::none});
   Diagram diagram(test_device(), grid);
   exact_diagram(seeds, diagram);
   Field<std::uint32_t> expanded;
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(relaxed_points_are_no_lattice) {
   const std::vector<Point> points = random_points(grid, 200, 3);
   double deviations[2] = {};
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {
-    Seeds seeds(test_device(), grid, points, Outside::count, snap);
+    Seeds seeds(test_device(), grid, points, {Outside::count, snap});
     Diagram diagram(test_device(), grid);
     const Relaxation relaxation = relax(seeds, diagram, exactly, 400);
     BOOST_TEST(relaxation.converged);
@@ -262,7 +262,7 @@ BOOST_AUTO_TEST_CASE(relaxed_points_are_no_lattice) {
   BOOST_TEST(deviations[1] < 0.6 * deviations[0]);
   check_error(
       [&] {
-        Seeds seeds(test_device(), grid, points);
+        Seeds seeds(test_device(), grid, points, to_centres);
         Diagram diagram(test_device(), grid);
         relax(seeds, diagram, exactly, 4, {}, {0.0});
       },

@@ -89,7 +89,7 @@ struct RandomCase {
 Labels labels_of(const Engine& engine, const Window& window, const std::vector<std::optional<Point>>& points,
                  Metric metric) {
   Diagram diagram(engine.device, window);
-  exact_diagram(Seeds(engine.device, window.grid(), points, Outside::count, Snap::none), diagram, {metric});
+  exact_diagram(Seeds(engine.device, window.grid(), points, {Outside::count, Snap::none}), diagram, {metric});
   return diagram.read();
 }
 
@@ -163,8 +163,8 @@ BOOST_AUTO_TEST_CASE(points_on_pixel_centres_give_the_labels_of_snapped_seeds) {
     const std::vector<Pixel> pixels = seeds_of_plane(grid, kind, kind);
     for (const Metric metric : both_metrics) {
       Diagram snapped(test_device(), grid), true_one(test_device(), grid);
-      exact_diagram(Seeds(test_device(), grid, centres(pixels)), snapped, {metric});
-      exact_diagram(Seeds(test_device(), grid, centres(pixels), Outside::count, Snap::none), true_one,
+      exact_diagram(Seeds(test_device(), grid, centres(pixels), to_centres), snapped, {metric});
+      exact_diagram(Seeds(test_device(), grid, centres(pixels), {Outside::count, Snap::none}), true_one,
                     {metric});
       BOOST_TEST(count_differences(snapped.read(), true_one.read()) == 0u, "kind " << kind);
     }
@@ -175,10 +175,10 @@ BOOST_AUTO_TEST_CASE(several_points_of_a_pixel_own_pixels) {
   const Grid grid(20, 4);
   const std::vector<Point> points = {{10.25, 2}, {10.75, 2}};
   Diagram diagram(test_device(), grid);
-  exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+  exact_diagram(Seeds(test_device(), grid, points, {Outside::count, Snap::none}), diagram);
   const Labels labels = diagram.read();
   for (std::size_t i = 0; i < labels.size(); ++i) BOOST_TEST(labels[i] == (i % 20 <= 10 ? 0u : 1u));
-  exact_diagram(Seeds(test_device(), grid, points), diagram);
+  exact_diagram(Seeds(test_device(), grid, points, to_centres), diagram);
   const Labels snapped = diagram.read();
   BOOST_TEST(std::count(snapped.begin(), snapped.end(), 1u) == 0);
 }
@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(several_points_of_a_pixel_own_pixels) {
 BOOST_AUTO_TEST_CASE(positions_are_what_diagrams_take) {
   const Grid grid(Axis(100, -1, 1).periodic(), Axis(50, 0, 10).reversed());
   const std::vector<Point> points = {{-0.9999, 0.01}, {0.123456789, 3.3333}, {1, 9.99999999999}};
-  const Seeds seeds(test_device(), grid, points, Outside::count, Snap::none);
+  const Seeds seeds(test_device(), grid, points, {Outside::count, Snap::none});
   const std::vector<Point> at = all_of(seeds.read_pixels());
   for (std::size_t id = 0; id < points.size(); ++id) {
     BOOST_TEST(std::floor(at[id].x) == grid.x().pixel(points[id].x));
@@ -201,11 +201,11 @@ BOOST_AUTO_TEST_CASE(positions_are_what_diagrams_take) {
 
 BOOST_AUTO_TEST_CASE(what_is_too_far_is_refused_by_name) {
   const Grid grid(30, 20);
-  const Seeds seeds(test_device(), grid, {{300000.0, 5.0}}, Outside::count, Snap::none);
+  const Seeds seeds(test_device(), grid, {{300000.0, 5.0}}, {Outside::count, Snap::none});
   Diagram diagram(test_device(), grid);
   check_error([&] { exact_diagram(seeds, diagram); }, {"seed 0", "262144 pixels", "snap"});
   // One that owns no pixel does not matter.
-  const Seeds both(test_device(), grid, {{300000.0, 5.0}, {3.0, 5.0}}, Outside::count, Snap::none);
+  const Seeds both(test_device(), grid, {{300000.0, 5.0}, {3.0, 5.0}}, {Outside::count, Snap::none});
   exact_diagram(both, diagram);
   const Labels labels = diagram.read();
   BOOST_TEST(std::count(labels.begin(), labels.end(), 1u) == 600);
@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(seeds_are_near_across_the_ends_of_periods_of_any_length) {
         const Labels expected = labels_by_definition(window, positions, Metric::euclidean);
         for (const Engine& engine : engines_of(Metric::euclidean)) {
           Diagram diagram(engine.device, window);
-          exact_diagram(Seeds(engine.device, grid, points, Outside::count, Snap::none), diagram);
+          exact_diagram(Seeds(engine.device, grid, points, {Outside::count, Snap::none}), diagram);
           Field<float> distances;
           distance_field(diagram, distances);
           const std::vector<float> found = distances.read();
@@ -257,21 +257,23 @@ BOOST_AUTO_TEST_CASE(seeds_are_near_across_the_ends_of_periods_of_any_length) {
 BOOST_AUTO_TEST_CASE(a_frame_that_moves_and_floods_takes_pixels) {
   const Grid grid(60, 40);
   std::vector<Point> points = {{10.2, 10.9}, {10.8, 10.1}, {45.5, 30.25}};
-  Seeds seeds(test_device(), grid, points, Outside::count, Snap::none), snapped(test_device(), grid, points);
+  Seeds seeds(test_device(), grid, points, {Outside::count, Snap::none}),
+      snapped(test_device(), grid, points, to_centres);
   Diagram diagram(test_device(), grid), of_pixels(test_device(), grid);
   for (int frame = 0; frame < 4; ++frame) {
     for (Point& point : points) point = {point.x + 0.3, point.y + 0.2};
     seeds.move_to(points);
-    exact_diagram(seeds, diagram);
+    BOOST_TEST(!exact_diagram(seeds, diagram).snapped());
     BOOST_TEST(count_differences(diagram.read(), labels_by_definition(
                                                      grid, positions_of(grid, {points.begin(), points.end()}),
                                                      Metric::euclidean)) == 0u);
     snapped.move_to(points);
-    jump_flooding(seeds, diagram);
-    jump_flooding(snapped, of_pixels);
+    BOOST_TEST(jump_flooding(seeds, diagram).snapped());
+    BOOST_TEST(!jump_flooding(snapped, of_pixels).snapped());
     BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);
   }
   random_step(seeds, 0, Border::reflect, 1, 1);
+  BOOST_TEST(!jump_flooding(seeds, diagram).snapped());
   exact_diagram(seeds, diagram);
   exact_diagram(snapped, of_pixels);
   BOOST_TEST(count_differences(diagram.read(), of_pixels.read()) == 0u);

@@ -378,7 +378,7 @@ BOOST_AUTO_TEST_CASE(fields_of_volumes_are_those_of_the_host) {
 BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
   for (const Device& device : shapes()) {
     const Grid grid(3, 2000, 1500);
-    const Seeds seeds(device, grid, std::vector<Point>{{1, 1900, 1400}});
+    const Seeds seeds(device, grid, std::vector<Point>{{1, 1900, 1400}}, to_centres);
     Diagram diagram(device, grid);
     diagram.write(Labels(grid.pixels(), 0), seeds, Metric::euclidean);
     CellSumsResult result;
@@ -395,7 +395,7 @@ BOOST_AUTO_TEST_CASE(sums_past_32_bits) {
 /// Two cells side by side share one face for each voxel between them, a known area.
 BOOST_AUTO_TEST_CASE(halves_of_a_box_touch_in_their_section) {
   const Grid grid(20, 11, 7);
-  const Seeds seeds(test_device(), grid, std::vector<Point>{{4, 5, 3}, {15, 5, 3}});
+  const Seeds seeds(test_device(), grid, std::vector<Point>{{4, 5, 3}, {15, 5, 3}}, to_centres);
   Diagram diagram(test_device(), grid);
   jump_flooding(seeds, diagram);
   AdjacencyResult pairs;

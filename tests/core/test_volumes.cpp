@@ -361,7 +361,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
   const double xyz[] = {2.5, 2.5, 2.5, 11, 3, 4, 17.5, 9.5, 5.5, 90, 3, 4};
   const std::uint8_t present[] = {1, 0, 1, 1};
   const Points points = Points(xyz, xyz + 1, xyz + 2, 4, 3 * sizeof(double)).marked(present);
-  const Seeds seeds(test_device(), grid, points, Outside::absent);
+  const Seeds seeds(test_device(), grid, points, {Outside::absent, Snap::to_pixels});
   BOOST_TEST(seeds.size() == 4u);
   BOOST_TEST(seeds.alive() == 2u);
   const auto voxels = seeds.read_pixels();
@@ -379,7 +379,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
 
 BOOST_AUTO_TEST_CASE(points_lie_in_the_voxel_of_their_axes) {
   const Grid grid(Axis(8, -4, 4), Axis(4, 0, 1).reversed(), Axis(2, 10, 12).closed());
-  const Seeds seeds(test_device(), grid, std::vector<Point>{{-4, 0, 10}, {3.9, 0.99, 12}});
+  const Seeds seeds(test_device(), grid, std::vector<Point>{{-4, 0, 10}, {3.9, 0.99, 12}}, to_centres);
   const auto voxels = seeds.read_pixels();
   BOOST_TEST((voxels[0]->x == 0.5 && voxels[0]->y == 3.5 && voxels[0]->z == 0.5));
   BOOST_TEST((voxels[1]->x == 7.5 && voxels[1]->y == 0.5 && voxels[1]->z == 1.5));
@@ -387,17 +387,20 @@ BOOST_AUTO_TEST_CASE(points_lie_in_the_voxel_of_their_axes) {
 
 BOOST_AUTO_TEST_CASE(seeds_say_how_far_they_went) {
   const Grid grid(20, 30, 40);
-  Seeds seeds(test_device(), grid, std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
+  Seeds seeds(test_device(), grid, std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}}, to_centres);
   seeds.move_to(std::vector<Point>{{3, 1, 3}, {10, 20, 37.5}, {5, 5, 4}});
   BOOST_TEST(seeds.displacement() == 7);
   seeds.move_to(std::vector<Point>{{3, 12, 3}});
   BOOST_TEST(seeds.displacement() == 11);
   Seeds wrapping(test_device(), periodic(grid, true, false, true),
-                 std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}});
+                 std::vector<Point>{{1, 2, 3}, {10, 20, 30}, {5, 5, 5}}, to_centres);
   wrapping.move_to(std::vector<Point>{{-2, 1, -6}, {10, 22, 30}, {26, 5, 5}});
   BOOST_TEST(wrapping.displacement() == 9);
   Seeds random = Seeds::random(test_device(), grid, 3, 1);
   random.move_to(std::vector<Point>{{1, 2, 3}});
+  Diagram diagram(test_device(), grid);
+  BOOST_TEST((jump_flooding(random, diagram).snapped() && !jump_flooding(seeds, diagram).snapped()));
+  BOOST_TEST(!jump_flooding(Seeds::random(test_device(), grid, 4, 1), diagram).snapped());
   BOOST_TEST((random.read_pixels()[0]->z == 3.5 && random.read()[0]->z == 3));
 }
 
@@ -624,15 +627,45 @@ BOOST_AUTO_TEST_CASE(what_volumes_cannot_be_is_refused) {
   BOOST_TEST((Window(grid, 0, 0, 0, 8, 8, 8) == Window(grid) && !Window(grid, 0, 0, 0, 8, 8, 7).is_whole()));
   BOOST_TEST((Window(Grid(8, 8, 8, Axes::xz), 0, 0, -1, 8, 8, 8).z() == 7));
   const double one = 1;
-  check_refusal("the points have no z", [&] { Seeds(device, grid, Points(&one, &one, 1)); });
-  const std::vector<Point> point = {{1, 2, 3}}, outside = {{1, 2, 3}, {1, 2, 8}},
-                           not_a_number = {{1, 2, NAN}};
-  check_refusal("whole voxels alone", [&] { Seeds(device, grid, point, Outside::count, Snap::none); });
+  check_refusal("the points have no z", [&] { Seeds(device, grid, Points(&one, &one, 1), to_centres); });
+  const std::vector<Point> outside = {{1, 2, 3}, {1, 2, 8}}, not_a_number = {{1, 2, NAN}};
   for (const Outside count_or_refuse : {Outside::count, Outside::refuse}) {
     check_refusal("8.000000) is outside the grid; x must be in [0, 8), y in [0, 8) and z in [0, 8)",
-                  [&] { Seeds(device, grid, outside, count_or_refuse); });
+                  [&] { Seeds(device, grid, outside, {count_or_refuse}); });
   }
-  check_refusal("is not finite", [&] { Seeds(device, grid, not_a_number, Outside::absent); });
+  check_refusal("is not finite", [&] {
+    Seeds(device, grid, not_a_number, {Outside::absent, Snap::to_pixels});
+  });
+}
+
+BOOST_AUTO_TEST_CASE(points_of_volumes_come_in_buffers) {
+  const Grid grid(Axis(8, 0, 4), Axis(6), Axis(4).periodic());
+  std::vector<Point> points = {{0.3, 2, 1.5}, {3.9, 5.5, -1}, {1, NAN, 1}};
+  std::vector<float> in_floats;
+  for (const Point& point : points) {
+    for (const double along : {point.x, point.y, point.z}) in_floats.push_back(static_cast<float>(along));
+  }
+  std::vector<std::uint8_t> present = {1, 1, 0};
+  const cl::Context& context = test_device().context();
+  const cl::Buffer doubles(context, CL_MEM_COPY_HOST_PTR, sizeof(Point) * 3, points.data()),
+      floats(context, CL_MEM_COPY_HOST_PTR, sizeof(float) * 9, in_floats.data()),
+      marks(context, CL_MEM_COPY_HOST_PTR, present.size(), present.data());
+  const auto expected = Seeds(test_device(), grid, Points(points).marked(present.data())).read_pixels();
+  Seeds seeds(test_device(), grid, PointBuffer(floats, 3, PointFormat::floats_xyz, marks));
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto found = seeds.read_pixels();
+    for (std::size_t id = 0; id < 2; ++id) {
+      BOOST_TEST((found[id]->x == expected[id]->x && found[id]->y == expected[id]->y &&
+                  found[id]->z == expected[id]->z));
+    }
+    BOOST_TEST((found[1]->z == 3.5 && !found[2]));
+    seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xyz, marks));
+  }
+  check_refusal("the points have no z",
+                [&] { seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xy)); });
+  check_refusal("point 2", [&] { seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xyz)); });
+  check_refusal("the buffer of 4 points",
+                [&] { seeds.move_to(PointBuffer(doubles, 4, PointFormat::doubles_xyz)); });
 }
 
 /// A plane is the one slice of its grid: it has the points whose z lies in it, or that have none.
@@ -640,25 +673,29 @@ BOOST_AUTO_TEST_CASE(points_of_planes_lie_in_their_slice) {
   const Device& device = test_device();
   const std::vector<Point> points = {{1.25, 2, 5.5}, {6, 3, 7}, {4, 4, 4.99}};
   const Grid slab(Axis(8), Axis(6), Axis(1, 5, 7).closed());
-  const Seeds seeds(device, slab, points, Outside::absent);
+  const Seeds seeds(device, slab, points, {Outside::absent, Snap::to_pixels});
   BOOST_TEST((seeds.alive() == 2u && seeds.read()[0]->z == 5.5 && seeds.read()[1]->z == 7));
   BOOST_TEST((seeds.read_pixels()[1]->z == 0.5 && !seeds.read()[2]));
   for (const Outside count_or_refuse : {Outside::count, Outside::refuse}) {
     check_refusal(
         "point 2 (4.000000, 4.000000, 4.990000) is outside the grid; x must be in [0, 8), y in [0, 6) "
         "and z in [5, 7]",
-        [&] { Seeds(device, slab, points, count_or_refuse); });
+        [&] {
+          Seeds(device, slab, points, {count_or_refuse, Snap::to_pixels});
+        });
   }
   const std::vector<float> x = {1.25f, 6}, y = {2, 3};
-  const Seeds without_z(device, slab, Points(x.data(), y.data(), 2), Outside::refuse, Snap::none);
+  const Seeds without_z(device, slab, Points(x.data(), y.data(), 2), {Outside::refuse, Snap::none});
   BOOST_TEST((without_z.read()[0]->x == 1.25 && without_z.read()[0]->z == 5 && without_z.read()[1]->y == 3));
   check_refusal(
       "(1.000000, 1.000000, 1.000000) is outside the grid; x must be in [0, 8), y in [0, 6) and z in [0, 1)",
       [&] {
-        Seeds(device, Grid(8, 6), {{1, 1, 1}});
+        Seeds(device, Grid(8, 6), {{1, 1, 1}}, to_centres);
       });
-  check_refusal("nan) is not finite", [&] { Seeds(device, Grid(8, 6), {{1, 1, NAN}}, Outside::absent); });
-  PlaneSeeds of_tiles(slab, Outside::absent);
+  check_refusal("nan) is not finite", [&] {
+    Seeds(device, Grid(8, 6), {{1, 1, NAN}}, {Outside::absent, Snap::to_pixels});
+  });
+  PlaneSeeds of_tiles(slab, {Outside::absent, Snap::to_pixels});
   of_tiles.add(points);
   BOOST_TEST(of_tiles.alive() == 2u);
 }

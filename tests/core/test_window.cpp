@@ -17,7 +17,7 @@ const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
 Labels labels_of(const Engine& engine, const Window& window, const std::vector<Pixel>& seeds, Metric metric) {
   Diagram diagram(engine.device, window);
-  exact_diagram(Seeds(engine.device, window.grid(), centres(seeds)), diagram, {metric});
+  exact_diagram(Seeds(engine.device, window.grid(), centres(seeds), to_centres), diagram, {metric});
   return diagram.read();
 }
 
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(windows_are_cut_out_of_the_grid) {
     const std::vector<Pixel> seeds = seeds_of_plane(plane, number % kinds_of_planes, number);
     const Metric metric = both_metrics[number / kinds_of_planes % 2];
     Diagram whole(test_device(), plane);
-    exact_diagram(Seeds(test_device(), plane, centres(seeds)), whole, {metric});
+    exact_diagram(Seeds(test_device(), plane, centres(seeds), to_centres), whole, {metric});
     const Labels all = whole.read();
     for (unsigned i = 0; i < windows_of_plane; ++i) {
       const std::int64_t left = below(plane.width()), top = below(plane.height());
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(all_spellings_of_a_torus) {
       const Labels expected = brute_force(grid, seeds, Metric::euclidean);
       const auto check = [&](const Engine& engine, const Window& window, const std::vector<Point>& points) {
         Diagram diagram(engine.device, window);
-        exact_diagram(Seeds(engine.device, window.grid(), points), diagram);
+        exact_diagram(Seeds(engine.device, window.grid(), points, to_centres), diagram);
         const Labels labels = diagram.read();
         std::size_t wrong = 0, i = 0;
         for (std::int64_t y = 0; y < window.height(); ++y) {
@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(all_spellings_of_a_torus) {
 // Diagrams are of the frame that the seeds had, whatever window they show.
 BOOST_AUTO_TEST_CASE(frames_with_seeds_outside) {
   const Grid grid(20, 10, Axes::x);
-  Seeds seeds(test_device(), grid, {{-0.5, 13}, {5, 3}, {19.9, 3}});
+  Seeds seeds(test_device(), grid, {{-0.5, 13}, {5, 3}, {19.9, 3}}, to_centres);
   BOOST_TEST(seeds.alive() == 3u);
   BOOST_TEST(seeds.outside() == 1u);
   const Window window(grid, 15, 2, 9, 4);
@@ -232,7 +232,7 @@ BOOST_AUTO_TEST_CASE(frames_with_seeds_outside) {
 BOOST_AUTO_TEST_CASE(points_that_are_too_far_away) {
   const Grid grid(20, 10);
   const double side = 2147483648.0;
-  const auto with = [&](Point bad) { Seeds(test_device(), grid, {Point{1, 1}, bad}); };
+  const auto with = [&](Point bad) { Seeds(test_device(), grid, {Point{1, 1}, bad}, to_centres); };
   BOOST_CHECK_NO_THROW(with({side - 1, 10 - side}));
   check_error([&] { with({side, 1}); }, {"point 1", "2147483648", "too far away", "2^31"});
   check_error([&] { with({1, 9 - side}); }, {"point 1", "too far away"});
@@ -241,9 +241,10 @@ BOOST_AUTO_TEST_CASE(points_that_are_too_far_away) {
 
 BOOST_AUTO_TEST_CASE(what_floods_cannot_take_is_refused) {
   const Grid grid(20, 10), torus(20, 10, Axes::xy), long_torus(32001, 10, Axes::x);
-  Seeds outside(test_device(), grid, {{1, 1}, {-1, 1}, {1, 99}});
-  const Seeds inside(test_device(), grid, {{1, 1}}), on_torus(test_device(), torus, {{1, 1}}),
-      on_long_torus(test_device(), long_torus, {{1, 1}});
+  Seeds outside(test_device(), grid, {{1, 1}, {-1, 1}, {1, 99}}, to_centres);
+  const Seeds inside(test_device(), grid, {{1, 1}}, to_centres),
+      on_torus(test_device(), torus, {{1, 1}}, to_centres),
+      on_long_torus(test_device(), long_torus, {{1, 1}}, to_centres);
   Diagram whole(test_device(), grid), part(test_device(), {grid, 0, 0, 20, 9}),
       part_of_torus(test_device(), {torus, 3, 0, 10, 10}), turned(test_device(), {torus, 3, 0, 20, 10}),
       longer(test_device(), {torus, 0, 0, 21, 10}), of_long_torus(test_device(), long_torus);

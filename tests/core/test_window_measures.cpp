@@ -61,7 +61,7 @@ void each_exact_diagram(Use use) {
       for (const Engine& engine : engines_for(window, metric)) {
         Diagram diagram(engine.device, window);
         diagram.write(brute_force(window, measured.seeds, metric),
-                      Seeds(engine.device, window.grid(), centres(measured.seeds)), metric);
+                      Seeds(engine.device, window.grid(), centres(measured.seeds), to_centres), metric);
         BOOST_TEST_CONTEXT(text_of(window, measured.seeds.size()) << ", " << engine.name) {
           use(measured, metric, diagram);
         }
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(errors_of_labels_of_windows) {
     const Window& window = measured.window;
     const Grid& grid = window.grid();
     for (const Metric metric : both_metrics) {
-      const Seeds seeds(test_device(), grid, centres(measured.seeds));
+      const Seeds seeds(test_device(), grid, centres(measured.seeds), to_centres);
       Diagram exact(test_device(), window), diagram(test_device(), window);
       const Labels right = brute_force(window, measured.seeds, metric);
       exact.write(right, seeds, metric);

@@ -97,9 +97,9 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_device) {
       for (const std::vector<Pixel>& pixels : planes) {
         const Metric metric = pixels.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
         Diagram diagram(test_device(), grid);
-        exact_diagram(Seeds(test_device(), grid, centres(pixels)), diagram, {metric});
+        exact_diagram(Seeds(test_device(), grid, centres(pixels), to_centres), diagram, {metric});
         const std::vector<std::uint32_t> expected = diagram.read();
-        SharedSeeds seeds(MPI_COMM_WORLD, grid);
+        SharedSeeds seeds(MPI_COMM_WORLD, grid, Snap::to_pixels);
         add_slice(seeds, pixels, grid.width() == 300);
         seeds.share();
         BOOST_TEST(seeds.size() == pixels.size());
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(labels_of_points_are_those_of_one_device) {
             {static_cast<double>(rng()) * 0x1p-32 * side, static_cast<double>(rng()) * 0x1p-32 * other});
       }
       Diagram diagram(test_device(), grid);
-      exact_diagram(Seeds(test_device(), grid, points, Outside::count, Snap::none), diagram);
+      exact_diagram(Seeds(test_device(), grid, points, {Outside::count, Snap::none}), diagram);
       SharedSeeds seeds(MPI_COMM_WORLD, grid, Snap::none);
       for (std::size_t i = static_cast<std::size_t>(rank()); i < count;
            i += static_cast<std::size_t>(ranks()))
@@ -143,7 +143,7 @@ BOOST_AUTO_TEST_CASE(labels_of_points_are_those_of_one_device) {
 BOOST_AUTO_TEST_CASE(each_rank_holds_as_many) {
   const Grid grid(4000, 4000);
   for (const bool clustered : {false, true}) {
-    SharedSeeds seeds(MPI_COMM_WORLD, grid);
+    SharedSeeds seeds(MPI_COMM_WORLD, grid, Snap::to_pixels);
     std::vector<Pixel> pixels = random_pixels(clustered ? Grid(700, 700) : grid, 200000, 6);
     add_slice(seeds, pixels, false);
     seeds.share();
@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(each_rank_holds_as_many) {
 
 BOOST_AUTO_TEST_CASE(an_error_of_one_rank_is_one_of_all) {
   const Grid grid(100, 100);
-  SharedSeeds seeds(MPI_COMM_WORLD, grid);
+  SharedSeeds seeds(MPI_COMM_WORLD, grid, Snap::to_pixels);
   std::vector<PlaneSeed> near;
   check_error([&] { seeds.find_near(Window(grid, 0, 0, 9, 9), Metric::euclidean, near); }, {"share()"});
   seeds.share();

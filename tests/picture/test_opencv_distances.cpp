@@ -16,7 +16,7 @@ BOOST_AUTO_TEST_CASE(jump_flooding_against_opencv) {
     free.at<std::uint8_t>(static_cast<int>(seed.y), static_cast<int>(seed.x)) = 0;
   cv::distanceTransform(free, expected, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   Diagram diagram(test_device(), grid);
-  jump_flooding(Seeds(test_device(), grid, centres(seeds)), diagram);
+  jump_flooding(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
   const std::vector<std::uint32_t> labels = diagram.read();
   std::size_t wrong = 0, too_near = 0, i = 0;
   for (int y = 0; y < grid.height(); ++y) {

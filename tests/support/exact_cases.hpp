@@ -27,7 +27,7 @@ inline Device shaped(Shape shape, ListLength lists, std::size_t patch_items = 64
 inline Labels exact_labels(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
                            Metric metric = Metric::euclidean) {
   Diagram diagram(device, grid);
-  exact_diagram(Seeds(device, grid, centres(seeds)), diagram, {metric});
+  exact_diagram(Seeds(device, grid, centres(seeds), to_centres), diagram, {metric});
   return diagram.read();
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "snapped_seeds.hpp"
 #include "transformed.hpp"
 #include "vorocl/vorocl.hpp"
 

@@ -95,7 +95,7 @@ std::vector<Point> points_of(const std::string& path) {
 Seeds make_seeds(const Device& device, const Grid& grid, const std::string& source) {
   const auto count = command::parse_number<std::size_t>(source);
   return count ? Seeds::random(device, grid, *count, 1)
-               : Seeds(device, grid, points_of(source), Outside::refuse, Snap::to_pixels);
+               : Seeds(device, grid, points_of(source), {Outside::refuse, Snap::to_pixels});
 }
 
 std::string hash_of(const Labels& labels) {

@@ -57,8 +57,10 @@ Seeds spread_seeds(const Device& device, const Grid& grid, std::size_t count, Sp
                    std::uint64_t rng_seed) {
   if (spread == Spread::uniform) return Seeds::random(device, grid, count, rng_seed);
   Uniform uniform(rng_seed);
-  return {device, grid,
-          spread == Spread::clusters ? clusters(grid, count, uniform) : gradient(grid, count, uniform)};
+  return {device,
+          grid,
+          spread == Spread::clusters ? clusters(grid, count, uniform) : gradient(grid, count, uniform),
+          {Outside::count, Snap::to_pixels}};
 }
 
 }  // namespace vorocl::command

@@ -74,7 +74,7 @@ Contender contender(const Method& method, const Seeds& seeds, Diagram& diagram,
 Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric, Snap snap) {
   const auto labels = std::make_shared<std::vector<std::uint32_t>>(diagram.window().pixels());
   const auto run = [&seeds, points = seeds.read(), &diagram, metric, snap, labels] {
-    const Seeds placed(seeds.device(), seeds.grid(), points, Outside::count, snap);
+    const Seeds placed(seeds.device(), seeds.grid(), points, {Outside::count, snap});
     exact_diagram(placed, diagram, {metric});
     diagram.read(labels->data());
   };
@@ -83,7 +83,8 @@ Contender exact_on_host(const Seeds& seeds, Diagram& diagram, Metric metric, Sna
 
 /// From seeds on the host, which are sorted, to labels on the host, which are there for each tile in turn.
 Contender exact_in_tiles(const Seeds& seeds, int side, Metric metric, Snap snap) {
-  const auto sorted = std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read(), Outside::count, snap);
+  const auto sorted =
+      std::make_shared<PlaneSeeds>(seeds.grid(), seeds.read(), SeedsOptions{Outside::count, snap});
   sorted->sort();
   const auto each_tile = [device = seeds.device(), tiling = Tiling(seeds.grid(), side), metric,
                           sorted](const std::function<void(const TileLabels&)>& use) {

@@ -146,7 +146,7 @@ std::string to_string(const KnownAnswer& answer) {
 
 std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {
   const Grid grid = known_grid(answer);
-  Seeds moving(device, grid, std::vector<Point>());
+  Seeds moving(device, grid, std::vector<Point>(), {Outside::count, Snap::to_pixels});
   Diagram diagram(device, grid);
   Hash hash;
   for (const std::vector<Point>& points : known_frames(answer)) {

@@ -56,7 +56,8 @@ void draw(const cl::Context& context, const cl::Device& cl_device) {
   const vorocl::Device device(context, for_vorocl);
   const vorocl::Grid grid(width, height);
   device.wait_for({uploaded});
-  const vorocl::Seeds seeds(device, grid, vorocl::PointBuffer(points, centres.size()));
+  const vorocl::Seeds seeds(device, grid, vorocl::PointBuffer(points, centres.size()),
+                            {vorocl::Outside::refuse, vorocl::Snap::to_pixels});
   vorocl::Diagram diagram(device, grid, labels);
   const vorocl::Report report = vorocl::jump_flooding(seeds, diagram);
   require(diagram.labels()() == labels(), "the labels are in the program's buffer");

@@ -15,7 +15,8 @@ std::vector<vorocl::Point> particles(int frame) {
 int main() {
   const vorocl::Device device = vorocl::Device::select();
   const vorocl::Grid grid(vorocl::Axis(500, -0.5, 0.5), vorocl::Axis(500, -0.5, 0.5));
-  vorocl::Seeds seeds(device, grid, particles(0));
+  // Methods that flood snap the points: the exact diagram is to be that of the same places.
+  vorocl::Seeds seeds(device, grid, particles(0), {vorocl::Outside::count, vorocl::Snap::to_pixels});
   vorocl::Diagram diagram(device, grid), exact(device, grid);
   for (int frame = 0; frame <= 50; ++frame) {
     if (frame > 0) seeds.move_to(particles(frame));

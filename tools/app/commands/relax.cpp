@@ -240,7 +240,7 @@ void run(RelaxCommand& options) {
       const Grid& grid = input.view.window.grid();
       return Seeds(device, grid,
                    random_points(grid, how.density, options.seeds.random, options.seeds.rng_seed),
-                   Outside::count, Snap::none);
+                   {Outside::count, Snap::none});
     };
   }
   refuse_window(input, "relax");

@@ -46,7 +46,7 @@ void run_tiles(const TilesOptions& options) {
   const FinishAtEnd finish(device);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
-  PlaneSeeds seeds(tiling.window().grid(), Outside::count, options.input.seeds.snapping());
+  PlaneSeeds seeds(tiling.window().grid(), {Outside::count, options.input.seeds.snapping()});
   PlaneReading reading;
   reading.add = [&](std::uint64_t, const std::vector<Point>& places) { seeds.add(places); };
   reading.reserve = [&](std::uint64_t count) { seeds.reserve(static_cast<std::size_t>(count)); };

@@ -44,7 +44,7 @@ ExactInput input_of(const SeedOptions& options, const std::string& file, const G
   return {grid,
           [file, grid, points = std::move(points), outside](const Device& device) {
             try {
-              return Seeds(device, grid, points, outside);
+              return Seeds(device, grid, points, {outside});
             } catch (const BadPoint& error) {
               throw Error(file + ": " + error.what());
             }

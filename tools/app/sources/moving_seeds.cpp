@@ -76,7 +76,7 @@ class Trajectory : public MovingSeeds {
 
   const View& view() const override { return *present_.view; }
   Seeds place(const Device& device) const override {
-    return {device, view().window.grid(), present_.points, Outside::count, snap_};
+    return {device, view().window.grid(), present_.points, {Outside::count, snap_}};
   }
   bool next() override {
     if (frame_ == frames_) return false;

@@ -53,7 +53,7 @@ Input plane_from_points(const SeedOptions& options) {
     note_outside(mapped.outside, points.size(), mapping.bounds, options.keeps_inside);
     return {mapped.view,
             [mapped, snap = mapping.snap](const Device& device) {
-              return Seeds(device, mapped.view.window.grid(), mapped.places, Outside::count, snap);
+              return Seeds(device, mapped.view.window.grid(), mapped.places, {Outside::count, snap});
             },
             read.ids,
             read.values,
@@ -97,7 +97,7 @@ Input plane_at_random(const SeedOptions& options) {
             for (std::size_t id = 0; id < options.random; ++id) {
               pixels.push_back(random_pixel(grid, static_cast<std::uint32_t>(id), options.rng_seed));
             }
-            return Seeds(device, grid, pixels, Outside::count, options.snapping());
+            return Seeds(device, grid, pixels, {Outside::count, options.snapping()});
           },
           {},
           {}};
@@ -107,8 +107,10 @@ Input plane_from_trajectory(const SeedOptions& options) {
   const TrajectorySeeds particles(options, options.frame);
   const View& view = particles.view();
   return {view,
-          [grid = view.window.grid(), points = particles.points(), snap = options.snapping()](
-              const Device& device) { return Seeds(device, grid, points, Outside::count, snap); },
+          [grid = view.window.grid(), points = particles.points(),
+           snap = options.snapping()](const Device& device) {
+            return Seeds(device, grid, points, {Outside::count, snap});
+          },
           particles.ids(),
           particles.values(),
           particles.is_window(),

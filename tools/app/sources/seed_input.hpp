@@ -31,10 +31,10 @@ struct SeedOptions {
   std::int64_t depth = 1;  // more: a volume, which some commands make: see volume_input.hpp
   int width = 0;
   std::optional<Bounds> bounds;
-  std::optional<Crs> crs;            // of points
-  std::optional<Bounds> domain;      // of points: what repeats along the periodic axes; else the bounds
-  std::optional<Outside> outside;    // the bounds; else they count
-  std::optional<Axes> periodic;  // else none, or what the trajectory says
+  std::optional<Crs> crs;          // of points
+  std::optional<Bounds> domain;    // of points: what repeats along the periodic axes; else the bounds
+  std::optional<Outside> outside;  // the bounds; else they count
+  std::optional<Axes> periodic;    // else none, or what the trajectory says
   std::optional<std::pair<double, double>> z_bounds;  // of a volume, as those of `bounds`
   std::optional<Snap> snap;                           // of points and particles, as given; else ...
   Snap usual_snap = Snap::none;

@@ -183,7 +183,7 @@ View view_of(const Grid& grid, bool in_pixels) {
 Input input_from(const View& view, const std::vector<Point>& points, const std::vector<std::uint32_t>& ids,
                  std::optional<std::int64_t> timestep) {
   const auto place = [grid = view.window.grid(), points](const Device& device) {
-    return Seeds(device, grid, points, Outside::refuse);
+    return Seeds(device, grid, points, {Outside::refuse});
   };
   return {view, place, ids, {}, false, timestep};
 }
