@@ -1,9 +1,6 @@
 // Devices, and the grids and reports that say sizes and times.
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
-
-#include <tuple>
 
 #include "module.hpp"
 
@@ -15,38 +12,31 @@ Device adopt(std::uintptr_t context, std::uintptr_t queue) {
   return {retained<cl::Context>(context), retained<cl::CommandQueue>(queue)};
 }
 
-using Bounds = std::tuple<double, double, double, double>;
-
-/// A grid of at most as many pixels as a diagram has: here a diagram shows all of it.
+/// A grid of at most as many pixels as a diagram has: here a diagram shows all of it. `bounds` are (x0, y0,
+/// x1, y1), of a volume (x0, y0, z0, x1, y1, z1).
 Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool periodic_x, bool periodic_y,
-               bool periodic_z, double tilt, const std::optional<Bounds>& bounds, bool y_up, bool closed) {
-  Axis x(width), y(height);
-  if (bounds) {
-    const auto [x0, y0, x1, y1] = *bounds;
-    x = Axis(width, x0, x1);
-    y = Axis(height, y0, y1);
-  }
-  if (closed) x = x.closed(), y = y.closed();
-  if (periodic_x) x = x.periodic();
-  if (periodic_y) y = y.periodic();
-  if (y_up) y = y.reversed();
-  if (depth != 1) {
-    const Axis z(depth);
-    const Grid volume(x, y, periodic_z ? z.periodic() : z);
-    constexpr std::uint64_t most = std::uint64_t{1} << Window::max_bits_of_volume;
-    if (width <= Window::max_side_of_volume && height <= Window::max_side_of_volume &&
-        depth <= Window::max_side_of_volume && volume.pixels() <= most) {
-      return volume;
-    }
+               bool periodic_z, double tilt, const std::optional<std::vector<double>>& bounds, bool y_up,
+               bool closed) {
+  const std::size_t bounded = bounds ? bounds->size() / 2 : 0;
+  const auto axis = [&](std::size_t i, std::int64_t pixels, bool periodic) {
+    Axis made = i < bounded ? Axis(pixels, bounds->at(i), bounds->at(bounded + i)) : Axis(pixels);
+    if (closed) made = made.closed();
+    return periodic ? made.periodic() : made;
+  };
+  const Axis y = axis(1, height, periodic_y);
+  const Grid grid =
+      Grid(axis(0, width, periodic_x), y_up ? y.reversed() : y, axis(2, depth, periodic_z)).tilted(tilt);
+  const std::int64_t most_along = grid.is_volume() ? Window::max_side_of_volume : Window::max_side;
+  const std::uint64_t most =
+      grid.is_volume() ? std::uint64_t{1} << Window::max_bits_of_volume : Window::max_pixels;
+  if (width <= most_along && height <= most_along && depth <= most_along && grid.pixels() <= most)
+    return grid;
+  if (grid.is_volume()) {
     throw Error("the volume has " + std::to_string(width) + " x " + std::to_string(height) + " x " +
                 std::to_string(depth) + " voxels; at most 16,384 along a side and 2^31 in all are possible");
   }
-  const Grid grid = Grid(x, y).tilted(tilt);
-  if (width > Window::max_side || height > Window::max_side || grid.pixels() > Window::max_pixels) {
-    throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +
-                " pixels; at most 32,768 along a side and 2^30 in all are possible");
-  }
-  return grid;
+  throw Error("the grid has " + std::to_string(width) + " x " + std::to_string(height) +
+              " pixels; at most 32,768 along a side and 2^30 in all are possible");
 }
 
 }  // namespace
@@ -105,6 +95,7 @@ void bind_devices(nb::module_& module) {
       .def_prop_ro("waves", &Report::waves)
       .def_prop_ro("milliseconds", &Report::milliseconds, without_gil())
       .def_prop_ro("host_milliseconds", &Report::host_milliseconds)
+      .def_prop_ro("snapped", &Report::snapped)
       .def("__repr__", [](const nb::handle& self) {
         return shown(self, {"milliseconds", "waves", "host_milliseconds"});  // waits
       });

@@ -60,11 +60,6 @@ void remember(DiagramObject& diagram, const Seeds& seeds, Snap snap = Snap::to_p
   diagram.snap = snap;
 }
 
-/// What a method's labels are the truth of.
-Snap truth_of(const Method& method, const SeedsObject& seeds) {
-  return method.exact ? seeds.snap : Snap::to_pixels;
-}
-
 Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name, const std::string& metric,
             std::optional<double> max_displacement) {
   const Turns turns(diagram.mutex, seeds.mutex);
@@ -74,7 +69,7 @@ Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
   diagram.seeds.reset();
   show(diagram.diagram, seeds.seeds.grid());
   Report report = filling.run(seeds.seeds, diagram.diagram, options);
-  remember(diagram, seeds.seeds, truth_of(filling, seeds));
+  remember(diagram, seeds.seeds, report.snapped() ? Snap::to_pixels : seeds.snap);
   return report;
 }
 
@@ -275,11 +270,9 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
   const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
   const Seeds& named = seeds_of(diagram);
-  const bool is_volume = named.grid().is_volume();
-  if (is_volume && snap == Snap::none)
+  if (named.grid().is_volume() && snap == Snap::none)
     throw Error("volumes know whole voxels alone: the truth is \"snapped\"");
-  const Seeds seeds =
-      is_volume ? named.clone() : Seeds(named.device(), named.grid(), named.read(), Outside::count, snap);
+  const Seeds seeds(named.device(), named.grid(), named.read(), {Outside::count, snap});
   const Metric metric = diagram.diagram.metric();
   const Device& device = diagram.diagram.device();
   Diagram exact(device, diagram.diagram.window()), judged(device, diagram.diagram.window());
@@ -306,7 +299,7 @@ Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& 
   RelaxOptions options;
   if (density) options.density.assign(density->data(), density->data() + density->size());
   Relaxation done = vorocl::relax(seeds.seeds, diagram.diagram, fills, rounds, go_on, options);
-  remember(diagram, seeds.seeds, truth_of(method(name), seeds));
+  remember(diagram, seeds.seeds, method(name).exact ? seeds.snap : Snap::to_pixels);
   return done;
 }
 

@@ -40,7 +40,7 @@ void make(SeedsObject* memory, const Device& device, const Grid& grid, const Row
           const std::string& outside, bool snap) {
   std::vector<std::uint8_t> present;
   const Snap snapped = snap ? Snap::to_pixels : Snap::none;
-  new (memory) SeedsObject(Seeds(device, grid, view(rows, present), outside_of(outside), snapped), snapped);
+  new (memory) SeedsObject(Seeds(device, grid, view(rows, present), {outside_of(outside), snapped}), snapped);
 }
 
 std::unique_ptr<SeedsObject> from_mask(const Device& device, const Grid& grid,

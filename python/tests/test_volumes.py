@@ -141,16 +141,62 @@ def test_adjacent_cells_share_faces(shape):
     assert np.array_equal(diagram.cells()["perimeter"], surface)
 
 
+@exact_alone
+def test_volumes_lie_in_the_units_of_the_points():
+    rng = np.random.default_rng(3)
+    shape, bounds = (6, 7, 8), (-1.0, 10.0, 5.0, 3.0, 13.5, 8.0)  # 2 voxels in a unit
+    low, high = np.array(bounds[:3]), np.array(bounds[3:])
+    points = rng.uniform(low, high, (20, 3))
+    points[0] = high  # the far end is inside
+    voxels = np.minimum((points - low) * 2, np.array(shape[::-1]) - 0.01)
+    pixels, data = vorocl.cells(voxels, shape), vorocl.cells(points, shape, bounds=bounds)
+    assert np.array_equal(vorocl.diagram(points, shape, bounds=bounds), vorocl.diagram(voxels, shape))
+    np.testing.assert_allclose(data["area"], pixels["area"] / 8)
+    np.testing.assert_allclose(data["perimeter"], pixels["perimeter"] / 4)
+    np.testing.assert_allclose(data["largest_distance"], pixels["largest_distance"] / 2)
+    for axis, names in enumerate([("x", "centroid_x"), ("y", "centroid_y"), ("z", "centroid_z")]):
+        for name in names:
+            np.testing.assert_allclose(data[name], low[axis] + pixels[name] / 2)
+    full = pixels["area"] > 0
+    np.testing.assert_allclose(data["front"][full], low[2] + pixels["front"][full] / 2)
+    np.testing.assert_allclose(data["back"][full], low[2] + (pixels["back"][full] + 1) / 2)
+    in_pixels = vorocl.cells(points, shape, bounds=bounds, units="pixels")
+    for name in vorocl.CELL.names:
+        np.testing.assert_array_equal(in_pixels[name], pixels[name])
+    np.testing.assert_allclose(vorocl.areas(points, shape, bounds=bounds), data["area"])
+    np.testing.assert_allclose(vorocl.distances(points, shape, bounds=bounds), vorocl.distances(voxels, shape) / 2)
+    pairs, faces = vorocl.adjacency(points, shape, bounds=bounds)
+    assert np.array_equal(pairs, vorocl.adjacency(voxels, shape)[0])
+    np.testing.assert_allclose(faces, vorocl.adjacency(voxels, shape)[1] / 4)
+    seeds = vorocl.Seeds(points, shape, bounds=bounds, y_up=True)
+    np.testing.assert_allclose(seeds.read(), low + (np.floor(voxels) + 0.5) / 2)
+    assert np.array_equal(seeds.read(units="pixels")[:, 1], 7 - np.floor(voxels[:, 1]) - 0.5)
+    flat = vorocl.cells(points, (6, 7, 16), bounds=bounds)  # voxels are no cubes
+    assert "perimeter_px" in flat.dtype.names and flat["area"].sum() == np.prod(high - low)
+    with pytest.raises(vorocl.Error, match="no scale"):
+        vorocl.distances(points, (6, 7, 16), bounds=bounds)
+    outside = np.vstack([points, high + 1])
+    with pytest.raises(vorocl.BadPoint, match="point 20"):
+        vorocl.diagram(outside, shape, bounds=bounds)
+    assert np.array_equal(vorocl.diagram(outside, shape, bounds=bounds, outside="absent"), vorocl.diagram(voxels, shape))
+    wrapped = vorocl.Seeds(points + (4, 0, 0), shape, bounds=bounds, periodic=(True, False, False))
+    np.testing.assert_allclose(wrapped.read()[1:], vorocl.Seeds(points, shape, bounds=bounds).read()[1:])
+    diagram = vorocl.Diagram(shape)
+    assert diagram.fill(seeds, "jfa").snapped and diagram.errors().wrong_pixels < 40
+
+
 WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2)], (4, 5, 6)), r"shape \(N, 3\), rows \(x, y, z\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (5, 6)), r"shape \(N, 2\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (1, 5, 6)), r"one slice is a plane: give the shape \(5, 6\)"),
     (lambda: vorocl.diagram([(1, 2, 3)], (2, 3, 4, 5)), r"\(H, W\), or three \(D, H, W\)"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 1, 1)), "bounds is for planes"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 1, 1)), "bounds must be six numbers"),
+    (lambda: vorocl.diagram([(1, 2)], (5, 6), bounds=(0, 0, 0, 1, 1, 1)), "bounds must be four numbers"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), bounds=(0, 0, 3, 1, 1, 3)), "an extent along all axes"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), tilt=1), "which a tilt cannot take"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), periodic=(True, False)), "periodic must be three booleans"),
     (lambda: vorocl.diagram([(1, 2)], (5, 6), periodic=(False, False, True)), "periodic must be two booleans"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), y_up=True), "y_up is for planes"),
-    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), snap=False), "snap=False is for planes"),
+    (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), method="jfa", snap=False), 'snap=False is for "exact"'),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), method="djfa"), "volume of 6 x 5 x 4 voxels, which flooding"),
     (lambda: vorocl.diagram([(1, 2, 3)], (4, 5, 6), metric="manhattan"), "are Euclidean"),
     (lambda: vorocl.diagram([(1, 2, 9)], (4, 5, 6)), "outside the grid"),

@@ -14,7 +14,7 @@ from . import _vorocl
 from ._errors import BadArgument
 
 Shape = Union[Tuple[int, int], Tuple[int, int, int]]
-Bounds = Tuple[float, float, float, float]
+Bounds = Union[Tuple[float, float, float, float], Tuple[float, float, float, float, float, float]]
 Periodic = Sequence[bool]
 Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution", "exact"]
 Metric = Literal["euclidean", "manhattan"]
@@ -65,10 +65,11 @@ def to_grid(
     y_up: bool = False,
     tilt: float = 0.0,
 ) -> _vorocl.Grid:
-    """The grid of a shape (H, W), of its periodic axes (x, y) and its tilt, and of what it shows of the points' plane;
-    or of a shape (D, H, W), which has periodic axes (x, y, z) and nothing else of these.
+    """The grid of a shape (H, W) or (D, H, W), of its periodic axes (x, y) or (x, y, z) and its tilt, and of what it
+    shows of the points' space.
 
-    Points at the bounds' far ends are inside, unless what is outside them counts all round.
+    Points at the bounds' far ends are inside, unless what is outside them counts all round: not in volumes, which
+    refuse it.
     """
     far = 2**31  # past every limit, of which the library tells
     try:
@@ -77,7 +78,9 @@ def to_grid(
         sides = []
     if len(sides) not in (2, 3):
         raise BadArgument(f"shape must be two whole numbers (H, W), or three (D, H, W); this is {shown(shape)}")
-    height, width = sides[-2:]
+    if len(sides) == 3 and sides[0] == 1:
+        raise BadArgument(f"a volume of one slice is a plane: give the shape {tuple(sides[1:])}, and points (x, y)")
+    depth, height, width = [1, *sides][-3:]
     try:
         axes = [_to_bool(axis) for axis in periodic]
     except (TypeError, ValueError):
@@ -85,19 +88,12 @@ def to_grid(
     if len(axes) == 2 and not any(axes):  # the default
         axes = [False] * len(sides)
     if len(axes) != len(sides):
-        wanted = "three booleans (x, y, z) for a volume" if len(sides) == 3 else "two booleans (x, y)"
-        raise BadArgument(f"periodic must be {wanted}; this is {shown(periodic)}")
-    corners, upwards, tilted = to_bounds(bounds), to_flag(y_up, "y_up"), to_number(tilt, "tilt")
-    closed = corners is not None and (to_outside(outside) != "count" or any(axes))
-    if len(sides) == 3:
-        refused = {"bounds": corners is not None, "tilt": tilted != 0, "y_up": upwards}
-        for name, is_given in refused.items():
-            if is_given:
-                raise BadArgument(f"{name} is for planes, and the shape {tuple(sides)} is that of a volume")
-        if sides[0] == 1:
-            raise BadArgument(f"a volume of one slice is a plane: give the shape {tuple(sides[1:])}, and points (x, y)")
-    depth, periodic_z = (sides[0], axes[2]) if len(sides) == 3 else (1, False)
-    return _vorocl.Grid(width, height, depth, axes[0], axes[1], periodic_z, tilted, corners, upwards, closed)
+        wanted = {2: "two booleans (x, y)", 3: "three booleans (x, y, z) for a volume"}
+        raise BadArgument(f"periodic must be {wanted[len(sides)]}; this is {shown(periodic)}")
+    corners, upwards, tilted = to_bounds(bounds, len(sides)), to_flag(y_up, "y_up"), to_number(tilt, "tilt")
+    closed = corners is not None and (to_outside(outside) != "count" or any(axes) or depth > 1)
+    x, y, z = [*axes, False][:3]
+    return _vorocl.Grid(width, height, depth, x, y, z, tilted, corners, upwards, closed)
 
 
 def shape_of(grid: _vorocl.Grid) -> Shape:
@@ -125,17 +121,20 @@ def to_flag(value: bool, name: str) -> bool:
         raise BadArgument(f"{name} must be True or False; this is {shown(value)}") from None
 
 
-def to_bounds(bounds: Optional[Bounds]) -> Optional[Bounds]:
-    """Four floats (x0, y0, x1, y1)."""
+def to_bounds(bounds: Optional[Bounds], dimensions: int = 2) -> Optional[Bounds]:
+    """Four floats (x0, y0, x1, y1), or of a volume six."""
     if bounds is None:
         return None
+    numbers = {2: "four numbers (x0, y0, x1, y1)", 3: "six numbers (x0, y0, z0, x1, y1, z1) for a volume"}
     try:
-        x0, y0, x1, y1 = (float(value) for value in bounds)
+        corners: Any = tuple(float(value) for value in bounds)
     except (TypeError, ValueError, OverflowError):
-        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); this is {shown(bounds)}") from None
-    if x0 == x1 or y0 == y1:
-        raise BadArgument(f"bounds must have an extent along both axes; these are {shown(bounds)}")
-    return x0, y0, x1, y1
+        corners = ()
+    if len(corners) != 2 * dimensions:
+        raise BadArgument(f"bounds must be {numbers[dimensions]}; this is {shown(bounds)}")
+    if any(low == high for low, high in zip(corners, corners[dimensions:])):
+        raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")
+    return corners
 
 
 def to_outside(outside: Outside) -> Outside:
@@ -148,12 +147,8 @@ def to_outside(outside: Outside) -> Outside:
 _FLOODING = {method.name for method in _vorocl.methods() if not method.exact}
 
 
-def to_snap(snap: Optional[bool], shape: Shape, method: str = "exact") -> bool:
-    """Whether points are moved to the centres of their pixels, which methods that flood always do, and volumes."""
-    if len(shape) == 3:
-        if snap is not None and not to_flag(snap, "snap"):
-            raise BadArgument("volumes move points to the centres of their voxels: snap=False is for planes")
-        return True
+def to_snap(snap: Optional[bool], method: str = "exact") -> bool:
+    """Whether points are moved to the centres of their pixels, which methods that flood always do."""
     floods = to_text(method, "method") in _FLOODING
     if snap is None:
         return floods

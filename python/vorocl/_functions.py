@@ -82,8 +82,8 @@ def _filled(
     """The diagram, which is the thread's until its next call; or its labels alone, in an array."""
     grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
     shape, periodic, tilt = shape_of(grid), periodic_of(grid), grid.tilt
-    corners, array = to_bounds(bounds), to_points(points, len(shape))
-    snapped = to_snap(snap, shape, method)
+    corners, array = to_bounds(bounds, len(shape)), to_points(points, len(shape))
+    snapped = to_snap(snap, method)
     wanted = (shape, periodic, tilt, corners, to_outside(outside), y_up, snapped, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
@@ -135,9 +135,10 @@ def diagram(
     distance the one with the least y wins, counted down the grid, then the one with the least x, then the one with the
     lowest row of `points`. A method that floods, and ``snap=True``, move points to the centres of their pixels first.
 
-    In a volume, of a shape (D, H, W), points are rows (x, y, z), and each lies at the centre of its voxel: of several at
-    the least distance the one with the least z wins, then y, then x, then the row. There "exact" is Euclidean and needs
-    a CPU, "jfa" and its variants are the other methods, and there are no bounds, periods, tilts and points outside.
+    In a volume, of a shape (D, H, W), points are rows (x, y, z), and each is moved to the centre of its voxel: of several
+    at the least distance the one with the least z wins, then y, then x, then the row. There "exact" is Euclidean and
+    needs a CPU, "jfa" and its variants are the other methods, there are no tilts, and points outside are refused unless
+    they are to be absent.
 
     Parameters
     ----------
@@ -536,7 +537,7 @@ def cells(
         Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
         say so, ``perimeter_px`` and ``largest_distance_px``.
 
-        In a volume all is in voxels, and there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
+        In a volume there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
         slices) too. Its area is the volume of a cell, and its perimeter the voxel faces that it shares with others.
 
     Raises
@@ -766,7 +767,7 @@ def relax(
         periodic=periodic,
         outside=outside,
         y_up=y_up,
-        snap=to_snap(snap, shape_of(to_grid(shape, periodic)), method),
+        snap=to_snap(snap, method),
         device=device,
     )
     made = Diagram(shape, periodic=periodic, device=device)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Optional, Tuple, cast
+from typing import Any, List, Optional, Tuple, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -57,8 +57,6 @@ CELL = np.dtype(
     align=True,
 )
 """One row of `cells` in pixels. Those of a plane leave out ``z``, ``centroid_z``, ``front`` and ``back``."""
-
-_OF_PLANES = [name for name in CELL.names or () if name not in ("z", "centroid_z", "front", "back")]
 
 
 def to_seeds(seeds: Seeds) -> _vorocl.Seeds:
@@ -119,7 +117,7 @@ class Seeds(OnDevice):
         self._bounds, self._tilt = bounds, tilt  # of the present frame
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap, sides))
+        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap))
 
     @property
     def device(self) -> Device:
@@ -146,7 +144,7 @@ class Seeds(OnDevice):
         ----------
         points : array_like
             As that of the constructor, in the same units. A seed that is absent may come back.
-        bounds : (float, float, float, float), optional
+        bounds : sequence of float, optional
             What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
         tilt : float, optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.
@@ -358,13 +356,16 @@ class Diagram(OnDevice):
 
     def _scale(self) -> Tuple[float, Optional[float]]:
         """The area of a pixel in the units of the points, and the length of its side; none if it is no square."""
-        if len(self._shape) == 3:
-            return 1, 1  # volumes have voxels for units
-        corners = np.array([(0.0, 0.0, 0.0), (*self._shape[::-1], 1.0)])
+        sides = self._shape[::-1]
+        corners = np.array([(0.0, 0.0, 0.0), (*sides, 1.0)[:3]])
         self._diagram.to_data(corners)
-        extent_x, extent_y = (float(extent) for extent in abs(corners[1] - corners[0])[:2])
-        height, width = self._shape
-        area = extent_x * extent_y / (width * height)
+        extents = [float(extent) for extent in abs(corners[1] - corners[0])][: len(sides)]
+        area = math.prod(extents) / math.prod(sides)
+
+        if len(sides) == 3:
+            lengths = [extent / side for extent, side in zip(extents, sides)]
+            return area, area ** (1 / 3) if max(lengths) <= 1.01 * min(lengths) else None
+        (width, height), (extent_x, extent_y) = sides, extents
         # To the nearest whole number of pixels.
         is_square = (
             abs(height - max(1.0, width * extent_y / extent_x)) <= 0.5
@@ -411,32 +412,38 @@ class Diagram(OnDevice):
         """
         in_data = to_units(units, self._are_in_data)
         cells = self._diagram.cells().view(CELL)[:, 0]
-        if len(self._shape) == 3:  # volumes have voxels for units
-            return cells
-        return self._in_data(cells) if in_data else cells[_OF_PLANES]
+        return self._in_data(cells) if in_data else cells[self._fields()]
+
+    def _fields(self) -> List[str]:
+        """Those of CELL that its cells have."""
+        of_volumes = () if len(self._shape) == 3 else ("z", "centroid_z", "front", "back")
+        return [name for name in CELL.names or () if name not in of_volumes]
 
     def _in_data(self, cells: NDArray[Any]) -> NDArray[Any]:
         """Rows of cells in pixels, in the units of the points."""
         area, length = self._scale()
-        lengths = ("perimeter", "largest_distance")
+        units = {"area": area, "perimeter": (length or 1) ** (len(self._shape) - 1), "largest_distance": length or 1}
         kept = ("neighbours", "touches_border")
-        types = [
-            (name + "_px" if name in lengths and length is None else name, CELL[name] if name in kept else np.float64)
-            for name in _OF_PLANES
-        ]
+
+        def name_of(field: str) -> str:
+            return field + "_px" if field in ("perimeter", "largest_distance") and length is None else field
+
+        types = [(name_of(field), CELL[field] if field in kept else np.float64) for field in self._fields()]
         result = np.empty(len(cells), np.dtype(types, align=True))
         for name in kept:
             result[name] = cells[name]
-        result["area"] = cells["area"] * area
-        for name in lengths:
-            result[name if length is not None else name + "_px"] = cells[name] * (length or 1)
+        for name, unit in units.items():
+            result[name_of(name)] = cells[name] * unit
         is_empty = cells["area"] == 0
-        for x, y, edge in ("x", "y", 0), ("centroid_x", "centroid_y", 0), ("left", "top", 0), ("right", "bottom", 1):
-            places = np.column_stack([cells[x], cells[y], np.zeros(len(cells))]).astype(np.float64) + edge
-            if x in ("left", "right"):
+        ends = ("left", "top", "front"), ("right", "bottom", "back")
+        for fields in ("x", "y", "z"), ("centroid_x", "centroid_y", "centroid_z"), *ends:
+            places = np.column_stack([cells[field] for field in fields]).astype(np.float64) + (fields == ends[1])
+            if fields in ends:
                 places[is_empty] = np.nan
             self._diagram.to_data(places)
-            result[x], result[y] = places.T[:2]
+            for field, along in zip(fields, places.T):
+                if field in result.dtype.fields:
+                    result[field] = along
         return result
 
     @with_parameters
@@ -461,7 +468,7 @@ class Diagram(OnDevice):
         """
         length = self._length() if to_units(units, self._are_in_data) else None
         rows = self._diagram.adjacency()
-        return rows[:, :2], rows[:, 2] if length is None else rows[:, 2] * length
+        return rows[:, :2], rows[:, 2] if length is None else rows[:, 2] * length ** (len(self._shape) - 1)
 
     @with_parameters
     def vertices(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
@@ -554,7 +561,7 @@ class Simulation(OnDevice):
             tilt=tilt,
             outside=outside,
             y_up=y_up,
-            snap=to_snap(snap, self.diagram.shape, self._method),
+            snap=to_snap(snap, self._method),
             device=self.diagram.device,
         )
         self.report: Optional[_vorocl.Report] = None
@@ -571,7 +578,7 @@ class Simulation(OnDevice):
         ----------
         points : array_like
             As that of `Seeds`. Seeds may appear and vanish.
-        bounds : (float, float, float, float), optional
+        bounds : sequence of float, optional
             What the grid shows from this frame on, such as a box that changes. Without it, what it showed.
         tilt : float, optional
             The tilt from this frame on, such as that of a box that is sheared. Without it, what it was.

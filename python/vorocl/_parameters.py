@@ -33,9 +33,9 @@ method : str, optional
 metric : {"euclidean", "manhattan"}, optional
     How far a pixel's centre is from a point.""",
     "bounds": """\
-bounds : (float, float, float, float), optional
-    (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows: a point is in the column
-    floor((x - x0) * W / (x1 - x0)); rows likewise. Where pixels are no squares in these units, the nearest point in
+bounds : sequence of float, optional
+    (x0, y0, x1, y1), the rectangle of the points' plane that the grid shows, or of a volume (x0, y0, z0, x1, y1, z1):
+    a point is in the column floor((x - x0) * W / (x1 - x0)); rows and slices likewise. Where pixels are no squares in these units, the nearest point in
     pixels need not be the nearest in the plane. Without it, points are in pixels.""",
     "periodic": """\
 periodic : (bool, bool), optional
@@ -51,7 +51,7 @@ outside : {"count", "absent", "refuse"}, optional
     What becomes of points outside the grid or the bounds. "count": the grid is a window of a larger plane, and they are
     seeds too, up to 2**31 pixels away; a method that floods refuses them. "absent": they have no cell. "refuse": they
     are an error. With the last two, a point at x1 or y1 is in the last pixel, as along the other axis of a periodic
-    grid.""",
+    grid. In a volume "count" refuses too.""",
     "y_up": """\
 y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then.""",
