@@ -1,8 +1,10 @@
-// For tools/check_kernels.sh, instead of the compiler's own: min(), max() and clamp() without those of vectors of
-// integers whose bounds are numbers. Oclgrind reads such a bound as a vector, with what lies behind it in memory.
+// For tools/check_kernels.sh, instead of the compiler's own: min(), max() and clamp() without those of
+// vectors of integers whose bounds are numbers. Oclgrind reads such a bound as a vector, with what lies
+// behind it in memory.
 
 #define ALLOWED __attribute__((overloadable))
-#define REFUSED __attribute__((overloadable, unavailable("Oclgrind reads a bound that is a number as a vector")))
+#define REFUSED \
+  __attribute__((overloadable, unavailable("Oclgrind reads a bound that is a number as a vector")))
 #define CALLS(kind, type, bound) \
   kind type min(type, bound);    \
   kind type max(type, bound);    \

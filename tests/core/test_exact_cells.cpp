@@ -612,20 +612,20 @@ BOOST_AUTO_TEST_CASE(buffers_hold_what_is_read_and_work_groups_change_no_bit) {
   };
   const std::vector<ExactCell> cells = result.read();
   const auto areas = read(result.areas(), std::vector<double>(cells.size()));
-  const auto centroids = read(result.centroids(), std::vector<Point>(cells.size()));
+  const auto centroids = read(result.centroids(), std::vector<cl_double2>(cells.size()));
   const auto perimeters = read(result.perimeters(), std::vector<double>(cells.size()));
   const auto neighbours = read(result.neighbours(), std::vector<std::uint32_t>(cells.size()));
   const auto flags = read(result.flags(), std::vector<std::uint8_t>(cells.size()));
   for (std::size_t id = 0; id < cells.size(); ++id) {
     BOOST_TEST(cells[id].area == areas[id]);
-    BOOST_TEST(cells[id].centroid.x == centroids[id].x);
+    BOOST_TEST(cells[id].centroid.x == centroids[id].s[0]);
     BOOST_TEST(cells[id].perimeter == perimeters[id]);
     BOOST_TEST(cells[id].neighbours == neighbours[id]);
     BOOST_TEST(flags[id] == (cells[id].touches_border ? 3 : 2));
   }
   BOOST_TEST_REQUIRE(result.edges() == polygons.vertices.size());
-  const auto vertices = read(result.vertices(), std::vector<Point>(result.edges()));
-  for (std::size_t i = 0; i < vertices.size(); ++i) BOOST_TEST(vertices[i].y == polygons.vertices[i].y);
+  const auto vertices = read(result.vertices(), std::vector<cl_double2>(result.edges()));
+  for (std::size_t i = 0; i < vertices.size(); ++i) BOOST_TEST(vertices[i].s[1] == polygons.vertices[i].y);
   BOOST_TEST(read(result.offsets(), std::vector<std::uint32_t>(cells.size() + 1)) == polygons.offsets);
   BOOST_TEST(read(result.edge_neighbours(), std::vector<std::uint32_t>(result.edges())) ==
              polygons.neighbours);
