@@ -33,7 +33,7 @@
 // What a work-item remembers of a line of so many places, in vectors of keys or of whole numbers (lines.cl): the
 // sites' keys, with images along a periodic line; the least key of each place; what the pass before found; and for each
 // place the ends of the sites that are tried, the number of a site in the list of sites, the list, and where these are.
-#define KEYS_OF_LINE(longest) (2 * (longest) + 2 * PAD)
+#define KEYS_OF_LINE(longest) (2 * ((longest) + PAD))
 #define INTS_OF_LINE(longest) (8 * (longest) + 64)
 #define VECTORS_OF_KEYS(longest) (KEYS_OF_LINE(longest) + (longest))
 #define VECTORS_OF_INTS(longest) ((longest) + INTS_OF_LINE(longest) / STRIP + 1)

@@ -10,7 +10,7 @@
 // A CELL while its borders are found has four words: its home, 0, how many pairs have it as the higher id, and its
 // perimeter. What the home adds to it needs no atomics; what others add goes to `neighbours` and `perimeters`.
 #define CELL_PARAMETERS \
-  global uint *restrict cells, global uint *restrict neighbours, global uint *restrict perimeters
+  global uint *cells, global uint *neighbours, global uint *perimeters
 #define CELL_ARGUMENTS cells, neighbours, perimeters
 #define HOME_OF(id) cells[4 * (size_t)(id)]
 

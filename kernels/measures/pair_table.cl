@@ -20,8 +20,7 @@
 // What kernels take of the lists, which have list_size slots each, and of the table, which has mask + 1 slots,
 // table_size of them for each cell. All three numbers of slots are powers of two.
 #define PAIR_PARAMETERS \
-  uint list_size, global uint2 *restrict lists, uint mask, uint table_size, global uint *restrict table, \
-      global uint *restrict overflow
+  uint list_size, global uint2 *lists, uint mask, uint table_size, global uint *table, global uint *overflow
 #define PAIR_ARGUMENTS list_size, lists, mask, table_size, table, overflow
 
 static inline uint hash_of(uint a, uint b) {

@@ -208,13 +208,13 @@ static inline LENGTH distance_to(seed_t seed, int x, int y, int z, window_t wind
 // Ways go from just above -period / 2 to period / 2, where they jump. Whether a way goes on by a step of pixels without
 // a jump.
 static inline bool goes_on(int way, int step, int period) {
-  const long round = (long)period * UNIT, next = (long)way + step * UNIT;
+  const LENGTH round = (LENGTH)period * UNIT, next = (LENGTH)way + step * UNIT;
   return period == 0 || (next <= round / 2 && next >= -((round - 1) / 2));
 }
 
 // The end of the piece of pixels [from, to) that begins at `from`, which is `way` from the seed, and has no jump.
 static inline int piece_end(int from, int to, int way, int period) {
-  return period == 0 ? to : from + (int)min((long)(to - from), (((long)period * UNIT / 2 - way) >> UNIT_BITS) + 1);
+  return period == 0 ? to : from + (int)min((LENGTH)(to - from), (((LENGTH)period * UNIT / 2 - way) >> UNIT_BITS) + 1);
 }
 
 // Pixels of one row from the beginning of a piece to its end, and the way from their seed to the first of them. To the

@@ -8,17 +8,27 @@
 #if VOROCL_DIMENSIONS == 3
 typedef int8 box_t;
 #define SIDES 8
-#define BOX(left, top, front, right, bottom, back) ((int8)(left, top, front, 0, ~(right), ~(bottom), ~(back), 0))
 #else
 typedef int4 box_t;
 #define SIDES 4
-#define BOX(left, top, front, right, bottom, back) ((int4)(left, top, ~(right), ~(bottom)))
 #endif
 #define LAST_SIDES (SIDES / 2)
+
+// Adds pixels of a row to a box, of which no other work-item knows; in halves, for the sake of a GPU's registers.
+static inline void add_to_box(global box_t* box, int left, int right, int y, int z) {
+#if VOROCL_DIMENSIONS == 3
+  global int4* const sides = (global int4*)box;
+  sides[0] = min(sides[0], (int4)(left, y, z, 0));
+  sides[1] = min(sides[1], (int4)(~right, ~y, ~z, 0));
+#else
+  (void)z;
+  *box = min(*box, (int4)(left, y, ~right, ~y));
+#endif
+}
 #define NO_BOX ((box_t)INT_MAX)
 
 // The pixels at home have a box of their own and their largest distance. The others have another box and, because a
-// distance may take 64 bits, which have no atomics, their farthest pixel, packed.
+// distance in a plane may take 64 bits, which have no atomics, their farthest pixel, packed; in a volume the distance.
 kernel void clear_shapes(SEED_PARAMETERS, int4 bits, global ushort* restrict home, global box_t* restrict home_boxes,
                          global box_t* restrict other_boxes, global LENGTH* restrict distances,
                          global uint* restrict farthest) {
@@ -46,38 +56,33 @@ static inline bool has_next_z(int z, int step, int way, window_t window) {
   return window.depth > 1 && has_next(z, step, window.depth, PERIODIC_Z, way, window.period_z);
 }
 
-// A row and those beside it. One that is not there, or where the way from the seed jumps, is the row itself.
+// Where a row and those above and below it begin among the labels. One that is not there, or where the way from the seed
+// jumps, is the row itself.
 typedef struct {
-  global const uint *row, *above, *below, *front, *back;
+  uint row, above, below;
 } rows_t;
 
-static inline bool in_one_of(rows_t rows, int x, uint label) {
-  return rows.row[x] == label || rows.above[x] == label || rows.below[x] == label ||
-         rows.front[x] == label || rows.back[x] == label;
+static inline bool in_one_of(rows_t rows, global const uint* labels, uint x, uint label) {
+  return labels[rows.row + x] == label || labels[rows.above + x] == label || labels[rows.below + x] == label;
+}
+static inline uint start_of_row(int y, int z, int4 size) {
+  return ((uint)z * (uint)size.y + (uint)y) * (uint)size.x;
 }
 
-static inline LENGTH distance_to_packed(seed_t seed, uint pixel, window_t window) {
+static inline LENGTH distance_of_farthest(uint found, seed_t seed, window_t window) {
 #if VOROCL_DIMENSIONS == 3
-  return distance_to(seed, x_of(pixel), y_of(pixel), z_of(pixel), window);
+  (void)seed, (void)window;
+  return (LENGTH)found;
 #else
-  return distance_to(seed, packed_x(pixel), packed_y(pixel), 0, window);
+  return distance_to(seed, packed_x(found), packed_y(found), 0, window);
 #endif
 }
 
-static inline uint packed(int x, int y, int z) {
-#if VOROCL_DIMENSIONS == 3
-  return pack(x, y, z);
-#else
-  (void)z;
-  return pack(x, y);
-#endif
-}
-
-// Puts a pixel in the place of a cell's farthest one so far, if it is farther.
+// Puts a pixel of a plane in the place of a cell's farthest one so far, if it is farther.
 static inline void add_farthest(global uint* farthest, uint pixel, LENGTH distance, seed_t seed, window_t window) {
   for (uint known = EMPTY, found;; known = found) {
     found = atomic_cmpxchg(farthest, known, pixel);
-    if (found == known || distance_to_packed(seed, found, window) >= distance) return;
+    if (found == known || distance_of_farthest(found, seed, window) >= distance) return;
   }
 }
 
@@ -94,8 +99,8 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
   if (!take_block(size, bits, &block)) return;
   FOR_EACH_ROW(y, z, block) {
     rows_t rows;
-    rows.row = row_of(labels, y, z, size);
-    walk_t walk = begin_walk(rows.row, rows.row, block.left, block.right);
+    rows.row = start_of_row(y, z, size);
+    walk_t walk = begin_walk(labels + rows.row, labels + rows.row, block.left, block.right);
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count) continue;
@@ -111,42 +116,42 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
         const int slice_at = PERIODIC_Z ? seed_z(seed) + way.z : z;
         const LENGTH distance = length_of(way), of_last = length_of(way_of_last);
         if (at_home) {
-          home_boxes[label] =
-              min(home_boxes[label], BOX(left, row_at, slice_at, right, row_at, slice_at));
+          add_to_box(home_boxes + label, left, right, row_at, slice_at);
           distances[label] = max(distances[label], max(distance, of_last));
           continue;
         }
         const bool above = has_next_y(y, -1, way.y, window), below = has_next_y(y, 1, way.y, window);
-        const bool front = has_next_z(z, -1, way.z, window), back = has_next_z(z, 1, way.z, window);
-        rows.above = row_of(labels, above ? wrapped(y - 1, size.y, PERIODIC_Y) : y, z, size);
-        rows.below = row_of(labels, below ? wrapped(y + 1, size.y, PERIODIC_Y) : y, z, size);
-        rows.front = row_of(labels, y, front ? wrapped(z - 1, DEPTH(size), PERIODIC_Z) : z, size);
-        rows.back = row_of(labels, y, back ? wrapped(z + 1, DEPTH(size), PERIODIC_Z) : z, size);
+        rows.above = start_of_row(above ? wrapped(y - 1, size.y, PERIODIC_Y) : y, z, size);
+        rows.below = start_of_row(below ? wrapped(y + 1, size.y, PERIODIC_Y) : y, z, size);
         global int* const box = other_boxes + SIDES * (size_t)label;
         if (!(has_next_x(first, -1, way.x, window) &&
-              in_one_of(rows, wrapped(first - 1, size.x, PERIODIC_X), label))) {
+              in_one_of(rows, labels, (uint)wrapped(first - 1, size.x, PERIODIC_X), label))) {
           atomic_min(box, left);
         }
         if (!(has_next_x(last, 1, way_of_last.x, window) &&
-              in_one_of(rows, wrapped(last + 1, size.x, PERIODIC_X), label))) {
+              in_one_of(rows, labels, (uint)wrapped(last + 1, size.x, PERIODIC_X), label))) {
           atomic_min(box + LAST_SIDES, ~right);
         }
-        if (!(above && rows.above[first] == label)) atomic_min(box + 1, row_at);
-        if (!(below && rows.below[first] == label)) atomic_min(box + LAST_SIDES + 1, ~row_at);
-        if (VOROCL_DIMENSIONS == 3) {
-          if (!(front && rows.front[first] == label)) atomic_min(box + 2, slice_at);
-          if (!(back && rows.back[first] == label)) atomic_min(box + LAST_SIDES + 2, ~slice_at);
+        if (!(above && labels[rows.above + (uint)first] == label)) atomic_min(box + 1, row_at);
+        if (!(below && labels[rows.below + (uint)first] == label)) atomic_min(box + LAST_SIDES + 1, ~row_at);
+#if VOROCL_DIMENSIONS == 3
+        const uint front = start_of_row(y, wrapped(z - 1, size.z, PERIODIC_Z), size);
+        if (!(has_next_z(z, -1, way.z, window) && labels[front + (uint)first] == label)) atomic_min(box + 2, slice_at);
+        const uint back = start_of_row(y, wrapped(z + 1, size.z, PERIODIC_Z), size);
+        if (!(has_next_z(z, 1, way.z, window) && labels[back + (uint)first] == label)) {
+          atomic_min(box + LAST_SIDES + 2, ~slice_at);
         }
-
-        const bool ends_y = way.y < 0 ? !above : !below, ends_z = way.z < 0 ? !front : !back;
-        global const uint* const away_y = way.y < 0 ? rows.above : rows.below;
-        global const uint* const away_z = way.z < 0 ? rows.front : rows.back;
-        if ((ends_y || away_y[first] != label) && (ends_z || away_z[first] != label)) {
-          add_farthest(farthest + label, packed(first, y, z), distance, seed, window);
+        atomic_max((global int*)(farthest + label), max(distance, of_last));
+#else
+        const bool ends_y = way.y < 0 ? !above : !below;
+        const uint away_y = way.y < 0 ? rows.above : rows.below;
+        if (ends_y || labels[away_y + (uint)first] != label) {
+          add_farthest(farthest + label, pack(first, y), distance, seed, window);
         }
-        if ((ends_y || away_y[last] != label) && (ends_z || away_z[last] != label)) {
-          add_farthest(farthest + label, packed(last, y, z), of_last, seed, window);
+        if (ends_y || labels[away_y + (uint)last] != label) {
+          add_farthest(farthest + label, pack(last, y), of_last, seed, window);
         }
+#endif
       }
     }
   }
@@ -170,11 +175,11 @@ kernel void join_shapes(SEED_PARAMETERS, global const box_t* restrict home_boxes
 #endif
   vstore3(first, 2 * (size_t)id, boxes);
   vstore3(last, 2 * (size_t)id + 1, boxes);
-  const uint pixel = farthest[id];
+  const uint found = farthest[id];
   if (!is_shown) {
     distances[id] = -1;
-  } else if (pixel != EMPTY) {
+  } else if (found != EMPTY) {
     const window_t window = window_of(size, periods);
-    distances[id] = max(distances[id], distance_to_packed(seed, pixel, window));
+    distances[id] = max(distances[id], distance_of_farthest(found, seed, window));
   }
 }

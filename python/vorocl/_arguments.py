@@ -134,7 +134,8 @@ def to_bounds(bounds: Optional[Bounds], dimensions: int = 2) -> Optional[Bounds]
         raise BadArgument(f"bounds must be {numbers[dimensions]}; this is {shown(bounds)}")
     if any(low == high for low, high in zip(corners, corners[dimensions:])):
         raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")
-    return corners
+    checked: Bounds = corners
+    return checked
 
 
 def to_outside(outside: Outside) -> Outside:

@@ -442,7 +442,7 @@ class Diagram(OnDevice):
                 places[is_empty] = np.nan
             self._diagram.to_data(places)
             for field, along in zip(fields, places.T):
-                if field in result.dtype.fields:
+                if field in (result.dtype.names or ()):
                     result[field] = along
         return result
 

@@ -133,8 +133,7 @@ cl::Event Marks::take_seeds(KernelSet& kernels, const PixelGrid& grid, const cl:
         .over_items(seeds, positions, static_cast<cl_uint>(seeds), shape.height, words, bits_of_position.x,
                     bits_of_position.y, more...);
   };
-  const cl::Event first =
-      fill(device, bits, cl_uint{0}, shape.rows() * shorts_of_row() * sizeof(cl_ushort) / word);
+  cl::Event first = fill(device, bits, cl_uint{0}, shape.rows() * shorts_of_row() * sizeof(cl_ushort) / word);
   of_seeds("mark_seeds", bits);
   mask_kernel(kernels, device, "count_marks").over_items(shape.rows(), bits, row_count, words, counts);
   mask_kernel(kernels, device, "sum_counts").in_groups_of(1).over_items(1, counts, row_count);

@@ -152,9 +152,8 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool has_ids, bo
 template <typename Run>
 cl::Event MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips,
                                Run run) {
-  const cl::Event first = pass.starts_far
-                              ? fill(device_, flags_, cl_uchar{1}, strips)
-                              : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
+  cl::Event first = pass.starts_far ? fill(device_, flags_, cl_uchar{1}, strips)
+                                    : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
   if (!pass.saturates) return first;
   return run(mask_kernel(kernels, device_, name, {metric_, Neighbourhood::moore, Extent::far}),
              pass.far_costs, true);

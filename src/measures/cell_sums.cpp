@@ -51,7 +51,7 @@ Report cell_sums(const Diagram& diagram, CellSumsResult& result) {
                  sums.area, sums.sum_x, sums.sum_y, sums.sum_z, sums.home, sums.home_sums);
   cl::Event last = clear_or_join("join_sums");
   if (of.grid.is_periodic() && count > 0) {
-    make_room(sums.periods, of.device, 3 * count * sizeof(cl_int));
+    make_room(sums.periods, of.device, std::size_t{3} * count * sizeof(cl_int));
     fill(of.device, sums.periods, cl_int{0}, std::size_t{3} * count);
     // Only in a tilted grid the metric says where a pixel lies.
     const KernelOptions of_places = of.window.grid().is_tilted() ? of.options() : options;

@@ -12,9 +12,9 @@ namespace vorocl {
 
 /// Finds the nearest seed of a pixel by the tie rule. Of seeds that share a pixel it holds the lowest id
 /// alone.
-class SeedTree {
+class TreeOfPixels {
  public:
-  SeedTree(const std::vector<Pixel>& seeds, Metric metric) : metric_(metric) {
+  TreeOfPixels(const std::vector<Pixel>& seeds, Metric metric) : metric_(metric) {
     std::vector<std::uint32_t> ids(seeds.size());
     std::iota(ids.begin(), ids.end(), 0u);
     const auto before = [&](std::uint32_t a, std::uint32_t b) { return seeds[a] < seeds[b]; };
@@ -114,7 +114,7 @@ class SeedTree {
 /// The labels of the exact diagram with the tie rule, as brute_force() gives them.
 inline std::vector<std::uint32_t> tree_labels(const Grid& grid, const std::vector<Pixel>& seeds,
                                               Metric metric) {
-  return SeedTree(seeds, metric).labels(grid);
+  return TreeOfPixels(seeds, metric).labels(grid);
 }
 
 }  // namespace vorocl

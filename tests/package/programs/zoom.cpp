@@ -5,7 +5,8 @@
 int main() {
   const vorocl::Device device = vorocl::Device::select();
   const vorocl::Grid torus(1000000, 1000000, vorocl::Axes::xy);
-  const vorocl::Seeds seeds(device, torus, {{999899, 999899}, {100, 999899}, {999899, 100}, {100, 100}});
+  const vorocl::Seeds seeds(device, torus,
+                            {{999899.5, 999899.5}, {100.5, 999899.5}, {999899.5, 100.5}, {100.5, 100.5}});
   vorocl::Diagram zoom(device, vorocl::Window(torus, -500, -500, 1000, 1000));
   vorocl::exact_diagram(seeds, zoom);
 
