@@ -1,6 +1,6 @@
 // How many dimensions there are: the build option VOROCL_DIMENSIONS, 3 in volumes. And which axes are periodic: the
-// build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z. Their period is the grid's side,
-// and distances go the shorter way round.
+// build options VOROCL_PERIODIC_X, VOROCL_PERIODIC_Y and, in volumes, VOROCL_PERIODIC_Z. Their period is the grid's
+// side, and distances go the shorter way round.
 
 #ifndef VOROCL_PERIODS
 #define VOROCL_PERIODS

@@ -58,9 +58,9 @@ static inline bool touch(global const uint* row, block_t block, uint count, glob
   return found;
 }
 
-// Adds the borders between a row and one beside it, and along the row those between its own runs if `along` says so. Two
-// rows are walked at once, so that along a run the border with the row beside is one piece. Of a row without one beside
-// it, that one is the row itself. Across the ends of a periodic axis borders count as inside.
+// Adds the borders between a row and one beside it, and along the row those between its own runs if `along` says so.
+// Two rows are walked at once, so that along a run the border with the row beside is one piece. Of a row without one
+// beside it, that one is the row itself. Across the ends of a periodic axis borders count as inside.
 __attribute__((always_inline)) static inline void add_borders(global const uint* row, global const uint* beside,
                                                               block_t block, int width, bool along, uint count,
                                                               CELL_PARAMETERS, PAIR_PARAMETERS) {

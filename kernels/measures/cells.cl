@@ -129,9 +129,9 @@ static inline int2 periods_of_way(seed_t seed, way_t way, int x, int y, window_t
   return (int2)((int)((along_x - rows * window.shift) / ((long)window.period_x * UNIT)), (int)rows);
 }
 
-// How many periods the pixels [from, to) along an axis are away, in sum, from where they lie by the rule of place, given
-// the pixel of the seed and how far behind the seed its centre is. A period of pixels lies around the seed, from that
-// one on which is less than half a period before it.
+// How many periods the pixels [from, to) along an axis are away, in sum, from where they lie by the rule of place,
+// given the pixel of the seed and how far behind the seed its centre is. A period of pixels lies around the seed, from
+// that one on which is less than half a period before it.
 static inline int periods_away(int from, int to, int seed, int centre_behind, int period) {
   const long before = ((long)period * UNIT - 1) / 2 + centre_behind;
   const int first = seed - (int)(before >> UNIT_BITS), end = first + period;

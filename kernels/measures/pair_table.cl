@@ -1,7 +1,8 @@
 // The pairs of cells that touch, while they are found. A pair is that of its lower id, and has one of two places.
 //
 // LISTS. Each cell has a short list of the cells with higher ids that it touches, and by how much, in open
-// addressing. While pairs are found, the block that is the cell's home (see home.cl) alone adds to its list, and needs no atomics.
+// addressing. While pairs are found, the block that is the cell's home (see home.cl) alone adds to its list, and needs
+// no atomics.
 //
 // THE TABLE, also in open addressing, takes what other blocks find, and what a list has no room for. A slot has three
 // words: both ids, the lower one first, and by how much the cells touch. All begin as NO_PAIR, which is -1 for the

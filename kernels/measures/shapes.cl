@@ -56,8 +56,8 @@ static inline bool has_next_z(int z, int step, int way, window_t window) {
   return window.depth > 1 && has_next(z, step, window.depth, PERIODIC_Z, way, window.period_z);
 }
 
-// Where a row and those above and below it begin among the labels. One that is not there, or where the way from the seed
-// jumps, is the row itself.
+// Where a row and those above and below it begin among the labels. One that is not there, or where the way from the
+// seed jumps, is the row itself.
 typedef struct {
   uint row, above, below;
 } rows_t;

@@ -37,9 +37,7 @@ constexpr bool fits_home_sums(const cl_int4& bits) {
 }
 static_assert(fits_home_sums(plane_blocks_on_a_cpu) && fits_home_sums(plane_blocks_on_a_gpu));
 
-std::size_t blocks_along(int pixels, int bits) {
-  return (static_cast<std::size_t>(pixels - 1) >> bits) + 1;
-}
+std::size_t blocks_along(int pixels, int bits) { return (static_cast<std::size_t>(pixels - 1) >> bits) + 1; }
 
 }  // namespace
 
