@@ -88,7 +88,8 @@ static inline void add_farthest(global uint* farthest, uint pixel, LENGTH distan
 
 // What a row cannot decide is left to the others: a run adds to a side of its cell's box, or to the largest
 // distance, only if the pixel next to its end in the rows beside it, which would add more, is not in the cell.
-// That leaves a few atomics of the many that the cells' borders would need. At home a run adds all it has: to ask would
+// That leaves a few atomics of the many that the cells' borders would need. In volumes a run always adds its distance:
+// one atomic does it, and a GPU has no registers left for more questions. At home a run adds all it has: to ask would
 // take longer, for a CPU does not foresee the answers.
 kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                        global const ushort* restrict home, global box_t* restrict home_boxes,
