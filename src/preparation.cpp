@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "exact_cells/has_doubles.hpp"
+#include "runtime/has_doubles.hpp"
 #include "runtime/binary_cache.hpp"
 #include "runtime/program.hpp"
 #include "vorocl/analysis.hpp"

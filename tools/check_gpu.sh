@@ -36,7 +36,7 @@ needs intel "$OCLOC" ocloc
 
 # A GPU gets all programs but those of the vector shape of exact diagrams, and of exact diagrams of volumes.
 kernel_files() {
-  grep -lE '^(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
+  grep -lE '^ *(VECTOR_KERNEL|kernel) void' kernels/{core,flooding,measures,motion}/*.cl
   echo kernels/exact/group/diagram.cl
   echo kernels/exact/outer.cl
   echo kernels/exact/points/pixels.cl

@@ -52,6 +52,7 @@ KERNEL_TESTS = [
     ("flooding/dynamic_jump_flooding.cl", FLOODING + ["test_any_motion"]), ("flooding/*", FLOODING),
     ("core/position.cl", FLOODING + ["test_window"] + MEASURES),
     ("core/vector.cl", FLOODING + MEASURES), ("core/seeds.cl", FLOODING + ["test_seeds", "test_method", "test_displacement", "test_point_buffers"]),
+    ("core/axis.cl", ["test_place"]), ("core/place.cl", ["test_place", "test_point_buffers"]),
     ("core/philox.cl", ["test_seeds", "test_motion"]), ("motion/motion.cl", ["test_motion", "test_seeds"]),
     ("core/plane.cl", ["test_window", "test_window_measures"]),
     ("measures/seed_place.cl", ["test_window_measures"] + MEASURES),

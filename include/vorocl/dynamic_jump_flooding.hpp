@@ -37,9 +37,9 @@ struct DynamicJumpFloodingOptions {
 /// Reach::paper: close to JFA where seeds are spread evenly and move little (the paper's assumption), worse,
 /// without a word, where they are not. A label of a vanished seed counts as none, and if a pixel is left
 /// without a label a full JFA follows. Cost: log2(step) + 1 waves and a pass over the labels. Enqueues and
-/// returns, with exceptions for points in the caller's buffer and for seeds that vanish, in which it waits
-/// for all that was enqueued before:
-/// - Unless it is told `max_displacement`, it asks how far points in the buffer have moved.
+/// returns, with exceptions for points of the caller's and for seeds that vanish, in which it waits for all
+/// that was enqueued before:
+/// - Unless it is told `max_displacement`, it asks how far the points have moved.
 /// - Unless it is told how many seeds are `alive`, it asks so where a buffer said which are present, and
 ///   whether the last frame had a bad point. If it had, if a seed may have vanished, or if the labels are of
 ///   other seeds or were written by the caller, it looks whether pixels are left.

@@ -127,9 +127,8 @@ class VOROCL_API ExactCellsResult {
 /// about 0.1 us each; the device takes 1.5 us per cell and core. Memory: 115 bytes per seed, and 116 more
 /// where polygons are asked for.
 ///
-/// Enqueues and returns, after a wait where only the device has the points. Throws Error if the points came
-/// as floats in a buffer and the device has snapped them (see Seeds), if the device has no doubles
-/// (cl_khr_fp64) or too little memory, or if the rectangle has no extent along an axis.
+/// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
+/// doubles (cl_khr_fp64) or too little memory, or if the rectangle has no extent along an axis.
 VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

@@ -8,6 +8,8 @@
 
 namespace vorocl {
 
+struct Internal;
+
 /// The label of a pixel that has no nearest seed (there are no seeds, or no wave reached it).
 constexpr std::uint32_t no_label = 0xffffffffu;
 
@@ -124,6 +126,7 @@ class VOROCL_API Axis {
 
  private:
   friend class Snapping;
+  friend struct Internal;
 
   /// What rounded_position() adds to `pixel`, that of the coordinate, as a whole number of 1/4096 of it.
   double fraction_in(double pixel, double coordinate) const;

@@ -54,9 +54,11 @@ struct SeedsOptions {
 /// In a volume, and in a plane with an axis that is spaced, exact diagrams snap too, and all seeds lie in the
 /// grid: points outside it are absent or refused, with Outside::count too.
 ///
-/// Memory: on the device 4 bytes per seed and frame that is remembered, 12 in a loop over frames, and where a
-/// diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that may own a
-/// pixel, which the host finds and sorts. On the host about 60 bytes per seed whose point came from there.
+/// Memory: on the device 4 bytes per seed and frame that is remembered, 8 more of points with Snap::none, and
+/// those of its point where that came from the caller; two or three times as much in a loop over frames.
+/// Where a diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that
+/// may own a pixel, which the host finds and sorts. On the host 16 or 24 bytes per seed whose point came from
+/// there, and 16 more where the host places it.
 ///
 /// Threads: one thread at a time.
 ///
@@ -78,12 +80,13 @@ class VOROCL_API Seeds {
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
   /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
-  /// Points in floats, on a grid as Grid(width, height) makes it of which a flood takes a diagram, stay on
-  /// the device with Outside::refuse and Outside::absent if they are snapped. The call returns at once then,
-  /// and the BadPoint that names a bad one comes at the wait of every diagram and result that is made from
-  /// this frame.
+  /// On a grid of which a diagram shows all, a kernel places the points. The call returns at once, and the
+  /// BadPoint that names a bad one comes at the wait of every diagram and result that is made from this
+  /// frame. But where points may lie outside and count, the call waits to know whether one does, and throws
+  /// BadPoint itself.
   ///
-  /// All other points are read by the host, which snaps them: the call waits, and throws BadPoint itself.
+  /// The host reads and places points if one lies outside and counts, on larger grids, along periods of more
+  /// than 32,000 pixels, and where the device has no doubles (cl_khr_fp64): the call waits.
   Seeds(const Device& device, const Grid& grid, const PointBuffer& points, const SeedsOptions& options = {});
 
   /// From an image of the grid's size, row-major: each non-zero pixel is a seed; ids in row-major order. That
@@ -127,11 +130,11 @@ class VOROCL_API Seeds {
 
   /// The greatest way of a seed that is in the last frame and in this one, along an axis, in pixels, the
   /// shorter way round along a periodic axis, from pixel to pixel: the paper's d_max. 0 in the first frame
-  /// and after a move to another grid. After random_step() its bound. May wait where points came in a buffer.
+  /// and after a move to another grid. After random_step() its bound. May wait, for the device finds it.
   double displacement() const;
 
-  /// The points as they were given, or the centres of their pixels where they were made or moved on the
-  /// device; none for a seed that is absent. Waits where the device has them. Throws BadPoint if a point of
+  /// The points as they were given, or the centres of their pixels where they were made or moved by kernels;
+  /// none for a seed that is absent. Waits where the device has them. Throws BadPoint if a point of
   /// the caller's buffer was bad.
   std::vector<std::optional<Point>> read() const;
 

@@ -258,9 +258,9 @@ VOROCL_API vorocl_status vorocl_seeds_from_points(const vorocl_device* device, v
 typedef int vorocl_point_format;
 enum { VOROCL_FLOATS_XY = 0, VOROCL_DOUBLES_XY = 1, VOROCL_FLOATS_XYZ = 2, VOROCL_DOUBLES_XYZ = 3 };
 
-/// From the caller's buffers. VOROCL_FLOATS_XY that are snapped stay on the device unless points outside
-/// count: it checks them when it comes to it, and VOROCL_BAD_POINT comes from the first call that waits for
-/// what was made of them.
+/// From the caller's buffers. The device checks and places the points when it comes to it, and
+/// VOROCL_BAD_POINT comes from the first call that waits for what was made of them. Points that may lie outside
+/// the grid and count are waited for, and so are those that the host places (docs/linking.md, "What waits").
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, vorocl_point_format format, cl_mem present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,

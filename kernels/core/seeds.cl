@@ -3,50 +3,6 @@
 #include "core/philox.cl"
 #include "core/position.cl"
 
-// A coordinate's pixel on an axis of `size` pixels, which wraps if the axis is periodic; -1 if there is none.
-static inline int snapped(float at, int size, int periodic) {
-  // Both conditions are written so that a NaN fails.
-  if (periodic) {
-    if (!(fabs(at) < INFINITY)) return -1;
-    const int pixel = (int)floor(fmod(at, (float)size));
-    return pixel < 0 ? pixel + size : pixel;
-  }
-  if (!(at >= 0 && at < (float)size)) return -1;
-  return (int)at;
-}
-
-// Points in pixel units to packed positions. Where seeds are marked, a mark of 0 says that the seed is absent, and
-// its point is not looked at. `found` holds the least index of a bad point, the bits of its x and y, and how many are
-// absent: also those outside the grid, if such seeds are to be absent.
-kernel void snap_points(global const float2* restrict points, global const uchar* restrict marks, int marked,
-                        int outside_is_absent, global uint* restrict positions, uint count, int width, int height,
-                        global uint* restrict found) {
-  const uint id = (uint)get_global_id(0);
-  if (id > count) return;
-  positions[id] = EMPTY;
-  if (id == count) return;
-  if (marked && marks[id] == 0) {
-    atomic_inc(found + 3);
-    return;
-  }
-  const float2 point = points[id];
-  const int x = snapped(point.x, width, PERIODIC_X), y = snapped(point.y, height, PERIODIC_Y);
-  if (x >= 0 && y >= 0) {
-    positions[id] = pack(x, y);
-  } else if (outside_is_absent && isfinite(point.x) && isfinite(point.y)) {
-    atomic_inc(found + 3);
-  } else {
-    atomic_min(found, id);
-  }
-}
-
-// Notes the coordinates of the bad point, for its buffer is the caller's and may change.
-kernel void note_bad_point(global const float2* restrict points, global uint* restrict found) {
-  if (get_global_id(0) > 0 || found[0] == NO_LABEL) return;
-  found[1] = as_uint(points[found[0]].x);
-  found[2] = as_uint(points[found[0]].y);
-}
-
 // The greatest way of a seed along an axis between two lists of positions, the shorter way round; in a word of 0.
 kernel void find_greatest_way(global const uint* restrict from, global const uint* restrict to, uint count, int width,
                               int height, global uint* restrict greatest) {

@@ -199,7 +199,7 @@ DiagramContents written(const DiagramState& state, const Seeds& seeds, Metric me
   contents.placement = state.place(seeds);
   contents.seeds = Internal::state(seeds).frame();
   contents.metric = checked(metric);
-  if (contents.seeds->fractions) contents.points = contents.seeds->place_points_in(state.window, state.grid);
+  if (contents.seeds->are_points) contents.points = contents.seeds->place_points_in(state.window, state.grid);
   return contents;
 }
 

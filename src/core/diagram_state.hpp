@@ -99,7 +99,7 @@ class Filling {
 
   Metric metric() const { return next_.metric; }
 
-  /// Takes the points of the seeds, which must have fractions, for the positions that the labels are made of.
+  /// Takes the places of the seeds, which must be points, for the positions that the labels are made of.
   const PointPlacement& take_points();
 
   /// Takes the images of the seeds along periodic axes for outer seeds: for an engine that cannot go round

@@ -156,7 +156,7 @@ double Axis::mapped_position(double coordinate) const {
   if (periodic_) {
     along = position_in_period(coordinate);
   } else if (from_ == to_) {
-    if (coordinate == from_) return std::floor(count / 2) + 0.5;
+    if (coordinate == from_) along = std::floor(count / 2) + 0.5;
   } else if (!in_pixels_) {
     along = (coordinate - from_) * count / (to_ - from_);
   }

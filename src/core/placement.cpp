@@ -38,39 +38,43 @@ bool kernels_go_round(const Window& window, const PixelGrid& shown) {
          (!shown.periodic_x() || shown.width() <= most) && (!shown.periodic_y() || shown.height() <= most);
 }
 
+PackedPositions::PackedPositions(const PixelGrid& grid) : bits{{16, 15}}, empty(absent_position) {
+  if (!grid.is_volume()) return;
+  const VoxelBits of_voxels(grid);
+  bits = {{of_voxels.x, of_voxels.y}};
+  empty = absent_voxel;
+}
+
 std::shared_ptr<const Placement> place_in_window(const Device& device, const Window& window,
-                                                 const PixelGrid& shown,
-                                                 const std::vector<PlanePosition>& pixels) {
+                                                 const PixelGrid& shown, const std::vector<Place>& places) {
   std::vector<PlanePosition> seen;  // from the window's first pixel
   std::vector<std::uint32_t> packed;
-  seen.reserve(pixels.size() + 1);  // one more is added when they are uploaded
-  packed.reserve(pixels.size() + 1);
+  seen.reserve(places.size() + 1);  // one more is added when they are uploaded
+  packed.reserve(places.size() + 1);
   bool all_inside = true;
-  for (const PlanePosition& at : pixels) {
-    if (is_absent(at)) {
-      seen.push_back(at);
+  for (const Place& place : places) {
+    if (is_absent(place)) {
+      seen.push_back({{absent_coordinate, 0}});
       packed.push_back(absent_position);
       continue;
     }
-    const PlanePosition here = {
-        {static_cast<cl_int>(at.s[0] - window.x()), static_cast<cl_int>(at.s[1] - window.y())}};
+    const PlanePosition here = {{static_cast<cl_int>(pixel_of(place.x) - window.x()),
+                                 static_cast<cl_int>(pixel_of(place.y) - window.y())}};
     const bool inside = is_inside(shown, here);
     seen.push_back(here);
     packed.push_back(inside ? pack(here.s[0], here.s[1]) : absent_position);
     all_inside = all_inside && inside;
   }
   packed.push_back(absent_position);
-  auto positions = std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds"));
-  if (all_inside && kernels_go_round(window, shown)) {
-    return std::make_shared<const Placement>(Placement{shown, std::move(positions), nullptr});
+  Placement placed = {shown, std::make_shared<const cl::Buffer>(allocate_with(device, packed, "the seeds")),
+                      nullptr, nullptr};
+  if (!all_inside || !kernels_go_round(window, shown)) {
+    placed.grid = shown.without_periods();
+    // The images of a tilted grid are places of points.
+    if (!window.grid().is_tilted())
+      placed.outer = gather_outer_seeds(device, window, placed.grid, std::move(seen));
   }
-  if (window.grid().is_tilted()) {  // the images are places of points
-    return std::make_shared<const Placement>(
-        Placement{shown.without_periods(), std::move(positions), nullptr});
-  }
-  return std::make_shared<const Placement>(
-      Placement{shown.without_periods(), std::move(positions),
-                gather_outer_seeds(device, window, shown.without_periods(), std::move(seen))});
+  return std::make_shared<const Placement>(std::move(placed));
 }
 
 }  // namespace vorocl

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/outer_seeds.hpp"
+#include "core/place.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/opencl.hpp"
 
@@ -19,6 +20,9 @@ struct Placement {
   /// One uint32 per seed: y << 16 | x of its pixel, or absent_position if it is absent or outside the window;
   /// in a volume as VoxelBits has it, or absent_voxel. And one more such value at the end.
   std::shared_ptr<const cl::Buffer> positions;
+
+  /// The places, where a kernel has made them with the positions: see place_on_grid(). Else null.
+  std::shared_ptr<const cl::Buffer> places;
 
   /// The seeds outside, and images across the ends of periods; null if there are none.
   std::shared_ptr<const OuterSeeds> outer;
@@ -43,10 +47,17 @@ inline std::uint32_t pack(int x, int y) {
   return static_cast<std::uint32_t>(y) << 16 | static_cast<std::uint32_t>(x);
 }
 
-/// Places seeds that the host knows, whose pixels are counted from the grid's first one.
+/// How kernels pack positions in all of a grid.
+struct PackedPositions {
+  explicit PackedPositions(const PixelGrid& grid);
+
+  cl_int2 bits;   // of x and y, from the lowest bit on; what is above is z
+  cl_uint empty;  // of a seed that is absent
+};
+
+/// Places seeds that the host knows, whose places are counted from the grid's first pixel.
 std::shared_ptr<const Placement> place_in_window(const Device& device, const Window& window,
-                                                 const PixelGrid& shown,
-                                                 const std::vector<PlanePosition>& pixels);
+                                                 const PixelGrid& shown, const std::vector<Place>& places);
 
 /// Whether kernels go round the periodic axes of these pixels themselves, where no seed lies outside.
 bool kernels_go_round(const Window& window, const PixelGrid& shown);

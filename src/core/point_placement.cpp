@@ -20,9 +20,6 @@ namespace {
 constexpr std::int64_t most_pixels_away = std::int64_t{1} << AWAY_BITS;
 static_assert(Window::max_side <= 1 << SIDE_BITS);
 
-std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
-std::int64_t centre_of(std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; }
-
 Region centres_of(const Region& pixels) {
   return {centre_of(pixels.left), centre_of(pixels.top), centre_of(pixels.right), centre_of(pixels.bottom)};
 }
@@ -63,13 +60,32 @@ std::vector<cl_int2> order_of(std::vector<cl_uint> ids, std::size_t count, Place
   return order;
 }
 
+/// What does not depend on where the seeds are; all of them are places themselves.
+PointPlacement placement_of(const Window& window, const PixelGrid& shown, const cl::Buffer& seeds,
+                            std::size_t count) {
+  const Region region = labelled_region(window, home_region(window));
+  const auto as_int = [](std::int64_t number) { return static_cast<cl_int>(number); };
+  const Periods periods(window.grid());
+  return {shown,
+          seeds,
+          seeds,
+          seeds,
+          {},
+          static_cast<cl_uint>(count),
+          {{as_int(region.left), as_int(region.top), as_int(region.right), as_int(region.bottom)}},
+          {{as_int(periods.x), as_int(periods.y), as_int(window.grid().shift()), 0}}};
+}
+
 }  // namespace
 
+std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,
+                                                    const cl::Buffer& places, std::size_t count) {
+  return std::make_shared<const PointPlacement>(placement_of(window, shown, places, count));
+}
+
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
-                                                   const PixelGrid& shown,
-                                                   const std::vector<PlanePosition>& pixels,
-                                                   const std::vector<Fraction>& fractions) {
-  const std::size_t count = pixels.size();
+                                                   const PixelGrid& shown, const std::vector<Place>& given) {
+  const std::size_t count = given.size();
   // So that all seeds are near where they lie themselves.
   constexpr std::int64_t most_if_tilted = most_pixels_away / 2;
   const Grid& grid = window.grid();
@@ -79,46 +95,35 @@ std::shared_ptr<const PointPlacement> place_points(const Device& device, const W
                 std::to_string(most_if_tilted));
   }
   const auto place_of = [&](std::size_t id) {
-    return Place{in_fractions(pixels[id].s[0] - window.x()) + fractions[id].x,
-                 in_fractions(pixels[id].s[1] - window.y()) + fractions[id].y};
+    return given[id] - Place{in_fractions(window.x()), in_fractions(window.y())};
   };
   const Images images(grid, fractions_of_pixel);
   std::vector<cl_int2> seeds;
   seeds.reserve(count + 1);
   bool all_inside = true, all_near = true;
   for (std::size_t id = 0; id < count; ++id) {
-    const bool there = !is_absent(pixels[id]);
+    const bool there = !is_absent(given[id]);
     const Place place = there ? place_of(id) : Place{}, near = near_image(place, images);
     seeds.push_back(there && fits(near) ? as_int2(near) : absent_point);
     all_near = all_near && fits(place);
-    all_inside =
-        all_inside && (!there || is_inside(shown, {{static_cast<cl_int>(pixels[id].s[0] - window.x()),
-                                                    static_cast<cl_int>(pixels[id].s[1] - window.y())}}));
+    all_inside = all_inside && (!there || (place.x >= 0 && place.x < in_fractions(shown.width()) &&
+                                           place.y >= 0 && place.y < in_fractions(shown.height())));
   }
   seeds.push_back(absent_point);
 
-  PointPlacement placed{shown, allocate_with(device, seeds, "the seeds"), {}, {}, {}};
-  placed.order = placed.seeds;
-  const Region home = home_region(window), region = labelled_region(window, home);
-  const Periods periods(grid);
-  placed.region = {{static_cast<cl_int>(region.left), static_cast<cl_int>(region.top),
-                    static_cast<cl_int>(region.right), static_cast<cl_int>(region.bottom)}};
-  placed.periods = {
-      {static_cast<cl_int>(periods.x), static_cast<cl_int>(periods.y), static_cast<cl_int>(grid.shift()), 0}};
-  if (all_inside && kernels_go_round(window, shown)) {
-    placed.places = placed.seeds;
-    placed.count = static_cast<cl_uint>(count);
+  PointPlacement placed = placement_of(window, shown, allocate_with(device, seeds, "the seeds"), count);
+  if (all_inside && kernels_go_round(window, shown))
     return std::make_shared<const PointPlacement>(std::move(placed));
-  }
 
   placed.grid = shown.without_periods();
   std::vector<cl_int2> places;
   std::vector<cl_uint> ids;
+  const Region region = labelled_region(window, home_region(window));
   if (!region.empty()) {
     const Region centres = centres_of(region);
     const auto each = [&](auto use) {
       for (std::size_t id = 0; id < count; ++id) {
-        if (is_absent(pixels[id])) continue;
+        if (is_absent(given[id])) continue;
         each_place(centres, images, place_of(id), [&](const Place& place, bool) { use(place, id); });
       }
     };

@@ -1,27 +1,16 @@
 // Where the points of a frame lie, to a fraction of a pixel, seen from the window of a diagram.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
-#include "core/outer_seeds.hpp"
+#include "core/place.hpp"
 #include "runtime/pixel_grid.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/opencl.hpp"
 
 namespace vorocl {
-
-/// Where in its pixel a point lies: whole numbers of 1/4096 pixel along each axis, from 0 to 4095.
-struct Fraction {
-  std::uint16_t x, y;
-};
-
-/// How many there are in a pixel.
-constexpr int fractions_of_pixel = 4096;
-
-constexpr Fraction centre_of_pixel = {fractions_of_pixel / 2, fractions_of_pixel / 2};
 
 /// What kernels get of the points of a frame. Nothing of it changes. Positions are in fractions of a pixel
 /// from the window's first pixel. In a tilted grid those of snapped seeds are points too, at the centres of
@@ -38,10 +27,13 @@ struct PointPlacement {
   cl_int4 periods{};  // in pixels, 0 along an axis that is not periodic; and the tilt, in fractions
 };
 
-/// Places points. Throws Error if one that may own a pixel is too far away for 32 bits.
+/// Places points that the host knows, from the grid's first pixel on. Throws Error if one that may own a
+/// pixel is too far away for 32 bits.
 std::shared_ptr<const PointPlacement> place_points(const Device& device, const Window& window,
-                                                   const PixelGrid& shown,
-                                                   const std::vector<PlanePosition>& pixels,
-                                                   const std::vector<Fraction>& fractions);
+                                                   const PixelGrid& shown, const std::vector<Place>& places);
+
+/// The same of points that a kernel has placed in all of a grid whose periods kernels go round themselves.
+std::shared_ptr<const PointPlacement> placed_points(const Window& window, const PixelGrid& shown,
+                                                    const cl::Buffer& places, std::size_t count);
 
 }  // namespace vorocl

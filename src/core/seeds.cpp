@@ -26,8 +26,7 @@ PixelGrid pixels_of(const Grid& grid, const char* what) {
 void place_images_of_long_periods(SeedsState& state, const PixelGrid& pixels) {
   const Grid& grid = state.grid();
   if (has_voxels(grid) || kernels_go_round(grid, pixels)) return;
-  state.place(grid, std::make_shared<const std::vector<PlanePosition>>(state.frame()->read_pixels()),
-              nullptr);
+  state.place(grid, state.frame()->places(), false);
 }
 
 }  // namespace
@@ -153,8 +152,9 @@ void Seeds::check() const { state().frame()->check(); }
 std::vector<std::optional<Point>> Seeds::read() const {
   const SeedsFrame& frame = *state().frame();
   std::vector<std::optional<Point>> points = read_pixels();
+  const GivenPoints given = frame.read_given();
   for (std::size_t id = 0; id < points.size(); ++id) {
-    if (points[id]) points[id] = frame.given ? (*frame.given)[id] : frame.grid.point(*points[id]);
+    if (points[id]) points[id] = given.numbers ? given.point(frame.grid, id) : frame.grid.point(*points[id]);
   }
   return points;
 }

@@ -1,40 +1,34 @@
 #include "core/seeds_frame.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 
 #include "core/snapping.hpp"
 #include "core/window_places.hpp"
 #include "runtime/buffer.hpp"
+// Last: it defines macros.
+#include "core/place_sizes.cl"
 
 namespace vorocl {
 
 namespace {
 
-double coordinate(std::uint32_t bits) {
-  float value = 0;
-  std::memcpy(&value, &bits, sizeof value);
-  return static_cast<double>(value);
-}
-
 /// The greatest of the shorter ways round between pixels of an axis.
 class Farthest {
  public:
-  explicit Farthest(const Axis& axis)
-      : period_(static_cast<cl_uint>(axis.is_periodic() ? axis.pixels() : 0)) {}
+  explicit Farthest(const Axis& axis) : period_(axis.is_periodic() ? axis.pixels() : 0) {}
 
-  void add(cl_int from, cl_int to) {
-    const auto a = static_cast<cl_uint>(from), b = static_cast<cl_uint>(to);
-    cl_uint way = from < to ? b - a : a - b;
+  void add(std::int64_t from, std::int64_t to) {
+    std::int64_t way = std::abs(to - from);
     if (period_ > 0) way = std::min(way, period_ - way);
     greatest_ = std::max(greatest_, way);
   }
-  cl_uint greatest() const { return greatest_; }
+  std::int64_t greatest() const { return greatest_; }
 
  private:
-  cl_uint period_, greatest_ = 0;
+  std::int64_t period_, greatest_ = 0;
 };
 
 /// The same in a tilted grid, of ways along the axis where they are longer.
@@ -42,10 +36,10 @@ class FarthestIfTilted {
  public:
   explicit FarthestIfTilted(const Grid& grid) : images_(grid, fractions_of_pixel) {}
 
-  void add(const PlanePosition& from, const PlanePosition& to) {
+  void add(const Place& from, const Place& to) {
     const Region start = {0, 0, 0, 0};
-    const Place way = {in_fractions(to.s[0]) - in_fractions(from.s[0]),
-                       in_fractions(to.s[1]) - in_fractions(from.s[1])};
+    const Place way = {in_fractions(pixel_of(to.x) - pixel_of(from.x)),
+                       in_fractions(pixel_of(to.y) - pixel_of(from.y))};
     std::int64_t least = std::max(images_.x, images_.y);
     each_place(start, images_, way, [&](const Place& image, bool) {
       least = std::min(least, std::max(std::abs(image.x), std::abs(image.y)));
@@ -55,8 +49,6 @@ class FarthestIfTilted {
   double greatest() const { return static_cast<double>(greatest_) / fractions_of_pixel; }
 
  private:
-  static std::int64_t in_fractions(cl_int pixels) { return std::int64_t{pixels} * fractions_of_pixel; }
-
   Images images_;
   std::int64_t greatest_ = 0;
 };
@@ -80,13 +72,16 @@ double way_on_device(const SeedsFrame& earlier, const SeedsFrame& now) {
 
 // --- PointCheck ---
 
-PointCheck::PointCheck(const Device& device, const Grid& grid)
-    : device_(device), grid_(grid), found_(allocate(device, sizeof(cl_uint4), "the check of the points")) {}
+PointCheck::PointCheck(const Device& device)
+    : device_(device), found_(allocate(device, sizeof(cl_uint4), "the check of the points")) {}
 
-void PointCheck::reset(const Grid& grid) {
+void PointCheck::reset(const Snapping& snapping) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  grid_ = grid;
-  fill(device_, found_, cl_uint4{{no_label, 0, 0, 0}}, 1);
+  cl_uint4 none = {};
+  none.s[FOUND_BAD] = no_label;
+  fill(device_, found_, none, 1);
+  snapping_ = snapping;
+  points_ = {};
   known_ = false;
   bad_point_.reset();
 }
@@ -94,11 +89,10 @@ void PointCheck::reset(const Grid& grid) {
 void PointCheck::read() const {
   if (known_) return;
   const cl_uint4 found = download<cl_uint4>(device_, found_, 1).front();
-  if (found.s[0] != no_label) {
-    bad_point_.emplace(
-        Snapping::outside_the_grid(found.s[0], Point{coordinate(found.s[1]), coordinate(found.s[2])}, grid_));
-  }
-  absent_ = found.s[3];
+  if (const cl_uint id = found.s[FOUND_BAD]; id != no_label)
+    bad_point_.emplace(snapping_->bad(id, read_points(device_, points_).point(snapping_->grid(), id)));
+  absent_ = found.s[FOUND_ABSENT];
+  outside_ = found.s[FOUND_OUTSIDE];
   known_ = true;
 }
 
@@ -114,28 +108,31 @@ std::size_t PointCheck::absent() const {
   return absent_;
 }
 
+std::size_t PointCheck::outside() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  read();
+  return outside_;
+}
+
 // --- SeedsFrame ---
 
-double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
-                    const std::vector<PlanePosition>& to, bool some_absent) {
-  const std::size_t count = std::min(from.size(), to.size());
+double greatest_way(const Grid& grid, const std::vector<Place>& from, const std::vector<Place>& to) {
   const auto each_way = [&](auto use) {
-    for (std::size_t id = 0; id < count; ++id) {
-      if (some_absent && (is_absent(from[id]) || is_absent(to[id]))) continue;
-      use(from[id], to[id]);
+    for (std::size_t id = 0; id < std::min(from.size(), to.size()); ++id) {
+      if (!is_absent(from[id]) && !is_absent(to[id])) use(from[id], to[id]);
     }
   };
   if (grid.is_tilted()) {
     FarthestIfTilted farthest(grid);
-    each_way([&](const PlanePosition& a, const PlanePosition& b) { farthest.add(a, b); });
+    each_way([&](const Place& a, const Place& b) { farthest.add(a, b); });
     return farthest.greatest();
   }
   Farthest x(grid.x()), y(grid.y());
-  each_way([&](const PlanePosition& a, const PlanePosition& b) {
-    x.add(a.s[0], b.s[0]);
-    y.add(a.s[1], b.s[1]);
+  each_way([&](const Place& a, const Place& b) {
+    x.add(pixel_of(a.x), pixel_of(b.x));
+    y.add(pixel_of(a.y), pixel_of(b.y));
   });
-  return std::max(x.greatest(), y.greatest());
+  return static_cast<double>(std::max(x.greatest(), y.greatest()));
 }
 
 std::size_t SeedsFrame::alive() const { return size - absent - (counted_there ? points->absent() : 0); }
@@ -151,9 +148,8 @@ double SeedsFrame::way_from(const SeedsFrame& earlier) const {
   if (earlier.grid != grid || !device.same_as(earlier.device)) {
     return static_cast<double>(std::max({grid.width(), grid.height(), grid.depth()}));
   }
-  if (pixels && earlier.pixels) return greatest_way(grid, *earlier.pixels, *pixels, true);
-  if (whole && earlier.whole) return way_on_device(earlier, *this);
-  return greatest_way(grid, earlier.read_pixels(), read_pixels(), true);
+  const bool on_device = whole && earlier.whole && !(listed && earlier.listed) && !grid.is_tilted();
+  return on_device ? way_on_device(earlier, *this) : greatest_way(grid, *earlier.places(), *places());
 }
 
 double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) : way.last; }
@@ -161,9 +157,9 @@ double SeedsFrame::way_of_last_move() const { return before ? way_from(*before) 
 std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
   std::vector<std::optional<Point>> positions(size);
   if (!has_voxels(grid)) {
-    const std::vector<PlanePosition> at = read_pixels();
+    const auto at = places();
     for (std::size_t id = 0; id < size; ++id) {
-      if (!is_absent(at[id])) positions[id] = position(id, at[id]);
+      if (!is_absent((*at)[id])) positions[id] = in_pixels((*at)[id]);
     }
     return positions;
   }
@@ -175,20 +171,6 @@ std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
     positions[id] = {x + 0.5, y + 0.5, z + 0.5};
   }
   return positions;
-}
-
-std::vector<PlanePosition> SeedsFrame::read_pixels() const {
-  if (pixels) return *pixels;
-  refuse_volume(grid, "a list of points (x, y)");
-  check();
-  std::vector<PlanePosition> read;
-  read.reserve(size);
-  for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
-    read.push_back(position == absent_position ? PlanePosition{{absent_coordinate, 0}}
-                                               : PlanePosition{{static_cast<cl_int>(position & 0xffff),
-                                                                static_cast<cl_int>(position >> 16)}});
-  }
-  return read;
 }
 
 // --- placements ---
@@ -226,20 +208,66 @@ class Placements {
  public:
   Remembered<Placement> of_pixels;
   Remembered<PointPlacement> of_points;
+
+  template <typename Find>
+  std::shared_ptr<const std::vector<Place>> places(Find find) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!places_) places_ = std::make_shared<const std::vector<Place>>(find());
+    return places_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::shared_ptr<const std::vector<Place>> places_;
 };
 
 std::shared_ptr<Placements> no_placements() { return std::make_shared<Placements>(); }
 
+void add_places(const Grid& grid, const GivenPoints& points, std::size_t count, Snap snap,
+                std::vector<Place>& places) {
+  const Snapping snapping(grid, Outside::count);
+  for (std::size_t id = 0; id < count; ++id) {
+    const Point at = points.point(grid, id);
+    places.push_back(std::isnan(at.x) ? absent_place : snapping(id, at, snap));
+  }
+}
+
+std::shared_ptr<const std::vector<Place>> SeedsFrame::places() const {
+  if (listed) return listed;
+  refuse_volume(grid, "a list of points (x, y)");
+  check();
+  return placements->places([&] {
+    std::vector<Place> places;
+    places.reserve(size);
+    if (given.numbers) {
+      add_places(grid, given, size, is_off_centre ? Snap::none : Snap::to_pixels, places);
+    } else if (whole->places) {
+      for (const cl_int2& at : download<cl_int2>(device, *whole->places, size))
+        places.push_back(at.s[0] == absent_coordinate ? absent_place : Place{at.s[0], at.s[1]});
+    } else {
+      for (const std::uint32_t position : download<std::uint32_t>(device, *whole->positions, size)) {
+        places.push_back(position == absent_position
+                             ? absent_place
+                             : Place{centre_of(position & 0xffff), centre_of(position >> 16)});
+      }
+    }
+    return places;
+  });
+}
+
 std::shared_ptr<const Placement> SeedsFrame::place_in(const Window& window, const PixelGrid& shown) const {
-  if (whole && window.is_whole() && shown == whole->grid) return whole;
+  if (whole && window.is_whole() && shown == PixelGrid(window)) return whole;
   return placements->of_pixels.get(window, shown,
-                                   [&] { return place_in_window(device, window, shown, read_pixels()); });
+                                   [&] { return place_in_window(device, window, shown, *places()); });
 }
 
 std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& window,
                                                                   const PixelGrid& shown) const {
-  return placements->of_points.get(window, shown,
-                                   [&] { return place_points(device, window, shown, *pixels, *fractions); });
+  return placements->of_points.get(window, shown, [&] {
+    return whole && whole->places && kernels_go_round(window, shown)
+               ? placed_points(window, shown, *whole->places, size)
+               : place_points(device, window, shown, *places());
+  });
 }
 
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {

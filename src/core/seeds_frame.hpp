@@ -10,6 +10,7 @@
 
 #include "core/placement.hpp"
 #include "core/point_placement.hpp"
+#include "core/snapping.hpp"
 #include "vorocl/device.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/grid.hpp"
@@ -21,31 +22,35 @@ namespace vorocl {
 /// frame that came in such buffers.
 class PointCheck {
  public:
-  PointCheck(const Device& device, const Grid& grid);
+  explicit PointCheck(const Device& device);
 
-  /// Four uint32 that seeds.cl fills: the least index of a bad point, or no_label; the bits of its x and y;
-  /// how many seeds are absent.
+  /// What the kernel fills: see kernels/core/place_sizes.cl.
   const cl::Buffer& found() const { return found_; }
 
-  /// Enqueues that nothing is found yet, of points on a grid.
-  void reset(const Grid& grid);
+  /// Enqueues that nothing is found yet. Lets go of the points.
+  void reset(const Snapping& snapping);
+
+  /// Takes the bad point from these.
+  void read_from(const PointsThere& points) { points_ = points; }
 
   /// The bad point, if there is one. Waits for the device at its first call.
   const std::optional<BadPoint>& bad_point() const;
 
-  /// How many seeds are absent. Waits likewise.
+  /// How many seeds are absent, and outside the grid where they count. Waits likewise.
   std::size_t absent() const;
+  std::size_t outside() const;
 
  private:
   void read() const;
 
   Device device_;
-  Grid grid_;
   cl::Buffer found_;
+  std::optional<Snapping> snapping_;
+  PointsThere points_;
   mutable std::mutex mutex_;  // a frame may be remembered by objects of several threads
   mutable bool known_ = false;
   mutable std::optional<BadPoint> bad_point_;
-  mutable std::size_t absent_ = 0;
+  mutable std::size_t absent_ = 0, outside_ = 0;
 };
 
 /// How far seeds went from frame to frame, as far as the host knows without asking the device.
@@ -73,15 +78,15 @@ struct SeedsFrame {
   std::shared_ptr<const PointCheck> points = nullptr;  // none unless the points came in the caller's buffer
   bool counted_there = false;                          // the check counts seeds that are absent
 
-  /// The points as they were given, by id; null where the device has placed the seeds.
-  std::shared_ptr<const std::vector<Point>> given = nullptr;
+  /// Whether diagrams take the places of the seeds: those of points, and all in a tilted grid, where images
+  /// do not lie in the middle of pixels. Else the seeds lie in the middle of theirs.
+  bool are_points = false;
 
-  /// The pixels, by id, counted from the grid's first one; null where the device has placed the seeds.
-  std::shared_ptr<const std::vector<PlanePosition>> pixels = nullptr;
+  GivenPoints given = {};  // none where they came in a buffer, or seeds were made or moved otherwise
+  PointsThere there = {};  // a copy of those that came in a buffer; likewise
 
-  /// Where in these pixels the points lie; null if the seeds are snapped to the centres of an untilted
-  /// grid's.
-  std::shared_ptr<const std::vector<Fraction>> fractions = nullptr;
+  /// The places, by id, from the grid's first pixel on; null where the device has placed the seeds.
+  std::shared_ptr<const std::vector<Place>> listed = nullptr;
 
   /// The marks whose numbers are the ids; null unless the seeds were made from a mask.
   std::shared_ptr<const Marks> marks = nullptr;
@@ -107,10 +112,10 @@ struct SeedsFrame {
   void check() const;
 
   /// Where the seeds lie in a window of the grid, of which these pixels are shown. Made at the first
-  /// question; then the host waits if the device has placed the seeds.
+  /// question, of places() where the window is not the whole grid.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
-  /// The same of points with fractions.
+  /// The same where `are_points`.
   std::shared_ptr<const PointPlacement> place_points_in(const Window& window, const PixelGrid& shown) const;
 
   /// The greatest way of a seed along an axis to this frame from an earlier one. May wait.
@@ -119,15 +124,12 @@ struct SeedsFrame {
   /// The same from the frame before.
   double way_of_last_move() const;
 
-  /// The position in pixels of a plane's seed in this pixel: of its point, or the pixel's centre.
-  Point position(std::size_t id, const PlanePosition& pixel) const {
-    const Fraction& in = fractions ? (*fractions)[id] : centre_of_pixel;
-    return {pixel.s[0] + static_cast<double>(in.x) / fractions_of_pixel,
-            pixel.s[1] + static_cast<double>(in.y) / fractions_of_pixel, 0.5};
-  }
+  /// The points as they were given, read from the device where they came in a buffer; none likewise.
+  GivenPoints read_given() const { return there.points ? read_points(device, there) : given; }
 
-  /// The pixels, from the device where the host has none. Waits.
-  std::vector<PlanePosition> read_pixels() const;
+  /// The places of seeds in a plane. The host finds those of the points that it has, and waits for the device
+  /// where it has none.
+  std::shared_ptr<const std::vector<Place>> places() const;
 
   /// The positions in pixels from the grid's first one, as diagrams take them; none for a seed that is
   /// absent. Waits.
@@ -136,10 +138,18 @@ struct SeedsFrame {
 
 std::shared_ptr<Placements> no_placements();
 
+/// The places of points on the host, of which those that count have been checked; added to a list.
+void add_places(const Grid& grid, const GivenPoints& points, std::size_t count, Snap snap,
+                std::vector<Place>& places);
+
 /// The greatest way along an axis between the pixels of one frame and another, for seeds present in both.
-/// `some_absent`: whether there may be others.
-double greatest_way(const Grid& grid, const std::vector<PlanePosition>& from,
-                    const std::vector<PlanePosition>& to, bool some_absent);
+double greatest_way(const Grid& grid, const std::vector<Place>& from, const std::vector<Place>& to);
+
+/// A place in pixels.
+inline Point in_pixels(const Place& place) {
+  constexpr double units = fractions_of_pixel;
+  return {static_cast<double>(place.x) / units, static_cast<double>(place.y) / units, 0.5};
+}
 
 /// Throws Error if seeds lie outside a diagram's window, or across the ends of its periods, or the grid is
 /// tilted, for something

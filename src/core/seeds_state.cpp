@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -20,7 +22,7 @@ void check_count(std::size_t count) {
   }
 }
 
-std::size_t coordinates_of(const PointBuffer& points) {
+int coordinates_of(const PointBuffer& points) {
   return points.format == PointFormat::floats_xyz || points.format == PointFormat::doubles_xyz ? 3 : 2;
 }
 
@@ -28,12 +30,16 @@ bool are_doubles(const PointBuffer& points) {
   return points.format == PointFormat::doubles_xy || points.format == PointFormat::doubles_xyz;
 }
 
+std::size_t bytes_of(const PointBuffer& points) {
+  return points.count * static_cast<std::size_t>(coordinates_of(points)) *
+         (are_doubles(points) ? sizeof(cl_double) : sizeof(cl_float));
+}
+
 void check_buffers(const Device& device, const PointBuffer& points) {
   check_count(points.count);
   const std::string number = std::to_string(points.count);
-  const std::size_t bytes = are_doubles(points) ? sizeof(cl_double) : sizeof(cl_float);
-  check_foreign_buffer(device, points.points, points.count * coordinates_of(points) * bytes,
-                       "the buffer of " + number + " points", Access::read);
+  check_foreign_buffer(device, points.points, bytes_of(points), "the buffer of " + number + " points",
+                       Access::read);
   if (points.present() != nullptr) {
     check_foreign_buffer(device, points.present, points.count,
                          "the buffer that says which of " + number + " seeds are present", Access::read);
@@ -45,37 +51,35 @@ std::uint64_t next_number() {
   return ++last;
 }
 
-/// Whether the device snaps points to this axis as the host does.
-bool device_snaps_to(const Axis& axis) {
-  return axis == (axis.is_periodic() ? Axis(axis.pixels()).periodic() : Axis(axis.pixels()));
+/// The pixels of a diagram of all of a grid, as far as kernels go round its periods.
+PixelGrid whole_of(const Grid& grid) {
+  const PixelGrid pixels{Window(grid)};
+  return grid.is_tilted() ? pixels.without_periods() : pixels;
 }
 
-/// Calls `use` with a view of the points of a buffer, on the host. Waits.
-template <typename Real, typename Use>
-void read_points(const Device& device, const PointBuffer& from, const Use& use) {
-  const std::size_t coordinates = coordinates_of(from);
-  const auto values = download<Real>(device, from.points, from.count * coordinates);
-  std::vector<cl_uchar> marks;
-  if (from.present() != nullptr) marks = download<cl_uchar>(device, from.present, from.count);
-  const Real* const x = values.data();
-  const Real* const z = coordinates == 3 && from.count > 0 ? x + 2 : nullptr;
-  const Points points(x, from.count > 0 ? x + 1 : x, z, from.count,
-                      static_cast<std::ptrdiff_t>(coordinates * sizeof(Real)));
-  use(marks.empty() ? points : points.marked(marks.data()));
+/// Whether a kernel places points on a grid, as far as all of them lie in it: one that a diagram shows whole,
+/// without images of seeds in the middle of pixels.
+bool kernels_place(const Device& device, const Grid& grid) {
+  if (!places_points(device) || !fits_in_a_diagram(grid)) return false;
+  return has_voxels(grid) || grid.is_tilted() || kernels_go_round(grid, PixelGrid(Window(grid)));
 }
 
-/// The positions in a diagram of all of the grid, with the one behind them; empty if kernels cannot have them
-/// alone, because seeds lie outside or go round the ends of long periods.
-std::vector<std::uint32_t> packed_positions(const Window& window, std::size_t outside,
-                                            const std::vector<PlanePosition>& pixels) {
-  std::vector<std::uint32_t> packed;
-  if (outside > 0 || !fits_in_a_diagram(window.grid()) || !kernels_go_round(window, PixelGrid(window)))
-    return packed;
-  packed.reserve(pixels.size() + 1);
-  for (const PlanePosition& at : pixels)
-    packed.push_back(is_absent(at) ? absent_position : pack(at.s[0], at.s[1]));
-  packed.push_back(absent_position);
-  return packed;
+/// The voxels of points that lie in a grid of them.
+std::vector<std::uint32_t> voxels_of(const SeedsFrame& frame) {
+  const Grid& grid = frame.grid;
+  const VoxelBits bits(PixelGrid{Window(grid)});
+  const auto pixel = [](const Axis& axis, double coordinate) {
+    return static_cast<int>(axis.pixel(coordinate));
+  };
+  std::vector<std::uint32_t> voxels;
+  voxels.reserve(frame.size + 1);  // one more is added when they are uploaded
+  for (std::size_t id = 0; id < frame.size; ++id) {
+    const Point at = frame.given.point(grid, id);
+    voxels.push_back(std::isnan(at.x)
+                         ? absent_voxel
+                         : bits.pack(pixel(grid.x(), at.x), pixel(grid.y(), at.y), pixel(grid.z(), at.z)));
+  }
+  return voxels;
 }
 
 }  // namespace
@@ -98,12 +102,20 @@ SeedsFrame SeedsState::next_frame(const Grid& grid, std::size_t size, bool lost)
   return next;
 }
 
-void SeedsState::way_is_unknown(SeedsFrame& next) const {
-  if (frame_->size == 0) return;
-  next.way = {0, 0, next_number()};
-  auto before = std::make_shared<SeedsFrame>(*frame_);
-  before->before = nullptr;
-  next.before = std::move(before);
+void SeedsState::find_way_to(SeedsFrame& next) const {
+  if (frame_->grid != next.grid) {
+    next.way = {0, 0, next_number()};
+  } else if (frame_->listed && next.listed) {
+    next.way.last = greatest_way(next.grid, *frame_->listed, *next.listed);
+    next.way.all += next.way.last;
+  } else if (frame_->size > 0) {  // only the device knows
+    next.way = {0, 0, next_number()};
+    auto before = std::make_shared<SeedsFrame>(*frame_);
+    before->before = nullptr;
+    before->given = {};
+    before->there = {};
+    next.before = std::move(before);
+  }
 }
 
 void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept {
@@ -111,179 +123,165 @@ void SeedsState::commit(std::shared_ptr<const SeedsFrame> frame, std::vector<boo
   frame_ = std::move(frame);
 }
 
-std::vector<std::uint32_t> SeedsState::snap_to_voxels(const Grid& grid, const Points& points,
-                                                      std::vector<Point>& given) const {
-  const PixelGrid size{Window(grid)};
-  const VoxelBits bits(size);
-  const auto pixel = [](const Axis& axis, double coordinate) {
-    const double at = axis.pixel(coordinate);
-    return at >= 0 && at < static_cast<double>(axis.pixels()) ? static_cast<int>(at) : -1;  // -1 for a NaN
-  };
-  std::vector<std::uint32_t> voxels;
-  voxels.reserve(points.size() + 1);  // one more is added when they are uploaded
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    voxels.push_back(absent_voxel);
-    if (!points.is_present(id)) continue;
-    const Point& point = given[id] = point_on(grid, points, id);
-    const int x = pixel(grid.x(), point.x), y = pixel(grid.y(), point.y), z = pixel(grid.z(), point.z);
-    if (x >= 0 && y >= 0 && z >= 0) {
-      voxels.back() = bits.pack(x, y, z);
-    } else if (options.outside != Outside::absent || !Snapping::is_finite(point)) {
-      throw Snapping::outside_the_grid(id, point, grid);
-    }
-  }
-  return voxels;
-}
-
-void SeedsState::place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels,
-                                 std::shared_ptr<const std::vector<Point>> given) {
-  check_count(voxels.size());
-  std::vector<bool> there(voxels.size(), true);
-  std::size_t absent = 0;
-  bool lost = there.size() < present.size();
-  for (std::size_t id = 0; id < voxels.size(); ++id) {
-    if (voxels[id] != absent_voxel) continue;
-    there[id] = false;
-    ++absent;
-    lost = lost || (id < present.size() && present[id]);
-  }
-  SeedsFrame next = next_frame(grid, voxels.size(), lost);
-  next.absent = absent;
-  next.is_off_centre = given && options.snap == Snap::none;
-  next.given = std::move(given);
-  way_is_unknown(next);
-  const std::shared_ptr<cl::Buffer> positions = room_for_positions(voxels.size());
-  const PixelGrid volume{Window(grid)};
-  next.whole =
-      std::make_shared<const Placement>(Placement{volume, positions, nullptr, are_crowded(volume, voxels)});
-  voxels.push_back(absent_voxel);
-  upload_.start(device, *positions, std::move(voxels));
-  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
-}
-
 void SeedsState::place(const Grid& grid, const Points& points) {
   check_count(points.size());
   if (grid.depth() > 1 && !points.have_z() && points.size() > 0) {
     throw Error("the grid is a volume, and the points have no z");
   }
-  const std::shared_ptr<std::vector<Point>> given = points_.take();
-  given->resize(points.size());
-  if (has_voxels(grid)) {
-    return place_in_volume(grid, snap_to_voxels(grid, points, *given), given);
-  }
   const Snapping snapping(grid, options.outside);
-  const std::shared_ptr<std::vector<PlanePosition>> pixels = pixels_.take();
-  pixels->resize(points.size());
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    PlanePosition& at = (*pixels)[id];
-    if (points.is_present(id)) {
-      (*given)[id] = point_on(grid, points, id);
-      at = snapping(id, (*given)[id]);
-    } else {
-      at = {{absent_coordinate, 0}};
-    }
-  }
-  std::shared_ptr<std::vector<Fraction>> fractions;
-  if (options.snap == Snap::none) {
-    fractions = fractions_.take();
-    fractions->resize(points.size());
-    for (std::size_t id = 0; id < points.size(); ++id) {
-      if (!is_absent((*pixels)[id])) (*fractions)[id] = snapping.fraction((*given)[id], (*pixels)[id]);
-    }
-  }
-  place(grid, pixels, given, fractions);
-}
-
-void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> placed,
-                       std::shared_ptr<const std::vector<Point>> given,
-                       std::shared_ptr<const std::vector<Fraction>> fractions) {
-  const std::vector<PlanePosition>& pixels = *placed;
-  const Snapping snapping(grid, options.outside);
-  std::vector<bool> there(pixels.size(), true);
+  const std::shared_ptr<std::vector<double>> numbers = numbers_.take();
+  const GivenPoints given = {numbers, points.have_z() ? 3 : 2};
+  numbers->resize(points.size() * static_cast<std::size_t>(given.dimensions));
+  std::vector<bool> there(points.size(), true);
+  std::size_t absent = 0, beyond = 0;
   bool lost = there.size() < present.size();
-  std::size_t inside = 0, absent = 0;
-  for (const PlanePosition& at : pixels) inside += snapping.is_inside(at) ? 1 : 0;
-  for (std::size_t id = 0; inside < pixels.size() && id < pixels.size(); ++id) {
-    if (!is_absent(pixels[id])) continue;
+  double* to = numbers->data();
+  for (std::size_t id = 0; id < points.size(); ++id, to += given.dimensions) {
+    Snapping::Where where = Snapping::Where::absent;
+    if (points.is_present(id)) {
+      const Point point = point_on(grid, points, id);
+      where = snapping.find(id, point);
+      to[0] = point.x;
+      to[1] = point.y;
+      if (given.dimensions > 2) to[2] = point.z;
+    }
+    beyond += where == Snapping::Where::outside ? 1 : 0;
+    if (where != Snapping::Where::absent) continue;
+    *to = std::numeric_limits<double>::quiet_NaN();
     there[id] = false;
     ++absent;
     lost = lost || (id < present.size() && present[id]);
   }
-  SeedsFrame next = next_frame(grid, pixels.size(), lost);
+  SeedsFrame next = next_frame(grid, points.size(), lost);
   next.absent = absent;
-  next.outside = pixels.size() - inside - absent;
-  next.given = std::move(given);
-  next.is_off_centre = fractions != nullptr;
-  next.fractions = std::move(fractions);
-  if (grid.is_tilted() && !next.fractions) {
-    const std::shared_ptr<std::vector<Fraction>> centres = fractions_.take();
-    centres->resize(pixels.size(), centre_of_pixel);
-    next.fractions = centres;
-  }
-  if (frame_->grid != grid) {
-    next.way = {0, 0, next_number()};
-  } else if (frame_->pixels) {
-    next.way.last = greatest_way(grid, *frame_->pixels, pixels, absent > 0 || frame_->absent > 0);
-    next.way.all += next.way.last;
+  next.outside = beyond;
+  next.given = given;
+  next.is_off_centre = options.snap == Snap::none;
+  // The host looks whether the voxels of points are crowded.
+  if (beyond == 0 && !has_voxels(grid) && kernels_place(device, grid)) {
+    const PointsThere points_there = {rooms_of_points_.take(device, numbers->size() * sizeof(double)),
+                                      points.size(), true, given.dimensions};
+    upload_of_points_.start(device, *points_there.points, numbers);
+    if (found_() == nullptr)
+      found_ = allocate_with(device, std::vector<cl_uint>(4), "the check of the points");
+    place_by_kernel(next, points_there, {{}, true}, found_);
+  } else if (has_voxels(grid)) {
+    upload_positions(next, voxels_of(next));
   } else {
-    way_is_unknown(next);
+    const std::shared_ptr<std::vector<Place>> places = list_of_places();
+    places->reserve(points.size());
+    add_places(grid, given, points.size(), options.snap, *places);
+    list_places(next, places);
   }
-  const Window window(grid);
-  std::vector<std::uint32_t> packed = packed_positions(window, next.outside, pixels);
-  next.pixels = std::move(placed);
-  if (!packed.empty()) {
-    const std::shared_ptr<cl::Buffer> positions = room_for_positions(there.size());
-    next.whole = std::make_shared<const Placement>(Placement{PixelGrid(window), positions, nullptr});
-    upload_.start(device, *positions, std::move(packed));
+  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
+}
+
+void SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
+                                 const cl::Buffer& found) {
+  find_way_to(next);
+  next.are_points = (next.is_off_centre && !has_voxels(next.grid)) || next.grid.is_tilted();
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
+  std::shared_ptr<cl::Buffer> places;
+  if (next.are_points && next.is_off_centre)
+    places = rooms_of_places_.take(device, (points.count + 1) * sizeof(cl_int2));
+  next.whole =
+      std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places, nullptr, false});
+  place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
+                places ? *places : cl::Buffer(), found);
+}
+
+void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&& packed) {
+  find_way_to(next);
+  const PixelGrid pixels{Window(next.grid)};
+  const std::shared_ptr<cl::Buffer> positions = room_for_positions(next.size);
+  const bool crowded = has_voxels(next.grid) && are_crowded(pixels, packed);
+  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, nullptr, nullptr, crowded});
+  packed.push_back(PackedPositions(pixels).empty);
+  upload_.start(device, *positions, std::move(packed));
+}
+
+void SeedsState::list_places(SeedsFrame& next, std::shared_ptr<const std::vector<Place>> places) {
+  next.are_points = next.is_off_centre || next.grid.is_tilted();
+  next.listed = std::move(places);
+  if (next.outside > 0 || !fits_in_a_diagram(next.grid) ||
+      !kernels_go_round(next.grid, PixelGrid(Window(next.grid)))) {
+    return find_way_to(next);
   }
+  std::vector<std::uint32_t> packed;
+  packed.reserve(next.size + 1);
+  for (const Place& at : *next.listed) {
+    packed.push_back(is_absent(at)
+                         ? absent_position
+                         : pack(static_cast<int>(pixel_of(at.x)), static_cast<int>(pixel_of(at.y))));
+  }
+  upload_positions(next, std::move(packed));
+}
+
+void SeedsState::place(const Grid& grid, std::shared_ptr<const std::vector<Place>> places, bool are_points) {
+  const Snapping snapping(grid, options.outside);
+  std::vector<bool> there(places->size(), true);
+  bool lost = there.size() < present.size();
+  std::size_t inside = 0, absent = 0;
+  for (std::size_t id = 0; id < places->size(); ++id) {
+    inside += snapping.is_inside((*places)[id]) ? 1 : 0;
+    if (!is_absent((*places)[id])) continue;
+    there[id] = false;
+    ++absent;
+    lost = lost || (id < present.size() && present[id]);
+  }
+  SeedsFrame next = next_frame(grid, places->size(), lost);
+  next.absent = absent;
+  next.outside = places->size() - inside - absent;
+  next.is_off_centre = are_points;
+  list_places(next, std::move(places));
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::move(there));
 }
 
 void SeedsState::place(const PointBuffer& points) {
   check_buffers(device, points);
-  const Window window(grid());
-  const bool on_the_device = points.format == PointFormat::floats_xy && options.outside != Outside::count &&
-                             options.snap == Snap::to_pixels && !has_voxels(grid()) &&
-                             device_snaps_to(grid().x()) && device_snaps_to(grid().y()) &&
-                             fits_in_a_diagram(grid()) && kernels_go_round(window, PixelGrid(window));
-  const auto place_them = [this](const Points& on_host) { place(grid(), on_host); };
-  if (on_the_device) {
-    place_on_the_device(points);
-  } else if (are_doubles(points)) {
-    read_points<cl_double>(device, points, place_them);
-  } else {
-    read_points<cl_float>(device, points, place_them);
-  }
-}
+  const bool is_marked = points.present() != nullptr;
+  const int dimensions = coordinates_of(points);
+  if (grid().is_volume() && dimensions == 2 && points.count > 0)
+    throw Error("the grid is a volume, and the points have no z");
+  const auto place_on_host = [&] {
+    if (points.count == 0) return place(grid(), Points(std::vector<Point>()));
+    const auto caller = std::make_shared<const cl::Buffer>(points.points);
+    const GivenPoints given = read_points(device, {caller, points.count, are_doubles(points), dimensions});
+    const auto marks = is_marked ? download<std::uint8_t>(device, points.present, points.count)
+                                 : std::vector<std::uint8_t>(points.count, 1);
+    const double* const x = given.numbers->data();
+    const std::ptrdiff_t stride = dimensions * static_cast<std::ptrdiff_t>(sizeof(double));
+    place(grid(),
+          Points(x, x + 1, dimensions == 3 ? x + 2 : nullptr, points.count, stride).marked(marks.data()));
+  };
+  if (!kernels_place(device, grid())) return place_on_host();
 
-void SeedsState::place_on_the_device(const PointBuffer& points) {
-  const bool marked = points.present() != nullptr;
-  const bool counted = marked || options.outside == Outside::absent;
-  const PixelGrid pixels{Window(grid())};
   // Which are present, only the device knows.
-  SeedsFrame next = next_frame(grid(), points.count, counted || points.count < size());
+  const bool counts_there = is_marked || options.outside == Outside::absent;
+  SeedsFrame next = next_frame(grid(), points.count, counts_there || points.count < size());
+  next.counted_there = counts_there;
+  next.is_off_centre = options.snap == Snap::none;
   const std::shared_ptr<PointCheck> check = unused_check();
-  const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
+  check->reset(Snapping(grid(), options.outside));
+  const std::shared_ptr<cl::Buffer> copied = rooms_of_points_.take(device, bytes_of(points));
+  if (points.count > 0) copy(device, points.points, *copied, bytes_of(points));
+  next.there = {copied, points.count, are_doubles(points), dimensions};
+  check->read_from(next.there);
   next.points = check;
-  next.counted_there = counted;
-  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, nullptr});
-  way_is_unknown(next);
-  auto made = std::make_shared<const SeedsFrame>(std::move(next));
-  std::vector<bool> there(points.count, true);
-  check->reset(grid());
-  kernels.get(device, "core/seeds.cl", "snap_points", pixels)
-      .over_items(points.count + 1, points.points, marked ? points.present : points.points, cl_int{marked},
-                  cl_int{options.outside == Outside::absent}, *positions, static_cast<cl_uint>(points.count),
-                  pixels.width(), pixels.height(), check->found());
-  kernels.get(device, "core/seeds.cl", "note_bad_point", pixels).over_items(1, points.points, check->found());
-  commit(std::move(made), std::move(there));
+  place_by_kernel(next, next.there, {points.present}, check->found());
+  const bool may_be_outside = !grid().x().is_periodic() || !grid().y().is_periodic();
+  if (options.outside == Outside::count && may_be_outside && !has_voxels(grid())) {
+    if (check->bad_point()) throw BadPoint(*check->bad_point());
+    if (check->outside() > 0) return place_on_host();
+  }
+  commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(points.count, true));
 }
 
 void SeedsState::place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions) {
   SeedsFrame next = next_frame(grid(), count, count < size());
-  next.whole =
-      std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), std::move(positions), nullptr});
-  way_is_unknown(next);
+  next.whole = std::make_shared<const Placement>(
+      Placement{PixelGrid(Window(grid())), std::move(positions), nullptr, nullptr, false});
+  find_way_to(next);
   commit(std::make_shared<const SeedsFrame>(std::move(next)), std::vector<bool>(count, true));
 }
 
@@ -298,8 +296,7 @@ void SeedsState::place_marks(std::shared_ptr<const Marks> marks) {
   frame_ = std::make_shared<const SeedsFrame>(std::move(marked));
 }
 
-std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
-  const std::size_t bytes = (count + 1) * sizeof(std::uint32_t);
+std::shared_ptr<cl::Buffer> Rooms::take(const Device& device, std::size_t bytes) {
   for (std::shared_ptr<cl::Buffer>& room : rooms_) {
     if (is_used(room)) continue;
     if (size_of(*room) < bytes) *room = allocate(device, bytes, "the seeds");
@@ -307,6 +304,10 @@ std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
   }
   rooms_.push_back(std::make_shared<cl::Buffer>(allocate(device, bytes, "the seeds")));
   return rooms_.back();
+}
+
+std::shared_ptr<cl::Buffer> SeedsState::room_for_positions(std::size_t count) {
+  return rooms_of_positions_.take(device, (count + 1) * word);
 }
 
 std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
@@ -320,11 +321,13 @@ std::shared_ptr<cl::Buffer> SeedsState::copy_to_move(const char* what) {
 
 void SeedsState::moved(const std::shared_ptr<cl::Buffer>& positions, double way) {
   SeedsFrame next = *frame_;
-  next.whole = std::make_shared<const Placement>(Placement{PixelGrid(Window(grid())), positions, nullptr});
-  next.given = nullptr;
+  next.whole = std::make_shared<const Placement>(
+      Placement{PixelGrid(Window(grid())), positions, nullptr, nullptr, false});
+  next.given = {};
+  next.there = {};
   next.marks = nullptr;
-  next.pixels = nullptr;
-  next.fractions = nullptr;
+  next.listed = nullptr;
+  next.are_points = false;
   next.is_off_centre = false;
   next.before = nullptr;
   next.placements = no_placements();
@@ -344,7 +347,7 @@ std::shared_ptr<PointCheck> SeedsState::unused_check() {
   for (const std::shared_ptr<PointCheck>& check : checks_) {
     if (!is_used(check)) return check;
   }
-  checks_.push_back(std::make_shared<PointCheck>(device, grid()));
+  checks_.push_back(std::make_shared<PointCheck>(device));
   return checks_.back();
 }
 

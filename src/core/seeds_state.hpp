@@ -25,12 +25,10 @@ bool is_used(const std::shared_ptr<T>& shared) {
 template <typename T>
 class Recycled {
  public:
-  /// An empty list.
+  /// A list that no frame uses, with what it held.
   std::shared_ptr<std::vector<T>> take() {
     for (const std::shared_ptr<std::vector<T>>& list : lists_) {
-      if (is_used(list)) continue;
-      list->clear();
-      return list;
+      if (!is_used(list)) return list;
     }
     lists_.push_back(std::make_shared<std::vector<T>>());
     return lists_.back();
@@ -38,6 +36,16 @@ class Recycled {
 
  private:
   std::vector<std::shared_ptr<std::vector<T>>> lists_;
+};
+
+/// The same of buffers.
+class Rooms {
+ public:
+  /// One of so many bytes, or more.
+  std::shared_ptr<cl::Buffer> take(const Device& device, std::size_t bytes);
+
+ private:
+  std::vector<std::shared_ptr<cl::Buffer>> rooms_;
 };
 
 struct SeedsState {
@@ -60,21 +68,16 @@ struct SeedsState {
   /// Makes the next frame of points in the caller's buffers.
   void place(const PointBuffer& points);
 
-  /// Makes the next frame of seeds in these pixels of the grid, which lie in its periods. `given` may be
-  /// null; so may `fractions`, if the seeds are at the centres.
-  void place(const Grid& grid, std::shared_ptr<const std::vector<PlanePosition>> pixels,
-             std::shared_ptr<const std::vector<Point>> given,
-             std::shared_ptr<const std::vector<Fraction>> fractions = nullptr);
+  /// Makes the next frame of seeds at these places, in the grid's periods. `are_points`: else in the middle
+  /// of pixels.
+  void place(const Grid& grid, std::shared_ptr<const std::vector<Place>> places, bool are_points);
 
-  /// Makes the next frame of seeds in these voxels of a grid (VoxelBits), or absent_voxel. `given` may be
-  /// null.
-  void place_in_volume(const Grid& grid, std::vector<std::uint32_t>&& voxels,
-                       std::shared_ptr<const std::vector<Point>> given = nullptr);
-
-  /// Empty lists, with the memory of ones that no frame remembers any more.
-  std::shared_ptr<std::vector<PlanePosition>> list_of_pixels() { return pixels_.take(); }
-
-  std::shared_ptr<std::vector<Fraction>> list_of_fractions() { return fractions_.take(); }
+  /// An empty list, with the memory of one that no frame remembers any more.
+  std::shared_ptr<std::vector<Place>> list_of_places() {
+    std::shared_ptr<std::vector<Place>> list = places_.take();
+    list->clear();
+    return list;
+  }
 
   /// Makes the next frame, of so many seeds that a kernel places: all present.
   void place_on_device(std::size_t count, std::shared_ptr<const cl::Buffer> positions);
@@ -99,8 +102,8 @@ struct SeedsState {
   /// The next frame of so many seeds, still without what is known of their points.
   SeedsFrame next_frame(const Grid& grid, std::size_t size, bool lost) const;
 
-  /// Says that only the device knows how far the seeds went.
-  void way_is_unknown(SeedsFrame& next) const;
+  /// Notes how far the seeds went to the next frame, or that only the device knows.
+  void find_way_to(SeedsFrame& next) const;
 
   /// The next frame becomes the present one.
   void commit(std::shared_ptr<const SeedsFrame> frame, std::vector<bool> there) noexcept;
@@ -108,19 +111,22 @@ struct SeedsState {
   /// A check that no frame remembers any more: a loop over frames makes two or three in all.
   std::shared_ptr<PointCheck> unused_check();
 
-  void place_on_the_device(const PointBuffer& points);
+  /// Gives the next frame places that the host has found, or positions in a diagram of all of its grid.
+  void list_places(SeedsFrame& next, std::shared_ptr<const std::vector<Place>> places);
+  void upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&& packed);
 
-  /// The voxels of points, which are kept as they were given.
-  std::vector<std::uint32_t> snap_to_voxels(const Grid& grid, const Points& points,
-                                            std::vector<Point>& given) const;
+  /// Enqueues that a kernel places the seeds of the next frame, all of which lie in its grid.
+  void place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
+                       const cl::Buffer& found);
 
   std::shared_ptr<const SeedsFrame> frame_;
-  Recycled<PlanePosition> pixels_;
-  Recycled<Point> points_;
-  Recycled<Fraction> fractions_;
-  Upload<std::uint32_t> upload_;                     // of positions that the host has placed
-  std::vector<std::shared_ptr<cl::Buffer>> rooms_;   // of positions: those of frames that are remembered ...
-  std::vector<std::shared_ptr<PointCheck>> checks_;  // ... and unused ones; checks likewise
+  Recycled<double> numbers_;
+  Recycled<Place> places_;
+  Upload<double> upload_of_points_;  // for kernels that place them
+  Upload<std::uint32_t> upload_;     // of positions that the host has placed
+  Rooms rooms_of_points_, rooms_of_positions_, rooms_of_places_;
+  std::vector<std::shared_ptr<PointCheck>> checks_;
+  cl::Buffer found_;  // of points that the host has checked, which nobody reads
 };
 
 }  // namespace vorocl

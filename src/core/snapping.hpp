@@ -1,7 +1,7 @@
 // Which pixel of a grid a point's seed lies in.
 #pragma once
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/outer_seeds.hpp"
-#include "core/point_placement.hpp"
+#include "core/place.hpp"
+#include "runtime/pixel_grid.hpp"
 #include "vorocl/error.hpp"
 #include "vorocl/seeds.hpp"
 #include "vorocl/tiles.hpp"
@@ -24,52 +24,58 @@ inline Point point_on(const Grid& grid, const Points& points, std::size_t i) {
   return point;
 }
 
-/// Snaps points to the pixels of a grid, by its axes.
+/// Places points in a plane by its axes.
 class Snapping {
  public:
   Snapping(const Grid& grid, Outside outside)
       : grid_(grid),
         outside_(outside),
-        width_(static_cast<cl_uint>(grid.width())),
-        height_(static_cast<cl_uint>(grid.height())) {}
+        sure_{sure_part(grid.x()), sure_part(grid.y()), sure_part(grid.z())} {}
 
-  /// Whether a pixel is one of the grid's.
-  bool is_inside(const PlanePosition& at) const {
-    // What is negative is too large without its sign.
-    return static_cast<cl_uint>(at.s[0]) < width_ && static_cast<cl_uint>(at.s[1]) < height_;
+  const Grid& grid() const { return grid_; }
+
+  /// Whether a place is one of the grid's.
+  bool is_inside(const Place& at) const {
+    return at.x >= 0 && at.x < in_fractions(grid_.width()) && at.y >= 0 &&
+           at.y < in_fractions(grid_.height());
   }
 
-  /// The pixel of a point, counted from the first one of a grid of one slice; absent_coordinate if it is
-  /// outside and such seeds are absent. Throws BadPoint for a point that is not finite, too far away, beside
-  /// the slice, or outside where that is refused.
-  PlanePosition operator()(std::size_t id, const Point& point) const {
+  /// Where a point lies, from the first pixel of a grid of one slice on: in the middle of its pixel, or
+  /// rounded to the nearest 1/4096 of it and never out of it. absent_place if it is outside and such seeds
+  /// are absent. Throws BadPoint for a point that is not finite, too far away, beside the slice, or outside
+  /// where that is refused.
+  Place operator()(std::size_t id, const Point& point, Snap snap) const {
     const Point in_box = grid_.in_box(point);
     const double x = grid_.x().pixel(in_box.x), y = grid_.y().pixel(in_box.y);
-    if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y) || !is_in_slice(point)) return beyond(id, point);
-    const PlanePosition at = {{static_cast<cl_int>(x), static_cast<cl_int>(y)}};
-    if (outside_ == Outside::count || is_inside(at)) return at;
-    if (outside_ == Outside::refuse) throw outside_the_grid(id, point, grid_);
-    return {{absent_coordinate, 0}};
+    if (!is_near(grid_.x(), x) || !is_near(grid_.y(), y) || !is_in_slice(point)) {
+      if (outside_ == Outside::absent && is_finite(point)) return absent_place;
+      throw bad(id, point);
+    }
+    const Place at = {centre_of(static_cast<std::int64_t>(x)), centre_of(static_cast<std::int64_t>(y))};
+    if (outside_ == Outside::refuse && !is_inside(at)) throw bad(id, point);
+    if (outside_ == Outside::absent && !is_inside(at)) return absent_place;
+    if (snap == Snap::to_pixels) return at;
+    const auto off = [](const Axis& axis, double pixel, double coordinate) {
+      return static_cast<std::int64_t>(axis.fraction_in(pixel, coordinate)) - fractions_of_pixel / 2;
+    };
+    return at + Place{off(grid_.x(), x, in_box.x), off(grid_.y(), y, in_box.y)};
   }
 
-  /// Where in its pixel a point lies that has one: rounded to the nearest fraction, and never out of the
-  /// pixel.
-  Fraction fraction(const Point& point, const PlanePosition& at) const {
-    const Point in_box = grid_.in_box(point);
-    return {fraction_of(grid_.x(), in_box.x, at.s[0]), fraction_of(grid_.y(), in_box.y, at.s[1])};
-  }
-
-  /// "point 7 (nan, 3) is outside the grid; x must be in [0, 8) and y in [0, 6)", or not finite.
-  static BadPoint outside_the_grid(std::size_t id, const Point& point, const Grid& grid) {
+  /// What is bad about a point: "point 7 (nan, 3) is not finite; ..."
+  BadPoint bad(std::size_t id, const Point& point) const {
+    std::string text = is_finite(point) ? "is outside the grid" : "is not finite";
+    if (outside_ != Outside::refuse && !has_voxels(grid_) && (!is_finite(point) || is_in_slice(point))) {
+      if (is_finite(point)) text = "is too far away";
+      return {id, point, text + "; x and y must be less than 2^31 pixels from all pixels of the grid"};
+    }
     std::vector<std::string> ranges;
     const auto add = [&ranges](const char* name, const Axis& axis) {
       if (axis.is_periodic()) return;  // it has all
       ranges.push_back(range_text(axis, std::string(name) + (ranges.empty() ? " must be in " : " in ")));
     };
-    add("x", grid.x());
-    add("y", grid.y());
-    if (grid.depth() > 1 || grid.z().pixel(point.z) != 0) add("z", grid.z());
-    std::string text = complaint(point, "outside the grid");
+    add("x", grid_.x());
+    add("y", grid_.y());
+    if (grid_.depth() > 1 || !is_in_slice(point)) add("z", grid_.z());
     for (std::size_t i = 0; i < ranges.size(); ++i) {
       text += (i == 0 ? "; " : i + 1 < ranges.size() ? ", " : " and ") + ranges[i];
     }
@@ -80,9 +86,38 @@ class Snapping {
     return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z);
   }
 
+  enum class Where { inside, outside, absent };
+
+  /// Where a point lies, or what becomes of it. Throws BadPoint as above; in a volume for one outside that
+  /// counts, too.
+  Where find(std::size_t id, const Point& point) const {
+    if (sure_[0].holds(point.x) && sure_[1].holds(point.y) && sure_[2].holds(point.z)) return Where::inside;
+    if (!has_voxels(grid_)) {
+      const Place at = (*this)(id, point, Snap::to_pixels);
+      return is_absent(at) ? Where::absent : is_inside(at) ? Where::inside : Where::outside;
+    }
+    const auto is_on = [](const Axis& axis, double coordinate) {
+      const double pixel = axis.pixel(coordinate);
+      return pixel >= 0 && pixel < static_cast<double>(axis.pixels());
+    };
+    if (is_on(grid_.x(), point.x) && is_on(grid_.y(), point.y) && is_on(grid_.z(), point.z))
+      return Where::inside;
+    if (outside_ != Outside::absent || !is_finite(point)) throw bad(id, point);
+    return Where::absent;
+  }
+
  private:
-  static std::uint16_t fraction_of(const Axis& axis, double coordinate, cl_int pixel) {
-    return static_cast<std::uint16_t>(axis.fraction_in(pixel, coordinate));
+  /// A stretch of an axis whose coordinates have pixels of its own.
+  struct SurePart {
+    double from, to;
+    bool holds(double coordinate) const { return coordinate >= from && coordinate < to; }
+  };
+
+  /// All but the ends, where rounding decides, and of a periodic axis what is too far away for numbers.
+  static SurePart sure_part(const Axis& axis) {
+    const double many_periods = axis.is_periodic() ? 1e6 * (axis.to() - axis.from()) : 0;
+    const SurePart part = {axis.from() - many_periods, axis.to() + many_periods};
+    return std::isfinite(part.from) && std::isfinite(part.to) ? part : SurePart{axis.from(), axis.to()};
   }
 
   /// Whether a pixel is less than 2^31 away from all pixels of its axis; false for a NaN.
@@ -93,20 +128,6 @@ class Snapping {
   /// Whether a point lies in the one slice of the grid, along z.
   bool is_in_slice(const Point& point) const { return grid_.z().pixel(point.z) == 0; }
 
-  /// What becomes of a point that is not finite, too far away or beside the slice.
-  PlanePosition beyond(std::size_t id, const Point& point) const {
-    if (is_finite(point) && outside_ == Outside::absent) return {{absent_coordinate, 0}};
-    if (is_finite(point) && !is_in_slice(point)) throw outside_the_grid(id, point, grid_);
-    throw BadPoint(id, point,
-                   complaint(point, "too far away") +
-                       "; x and y must be less than 2^31 pixels from all pixels of the grid");
-  }
-
-  /// What is bad about a point that is not finite, or else.
-  static std::string complaint(const Point& point, const char* otherwise) {
-    return std::string("is ") + (is_finite(point) ? otherwise : "not finite");
-  }
-
   static std::string range_text(const Axis& axis, const std::string& start) {
     std::ostringstream text;
     text << start << '[' << axis.from() << ", " << axis.to() << (axis.is_closed() ? "]" : ")");
@@ -115,7 +136,7 @@ class Snapping {
 
   Grid grid_;
   Outside outside_;
-  cl_uint width_, height_;
+  std::array<SurePart, 3> sure_;
 };
 
 /// A seed where a diagram has it: in the middle of its pixel, or where it lies.
@@ -124,15 +145,17 @@ inline PlaneSeed placed(PlaneSeed seed, Snap snap) {
   return seed;
 }
 
-/// The seed of a point that lies in this pixel.
-inline PlaneSeed seed_of_point(const Snapping& snapping, const Point& point, const PlanePosition& at,
-                               std::uint32_t id, Snap snap) {
-  PlaneSeed seed = {at.s[0], at.s[1], id};
-  if (snap == Snap::to_pixels) return seed;
-  const Fraction in = snapping.fraction(point, at);
-  seed.part_x = in.x;
-  seed.part_y = in.y;
-  return seed;
+/// The seed at a place.
+inline PlaneSeed seed_at(const Place& at, std::uint32_t id) {
+  const auto part = [](std::int64_t along) {
+    return static_cast<std::uint16_t>(along - in_fractions(pixel_of(along)));
+  };
+  return {static_cast<std::int32_t>(pixel_of(at.x)), static_cast<std::int32_t>(pixel_of(at.y)), id,
+          part(at.x), part(at.y)};
+}
+
+inline Place place_of(const PlaneSeed& seed) {
+  return {in_fractions(seed.x) + seed.part_x, in_fractions(seed.y) + seed.part_y};
 }
 
 /// Throws Error unless a seed with an id of the caller's may have this pixel of a grid and this id.

@@ -11,14 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "core/place.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl {
-
-/// A position of 64 bits, for sums that do not overflow.
-struct Place {
-  std::int64_t x, y;
-};
 
 /// A rectangle of pixels, both ends included.
 struct Region {

@@ -34,7 +34,7 @@ Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& o
   if (state.grid.is_volume()) check_exact_volume(filling, state);
   if (labels_by_passes(filling, state)) return exact_diagram_by_passes(filling, state);
   if (state.grid.is_volume()) return exact_diagram_of_volume(filling, state);
-  if (filling.seeds().fractions) return exact_diagram_of_points(filling, state);
+  if (filling.seeds().are_points) return exact_diagram_of_points(filling, state);
   const Device& device = state.device;
   if (device.tuning().shape == Shape::group) return exact_diagram_in_groups(filling, state);
   const PixelGrid& grid = filling.placement().grid;

@@ -6,7 +6,7 @@
 
 namespace vorocl {
 
-/// Labels the diagram by the seeds' points, which have fractions (kernels/exact/points).
+/// Labels the diagram by the seeds' places, which are those of points (kernels/exact/points).
 Report exact_diagram_of_points(Filling& filling, DiagramState& state);
 
 }  // namespace vorocl

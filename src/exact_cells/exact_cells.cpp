@@ -4,11 +4,10 @@
 #include <limits>
 #include <tuple>
 
-#include "core/seeds_state.hpp"
-#include "exact_cells/has_doubles.hpp"
 #include "exact_cells/sites.hpp"
 #include "measures/measurement.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/has_doubles.hpp"
 #include "runtime/stopwatch.hpp"
 // Last: it defines macros.
 #include "exact_cells/sizes.cl"
@@ -34,14 +33,6 @@ void require_doubles(const Device& device) {
   throw Error("exact cells need double precision (cl_khr_fp64), which " + device.name() +
                   " does not have; use another device",
               ErrorKind::device);
-}
-
-/// Of points that the device has snapped, their pixels alone are known.
-void require_points(const Seeds& seeds) {
-  if (Internal::state(seeds).frame()->points == nullptr) return;
-  throw Error(
-      "exact cells need the points themselves; these came as floats in a buffer, and the device has snapped "
-      "them to pixels: make the seeds with Snap::none");
 }
 
 }  // namespace
@@ -331,7 +322,6 @@ Report exact_cells(const Seeds& seeds, ExactCellsResult& result) {
   state.is_made = false;
   const Device& device = seeds.device();
   require_doubles(device);
-  require_points(seeds);
   state.cells = seeds.size();
   const auto [first, last] = state.start(device, sites_of(seeds.grid(), seeds.read()));
   check(clFlush(device.queue()()), "starting a measurement");

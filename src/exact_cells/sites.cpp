@@ -105,28 +105,28 @@ class Steps {
 };
 
 /// A point's place in Hilbert's order.
-struct Place {
+struct OnCurve {
   std::uint64_t order;
   cl_uint id;
 };
 
 /// Sorts by place; points at one place come in the order of their ids. By the upper bits first, in which few
 /// points are the same.
-void sort(std::vector<Place>& places) {
+void sort(std::vector<OnCurve>& places) {
   constexpr int digit_bits = 11, first_bit = 31, all_bits = 64;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
-  std::vector<Place> sorted(places.size());
+  std::vector<OnCurve> sorted(places.size());
   for (int shift = first_bit; shift < all_bits; shift += digit_bits) {
-    const auto digit = [shift](const Place& place) { return (place.order >> shift) & (digits - 1); };
+    const auto digit = [shift](const OnCurve& place) { return (place.order >> shift) & (digits - 1); };
     std::array<std::size_t, digits> next = {};
-    for (const Place& place : places) ++next[digit(place)];
+    for (const OnCurve& place : places) ++next[digit(place)];
     std::size_t sum = 0;
     for (std::size_t& entry : next) {
       const std::size_t here = entry;
       entry = sum;
       sum += here;
     }
-    for (const Place& place : places) sorted[next[digit(place)]++] = place;
+    for (const OnCurve& place : places) sorted[next[digit(place)]++] = place;
     places.swap(sorted);
   }
   for (auto begin = places.begin(); begin != places.end();) {
@@ -134,7 +134,7 @@ void sort(std::vector<Place>& places) {
     auto end = begin + 1;
     while (end != places.end() && end->order >> first_bit == upper) ++end;
     if (end - begin > 1) {
-      std::sort(begin, end, [](const Place& p, const Place& q) {
+      std::sort(begin, end, [](const OnCurve& p, const OnCurve& q) {
         return std::tie(p.order, p.id) < std::tie(q.order, q.id);
       });
     }
@@ -198,7 +198,7 @@ Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points
   }
   sites.lattice = lattice_of(sites.periods);
   std::vector<cl_int2> positions(points.size());
-  std::vector<Place> places;
+  std::vector<OnCurve> places;
   places.reserve(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
@@ -214,7 +214,7 @@ Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points
                       static_cast<cl_uint>(id)});
   }
   sort(places);
-  const auto is_same = [](const Place& a, const Place& b) { return a.order == b.order; };
+  const auto is_same = [](const OnCurve& a, const OnCurve& b) { return a.order == b.order; };
   places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
   sites.ids.reserve(places.size());
   sites.places.resize((places.size() + fan - 1) / fan * 2 * fan);

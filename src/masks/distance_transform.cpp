@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "exact_cells/has_doubles.hpp"
 #include "masks/mask_engine.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/has_doubles.hpp"
 #include "runtime/stopwatch.hpp"
 
 namespace vorocl {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <vector>
 
-#include "exact_cells/has_doubles.hpp"
 #include "masks/items.hpp"
 #include "runtime/buffer.hpp"
+#include "runtime/has_doubles.hpp"
 // Last: it defines macros.
 #include "masks/sizes.cl"
 

@@ -34,12 +34,12 @@ std::vector<CellRow> cell_table(const Diagram& diagram) {
   const Window& window = of.window;
   const Grid& grid = window.grid();
   const double area_of_pixel = length_of_pixel(grid.x()) * length_of_pixel(grid.y());
-  const std::vector<PlanePosition> pixels = of.seeds->read_pixels();
+  const auto places = of.seeds->places();
+  const GivenPoints given = of.seeds->read_given();
   std::vector<CellRow> rows;
-  for (std::uint32_t id = 0; id < pixels.size(); ++id) {
-    if (is_absent(pixels[id])) continue;
-    const Point seed =
-        of.seeds->given ? (*of.seeds->given)[id] : grid.point(of.seeds->position(id, pixels[id]));
+  for (std::uint32_t id = 0; id < places->size(); ++id) {
+    if (is_absent((*places)[id])) continue;
+    const Point seed = given.numbers ? given.point(grid, id) : grid.point(in_pixels((*places)[id]));
     rows.push_back({id, seed, sums[id].area, sums[id].area * area_of_pixel,
                     point_in(window, sums[id].centroid()), shapes[id].touches_border, neighbours[id]});
   }

@@ -60,42 +60,31 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
   const SeedsFrame& frame = *state.frame();
   const std::vector<CellWeight> cells = weights_of(rounds, state.size());
-  const auto pixels = state.list_of_pixels();
-  const auto fractions = state.list_of_fractions();
-  if (frame.fractions) {
-    *pixels = *frame.pixels;
-    *fractions = *frame.fractions;
-  } else {
-    *pixels = frame.read_pixels();
-    fractions->assign(pixels->size(), centre_of_pixel);
-  }
-  const auto go = [](const Axis& axis, std::int64_t to, cl_int& pixel, std::uint16_t& fraction) {
-    const std::int64_t parts = fractions_of_pixel, period = axis.pixels() * parts;
-    std::int64_t way = to - (pixel * parts + fraction);
+  const auto places = state.list_of_places();
+  *places = *frame.places();
+  const auto go = [](const Axis& axis, std::int64_t to, std::int64_t& at) {
+    const std::int64_t period = in_fractions(axis.pixels());
+    std::int64_t way = to - at;
     if (axis.is_periodic()) {
       to = (to % period + period) % period;
       way = (way % period + period) % period;
       way = std::min(way, period - way);
     }
-    pixel = static_cast<cl_int>(to / parts);
-    fraction = static_cast<std::uint16_t>(to % parts);
+    at = to;
     return std::abs(way);
   };
   Move move;
   std::int64_t greatest = 0;
   for (std::size_t id = 0; id < cells.size(); ++id) {
     if (cells[id].weight == 0) continue;
-    PlanePosition& pixel = (*pixels)[id];
-    Fraction& fraction = (*fractions)[id];
-    const std::int64_t x =
-        go(frame.grid.x(), position_of_centroid(cells[id].weight, cells[id].sum_x), pixel.s[0], fraction.x);
-    const std::int64_t y =
-        go(frame.grid.y(), position_of_centroid(cells[id].weight, cells[id].sum_y), pixel.s[1], fraction.y);
+    Place& at = (*places)[id];
+    const std::int64_t x = go(frame.grid.x(), position_of_centroid(cells[id].weight, cells[id].sum_x), at.x);
+    const std::int64_t y = go(frame.grid.y(), position_of_centroid(cells[id].weight, cells[id].sum_y), at.y);
     move.seeds += x > 0 || y > 0 ? 1 : 0;
     greatest = std::max({greatest, x, y});
   }
   move.displacement = static_cast<double>(greatest) / fractions_of_pixel;
-  if (move.displacement >= tolerance) state.place(frame.grid, pixels, nullptr, fractions);
+  if (move.displacement >= tolerance) state.place(frame.grid, places, true);
   return move;
 }
 

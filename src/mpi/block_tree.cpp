@@ -21,10 +21,8 @@ std::vector<std::size_t> BlockTree::find_near(const PlaneRectangle& rectangle, M
   });
   // As PlaneSeedsState::find_near() does, with the samples in place of the seeds that win: those are at least
   // as near.
-  const auto nearest = [&](const PlanePoint& point, const SeedImage&) {
-    return nearest_sample(point, metric);
-  };
-  const auto find_in_blocks = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
+  const auto nearest = [&](const Place& point, const SeedImage&) { return nearest_sample(point, metric); };
+  const auto find_in_blocks = [&](const Place& a, const SeedImage& at_a, const Place& b,
                                   const SeedImage& at_b, std::size_t most,
                                   std::vector<std::size_t>& between) {
     return find_between(a, at_a, b, at_b, metric, most, between);
@@ -56,17 +54,17 @@ double BlockTree::expected(const PlaneRectangle& rectangle) const {
   return seeds;
 }
 
-SeedImage BlockTree::sample(std::size_t block, const PlanePoint& offset, const PlanePoint& from,
+SeedImage BlockTree::sample(std::size_t block, const Place& offset, const Place& from,
                             const PlaneDistance& distance) const {
-  const PlanePoint place = point_of(blocks_[block].sample);
+  const Place place = place_of(blocks_[block].sample);
   return {block, offset, distance(from, place + offset), place};
 }
 
 /// The sample that wins at a point. Its block's box is at least as near, by which blocks are left out.
-SeedImage BlockTree::nearest_sample(const PlanePoint& point, Metric metric) const {
+SeedImage BlockTree::nearest_sample(const Place& point, Metric metric) const {
   const PlaneDistance distance(grid_, metric);
   SeedImage best;
-  each_image(grid_, [&](const PlanePoint& offset) {
+  each_image(grid_, [&](const Place& offset) {
     const auto to_box = [&](const Box& box) { return distance(point - offset, box); };
     const auto counts = [&](const Box& box, PlaneLength away) {
       return away != too_far && first_in(box, away).wins(best);
@@ -83,17 +81,16 @@ SeedImage BlockTree::nearest_sample(const PlanePoint& point, Metric metric) cons
 
 /// Appends the blocks that may hold a winner on the line from a to b, given the samples that are nearest to
 /// both ends. Returns false if they are more than `most`.
-bool BlockTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
-                             const SeedImage& at_b, Metric metric, std::size_t most,
-                             std::vector<std::size_t>& found) const {
+bool BlockTree::find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
+                             Metric metric, std::size_t most, std::vector<std::size_t>& found) const {
   // An image may be farther away than half a period, though not far.
   const PlaneDistance slack(grid_, metric, in_fractions(grid_.width() + grid_.height()));
   const PlaneLength of_b_at_a = sample(at_b.index, at_b.offset, a, slack).distance;
   const PlaneLength of_a_at_b = sample(at_a.index, at_a.offset, b, slack).distance;
   const PlaneDistance distance(grid_, metric, length_of(a, b));
   bool all = true;
-  each_image(grid_, [&](const PlanePoint& offset) {
-    const PlanePoint from_a = a - offset, from_b = b - offset;
+  each_image(grid_, [&](const Place& offset) {
+    const Place from_a = a - offset, from_b = b - offset;
     // Unless a sample is nearer than the whole box at both ends, and so between them.
     const auto may_win = [&](const Box& box) {
       const PlaneLength to_a = distance(from_a, box), to_b = distance(from_b, box);

@@ -32,10 +32,10 @@ class BlockTree {
 
  private:
   /// The image of the seed that is known of a block, as it is seen from a point.
-  SeedImage sample(std::size_t block, const PlanePoint& offset, const PlanePoint& from,
+  SeedImage sample(std::size_t block, const Place& offset, const Place& from,
                    const PlaneDistance& distance) const;
-  SeedImage nearest_sample(const PlanePoint& point, Metric metric) const;
-  bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
+  SeedImage nearest_sample(const Place& point, Metric metric) const;
+  bool find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
                     Metric metric, std::size_t most, std::vector<std::size_t>& found) const;
 
   Grid grid_;

@@ -62,14 +62,14 @@ struct Sample {
   double seeds;
 };
 
-std::uint64_t place_of(const PlaneSeed& seed) { return z_order(seed.x, seed.y); }
+std::uint64_t order_of(const PlaneSeed& seed) { return z_order(seed.x, seed.y); }
 
 /// Puts seeds in the order of the Z-curve, with one at each place, that of the lowest id. In place.
 void put_in_order(std::vector<PlaneSeed>& seeds) {
   // Halves of places stand where the coordinates did: comparing them is faster than making them.
   static_assert(sizeof(PlaneSeed) == 16);
   for (PlaneSeed& seed : seeds) {
-    const std::uint64_t place = place_of(seed);
+    const std::uint64_t place = order_of(seed);
     seed.x = static_cast<std::int32_t>(place);
     seed.y = static_cast<std::int32_t>(place >> 32);
   }
@@ -96,7 +96,7 @@ std::vector<std::uint64_t> splitters(MPI_Comm communicator, const std::vector<Pl
   std::vector<Sample> samples;
   const std::size_t count = std::min(samples_of_rank, sorted.size());
   for (std::size_t i = 0; i < count; ++i) {
-    samples.push_back({place_of(sorted[i * sorted.size() / count]),
+    samples.push_back({order_of(sorted[i * sorted.size() / count]),
                        static_cast<double>(sorted.size()) / static_cast<double>(count)});
   }
   std::vector<int> counts;
@@ -127,7 +127,7 @@ std::vector<PlaneSeed> exchanged(MPI_Comm communicator, std::vector<PlaneSeed>&&
   for (std::size_t rank = 0; rank < ranks; ++rank) {
     const auto end = rank < places.size() ? std::lower_bound(begin, sorted.end(), places[rank],
                                                              [](const PlaneSeed& seed, std::uint64_t place) {
-                                                               return place_of(seed) < place;
+                                                               return order_of(seed) < place;
                                                              })
                                           : sorted.end();
     counts[rank] = static_cast<int>(end - begin);
@@ -301,9 +301,8 @@ void SharedSeeds::add(const Points& points, std::uint64_t first) {
     const std::uint64_t id = first + i;
     if (id >= no_label) throw Error("there are more than 2^32 - 1 seeds; ids end there");
     if (!points.is_present(i)) continue;
-    const Point point = point_on(state_->grid, points, i);
-    const PlanePosition at = snapping(id, point);
-    seeds.push_back(seed_of_point(snapping, point, at, static_cast<std::uint32_t>(id), state_->snap));
+    const Place at = snapping(id, point_on(state_->grid, points, i), state_->snap);
+    seeds.push_back(seed_at(at, static_cast<std::uint32_t>(id)));
   }
   add(seeds.data(), seeds.size());
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -96,6 +97,8 @@ void upload(const Device& device, const cl::Buffer& buffer, const std::vector<T>
 template <typename T>
 class Upload {
  public:
+  using Values = std::shared_ptr<const std::vector<T>>;
+
   Upload() = default;
   ~Upload() {
     // If the device fails, it says so where somebody waits for what it makes of the values. But where the
@@ -109,21 +112,26 @@ class Upload {
 
   /// Enqueues that the values are copied to the start of a buffer. Waits for the last ones.
   void start(const Device& device, const cl::Buffer& buffer, std::vector<T>&& values) {
+    start(device, buffer, std::make_shared<const std::vector<T>>(std::move(values)));
+  }
+
+  /// The same of values that somebody else has besides.
+  void start(const Device& device, const cl::Buffer& buffer, Values values) {
     const cl::CommandQueue& queue = device.queue();  // refuses a forked child
     if (copied_() != nullptr) check(clWaitForEvents(1, &copied_()), "waiting for values to be copied");
     copied_ = cl::Event();
     values_ = std::move(values);
-    if (values_.empty()) return;
+    if (values_->empty()) return;
     queue_ = queue;
     process_ = process_number();
-    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_.size() * sizeof(T), values_.data(), 0,
-                               nullptr, &copied_()),
+    check(clEnqueueWriteBuffer(queue_(), buffer(), CL_FALSE, 0, values_->size() * sizeof(T), values_->data(),
+                               0, nullptr, &copied_()),
           "writing a buffer");
     Internal::state(device).enqueued(copied_);
   }
 
  private:
-  std::vector<T> values_;
+  Values values_;
   cl::CommandQueue queue_;
   cl::Event copied_;
   std::int64_t process_ = 0;  // that enqueued the copy

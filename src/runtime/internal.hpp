@@ -31,6 +31,9 @@ struct Internal {
   /// Seeds of which there are none yet, and which are not snapped: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);
 
+  /// Whether an axis has no scale, for its unit is the pixel.
+  static bool is_in_pixels(const Axis& axis) { return axis.in_pixels_; }
+
   /// What a result holds; made at its first use.
   template <typename Result>
   static auto& result(Result& result) {

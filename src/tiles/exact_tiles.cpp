@@ -112,14 +112,9 @@ class TileEngine {
 
   void place(Seeds& seeds) const {
     SeedsState& state = Internal::state(seeds);
-    const auto pixels = state.list_of_pixels();
-    for (const PlaneSeed& seed : near_) pixels->push_back({{seed.x, seed.y}});
-    std::shared_ptr<std::vector<Fraction>> fractions;
-    if (seeds_.snap() == Snap::none) {
-      fractions = state.list_of_fractions();
-      for (const PlaneSeed& seed : near_) fractions->push_back({seed.part_x, seed.part_y});
-    }
-    state.place(seeds.grid(), pixels, nullptr, fractions);
+    const auto places = state.list_of_places();
+    for (const PlaneSeed& seed : near_) places->push_back(place_of(seed));
+    state.place(seeds.grid(), places, seeds_.snap() == Snap::none);
   }
 
   void upload_ids() {

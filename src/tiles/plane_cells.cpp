@@ -165,7 +165,7 @@ void PlaneCellsState::add_cell(const TileLabels& labels, const PlaneSeed& seed, 
   const std::int64_t tile_x = labels.tile.x(), tile_y = labels.tile.y();
   const Grid& grid = labels.tile.grid();
   const bool periodic_x = has_x(grid.periodic()), periodic_y = has_y(grid.periodic());
-  const PlanePoint place = point_of(seed);
+  const Place place = place_of(seed);
   const Unwrapping x = {periodic_x ? grid.width() : 0, place.x};
   const Unwrapping y = {periodic_y ? grid.height() : 0, place.y};
   const std::int64_t left = tile_x + shape.left, right = tile_x + shape.right;

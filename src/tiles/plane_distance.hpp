@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "core/box_tree.hpp"
-#include "core/point_placement.hpp"
+#include "core/snapping.hpp"
 #include "core/z_order.hpp"
 #include "runtime/metric.hpp"
 #include "vorocl/tiles.hpp"
@@ -20,21 +20,6 @@ using SeedBoxes = BoxTree<4>;
 
 __extension__ using Int128 = __int128;
 
-/// A point of the plane in fractions of a pixel, or an offset.
-struct PlanePoint {
-  std::int64_t x = 0, y = 0;
-
-  friend bool operator==(const PlanePoint& a, const PlanePoint& b) { return a.x == b.x && a.y == b.y; }
-  friend PlanePoint operator+(const PlanePoint& a, const PlanePoint& b) { return {a.x + b.x, a.y + b.y}; }
-  friend PlanePoint operator-(const PlanePoint& a, const PlanePoint& b) { return {a.x - b.x, a.y - b.y}; }
-};
-
-constexpr std::int64_t in_fractions(std::int64_t pixels) { return pixels * fractions_of_pixel; }
-
-inline PlanePoint point_of(const PlaneSeed& seed) {
-  return {in_fractions(seed.x) + seed.part_x, in_fractions(seed.y) + seed.part_y};
-}
-
 /// A squared distance in fractions of a pixel does not fit 64 bits.
 using PlaneLength = Int128;
 constexpr PlaneLength too_far = PlaneLength{1} << 126;
@@ -42,9 +27,9 @@ constexpr PlaneLength too_far = PlaneLength{1} << 126;
 /// A seed, or one of its images where the plane is periodic, at a distance from a point.
 struct SeedImage {
   std::size_t index = 0;  // of the seed
-  PlanePoint offset;      // of the image from the seed
+  Place offset;           // of the image from the seed
   PlaneLength distance = too_far;
-  PlanePoint seed = {INT64_MAX, INT64_MAX};  // where the seed lies itself, for the tie rule
+  Place seed = {INT64_MAX, INT64_MAX};  // where the seed lies itself, for the tie rule
 
   /// Whether it is the nearer one, by the tie rule if both are as far. (A seed's images are equal in that.)
   bool wins(const SeedImage& other) const {
@@ -74,12 +59,12 @@ class PlaneDistance {
         twice_most_y_(has_y(grid.periodic()) ? in_fractions(grid.height()) + 2 * slack : INT64_MAX),
         metric_(metric) {}
 
-  PlaneLength operator()(const PlanePoint& from, const PlanePoint& to) const {
+  PlaneLength operator()(const Place& from, const Place& to) const {
     return of(std::abs(to.x - from.x), std::abs(to.y - from.y));
   }
 
   /// To the nearest place in the pixels of a box.
-  PlaneLength operator()(const PlanePoint& from, const Box& to) const {
+  PlaneLength operator()(const Place& from, const Box& to) const {
     return of(gap(from.x, to.left, to.right), gap(from.y, to.top, to.bottom));
   }
 
@@ -104,13 +89,13 @@ void each_image(const Grid& grid, Use use) {
   constexpr std::int64_t periods[] = {0, -1, 1};
   for (int j = 0; j < along_y; ++j) {
     for (int i = 0; i < along_x; ++i) {
-      use(PlanePoint{periods[i] * in_fractions(grid.width()), periods[j] * in_fractions(grid.height())});
+      use(Place{periods[i] * in_fractions(grid.width()), periods[j] * in_fractions(grid.height())});
     }
   }
 }
 
 /// The centres of a rectangle's pixels at its corners, as its rim runs through them.
-inline std::array<PlanePoint, 4> corners_of(const PlaneRectangle& rectangle) {
+inline std::array<Place, 4> corners_of(const PlaneRectangle& rectangle) {
   const auto centre = [](std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; };
   const std::int64_t left = centre(rectangle.x), right = centre(rectangle.x + rectangle.width - 1);
   const std::int64_t top = centre(rectangle.y), bottom = centre(rectangle.y + rectangle.height - 1);
@@ -118,7 +103,7 @@ inline std::array<PlanePoint, 4> corners_of(const PlaneRectangle& rectangle) {
 }
 
 /// The length of an axis-parallel line.
-inline std::int64_t length_of(const PlanePoint& a, const PlanePoint& b) {
+inline std::int64_t length_of(const Place& a, const Place& b) {
   return std::abs(a.x - b.x) + std::abs(a.y - b.y);
 }
 

@@ -46,10 +46,8 @@ void PlaneSeeds::add(const Points& points) {
     const std::uint64_t first = seeds.id_end;
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (!points.is_present(i)) continue;
-      const Point point = point_on(seeds.grid, points, i);
-      const PlanePosition at = seeds.snapping(first + i, point);
-      if (is_absent(at)) continue;
-      seeds.add(seed_of_point(seeds.snapping, point, at, static_cast<std::uint32_t>(first + i), seeds.snap));
+      const Place at = seeds.snapping(first + i, point_on(seeds.grid, points, i), seeds.snap);
+      if (!is_absent(at)) seeds.add(seed_at(at, static_cast<std::uint32_t>(first + i)));
     }
     seeds.id_end = first + points.size();
   });
@@ -79,15 +77,15 @@ void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
   // A seed outside that owns a pixel inside owns every point of the plane between them: so one of the rim
   // too. Ties are decided the same at both.
   std::vector<std::size_t> on_rim;
-  const auto owner_at = [&](const PlanePoint& point, const SeedImage& guess) {
+  const auto owner_at = [&](const Place& point, const SeedImage& guess) {
     SeedImage owner = guess;
     if (owner.distance != too_far) owner = tree.seen_from(point, grid, metric, guess);
     tree.find_nearest(point, grid, metric, owner);
     on_rim.push_back(owner.index);
     return owner;
   };
-  const auto find_between = [&](const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
-                                const SeedImage& at_b, std::size_t most, std::vector<std::size_t>& found) {
+  const auto find_between = [&](const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
+                                std::size_t most, std::vector<std::size_t>& found) {
     if (at_a == at_b) return true;  // what wins at both ends wins between them
     return tree.find_between(a, at_a, b, at_b, grid, metric, rectangle, most, found);
   };

@@ -42,7 +42,7 @@ struct PlaneSeedsState {
   /// Adds a seed.
   void add(const PlaneSeed& seed) {
     tree.add(seed);
-    outside += snapping.is_inside({{seed.x, seed.y}}) ? 0 : 1;
+    outside += snapping.is_inside(place_of(seed)) ? 0 : 1;
     id_end = std::max<std::uint64_t>(id_end, seed.id + std::uint64_t{1});
   }
 

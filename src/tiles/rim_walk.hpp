@@ -19,18 +19,18 @@ namespace vorocl {
 template <typename WinnerAt, typename FindBetween>
 void walk_rim(const PlaneRectangle& rectangle, std::size_t few, WinnerAt winner_at, FindBetween find_between,
               std::vector<std::size_t>& found) {
-  constexpr std::array<PlanePoint, 4> directions = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-  const std::array<PlanePoint, 4> corners = corners_of(rectangle);
+  constexpr std::array<Place, 4> directions = {{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
+  const std::array<Place, 4> corners = corners_of(rectangle);
   std::vector<std::size_t> between;
   std::int64_t usual_step = 64;  // pixels
-  PlanePoint a = corners[0];
+  Place a = corners[0];
   SeedImage at_a = winner_at(a, SeedImage());
   for (std::size_t side = 0; side < corners.size(); ++side) {
     std::int64_t left = length_of(a, corners[(side + 1) % corners.size()]) / fractions_of_pixel;
     do {  // once where a side has no length
       const std::int64_t step = std::min(usual_step, left);
-      const PlanePoint b = {a.x + in_fractions(step) * directions[side].x,
-                            a.y + in_fractions(step) * directions[side].y};
+      const Place b = {a.x + in_fractions(step) * directions[side].x,
+                       a.y + in_fractions(step) * directions[side].y};
       const SeedImage at_b = winner_at(b, at_a);
       between.clear();
       if (!find_between(a, at_a, b, at_b, step > 1 ? few : SIZE_MAX, between)) {

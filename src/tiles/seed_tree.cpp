@@ -104,17 +104,17 @@ void SeedTree::find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSee
   });
 }
 
-void SeedTree::find_nearest(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage& best) const {
+void SeedTree::find_nearest(const Place& point, const Grid& grid, Metric metric, SeedImage& best) const {
   const PlaneDistance distance(grid, metric);
-  each_image(grid, [&](const PlanePoint& offset) {
-    const PlanePoint from = point - offset;
+  each_image(grid, [&](const Place& offset) {
+    const Place from = point - offset;
     const auto to_box = [&](const Box& box) { return distance(from, box); };
     const auto counts = [&](const Box& box, PlaneLength away) {
       return away != too_far && first_in(box, away).wins(best);
     };
     boxes_.visit_nearest_first(to_box, counts, [&](std::size_t first, std::size_t end) {
       for (std::size_t i = first; i < end; ++i) {
-        const PlanePoint place = place_of(i);
+        const Place place = place_of(i);
         const SeedImage image = {i, offset, distance(from, place), place};
         if (image.distance != too_far && image.wins(best)) best = image;
       }
@@ -122,25 +122,23 @@ void SeedTree::find_nearest(const PlanePoint& point, const Grid& grid, Metric me
   });
 }
 
-SeedImage SeedTree::seen_from(const PlanePoint& point, const Grid& grid, Metric metric,
-                              SeedImage image) const {
+SeedImage SeedTree::seen_from(const Place& point, const Grid& grid, Metric metric, SeedImage image) const {
   // It may be farther away than half a period, though not far.
   const PlaneDistance distance(grid, metric, in_fractions(grid.width() + grid.height()));
   image.distance = distance(point, image.seed + image.offset);
   return image;
 }
 
-bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b,
-                            const SeedImage& at_b, const Grid& grid, Metric metric,
-                            const PlaneRectangle& rectangle, std::size_t most,
-                            std::vector<std::size_t>& found) const {
+bool SeedTree::find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
+                            const Grid& grid, Metric metric, const PlaneRectangle& rectangle,
+                            std::size_t most, std::vector<std::size_t>& found) const {
   // What wins at a is nearer there than another image: if it wins against that one at b too, it does between
   // them. So only images count that are as near at b as what wins at a, and the other way round.
   const SeedImage of_b_at_a = seen_from(a, grid, metric, at_b), of_a_at_b = seen_from(b, grid, metric, at_a);
   const PlaneDistance distance(grid, metric, length_of(a, b));
   bool all = true;
-  each_image(grid, [&](const PlanePoint& offset) {
-    const PlanePoint from_a = a - offset, from_b = b - offset;
+  each_image(grid, [&](const Place& offset) {
+    const Place from_a = a - offset, from_b = b - offset;
     const auto judge = [&](const Box& box) {
       const bool counts = !holds(rectangle, box) && !of_b_at_a.wins(first_in(box, distance(from_a, box))) &&
                           !of_a_at_b.wins(first_in(box, distance(from_b, box)));
@@ -149,7 +147,7 @@ bool SeedTree::find_between(const PlanePoint& a, const SeedImage& at_a, const Pl
     all = all && boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
       for (std::size_t i = first; i < end; ++i) {
         if (holds(rectangle, x_of(i), y_of(i))) continue;
-        const PlanePoint place = place_of(i);
+        const Place place = place_of(i);
         SeedImage image = {i, offset, distance(from_a, place), place};
         if (of_b_at_a.wins(image)) continue;
         image.distance = distance(from_b, place);

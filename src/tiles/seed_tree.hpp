@@ -40,14 +40,14 @@ class SeedTree {
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
   /// Makes `best` the image that wins at a point, if it does not yet.
-  void find_nearest(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage& best) const;
+  void find_nearest(const Place& point, const Grid& grid, Metric metric, SeedImage& best) const;
 
   /// The image as it is seen from another point.
-  SeedImage seen_from(const PlanePoint& point, const Grid& grid, Metric metric, SeedImage image) const;
+  SeedImage seen_from(const Place& point, const Grid& grid, Metric metric, SeedImage image) const;
 
   /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some
   /// that do not, given the images that win at both ends. Returns false if they are more than `most`.
-  bool find_between(const PlanePoint& a, const SeedImage& at_a, const PlanePoint& b, const SeedImage& at_b,
+  bool find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
                     const Grid& grid, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
                     std::vector<std::size_t>& found) const;
 
@@ -60,7 +60,7 @@ class SeedTree {
   std::int32_t y_of(std::size_t index) const {
     return static_cast<std::int32_t>(places_[index] >> 32 ^ z_bias);
   }
-  PlanePoint place_of(std::size_t index) const { return point_of(seed(index)); }
+  Place place_of(std::size_t index) const { return vorocl::place_of(seed(index)); }
 
   bool has_parts_;
   std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, y and x

@@ -663,9 +663,10 @@ BOOST_AUTO_TEST_CASE(points_of_volumes_come_in_buffers) {
   }
   check_refusal("the points have no z",
                 [&] { seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xy)); });
-  check_refusal("point 2", [&] { seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xyz)); });
   check_refusal("the buffer of 4 points",
                 [&] { seeds.move_to(PointBuffer(doubles, 4, PointFormat::doubles_xyz)); });
+  seeds.move_to(PointBuffer(doubles, 3, PointFormat::doubles_xyz));
+  check_refusal("point 2", [&] { seeds.check(); });
 }
 
 /// A plane is the one slice of its grid: it has the points whose z lies in it, or that have none.

@@ -1,4 +1,4 @@
-// Whether exact cells are possible on a device.
+// Whether a device computes with doubles.
 #pragma once
 
 #include <string>
