@@ -156,10 +156,10 @@ struct CellRow {
   std::uint32_t id = 0;
   Point seed;                    ///< as it was given
   std::uint32_t pixels = 0;      ///< of the cell
-  double area = 0;               ///< pixels times the area of one
+  double area = 0;               ///< pixels times the area of one; in a volume, the volume
   Point centroid;                ///< all NaN of an empty cell; across a period's end it may lie outside
   bool touches_border = false;   ///< of the window
-  std::uint32_t neighbours = 0;  ///< cells that it shares an edge with
+  std::uint32_t neighbours = 0;  ///< cells that it shares an edge with, in a volume a face
 };
 
 /// All cells of the seeds that are there, by id. Takes cell_sums(), cell_shapes() and adjacency(), and waits.

@@ -16,8 +16,8 @@ namespace vorocl {
 /// What relax() did.
 struct Relaxation {
   /// Of the diagram at the start and after each round: the sum of the squared distances of all pixels to
-  /// their seeds, in square pixels. Whole numbers where seeds are whole pixels, and exact up to 2^53. With a
-  /// density the sum of density times squared distance.
+  /// their seeds, in square pixels, in a spaced grid in squares of its unit. Whole numbers where seeds are
+  /// whole pixels, and exact up to 2^53. With a density the sum of density times squared distance.
   std::vector<double> energies;
   std::vector<std::size_t> moved;  ///< the seeds that each round moved: one entry less than the energies
   bool converged = false;          ///< no seed would move by the tolerance or more
@@ -56,7 +56,8 @@ VOROCL_API double energy(const Diagram& diagram);
 /// empty cells stay. A seed goes to the position nearest to the centroid that is a whole number of 1/4096
 /// pixel; seeds of Seeds::random() and Seeds::from_mask() begin at the centres of their pixels. Seeds of
 /// points with Snap::to_pixels go to the pixel nearest to the centroid (if two are, and the seed is on one of
-/// them, it stays): they soon stay where their cells are far from even (docs/relaxation.md). Ends after so
+/// them, it stays): they soon stay where their cells are far from even (docs/relaxation.md). So do all seeds
+/// of volumes and spaced planes, which go to the nearest voxel. Ends after so
 /// many rounds, when no seed would move by the tolerance, or when the observer says so. In the end the
 /// diagram is that of the seeds.
 ///
@@ -68,7 +69,7 @@ VOROCL_API double energy(const Diagram& diagram);
 /// negative, the tolerance is not above 0, the density has another size than the diagram, a value that is
 /// negative or not finite, or nothing but zeros, seeds lie outside the grid, or the diagram's window is not
 /// the whole grid, with periods of at most 32,000 pixels; and as the engine does. Cost of a density: 2 bytes
-/// of device memory per pixel and 72 per seed.
+/// of device memory per pixel and 96 per seed.
 VOROCL_API Relaxation relax(Seeds& seeds, Diagram& diagram, const Simulation::Engine& engine, int rounds,
                             const RelaxationObserver& observer = {}, const RelaxOptions& options = {});
 

@@ -458,7 +458,7 @@ typedef struct vorocl_relaxation {
 } vorocl_relaxation;
 
 /// Moves seeds to the centroids of their cells, for at most so many rounds, to 1/4096 of a pixel, or from
-/// pixel to pixel if they were made with VOROCL_SNAP_TO_PIXELS: see vorocl::relax(). In the end the diagram
+/// pixel to pixel in volumes and if they were made with VOROCL_SNAP_TO_PIXELS: see vorocl::relax(). In the end the diagram
 /// is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
 /// vorocl::RelaxOptions::density; NULL: all pixels weigh alike. `energies` has room for `rounds` + 1 values,
 /// at the start and after each round; `moved`, the seeds that each round moved, for `rounds`; each of the

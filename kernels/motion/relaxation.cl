@@ -3,7 +3,7 @@
 #include "measures/seed_place.cl"
 
 // The energy of each block's pixels: their squared distances to their seeds, run by run. In square pixels, or in
-// 1/ENERGY_UNITS of them, which is a square unit times a unit: more bits of a block's sum could be lost.
+// 1/UNIT of them, which is a square unit times a unit: more bits of a block's sum could be lost.
 kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int4 bits,
                        global ulong* restrict energies) {
   const window_t window = window_of(size, periods);
@@ -16,13 +16,13 @@ kernel void add_energy(global const uint* restrict labels, SEED_PARAMETERS, int4
     while (next_run(&walk)) {
       const uint label = run_label(&walk);
       if (label >= count || !is_there(seeds[label])) continue;
-      const long dy = way_y(seeds[label], y, window);
+      const long dy = SPACING_Y * way_y(seeds[label], y, window), dz = SPACING_Z * way_z(seeds[label], z, window);
       for (int from = walk.from, to; from < walk.to; from = to) {
         const int way = way_x(seeds[label], from, window);
         to = piece_end(from, walk.to, way, window.period_x);
         const long n = to - from, x = way;
-        const ulong squares = (ulong)(n * (x * x + dy * dy) + x * UNIT * n * (n - 1) +
-                                      (long)UNIT * UNIT * ((n - 1) * n * (2 * n - 1) / 6));
+        const long along_x = n * x * x + x * UNIT * n * (n - 1) + (long)UNIT * UNIT * ((n - 1) * n * (2 * n - 1) / 6);
+        const ulong squares = (ulong)(n * (dy * dy + dz * dz) + SPACING_X * SPACING_X * along_x);
         energy += squares >> UNIT_BITS;
         rest += squares & (UNIT - 1);
       }
@@ -39,12 +39,23 @@ static inline int nearest_to_mean(long sum, long weight, int present) {
   return twice_the_rest < weight ? (int)low : (int)low + 1;
 }
 
+#if VOROCL_DIMENSIONS == 3
+#define PACKED_AT(position) (int3)(x_of(position), y_of(position), z_of(position))
+#define PACK(at) pack(at.x, at.y, at.z)
+#else
+#define PACKED_AT(position) (int3)(packed_x(position), packed_y(position), 0)
+#define PACK(at) pack(at.x, at.y)
+#endif
+
 // Moves a seed to the mean of what its cell's sums are of. Returns how far along an axis.
-static inline uint move_to_mean(global uint* position, long weight, long sum_x, long sum_y, int width, int height) {
-  const int x = packed_x(*position), y = packed_y(*position);
-  const int new_x = nearest_to_mean(sum_x, weight, x), new_y = nearest_to_mean(sum_y, weight, y);
-  *position = pack(wrapped_x(new_x, width), wrapped_y(new_y, height));
-  return max(abs(new_x - x), abs(new_y - y));
+static inline uint move_to_mean(global uint* position, long weight, long sum_x, long sum_y, long sum_z, int4 size) {
+  const int3 from = PACKED_AT(*position);
+  const int3 to = (int3)(nearest_to_mean(sum_x, weight, from.x), nearest_to_mean(sum_y, weight, from.y),
+                         nearest_to_mean(sum_z, weight, from.z));
+  const int3 inside = (int3)(wrapped(to.x, size.x, PERIODIC_X), wrapped(to.y, size.y, PERIODIC_Y),
+                             wrapped(to.z, size.z, PERIODIC_Z));
+  *position = PACK(inside);
+  return max(max(abs(to.x - from.x), abs(to.y - from.y)), abs(to.z - from.z));
 }
 
 // The seeds that moved, and the greatest displacement along an axis.
@@ -65,30 +76,19 @@ static inline void add_moves(const moves_t moves, global uint* moved_and_displac
 
 // Each work-item moves a chunk of the seeds, so that few meet where moves are counted. A cell without pixels has no
 // mean: its seed stays.
-kernel void move_to_centroids(global uint* restrict positions, uint count, uint chunk, global const uint* restrict area,
-                              global const long* restrict sum_x, global const long* restrict sum_y, int width,
-                              int height, global uint* restrict moved_and_displacement) {
-  const uint begin = (uint)get_global_id(0) * chunk;
-  if (begin >= count) return;
-  moves_t moves = {0, 0};
-  for (uint id = begin; id < min(begin + chunk, count); ++id) {
-    if (area[id] == 0) continue;
-    count_move(&moves, move_to_mean(positions + id, area[id], sum_x[id], sum_y[id], width, height));
+#define DEFINE_MOVE(name, weight_t)                                                                                 \
+  kernel void name(global uint* restrict positions, uint count, uint chunk, global const weight_t* restrict weight, \
+                   global const long* restrict sum_x, global const long* restrict sum_y,                            \
+                   global const long* restrict sum_z, int4 size, global uint* restrict moved_and_displacement) {    \
+    const uint begin = (uint)get_global_id(0) * chunk;                                                              \
+    if (begin >= count) return;                                                                                     \
+    moves_t moves = {0, 0};                                                                                         \
+    for (uint id = begin; id < min(begin + chunk, count); ++id) {                                                   \
+      if (weight[id] == 0) continue;                                                                                \
+      count_move(&moves, move_to_mean(positions + id, (long)weight[id], sum_x[id], sum_y[id], sum_z[id], size));    \
+    }                                                                                                               \
+    add_moves(moves, moved_and_displacement);                                                                       \
   }
-  add_moves(moves, moved_and_displacement);
-}
 
-// The same of cells with weights (see density.cl).
-kernel void move_to_weighted_centroids(global uint* restrict positions, uint count, uint chunk,
-                                       global const ulong* restrict weight, global const long* restrict sum_x,
-                                       global const long* restrict sum_y, int width, int height,
-                                       global uint* restrict moved_and_displacement) {
-  const uint begin = (uint)get_global_id(0) * chunk;
-  if (begin >= count) return;
-  moves_t moves = {0, 0};
-  for (uint id = begin; id < min(begin + chunk, count); ++id) {
-    if (weight[id] == 0) continue;
-    count_move(&moves, move_to_mean(positions + id, (long)weight[id], sum_x[id], sum_y[id], width, height));
-  }
-  add_moves(moves, moved_and_displacement);
-}
+DEFINE_MOVE(move_to_centroids, uint)
+DEFINE_MOVE(move_to_weighted_centroids, ulong)  // of cells with weights (see density.cl)

@@ -285,8 +285,7 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
 
 /// Ctrl-C ends it after a round.
 Relaxation relax(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
-                 const std::string& metric, int rounds,
-                 const std::optional<Array<const float, nb::ndim<2>>>& density) {
+                 const std::string& metric, int rounds, const std::optional<Array<const float>>& density) {
   const Turns turns(diagram.mutex, seeds.mutex);
   const auto go_on = [](const Seeds&, const Diagram&, const Relaxation&) {
     const nb::gil_scoped_acquire locked;

@@ -147,6 +147,17 @@ def test_a_frame_of_pandas_takes_the_cells(points):
     assert frame["area"].sum() == SHAPE[0] * SHAPE[1] and "centroid_x" in frame.columns and "z" not in frame.columns
 
 
+def test_points_of_a_volume_relax_to_voxels():
+    points = np.random.default_rng(3).random((12, 3)) * (20, 14, 10)
+    density = np.ones((10, 14, 20))
+    relaxed = vorocl.relax(points, (10, 14, 20), rounds=50, density=density)
+    assert relaxed.converged and relaxed.points.shape == (12, 3) and relaxed.energies[-1] < relaxed.energies[0]
+    labels = vorocl.diagram(relaxed.points, (10, 14, 20))
+    for row, point in enumerate(relaxed.points):
+        centroid = np.argwhere(labels == row).mean(axis=0)[::-1] + 0.5
+        assert np.abs(centroid - point).max() <= 0.5
+
+
 def test_relaxed_points_are_centroids():
     points = rng.uniform((-1, 2), (1, 4), (30, 2))
     bounds = (-1, 2, 1, 4)

@@ -214,14 +214,14 @@ def to_text(value: Text, name: str) -> Text:
     return value
 
 
-def to_image(image: ArrayLike, name: str, volumes: bool = True) -> NDArray[Any]:
+def to_image(image: ArrayLike, name: str) -> NDArray[Any]:
     """An array with two axes, or with three, none of them empty."""
-    shapes = "(H, W) or (D, H, W)" if volumes else "(H, W)"
+    shapes = "(H, W) or (D, H, W)"
     try:
         array = np.asarray(image)
     except ValueError as error:
         raise BadArgument(f"{name} must be an array of the shape {shapes}: {error}") from None
-    if array.ndim not in ((2, 3) if volumes else (2,)) or array.size == 0:
+    if array.ndim not in (2, 3) or array.size == 0:
         raise BadArgument(f"{name} must have the shape {shapes}; this array has the shape {array.shape}")
     return array
 
@@ -263,8 +263,8 @@ def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
 
 
 def to_density(density: ArrayLike, shape: Shape) -> NDArray[np.float32]:
-    """(H, W) weights of pixels, C-contiguous; what they must be, the library says."""
-    array = to_image(density, "density", volumes=False)
+    """Weights of pixels, C-contiguous; what they must be, the library says."""
+    array = to_image(density, "density")
     if array.dtype.kind not in "biuf":
         raise BadArgument(f"density must be real numbers; this array has the dtype {array.dtype}")
     if array.shape != tuple(shape):

@@ -729,7 +729,7 @@ def relax(
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
 
     A round moves every point to its cell's centroid, rounded to 1/4096 of a pixel, in Euclidean diagrams; to the pixel
-    that is nearest to it where points are snapped. Ctrl-C ends it after a round.
+    or voxel that is nearest to it where points are snapped, and in volumes. Ctrl-C ends it after a round.
 
     Parameters
     ----------
@@ -775,7 +775,7 @@ def relax(
     done = made._diagram.relax(
         seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights
     )
-    places = np.empty((len(seeds), 2))
+    places = np.empty((len(seeds), len(made.shape)))
     seeds._seeds.read(places, in_pixels=False)
     return Relaxation(
         places, np.array(done.energies), np.array(done.moved, np.int64), done.converged

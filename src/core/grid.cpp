@@ -335,8 +335,7 @@ void refuse_volume(const Grid& grid, const char* what) {
               (grid.is_volume() ? "" : " that are not spaced"));
 }
 
-void refuse_tilted_and_volumes(const Grid& grid, const char* what) {
-  refuse_volume(grid, what);
+void refuse_tilted(const Grid& grid, const char* what) {
   if (!grid.is_tilted()) return;
   throw Error("the grid is tilted, which " + std::string(what) +
               " cannot take; exact diagrams of a window of the grid do");

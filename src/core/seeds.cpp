@@ -150,13 +150,8 @@ double Seeds::displacement() const { return state().frame()->way_of_last_move();
 void Seeds::check() const { state().frame()->check(); }
 
 std::vector<std::optional<Point>> Seeds::read() const {
-  const SeedsFrame& frame = *state().frame();
-  std::vector<std::optional<Point>> points = read_pixels();
-  const GivenPoints given = frame.read_given();
-  for (std::size_t id = 0; id < points.size(); ++id) {
-    if (points[id]) points[id] = given.numbers ? given.point(frame.grid, id) : frame.grid.point(*points[id]);
-  }
-  return points;
+  check();
+  return state().frame()->read_given();
 }
 
 std::vector<std::optional<Point>> Seeds::read_pixels() const {

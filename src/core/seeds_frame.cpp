@@ -173,6 +173,15 @@ std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
   return positions;
 }
 
+std::vector<std::optional<Point>> SeedsFrame::read_given() const {
+  std::vector<std::optional<Point>> points = read_positions();
+  const GivenPoints as_given = there.points ? read_points(device, there) : given;
+  for (std::size_t id = 0; id < size; ++id) {
+    if (points[id]) points[id] = as_given.numbers ? as_given.point(grid, id) : grid.point(*points[id]);
+  }
+  return points;
+}
+
 // --- placements ---
 
 /// One kind of placements, by the window that they are seen from.
@@ -271,7 +280,7 @@ std::shared_ptr<const PointPlacement> SeedsFrame::place_points_in(const Window& 
 }
 
 void refuse_outer_seeds(const Placement& placement, const SeedsFrame& frame, const char* what) {
-  refuse_tilted_and_volumes(frame.grid, what);
+  refuse_tilted(frame.grid, what);
   if (!placement.outer) return;
   const std::size_t outside = placement.outer->outside;
   if (outside > 0) {

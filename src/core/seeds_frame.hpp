@@ -124,9 +124,6 @@ struct SeedsFrame {
   /// The same from the frame before.
   double way_of_last_move() const;
 
-  /// The points as they were given, read from the device where they came in a buffer; none likewise.
-  GivenPoints read_given() const { return there.points ? read_points(device, there) : given; }
-
   /// The places of seeds in a plane. The host finds those of the points that it has, and waits for the device
   /// where it has none.
   std::shared_ptr<const std::vector<Place>> places() const;
@@ -134,6 +131,9 @@ struct SeedsFrame {
   /// The positions in pixels from the grid's first one, as diagrams take them; none for a seed that is
   /// absent. Waits.
   std::vector<std::optional<Point>> read_positions() const;
+
+  /// The points as they were given, or the places of seeds that have none; likewise.
+  std::vector<std::optional<Point>> read_given() const;
 };
 
 std::shared_ptr<Placements> no_placements();

@@ -21,6 +21,7 @@ std::size_t divided_up(int number, int by) { return static_cast<std::size_t>((nu
 }  // namespace
 
 void refuse_what_floods_cannot_take(const Filling& filling, const DiagramState& diagram) {
+  refuse_volume(diagram.window.grid(), "flooding");
   refuse_outer_seeds(filling.placement(), filling.seeds(), "flooding");
   if (!diagram.window.is_whole()) {
     throw Error(

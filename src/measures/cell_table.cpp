@@ -19,7 +19,6 @@ Point point_in(const Window& window, const Point& position) {
 }  // namespace
 
 std::vector<CellRow> cell_table(const Diagram& diagram) {
-  refuse_volume(diagram.window().grid(), "a table of cells");
   CellSumsResult sums_of_cells;
   CellShapesResult shapes_of_cells;
   AdjacencyResult pairs;
@@ -33,14 +32,13 @@ std::vector<CellRow> cell_table(const Diagram& diagram) {
   const MeasuredDiagram of = cells_of(diagram);
   const Window& window = of.window;
   const Grid& grid = window.grid();
-  const double area_of_pixel = length_of_pixel(grid.x()) * length_of_pixel(grid.y());
-  const auto places = of.seeds->places();
-  const GivenPoints given = of.seeds->read_given();
+  const double area_of_pixel = length_of_pixel(grid.x()) * length_of_pixel(grid.y()) *
+                               (grid.is_volume() ? length_of_pixel(grid.z()) : 1);
+  const std::vector<std::optional<Point>> points = of.seeds->read_given();
   std::vector<CellRow> rows;
-  for (std::uint32_t id = 0; id < places->size(); ++id) {
-    if (is_absent((*places)[id])) continue;
-    const Point seed = given.numbers ? given.point(grid, id) : grid.point(in_pixels((*places)[id]));
-    rows.push_back({id, seed, sums[id].area, sums[id].area * area_of_pixel,
+  for (std::uint32_t id = 0; id < points.size(); ++id) {
+    if (!points[id]) continue;
+    rows.push_back({id, *points[id], sums[id].area, sums[id].area * area_of_pixel,
                     point_in(window, sums[id].centroid()), shapes[id].touches_border, neighbours[id]});
   }
   return rows;

@@ -11,7 +11,7 @@ namespace vorocl {
 /// What the centroid of a cell follows from, as CellSums: but each pixel counts as often as it weighs.
 struct CellWeight {
   std::uint64_t weight = 0;
-  std::int64_t sum_x = 0, sum_y = 0;
+  std::int64_t sum_x = 0, sum_y = 0, sum_z = 0;
 };
 
 /// The weights of the pixels of a diagram, and the sums of its cells, on the device.
@@ -29,6 +29,7 @@ class Density {
   const cl::Buffer& weight() const { return weight_; }
   const cl::Buffer& sum_x() const { return sum_x_; }
   const cl::Buffer& sum_y() const { return sum_y_; }
+  const cl::Buffer& sum_z() const { return sum_z_; }  // of a plane 0
 
   /// The same on the host, by id.
   std::vector<CellWeight> read(std::size_t cells) const;
@@ -39,7 +40,7 @@ class Density {
   double unit_ = 0;                            // the density that a weight of 1 stands for
   cl::Buffer pixels_;                          // the weights: uint16
   cl::Buffer at_home_, elsewhere_, energies_;  // see density.cl
-  cl::Buffer weight_, sum_x_, sum_y_;
+  cl::Buffer weight_, sum_x_, sum_y_, sum_z_;
 };
 
 }  // namespace vorocl

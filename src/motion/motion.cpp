@@ -13,6 +13,7 @@ void random_step(Seeds& seeds, int max_displacement, Border border, std::uint64_
                 " pixels is not possible; it must be from 0 to " + std::to_string(Window::max_side));
   }
   SeedsState& state = Internal::state(seeds);
+  refuse_volume(state.grid(), "random motion");
   const std::shared_ptr<cl::Buffer> positions = state.copy_to_move("random motion");
   const PixelGrid grid{Window(state.grid())};
   const cl_uint2 key = {{static_cast<cl_uint>(rng_seed), static_cast<cl_uint>(rng_seed >> 32)}};

@@ -52,7 +52,8 @@ std::vector<CellWeight> weights_of(const Rounds& rounds, std::size_t cells) {
   if (rounds.density) return rounds.density->read(cells);
   std::vector<CellWeight> weights;
   weights.reserve(cells);
-  for (const CellSums& sums : rounds.cells.read()) weights.push_back({sums.area, sums.sum_x, sums.sum_y});
+  for (const CellSums& sums : rounds.cells.read())
+    weights.push_back({sums.area, sums.sum_x, sums.sum_y, sums.sum_z});
   return weights;
 }
 
@@ -90,25 +91,27 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 
 Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   SeedsState& state = Internal::state(seeds);
-  if (state.options.snap == Snap::none) return move_points_to_centroids(seeds, rounds, tolerance);
+  if (state.options.snap == Snap::none && !has_voxels(state.grid()))
+    return move_points_to_centroids(seeds, rounds, tolerance);
   const std::shared_ptr<cl::Buffer> positions = state.copy_to_move("Lloyd relaxation");
   const Device& device = state.device;
   const PixelGrid grid{Window(state.grid())};
   make_room(rounds.moved_and_displacement, device, 2 * sizeof(cl_uint));
   fill(device, rounds.moved_and_displacement, cl_uint{0}, 2);
   const auto move_to_means = [&](const char* name, const cl::Buffer& weight, const cl::Buffer& sum_x,
-                                 const cl::Buffer& sum_y) {
+                                 const cl::Buffer& sum_y, const cl::Buffer& sum_z) {
     rounds.kernels.get(device, "motion/relaxation.cl", name, grid)
         .over_items((state.size() + seeds_per_item - 1) / seeds_per_item, *positions,
                     static_cast<cl_uint>(state.size()), static_cast<cl_uint>(seeds_per_item), weight, sum_x,
-                    sum_y, grid.width(), grid.height(), rounds.moved_and_displacement);
+                    sum_y, sum_z, cl_int4{{grid.width(), grid.height(), grid.depth(), 0}},
+                    rounds.moved_and_displacement);
   };
   if (rounds.density) {
     const Density& cells = *rounds.density;
-    move_to_means("move_to_weighted_centroids", cells.weight(), cells.sum_x(), cells.sum_y());
+    move_to_means("move_to_weighted_centroids", cells.weight(), cells.sum_x(), cells.sum_y(), cells.sum_z());
   } else {
     const CellSumsResult& cells = rounds.cells;
-    move_to_means("move_to_centroids", cells.area(), cells.sum_x(), cells.sum_y());
+    move_to_means("move_to_centroids", cells.area(), cells.sum_x(), cells.sum_y(), cells.sum_z());
   }
   const auto words = download<cl_uint>(device, rounds.moved_and_displacement, 2);
   const Move move = {words[0], static_cast<double>(words[1])};
@@ -117,7 +120,6 @@ Move move_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
 }
 
 double energy_of(const Diagram& diagram, Rounds& rounds) {
-  refuse_volume(diagram.window().grid(), "the energy of Lloyd relaxation");
   const MeasuredDiagram of = cells_of(diagram);
   refuse_outer_seeds(*of.placement, *of.seeds, "the energy of Lloyd relaxation");
   const Blocks blocks(of.device, of.grid);

@@ -281,7 +281,8 @@ struct SharedSeedsState {
 
 SharedSeeds::SharedSeeds(MPI_Comm communicator, const Grid& grid, Snap snap)
     : state_(std::make_unique<SharedSeedsState>(communicator, grid, snap)) {
-  refuse_tilted_and_volumes(grid, "a plane of tiles");
+  refuse_volume(grid, "a plane of tiles");
+  refuse_tilted(grid, "a plane of tiles");
 }
 SharedSeeds::~SharedSeeds() = default;
 

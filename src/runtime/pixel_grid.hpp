@@ -82,8 +82,8 @@ bool fits_in_a_diagram(const Grid& grid);
 /// Throws Error if a grid has voxels, for something ("a window") that knows planes without spacings alone.
 void refuse_volume(const Grid& grid, const char* what);
 
-/// Throws Error if a grid is tilted or a volume, for something ("flooding") that knows neither.
-void refuse_tilted_and_volumes(const Grid& grid, const char* what);
+/// Throws Error if a grid is tilted, for something ("flooding") that does not know that.
+void refuse_tilted(const Grid& grid, const char* what);
 
 /// ", periodic in x and y", or nothing.
 std::string periodic_text(Axes axes);

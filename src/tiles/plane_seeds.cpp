@@ -19,7 +19,8 @@ SeedSource::~SeedSource() = default;
 
 PlaneSeeds::PlaneSeeds(const Grid& grid, const SeedsOptions& options)
     : state_(std::make_unique<PlaneSeedsState>(grid, options)) {
-  refuse_tilted_and_volumes(grid, "a plane of tiles");
+  refuse_volume(grid, "a plane of tiles");
+  refuse_tilted(grid, "a plane of tiles");
 }
 PlaneSeeds::PlaneSeeds(const Grid& grid, const Points& points, const SeedsOptions& options)
     : PlaneSeeds(grid, options) {

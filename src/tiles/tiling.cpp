@@ -25,7 +25,8 @@ void refuse_longer_than_a_period(const Axis& axis, std::int64_t pixels, const ch
 
 Tiling::Tiling(const Window& window, std::int64_t side)
     : window_(window), side_(PixelGrid(Window(Grid(side, side))).width()) {
-  refuse_tilted_and_volumes(window.grid(), "tiles");
+  refuse_volume(window.grid(), "tiles");
+  refuse_tilted(window.grid(), "tiles");
   refuse_longer_than_a_period(window.grid().x(), window.width(), "x");
   refuse_longer_than_a_period(window.grid().y(), window.height(), "y");
   columns_ = tiles_along(window.width(), side_);

@@ -235,6 +235,11 @@ void make_volumes(const Device& device, const Grid& grid) {
     distance_field(flooded, squares);
     distance_field(flooded, distances);
     expand_labels(flooded, 2, near_ones);
+    if (!grid.is_spaced()) {
+      const auto engine = [](const Seeds& moved, Diagram& filled) { return jump_flooding(moved, filled); };
+      relax(in_a_part, flooded, engine, 1);
+      relax_by_weights(in_a_part, flooded);
+    }
     in_a_part.move_to(std::vector<Point>{{1, 2, 3}});
     if (in_a_part.displacement() == 0) throw Error("the seeds' way is wrong");
     const Device measuring = device.with_tuning({vector_width, 4, 2, Shape::vector, 32});

@@ -168,3 +168,55 @@ BOOST_AUTO_TEST_CASE(a_table_of_a_window_counts_what_it_shows) {
   BOOST_TEST(std::abs(std::remainder(table[1].centroid.x - 0.25, 10)) < 1e-9);
   BOOST_TEST(table[0].centroid.y == 0.5, boost::test_tools::tolerance(1e-12));
 }
+
+BOOST_AUTO_TEST_CASE(a_table_of_a_volume) {
+  const Grid grid(Axis(20, -1, 3), Axis(15, 0, 30).reversed(), Axis(9, 5, 6).periodic());
+  std::mt19937 rng(7);
+  std::vector<Point> points;
+  for (int i = 0; i < 25; ++i) {
+    const auto along = [&](const Axis& axis) {
+      return axis.coordinate(static_cast<double>(rng() % 1000) / 1000 * static_cast<double>(axis.pixels()));
+    };
+    const double x = along(grid.x()), y = along(grid.y());
+    points.push_back({x, y, along(grid.z())});
+  }
+  Diagram diagram(test_device(), grid);
+  exact_diagram(Seeds(test_device(), grid, points), diagram);
+  const std::vector<std::uint32_t> labels = diagram.read();
+  std::vector<std::uint32_t> voxels(points.size());
+  std::vector<double> sums_of_x(points.size());
+  std::vector<std::set<std::uint32_t>> neighbours(points.size());
+  std::vector<bool> touches(points.size());
+  const auto label_of = [&](int x, int y, int z) {
+    return labels[static_cast<std::size_t>(((z + 9) % 9 * 15 + y) * 20 + x)];
+  };
+  for (int z = 0; z < 9; ++z) {
+    for (int y = 0; y < 15; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        const std::uint32_t own = label_of(x, y, z);
+        ++voxels[own];
+        sums_of_x[own] += x + 0.5;
+        if (x == 0 || x == 19 || y == 0 || y == 14) touches[own] = true;
+        const auto meet = [&](std::uint32_t other) {
+          if (other == own) return;
+          neighbours[own].insert(other);
+          neighbours[other].insert(own);
+        };
+        if (x > 0) meet(label_of(x - 1, y, z));
+        if (y > 0) meet(label_of(x, y - 1, z));
+        meet(label_of(x, y, z - 1));
+      }
+    }
+  }
+  const std::vector<CellRow> table = cell_table(diagram);
+  BOOST_TEST_REQUIRE(table.size() == points.size());
+  const auto close = boost::test_tools::tolerance(1e-9);
+  for (const CellRow& row : table) {
+    BOOST_TEST((row.seed.x == points[row.id].x && row.seed.z == points[row.id].z));
+    BOOST_TEST(row.pixels == voxels[row.id]);
+    BOOST_TEST(row.area == voxels[row.id] * (0.2 * 2 / 9), close);
+    BOOST_TEST(row.touches_border == touches[row.id]);
+    BOOST_TEST(row.neighbours == neighbours[row.id].size());
+    BOOST_TEST(row.centroid.x == -1 + 0.2 * sums_of_x[row.id] / voxels[row.id], close);
+  }
+}

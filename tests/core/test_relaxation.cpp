@@ -229,6 +229,81 @@ BOOST_AUTO_TEST_CASE(points_go_to_their_weighted_centroids) {
   }
 }
 
+namespace {
+
+/// A round in a volume, axis by axis, as its definition says it; and the energy before it.
+struct RoundInVolume {
+  std::vector<Point> to;
+  double energy = 0;
+
+  RoundInVolume(const Grid& grid, const std::vector<std::uint32_t>& labels,
+                const std::vector<std::optional<Point>>& seeds, const std::vector<float>& density) {
+    const std::array<const Axis*, 3> axes = {&grid.x(), &grid.y(), &grid.z()};
+    std::vector<std::array<double, 4>> sums(seeds.size());
+    const std::array<std::int64_t, 3> sides = {grid.width(), grid.height(), grid.depth()};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      if (labels[i] == no_label) continue;
+      const std::int64_t index = static_cast<std::int64_t>(i);
+      const std::int64_t at[] = {index % sides[0], index / sides[0] % sides[1], index / sides[0] / sides[1]};
+      const double weight = density.empty() ? 1 : density[i];
+      sums[labels[i]][3] += weight;
+      const Point& seed = *seeds[labels[i]];
+      const double from[] = {seed.x - 0.5, seed.y - 0.5, seed.z - 0.5};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        double way = static_cast<double>(at[axis]) - from[axis];
+        const auto period = static_cast<double>(sides[axis]);
+        if (axes[axis]->is_periodic() && 2 * way > period) way -= period;
+        if (axes[axis]->is_periodic() && 2 * way <= -period) way += period;
+        sums[labels[i]][axis] += weight * way;
+        energy += weight * way * way * std::pow(axes[axis]->spacing(), 2);
+      }
+    }
+    for (std::size_t id = 0; id < seeds.size(); ++id) {
+      const double from[] = {seeds[id]->x - 0.5, seeds[id]->y - 0.5, seeds[id]->z - 0.5};
+      std::array<double, 3> moved = {};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double way = sums[id][3] == 0 ? 0 : sums[id][axis] / sums[id][3];
+        // Of two as near ones the present one, else the lower one.
+        const double steps = std::abs(way) <= 0.5 ? 0 : std::ceil(way - 0.5);
+        const auto period = static_cast<double>(sides[axis]);
+        moved[axis] = std::fmod(from[axis] + steps + period, period) + 0.5;
+      }
+      to.push_back({moved[0], moved[1], moved[2]});
+    }
+  }
+};
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(rounds_in_volumes_are_those_of_the_definition) {
+  for (const Grid& grid :
+       {Grid(20, 14, 9), Grid(Axis(21).periodic(), Axis(12).periodic(), Axis(8).periodic()),
+        Grid(Axis(18).spaced(2), Axis(15).periodic(), Axis(7).spaced(3).periodic()),
+        Grid(Axis(40), Axis(30).spaced(4), Axis(1))}) {
+    std::vector<float> weights = random_density(grid);  // as whole numbers, so that nothing is rounded
+    for (float& weight : weights) weight = std::floor(weight);
+    *std::max_element(weights.begin(), weights.end()) = 65535;
+    for (const std::vector<float>& density : {std::vector<float>(), weights}) {
+      Seeds seeds = Seeds::random(test_device(), grid, 30, 3);
+      Diagram diagram(test_device(), grid);
+      for (int round = 0; round < 3; ++round) {
+        exact_diagram(seeds, diagram);
+        const RoundInVolume expected(grid, diagram.read(), seeds.read_pixels(), density);
+        if (density.empty()) BOOST_TEST(energy(diagram) == expected.energy);
+        RelaxOptions options;
+        options.density = density;
+        const Relaxation done = relax(seeds, diagram, exactly, 1, {}, options);
+        BOOST_TEST(done.energies.front() == expected.energy);
+        const auto pixels = seeds.read_pixels();
+        for (std::size_t id = 0; id < pixels.size(); ++id) {
+          const Point &at = *pixels[id], &to = expected.to[id];
+          BOOST_TEST((at.x == to.x && at.y == to.y && at.z == to.z));
+        }
+      }
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(a_density_that_is_the_same_everywhere_changes_nothing) {
   const Grid grid(200, 150, Axes::x);
   for (const Snap snap : {Snap::to_pixels, Snap::none}) {

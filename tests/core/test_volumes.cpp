@@ -728,10 +728,8 @@ BOOST_AUTO_TEST_CASE(what_knows_planes_alone_refuses_volumes_by_name) {
   VerticesResult corners;
   ExactCellsResult polygons;
   check_refusal(what + "the vertices of a diagram", [&] { vertices(diagram, corners); });
-  check_refusal(what + "a table of cells", [&] { (void)cell_table(diagram); });
   check_refusal(what + "polygons of exact cells", [&] { exact_cells(seeds, polygons); });
   check_refusal(what + "random motion", [&] { random_step(seeds, 1, Border::reflect, 1, 1); });
-  check_refusal(what + "Lloyd relaxation", [&] { relax(seeds, diagram, engine(method("jfa")), 1); });
   check_refusal(what + "tiles", [&] { Tiling(grid, 4); });
   check_refusal(what + "a plane of tiles", [&] { PlaneSeeds{grid}; });
 }
