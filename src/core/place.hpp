@@ -14,6 +14,8 @@
 
 namespace vorocl {
 
+__extension__ using Int128 = __int128;
+
 /// A pixel has so many units along each axis.
 constexpr int fractions_of_pixel = 4096;
 
@@ -39,6 +41,14 @@ constexpr std::int64_t centre_of(std::int64_t pixel) { return in_fractions(pixel
 /// The pixel that holds a position along an axis.
 constexpr std::int64_t pixel_of(std::int64_t at) {
   return (at >= 0 ? at : at - (fractions_of_pixel - 1)) / fractions_of_pixel;
+}
+
+/// The shorter way round a period, of which 0 is none; of two halves of it the positive one.
+constexpr std::int64_t shorter_way(std::int64_t way, std::int64_t period) {
+  if (period == 0) return way;
+  way %= period;
+  if (2 * way > period) return way - period;
+  return 2 * way <= -period ? way + period : way;
 }
 
 /// What an axis is, as kernels get it besides its ends and its pixels: bits of kernels/core/place_sizes.cl.

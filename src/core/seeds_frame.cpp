@@ -21,9 +21,7 @@ class Farthest {
   explicit Farthest(const Axis& axis) : period_(axis.is_periodic() ? axis.pixels() : 0) {}
 
   void add(std::int64_t from, std::int64_t to) {
-    std::int64_t way = std::abs(to - from);
-    if (period_ > 0) way = std::min(way, period_ - way);
-    greatest_ = std::max(greatest_, way);
+    greatest_ = std::max(greatest_, std::abs(shorter_way(to - from, period_)));
   }
   std::int64_t greatest() const { return greatest_; }
 

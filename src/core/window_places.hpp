@@ -30,6 +30,19 @@ struct Periods {
   std::int64_t x, y;
 };
 
+/// Two vectors of a lattice that span it, of which no sum is shorter, by Gauss's reduction of two that do.
+inline std::pair<Place, Place> reduced(Place u, Place v) {
+  const auto dot = [](const Place& a, const Place& b) { return Int128{a.x} * b.x + Int128{a.y} * b.y; };
+  if (dot(v, v) < dot(u, u)) std::swap(u, v);
+  while (true) {
+    const auto times = static_cast<std::int64_t>(
+        std::nearbyint(static_cast<double>(dot(u, v)) / static_cast<double>(dot(u, u))));
+    v = v - Place{times * u.x, times * u.y};
+    if (dot(v, v) >= dot(u, u)) return {u, v};
+    std::swap(u, v);
+  }
+}
+
 /// Where the images of a seed lie: in rows a period of y apart, each of which is shifted along x to the row
 /// before.
 struct Images {
@@ -46,27 +59,12 @@ struct Images {
   std::int64_t reach_x, reach_y;  // how far along the axes the image that is nearest to a place is at most
 
  private:
-  struct Vector {
-    std::int64_t x, y;
-    std::int64_t length() const { return std::abs(x) + std::abs(y); }
-  };
-
   /// Every place is at most half of either of two vectors that span the lattice away from an image, and so,
   /// along y, at most half the sum of what they are long by the Manhattan metric, which no distance along y
   /// exceeds. Short vectors reach less far.
   std::int64_t reach_of_lattice() const {
-    Vector u = {x, 0}, v = {shift, y};
-    while (true) {
-      if (v.length() < u.length()) std::swap(u, v);
-      // The whole number of times that u is taken off, so that what stays along its longer axis is least.
-      const bool along_x = std::abs(u.x) >= std::abs(u.y);
-      const auto over = static_cast<double>(along_x ? v.x : v.y),
-                 under = static_cast<double>(along_x ? u.x : u.y);
-      const std::int64_t times = std::llround(over / under);  // any whole number keeps the lattice
-      const Vector rest = {v.x - times * u.x, v.y - times * u.y};
-      if (rest.length() >= v.length()) return (u.length() + v.length()) / 2;
-      v = rest;
-    }
+    const auto [u, v] = reduced({x, 0}, {shift, y});
+    return (std::abs(u.x) + std::abs(u.y) + std::abs(v.x) + std::abs(v.y)) / 2;
   }
 };
 

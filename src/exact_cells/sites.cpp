@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "core/window_places.hpp"
 #include "exact_cells/hilbert_order.hpp"
 #include "vorocl/error.hpp"
 // Last: it defines macros.
@@ -44,23 +45,6 @@ int exponent_of_step(double longer_side, int bits) {
   int exponent = 0;
   const bool is_power = std::frexp(longer_side, &exponent) == 0.5;
   return std::max(exponent - (is_power ? 1 : 0) - bits, std::numeric_limits<double>::min_exponent);
-}
-
-struct Vector {
-  std::int64_t x, y;
-};
-std::int64_t dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y; }
-
-/// Two vectors of a lattice that span it, of which no sum is shorter, by Gauss's reduction.
-std::pair<Vector, Vector> reduced(Vector u, Vector v) {
-  if (dot(v, v) < dot(u, u)) std::swap(u, v);
-  while (true) {
-    const auto times = static_cast<std::int64_t>(
-        std::nearbyint(static_cast<double>(dot(u, v)) / static_cast<double>(dot(u, u))));
-    v = {v.x - times * u.x, v.y - times * u.y};
-    if (dot(v, v) >= dot(u, u)) return {u, v};
-    std::swap(u, v);
-  }
 }
 
 /// What repeats by periods and a tilt: see Sites.

@@ -64,14 +64,9 @@ Move move_points_to_centroids(Seeds& seeds, Rounds& rounds, double tolerance) {
   const auto places = state.list_of_places();
   *places = *frame.places();
   const auto go = [](const Axis& axis, std::int64_t to, std::int64_t& at) {
-    const std::int64_t period = in_fractions(axis.pixels());
-    std::int64_t way = to - at;
-    if (axis.is_periodic()) {
-      to = (to % period + period) % period;
-      way = (way % period + period) % period;
-      way = std::min(way, period - way);
-    }
-    at = to;
+    const std::int64_t period = axis.is_periodic() ? in_fractions(axis.pixels()) : 0;
+    const std::int64_t way = shorter_way(to - at, period);
+    at = period == 0 ? to : (to % period + period) % period;
     return std::abs(way);
   };
   Move move;

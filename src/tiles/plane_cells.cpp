@@ -16,14 +16,11 @@ struct Unwrapping {
   std::int64_t period;  // in pixels; 0: none
   std::int64_t seed;    // in fractions of a pixel
 
-  /// What is added to a coordinate: a period, or nothing. Half a period away it lies behind the seed.
+  /// What is added to a coordinate: periods, or nothing. Half a period away it lies behind the seed.
   /// A window that crosses the period's end shows pixels behind it.
   std::int64_t shift_at(std::int64_t at) const {
-    if (period == 0) return 0;
-    const std::int64_t home = at < period ? 0 : -period;
-    const std::int64_t way = in_fractions(at + home) + fractions_of_pixel / 2 - seed;
-    if (2 * way > in_fractions(period)) return home - period;
-    return 2 * way <= -in_fractions(period) ? home + period : home;
+    const std::int64_t way = centre_of(at) - seed;
+    return (shorter_way(way, in_fractions(period)) - way) / fractions_of_pixel;
   }
 };
 

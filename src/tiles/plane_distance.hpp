@@ -18,8 +18,6 @@ namespace vorocl {
 /// Boxes around seeds, or around blocks of them.
 using SeedBoxes = BoxTree<4>;
 
-__extension__ using Int128 = __int128;
-
 /// A squared distance in fractions of a pixel does not fit 64 bits.
 using PlaneLength = Int128;
 constexpr PlaneLength too_far = PlaneLength{1} << 126;
@@ -96,9 +94,8 @@ void each_image(const Grid& grid, Use use) {
 
 /// The centres of a rectangle's pixels at its corners, as its rim runs through them.
 inline std::array<Place, 4> corners_of(const PlaneRectangle& rectangle) {
-  const auto centre = [](std::int64_t pixel) { return in_fractions(pixel) + fractions_of_pixel / 2; };
-  const std::int64_t left = centre(rectangle.x), right = centre(rectangle.x + rectangle.width - 1);
-  const std::int64_t top = centre(rectangle.y), bottom = centre(rectangle.y + rectangle.height - 1);
+  const std::int64_t left = centre_of(rectangle.x), right = centre_of(rectangle.x + rectangle.width - 1);
+  const std::int64_t top = centre_of(rectangle.y), bottom = centre_of(rectangle.y + rectangle.height - 1);
   return {{{left, top}, {right, top}, {right, bottom}, {left, bottom}}};
 }
 

@@ -89,16 +89,11 @@ NOINLINE static void show_one(const scene_t* scene, box_t box, uint label) {
 
 // --- boxes with more places than keys hold: pixels of a tile have the places that won so far, in 64 bits ---
 
-static inline int to_nearest_image(int way, int size, int periodic) {
-  const int period = size * ONE_PIXEL;
-  if (!periodic || abs(way) <= (uint)period / 2) return way;
-  return way > 0 ? way - period : way + period;
-}
-
 // From a point of the grid to the nearest image of a place.
 static inline int2 way_to(const scene_t* scene, int2 from, uint at) {
   const int2 way = scene->list[at] - from;
-  return (int2)(to_nearest_image(way.x, scene->width, PERIODIC_X), to_nearest_image(way.y, scene->height, PERIODIC_Y));
+  return (int2)(shorter_way(way.x, scene->width * ONE_PIXEL, PERIODIC_X),
+                shorter_way(way.y, scene->height * ONE_PIXEL, PERIODIC_Y));
 }
 
 // Whether a place wins against the one that won so far.
