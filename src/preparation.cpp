@@ -5,12 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "runtime/has_doubles.hpp"
 #include "runtime/binary_cache.hpp"
+#include "runtime/has_doubles.hpp"
 #include "runtime/program.hpp"
 #include "vorocl/analysis.hpp"
 #include "vorocl/distance_transform.hpp"
 #include "vorocl/error.hpp"
+#include "vorocl/exact_diagram.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/relaxation.hpp"

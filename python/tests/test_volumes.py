@@ -202,7 +202,6 @@ WRONG_CALLS = [
     (lambda: vorocl.diagram([(1, 2, 9)], (4, 5, 6)), "outside the grid"),
     (lambda: vorocl.diagram([(1, 2, 3)], (2000, 2000, 2000)), r"2\^31 in all"),
     (lambda: vorocl.vertices([(1, 2, 3)], (4, 5, 6)), "which the vertices of a diagram cannot take"),
-    (lambda: vorocl.relax([(1, 2, 3)], (4, 5, 6)), "Lloyd relaxation cannot take"),
 ]
 
 
