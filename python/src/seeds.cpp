@@ -60,6 +60,24 @@ void move_to(SeedsObject& seeds, const Rows& rows, const std::optional<Grid>& gr
   }
 }
 
+/// Rows of so many columns in a buffer on the device.
+PointBuffer rows_there(std::uintptr_t buffer, std::size_t count, int columns, bool are_doubles) {
+  const PointFormat flat = are_doubles ? PointFormat::doubles_xy : PointFormat::floats_xy;
+  const PointFormat deep = are_doubles ? PointFormat::doubles_xyz : PointFormat::floats_xyz;
+  return {retained<cl::Buffer>(buffer), count, columns == 3 ? deep : flat};
+}
+
+std::unique_ptr<SeedsObject> from_buffer(const Device& device, const Grid& grid, const PointBuffer& points,
+                                         const std::string& outside, bool snap) {
+  const Snap snapped = snap ? Snap::to_pixels : Snap::none;
+  return std::make_unique<SeedsObject>(Seeds(device, grid, points, {outside_of(outside), snapped}), snapped);
+}
+
+void move_to_buffer(SeedsObject& seeds, const PointBuffer& points) {
+  const Turn turn(seeds.mutex);
+  seeds.seeds.move_to(points);
+}
+
 double displacement(SeedsObject& seeds) {
   const Turn turn(seeds.mutex);
   return seeds.seeds.displacement();
@@ -93,7 +111,13 @@ void read(SeedsObject& seeds, const Array<double, nb::ndim<2>>& points, bool in_
 }  // namespace
 
 void bind_seeds(nb::module_& module) {
+  nb::class_<PointBuffer>(module, "PointBuffer")
+      .def_static("of", rows_there, nb::arg("buffer"), nb::arg("count"), nb::arg("columns"),
+                  nb::arg("are_doubles"));
   nb::class_<SeedsObject>(module, "Seeds")
+      .def_static("from_buffer", from_buffer, nb::arg("device"), nb::arg("grid"), nb::arg("points"),
+                  nb::arg("outside"), nb::arg("snap"), without_gil())
+      .def("move_to_buffer", move_to_buffer, nb::arg("points"), without_gil())
       .def("__init__", make, nb::arg("device"), nb::arg("grid"), nb::arg("points"), nb::arg("outside"),
            nb::arg("snap"), without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())

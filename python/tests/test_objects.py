@@ -10,6 +10,7 @@ import threading
 
 import numpy as np
 import pyopencl
+import pyopencl.array
 import pytest
 from oracles import brute_force, rounded
 
@@ -266,6 +267,52 @@ def test_labels_are_written_into_a_buffer_of_pyopencl(opencl):
     pyopencl.enqueue_copy(queue, labels, buffer)
     np.testing.assert_array_equal(labels, brute_force(points, (40, 50)))
     assert diagram.buffer == buffer
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_a_simulation_of_pyopencl_keeps_its_points_on_the_device(opencl, dtype):
+    context, queue = opencl
+    device = vorocl.Device.from_pyopencl(*opencl)
+    start = rng.uniform(0, 5, (30, 2)).astype(dtype)
+    points = pyopencl.array.to_device(queue, start)
+    box = {"bounds": (0, 0, 5, 5), "periodic": (True, True)}
+    seeds = vorocl.Seeds(points, (40, 50), device=device, **box)
+    diagram = vorocl.Diagram((40, 50), device=device, periodic=(True, True))
+    number = "double" if dtype is np.float64 else "float"
+    source = f"kernel void drift(global {number}2* points) {{ points[get_global_id(0)] += ({number}2)(0.75, -0.5); }}"
+    drift = pyopencl.Kernel(pyopencl.Program(context, source).build(), "drift")
+    for frame in range(1, 4):
+        drift(queue, (30,), None, points.data)
+        assert seeds.move_to(points) is None
+        diagram.fill(seeds)
+        moved = start.copy()
+        for _ in range(frame):
+            moved += np.array((0.75, -0.5), dtype)
+        np.testing.assert_array_equal(diagram.read(), vorocl.diagram(moved, (40, 50), **box))
+    volume = rng.uniform(0, 4, (9, 3))
+    found = vorocl.Diagram((4, 4, 4), device=device)
+    found.fill(vorocl.Seeds(pyopencl.array.to_device(queue, volume), (4, 4, 4), outside="refuse", device=device))
+    np.testing.assert_array_equal(found.read(), vorocl.diagram(volume, (4, 4, 4)))
+
+
+def test_points_on_the_device_that_do_not_fit_are_refused(opencl):
+    context, queue = opencl
+    device = vorocl.Device.from_pyopencl(*opencl)
+    other = pyopencl.CommandQueue(pyopencl.Context(context.devices))
+    right = np.ones((4, 2))
+    wrong = [right.astype(int), np.ones((4, 3)), np.ones(4), np.ones((0, 2)), np.ones((2, 4)).T]
+    arrays = [pyopencl.array.to_device(queue, array) for array in wrong]
+    arrays += [pyopencl.array.to_device(queue, right)[1:], pyopencl.array.to_device(other, right)]
+    seeds = vorocl.Seeds(right, (8, 10), device=device)
+    for array in arrays:
+        for call in lambda: vorocl.Seeds(array, (8, 10), device=device), lambda: seeds.move_to(array):
+            with pytest.raises(vorocl.BadArgument):
+                call()
+    with pytest.raises(vorocl.BadArgument, match="make new Seeds"):
+        seeds.move_to(pyopencl.array.to_device(queue, right), bounds=(0, 0, 1, 1))
+    bad = pyopencl.array.to_device(queue, np.array([(1, 1), (np.nan, 2)]))
+    with pytest.raises(vorocl.BadPoint, match="point 1"):
+        vorocl.Seeds(bad, (8, 10), outside="refuse", device=device).read()
 
 
 def test_foreign_objects_that_do_not_fit_are_refused(opencl):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import sys
 from typing import Any, List, Optional, Tuple, cast
 
 import numpy as np
@@ -77,6 +78,10 @@ class Seeds(OnDevice):
     ----------
     <points, shape, bounds, periodic, tilt, outside, y_up, snap, device>
 
+    Points may be a `pyopencl.array.Array` of float32 or float64 in the context of `device`, whole and contiguous. They
+    stay on the device, are placed there behind what its queue holds, and nothing waits for them unless they may lie
+    outside and count. All of them are present, so that a NaN is a bad point, which the next call that waits names.
+
     Raises
     ------
     BadPoint
@@ -112,12 +117,17 @@ class Seeds(OnDevice):
     ) -> None:
         grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
         sides = shape_of(grid)
-        array = to_points(points, len(sides))
+        there = _points_there(points, len(sides))
+        array = np.empty((0, len(sides))) if there else to_points(points, len(sides))
         self._shape, self._periodic, self._outside, self._y_up = sides, periodic, outside, y_up
         self._bounds, self._tilt = bounds, tilt  # of the present frame
         self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
         self._device = to_device(device)
-        self._seeds = _vorocl.Seeds(self._device._device, grid, array, to_outside(outside), to_snap(snap))
+        how = to_outside(outside), to_snap(snap)
+        if there:
+            self._seeds = _vorocl.Seeds.from_buffer(self._device._device, grid, there, *how)
+        else:
+            self._seeds = _vorocl.Seeds(self._device._device, grid, array, *how)
 
     @property
     def device(self) -> Device:
@@ -137,13 +147,14 @@ class Seeds(OnDevice):
 
     def move_to(
         self, points: ArrayLike, *, bounds: Optional[Bounds] = None, tilt: Optional[float] = None
-    ) -> int:
+    ) -> Optional[int]:
         """Move the seeds to new points: a new frame. Their number may change.
 
         Parameters
         ----------
-        points : array_like
-            As that of the constructor, in the same units. A seed that is absent may come back.
+        points : array_like or pyopencl.array.Array
+            As that of the constructor, in the same units. A seed that is absent may come back. Those on the device keep
+            the bounds and the tilt.
         bounds : sequence of float, optional
             What the grid shows from this frame on, such as a simulation's box that changes. Without it, what it showed.
         tilt : float, optional
@@ -154,7 +165,7 @@ class Seeds(OnDevice):
         int
             The greatest displacement of a seed along an axis since the last frame, in pixels; along a periodic axis the
             shorter way round. Seeds that appear or vanish do not count, and none does where the bounds or the tilt
-            are others.
+            are others. None for points on the device: the call would have to wait for it.
 
         Raises
         ------
@@ -169,6 +180,12 @@ class Seeds(OnDevice):
         >>> seeds.move_to([(1, 3), (5, 2)])
         2
         """
+        there = _points_there(points, len(self._shape))
+        if there:
+            if bounds is not None or tilt is not None:
+                raise BadArgument("points on the device keep the bounds and the tilt of their grid: make new Seeds of them")
+            self._seeds.move_to_buffer(there)
+            return None
         grid = None
         shown = self._bounds if bounds is None else bounds
         tilted = self._tilt if tilt is None else tilt
@@ -497,6 +514,22 @@ class Diagram(OnDevice):
             Without it, what an exact diagram was made of; "snapped" for all other labels.
         """
         return self._diagram.errors(None if truth is None else to_truth(truth))
+
+
+def _points_there(points: Any, dimensions: int) -> Optional[_vorocl.PointBuffer]:
+    """What a pyopencl.array.Array of points holds; None for everything else."""
+    module = sys.modules.get("pyopencl.array")
+    if module is None or not isinstance(points, module.Array):
+        return None
+    doubles = points.dtype == np.float64
+    is_right = points.ndim == 2 and points.shape[1] == dimensions and points.size > 0
+    is_plain = points.flags.c_contiguous and points.offset == 0
+    if not is_right or not is_plain or not (doubles or points.dtype == np.float32):
+        raise BadArgument(
+            f"points on the device must be N rows of {dimensions} float32 or float64, whole and contiguous; this array has "
+            f"the shape {points.shape} and the dtype {points.dtype}"
+        )
+    return _vorocl.PointBuffer.of(points.base_data.int_ptr, points.shape[0], dimensions, bool(doubles))
 
 
 def _handle(buffer: Buffer) -> int:
