@@ -259,8 +259,9 @@ typedef int vorocl_point_format;
 enum { VOROCL_FLOATS_XY = 0, VOROCL_DOUBLES_XY = 1, VOROCL_FLOATS_XYZ = 2, VOROCL_DOUBLES_XYZ = 3 };
 
 /// From the caller's buffers. The device checks and places the points when it comes to it, and
-/// VOROCL_BAD_POINT comes from the first call that waits for what was made of them. Points that may lie outside
-/// the grid and count are waited for, and so are those that the host places (docs/linking.md, "What waits").
+/// VOROCL_BAD_POINT comes from the first call that waits for what was made of them. Points that may lie
+/// outside the grid and count are waited for, and so are those that the host places (docs/linking.md, "What
+/// waits").
 VOROCL_API vorocl_status vorocl_seeds_from_buffer(const vorocl_device* device, vorocl_grid grid,
                                                   cl_mem points, vorocl_point_format format, cl_mem present,
                                                   size_t count, vorocl_outside outside, vorocl_snap snap,
@@ -458,8 +459,8 @@ typedef struct vorocl_relaxation {
 } vorocl_relaxation;
 
 /// Moves seeds to the centroids of their cells, for at most so many rounds, to 1/4096 of a pixel, or from
-/// pixel to pixel in volumes and if they were made with VOROCL_SNAP_TO_PIXELS: see vorocl::relax(). In the end the diagram
-/// is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
+/// pixel to pixel in volumes and if they were made with VOROCL_SNAP_TO_PIXELS: see vorocl::relax(). In the
+/// end the diagram is that of the seeds. `density` has a value for each pixel of the diagram, row-major, as
 /// vorocl::RelaxOptions::density; NULL: all pixels weigh alike. `energies` has room for `rounds` + 1 values,
 /// at the start and after each round; `moved`, the seeds that each round moved, for `rounds`; each of the
 /// three may be NULL. Waits.
