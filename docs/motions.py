@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The table of docs/moving_seeds.md on motions that are not what dJFA takes for granted: motions.py COMMAND CSV runs them
-and writes the table's values; motions.py CSV DOCUMENT puts them into the document. Needs NumPy to run."""
+"""The table of docs/moving_seeds.md on motions that are not what dJFA takes for granted: motions.py COMMAND CSV [ROW]... runs
+them, or those of some rows, and writes the table's values; motions.py CSV DOCUMENT puts them into the document. Needs NumPy to
+run."""
 import csv
 import json
 import os
@@ -12,144 +13,262 @@ SIDE, FRAMES = 1000, 100
 METHODS = {"jfa": ["jfa"], "paper": ["djfa", "--reach", "paper"], "measured": ["djfa", "--reach", "measured"]}
 
 
-def reflected(at):
-    at = at % (2 * SIDE)
-    return at + (at >= SIDE) * (2 * SIDE - 1 - 2 * at)
-
-
 def motions():
-    """Names, and the frames: arrays of pixels; NaN where a seed is absent."""
+    """Names, numbers of the generator, frames, and options of the command. Frames are arrays of pixels; NaN where a seed is
+    absent. `--periodic` stands for a periodic box, and `--side` for its side."""
     import numpy as np
 
-    rng = np.random.default_rng(1)
-    uniform = rng.uniform
+    def reflected(at, side=SIDE):
+        at = at % (2 * side)
+        return at + (at >= side) * (2 * side - 1 - 2 * at)
 
-    def walk(start, step):
+    def even(rng, seeds, side=SIDE):
+        return rng.uniform(0, side, (seeds, 2))
+
+    def lattice(apart):
+        line = np.arange(apart // 2, SIDE, apart)
+        return np.stack(np.meshgrid(line, line), -1).reshape(-1, 2).astype(float)
+
+    def circle(centre, radius, turn):
+        return np.array(centre) + radius * np.stack([np.cos(turn), np.sin(turn)], 1)
+
+    def walk(rng, start, step):
         at = np.clip(np.floor(start), 0, SIDE - 1)
         for _ in range(FRAMES + 1):
             yield at
             at = reflected(at + rng.integers(-step, step + 1, at.shape))
 
-    def sweep():
+    def sweep(rng):
         blob = rng.normal(0, 30, (2000, 2))
         for frame in range(FRAMES + 1):
             yield np.clip(np.floor(blob + [reflected(100 + 20 * frame), SIDE / 2]), 0, SIDE - 1)
 
-    def appear():
-        seeds = np.concatenate([uniform(0, SIDE, (3000, 2)) * [0.3, 1], uniform(0, SIDE, (300, 2))])
-        for frame, at in enumerate(walk(seeds, 3)):
+    def anywhere(rng, seeds):
+        return (np.floor(even(rng, seeds)) for _ in range(FRAMES + 1))
+
+    def appear(rng):
+        seeds = np.concatenate([even(rng, 3000) * [0.3, 1], even(rng, 300)])
+        for frame, at in enumerate(walk(rng, seeds, 3)):
             yield np.where(np.arange(len(at))[:, None] < 3000 + 3 * frame, at, np.nan)
 
-    def discs():
-        for frame, at in enumerate(walk(uniform(0, SIDE, (5000, 2)), 3)):
-            centre = 200 + 600 * np.random.default_rng(frame // 10).uniform(size=2)
-            cleared = (np.hypot(*(at - centre).T) < 150) & (frame % 10 < 5)
-            yield np.where(cleared[:, None], np.nan, at)
+    def cleared(frames, where):
+        """The seeds are absent in the frames and at the places that a function tells."""
+        for frame, at in enumerate(frames):
+            yield np.where(where(at, frame)[:, None], np.nan, at)
 
-    def holes(radius, centres):
-        seeds = uniform(0, SIDE, (10000, 2))
-        return walk(seeds[np.all([np.hypot(*(seeds - centre).T) >= radius for centre in centres], axis=0)], 5)
+    def in_disc(at, frame):
+        centre = 200 + 600 * np.random.default_rng(frame // 10).uniform(size=2)
+        return (np.hypot(*(at - centre).T) < 150) & (frame % 10 < 5)
 
-    def turnover(each, seeds=10000, step=5):
+    def holes(rng, radius, centres):
+        seeds = even(rng, 10000)
+        return walk(rng, seeds[np.all([np.hypot(*(seeds - centre).T) >= radius for centre in centres], axis=0)], 5)
+
+    def turnover(rng, each, seeds=10000, step=5):
         """So many seeds vanish in each frame, and as many that were not there appear anywhere."""
         alive = np.arange(seeds * 11 // 10) < seeds
-        for at in walk(uniform(0, SIDE, (len(alive), 2)), step):
+        for at in walk(rng, even(rng, len(alive)), step):
             yield np.where(alive[:, None], at, np.nan)
             changed = [rng.choice(np.flatnonzero(which), each, False) for which in (alive, ~alive)]
             alive[np.concatenate(changed)] ^= True
 
-    lattice = np.stack(np.meshgrid(np.arange(32, SIDE, 64), np.arange(32, SIDE, 64)), -1).reshape(-1, 2)
-
-    def clusters_of(count):
-        return walk(np.repeat(lattice, count, 0) + rng.normal(0, 3, (256 * count, 2)), 4)
+    def clusters_of(rng, count):
+        return walk(rng, np.repeat(lattice(64), count, 0) + rng.normal(0, 3, (256 * count, 2)), 4)
 
     def lines(apart):
         return np.stack(np.meshgrid(np.arange(0, SIDE, 2), np.arange(apart // 2, SIDE, apart)), -1).reshape(-1, 2)
 
-    turn = uniform(0, 2 * np.pi, 3000)
-    clusters = np.repeat(uniform(0, SIDE, (16, 2)), 625, 0) + rng.normal(0, SIDE / 50, (10000, 2))
-    corners = np.concatenate([uniform(0, 60, (5000, 2)), uniform(SIDE - 60, SIDE, (5000, 2))])
-    yield "10,000 seeds spread evenly, step 5", walk(uniform(0, SIDE, (10000, 2)), 5)
-    yield "10,000 seeds in a corner of 60 x 60 pixels, step 20", walk(uniform(0, 60, (10000, 2)), 20)
-    yield "two such corners of 5,000, step 20", walk(corners, 20)
-    yield "16 clusters, step 20", walk(clusters, 20)
-    yield "a line of 1,000 seeds, step 2", walk(np.stack([np.arange(SIDE), np.full(SIDE, 500)], 1), 2)
-    yield "a blob that sweeps 20 pixels per frame", sweep()
-    yield "3 seeds that jump anywhere", (np.floor(uniform(0, SIDE, (3, 2))) for _ in range(FRAMES + 1))
-    yield "a lattice of clusters of 40, 64 apart, step 4", clusters_of(40)
-    yield "lines 64 apart, step 2", walk(lines(64), 2)
-    yield "a gradient, step 5", walk(np.stack([SIDE * np.sqrt(uniform(0, 1, 10000)), uniform(0, SIDE, 10000)], 1), 5)
-    yield "a ring of 3,000 seeds, step 3", walk(500 + 400 * np.stack([np.cos(turn), np.sin(turn)], 1), 3)
-    yield "seeds that appear in empty space", appear()
-    yield "discs that are cleared and refilled", discs()
-    yield "10,000 seeds less three holes of radius 75, step 5", holes(75, [(200, 200), (750, 300), (450, 780)])
-    yield "10,000 seeds less a hole of radius 60, step 5", holes(60, [(500, 400)])
-    yield "10,000 seeds, of which one vanishes per frame and one appears, step 5", turnover(1)
-    yield "10,000 seeds, of which ten vanish per frame and ten appear, step 5", turnover(10)
-    yield "a lattice of clusters of 3, 64 apart, step 4", clusters_of(3)
-    yield "a lattice of clusters of 6, 64 apart, step 4", clusters_of(6)
-    yield "lines 24 apart, step 1", walk(lines(24), 1)
-    yield "30 seeds, of which three vanish per frame and three appear, step 3", turnover(3, 30, 3)
+    def voids(rng, centres, radius, rim, step=5, start=None, turn=None, drift=0, side=SIDE, wraps=False):
+        """Seeds walk, or drift too, outside discs, each with more seeds on its rim. `radius` and `centres` may depend on the
+        frame. With `turn` the rims stay circles, which turn by so many pixels in a frame; else their seeds walk as others."""
+        def at_frame(value, frame):
+            return value(frame) if callable(value) else value
+
+        at = np.floor(even(rng, side * side // 100, side) if start is None else start)
+        turns = rng.uniform(0, 2 * np.pi, rim)
+        if turn is None:
+            first = at_frame(radius, 0)
+            at = np.concatenate([at] + [circle(centre, first + 1, turns) for centre in at_frame(centres, 0)])
+        for frame in range(FRAMES + 1):
+            discs, most = at_frame(centres, frame), at_frame(radius, frame)
+            for centre in discs:
+                way = at - centre
+                if wraps:
+                    way -= side * np.round(way / side)
+                far = np.maximum(np.hypot(*way.T), 1)[:, None]
+                at = np.where(far <= most, np.round(centre + way / far * (most + 1)), at)
+            at = at % side if wraps else np.clip(np.floor(at), 0, side - 1)
+            rims = [] if turn is None else [circle(c, most + 1, turns + turn * frame / max(most, 1)) for c in discs]
+            rims = [np.round(ring) % side if wraps else np.clip(np.round(ring), 0, side - 1) for ring in rims]
+            yield np.concatenate([at, *rims])
+            at = at + rng.integers(-step, step + 1, at.shape) + [drift, 0]
+            at = at % side if wraps else reflected(at, side)
+
+    def grid(count):
+        return [((i + 0.5) * SIDE / count, (j + 0.5) * SIDE / count) for i in range(count) for j in range(count)]
+
+    def spun(shape, turn):
+        """A shape that turns around the centre."""
+        for frame in range(FRAMES + 1):
+            cosine, sine = np.cos(turn * frame), np.sin(turn * frame)
+            yield np.clip(np.floor(shape @ np.array([[cosine, sine], [-sine, cosine]]) + SIDE / 2), 0, SIDE - 1)
+
+    def roads(rng, apart, gap, slide):
+        """Pairs of dense lines, which slide, and seeds that walk between."""
+        middles = np.arange(apart // 2, SIDE, apart)
+        x = np.arange(0, SIDE, 2)
+        for frame, at in enumerate(walk(rng, even(rng, 8000), 1)):
+            off = np.min(np.abs(at[:, 1, None] - middles), 1) > gap // 2
+            yield np.concatenate([np.where(off[:, None], at, np.nan)] + [
+                np.stack([(x + slide * frame) % SIDE, np.full(len(x), y + way)], 1)
+                for y in middles for way in (-gap // 2, gap // 2)])
+
+    def counterflow(rng, step):
+        at = np.floor(even(rng, 10000))
+        for _ in range(FRAMES + 1):
+            yield at
+            at = (at + np.where(at[:, 1, None] < SIDE / 2, [step, 0], [-step, 0])) % SIDE
+
+    def front(rng):
+        """A half plane of seeds whose front comes nearer to a lone seed, and goes back."""
+        seeds = even(rng, 8000)
+        for frame in range(FRAMES + 1):
+            at = np.floor(seeds * [0.3 + 0.5 * abs(frame - 50) / 50, 1])
+            yield np.concatenate([at, [[SIDE - 1, 20]]])
+
+    square = np.concatenate([np.stack([np.linspace(-60, 60, 150), np.full(150, 61 * sign)], 1)[:, ::way]
+                             for sign in (-1, 1) for way in (-1, 1)])
+    arms = np.linspace(5, 480, 3000)
+    spiral = arms[:, None] * np.stack([np.cos(arms / 25), np.sin(arms / 25)], 1)
+    star = np.concatenate([np.arange(20, 490, 2)[:, None] * [[np.cos(t), np.sin(t)]] for t in np.arange(12) * np.pi / 6])
+    streets = np.concatenate([np.stack(np.meshgrid(np.arange(0, SIDE, 2), np.arange(60, SIDE, 120)), -1).reshape(-1, 2)[:, ::way]
+                              for way in (1, -1)])
+
+    def around_square(rng):
+        outside = even(rng, 10000) - SIDE / 2
+        outside = outside[np.max(np.abs(outside), 1) > 61]
+        return spun(np.concatenate([outside, square]), 0.03)
+
+    def clusters(rng):
+        return np.repeat(even(rng, 16), 625, 0) + rng.normal(0, SIDE / 50, (10000, 2))
+
+    def corners(rng):
+        return np.concatenate([rng.uniform(0, 60, (5000, 2)), rng.uniform(SIDE - 60, SIDE, (5000, 2))])
+
+    def gradient(rng):
+        return np.stack([SIDE * np.sqrt(rng.uniform(0, 1, 10000)), rng.uniform(0, SIDE, 10000)], 1)
+
+    middle, periodic = [(500, 400)], ["--periodic"]
+    rows = [
+        ("10,000 seeds spread evenly, step 5", lambda rng: walk(rng, even(rng, 10000), 5)),
+        ("10,000 seeds in a corner of 60 x 60 pixels, step 20", lambda rng: walk(rng, rng.uniform(0, 60, (10000, 2)), 20)),
+        ("two such corners of 5,000, step 20", lambda rng: walk(rng, corners(rng), 20)),
+        ("16 clusters, step 20", lambda rng: walk(rng, clusters(rng), 20)),
+        ("a line of 1,000 seeds, step 2", lambda rng: walk(rng, np.stack([np.arange(SIDE), np.full(SIDE, 500)], 1), 2)),
+        ("a blob that sweeps 20 pixels per frame", sweep),
+        ("3 seeds that jump anywhere", lambda rng: anywhere(rng, 3)),
+        ("a lattice of clusters of 40, 64 apart, step 4", lambda rng: clusters_of(rng, 40)),
+        ("lines 64 apart, step 2", lambda rng: walk(rng, lines(64), 2)),
+        ("a gradient, step 5", lambda rng: walk(rng, gradient(rng), 5)),
+        ("a ring of 3,000 seeds, step 3", lambda rng: walk(rng, circle((500, 500), 400, rng.uniform(0, 2 * np.pi, 3000)), 3)),
+        ("seeds that appear in empty space", appear),
+        ("discs that are cleared and refilled", lambda rng: cleared(walk(rng, even(rng, 5000), 3), in_disc)),
+        ("10,000 seeds less three holes of radius 75, step 5", lambda rng: holes(rng, 75, [(200, 200), (750, 300), (450, 780)])),
+        ("10,000 seeds less a hole of radius 60, step 5", lambda rng: holes(rng, 60, middle)),
+        ("10,000 seeds, of which one vanishes per frame and one appears, step 5", lambda rng: turnover(rng, 1)),
+        ("10,000 seeds, of which ten vanish per frame and ten appear, step 5", lambda rng: turnover(rng, 10)),
+        ("a lattice of clusters of 3, 64 apart, step 4", lambda rng: clusters_of(rng, 3)),
+        ("a lattice of clusters of 6, 64 apart, step 4", lambda rng: clusters_of(rng, 6)),
+        ("lines 24 apart, step 1", lambda rng: walk(rng, lines(24), 1)),
+        ("30 seeds, of which three vanish per frame and three appear, step 3", lambda rng: turnover(rng, 3, 30, 3)),
+        # Voids among 10,000 seeds that are else spread evenly, which no seed enters, with crowded rims.
+        ("a void of radius 64 with 600 seeds on its rim, step 5", lambda rng: voids(rng, middle, 64, 600)),
+        ("a void of radius 60 with 300, step 5", lambda rng: voids(rng, middle, 60, 300)),
+        ("the same, step 1", lambda rng: voids(rng, middle, 60, 300, 1)),
+        ("a rim of 300 that collapses", lambda rng: voids(rng, middle, lambda f: 90 - 0.8 * f, 300, 1, turn=0)),
+        ("a rim of 200 that spins while all else stands still", lambda rng: voids(rng, middle, 60, 200, 0, turn=3)),
+        ("a void that opens", lambda rng: voids(rng, middle, lambda f: 0.8 * f, 0)),
+        ("the same, periodic", lambda rng: voids(rng, middle, lambda f: 0.8 * f, 0, wraps=True), periodic),
+        ("an obstacle in a periodic stream", lambda rng: voids(rng, middle, 60, 0, 1, drift=3, wraps=True), periodic),
+        ("a ring of 600 that expands", lambda rng: voids(rng, [(500, 500)], lambda f: 20 + f, 600, turn=0)),
+        ("a void that moves", lambda rng: voids(rng, lambda f: [(200 + 5 * f, 500)], 60, 300)),
+        ("a void at the border", lambda rng: voids(rng, [(0, 500)], 60, 300)),
+        ("a void in a corner", lambda rng: voids(rng, [(0, 0)], 80, 300)),
+        ("40,000 seeds on 2000 x 2000, three voids of radius 70",
+         lambda rng: voids(rng, [(400, 500), (1500, 700), (900, 1500)], 70, 600, side=2000), ["--side", "2000"]),
+        # Invented to break the present rule: rims that the waves just reach, thin cells, holes between measured rows.
+        ("64 spinning rims of 100, radius 16, in a lattice 12 apart", lambda rng: voids(rng, grid(8), 16, 100, 0, lattice(12), 1.5)),
+        ("64 spinning rims of 60, radius 12, in a lattice 12 apart", lambda rng: voids(rng, grid(8), 12, 60, 0, lattice(12), 3)),
+        ("16 voids of radius 23 with 150, spinning", lambda rng: voids(rng, grid(4), 23, 150, 1, turn=3)),
+        ("16 voids of radius 55 with 300, spinning", lambda rng: voids(rng, grid(4), 55, 300, 1, turn=3)),
+        ("4 voids of radius 119 with 1,200, spinning", lambda rng: voids(rng, grid(2), 119, 1200, 1, turn=3)),
+        ("a void of radius 246 with 2,000, spinning", lambda rng: voids(rng, grid(1), 246, 2000, 1, turn=3)),
+        ("a void of radius 170 in a corner with 800, step 2", lambda rng: voids(rng, [(0, 0)], 170, 800, 2)),
+        ("a square void of side 122 with crowded sides, turning", around_square),
+        ("pairs of dense lines 24 apart, sliding", lambda rng: roads(rng, 120, 24, 3)),
+        ("a spiral of 3,000, turning", lambda rng: spun(spiral, 0.02)),
+        ("a star of 12 rays, turning", lambda rng: spun(star, 0.01)),
+        ("streets 120 apart, step 1", lambda rng: walk(rng, streets, 1)),
+        ("two halves that flow past each other, 13 per frame, periodic", lambda rng: counterflow(rng, 13), periodic),
+        ("seeds in rows that are not measured, of which half are absent in every second frame",
+         lambda rng: cleared(walk(rng, lines(8) - [0, 4], 0), lambda at, f: (at[:, 1] % 16 < 8) & (f % 2 == 1))),
+        ("a strip of 60 columns that is cleared in every second frame",
+         lambda rng: cleared(walk(rng, even(rng, 10000), 3), lambda at, f: (np.abs(at[:, 0] - 500) < 30) & (f % 2 == 1))),
+        ("a front that comes nearer to a lone seed", front),
+        ("a void of radius 60 with 300, spinning, Manhattan", lambda rng: voids(rng, middle, 60, 300, 1, turn=3),
+         ["--metric", "manhattan"]),
+        ("a void of radius 110 across the ends of periods with 1,000, spinning",
+         lambda rng: voids(rng, [(0, 0)], 110, 1000, 1, turn=3, wraps=True), periodic),
+        ("3,000 seeds spread evenly, step 40", lambda rng: walk(rng, even(rng, 3000), 40)),
+        ("100 seeds spread evenly, step 25", lambda rng: walk(rng, even(rng, 100), 25)),
+    ]
+    for number, (name, make, *options) in enumerate(rows, 1):
+        yield name, number, make(np.random.default_rng(number)), options[0] if options else []
 
 
-def write_trajectory(frames, path):
+def write_trajectory(frames, path, side, periodic):
+    ends = "pp pp ff" if periodic else "ff ff ff"
     with open(path, "w", encoding="utf-8") as file:
         for number, at in enumerate(frames):
             rows = [f"{i + 1} {x + 0.5} {y + 0.5} 0\n" for i, (x, y) in enumerate(at) if x == x]
-            file.write(f"ITEM: TIMESTEP\n{number}\nITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: BOX BOUNDS ff ff ff\n"
-                       f"0 {SIDE}\n0 {SIDE}\n0 1\nITEM: ATOMS id x y z\n" + "".join(rows))
+            file.write(f"ITEM: TIMESTEP\n{number}\nITEM: NUMBER OF ATOMS\n{len(rows)}\nITEM: BOX BOUNDS {ends}\n"
+                       f"0 {side}\n0 {side}\n0 1\nITEM: ATOMS id x y z\n" + "".join(rows))
 
 
-def far_pixels(at):
-    """The percentages of pixels (one in 8 x 8) that are farther than L, and than 1.5 L, from their nearest seed."""
-    import numpy as np
-
-    seeds = at[at[:, 0] == at[:, 0]]
-    x = np.arange(0, SIDE, 8)
-    nearest = [((seeds[None] - np.stack([x, np.full_like(x, y)], -1)[:, None]) ** 2).sum(-1).min(1) for y in x]
-    squared_length = SIDE * SIDE / len(seeds)
-    return [f"{100 * np.mean(np.array(nearest) > factor * squared_length):.2f}" for factor in (1, 2.25)]
-
-
-def measure(command, path):
-    import numpy as np
-
+def measure(command, path, wanted=()):
     with open(path, "w", newline="", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["motion", "method", "similarity_mean", "similarity_least", "waves_least", "waves_greatest",
-                        "frames_from_seeds", "jfa_frames", "farther_than_l", "farther_than_1.5_l"])
-        for name, frames in motions():
+        table.writerow(["motion", "rng_seed", "method", "similarity_mean", "similarity_least", "waves_least", "waves_greatest"])
+        for name, rng_seed, frames, options in motions():
+            if wanted and rng_seed not in wanted:
+                continue
+            side = int(options[1]) if "--side" in options else SIDE
+            metric = options if "--metric" in options else []
             trajectory = os.path.join(folder, "motion.lammpstrj")
-            frames = [np.array(at) for at in frames]
-            write_trajectory(frames, trajectory)
-            far = far_pixels(frames[0])
-            for method, options in METHODS.items():
-                done = subprocess.run([command, "simulate", "--trajectory", trajectory, "--width", str(SIDE), "--method",
-                                       *options, "--compare-with", "exact", "--json"],
+            write_trajectory(frames, trajectory, side, "--periodic" in options)
+            for method, of_method in METHODS.items():
+                done = subprocess.run([command, "simulate", "--trajectory", trajectory, "--width", str(side), "--method",
+                                       *of_method, *metric, "--compare-with", "exact", "--json"],
                                       check=True, stdout=subprocess.PIPE)
                 result = json.loads(done.stdout)
                 similarity, waves = result["similarity"], {"least": result["waves"], "greatest": result["waves"]}
-                plans = result.get("plans", {"waves": waves, "frames_from_seeds": FRAMES, "jfa_frames": FRAMES})
-                table.writerow([name, method, f"{similarity['mean']:.4f}", f"{similarity['least']:.4f}",
-                                *(int(plans["waves"][which]) for which in ("least", "greatest")),
-                                plans["frames_from_seeds"], plans["jfa_frames"], *far])
+                waves = result["plans"]["waves"] if "plans" in result else waves
+                table.writerow([name, rng_seed, method, f"{similarity['mean']:.4f}", f"{similarity['least']:.4f}",
+                                int(waves["least"]), int(waves["greatest"])])
                 file.flush()
 
 
 def write_table(path, document):
     with open(path, newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    lines = ["| motion | paper's plan | measured | JFA | waves: paper's plan, measured, JFA | frames from the seeds | "
-             "farther than L, 1.5 L (%) |", "| --- | --- | --- | --- | --- | --- | --- |"]
-    for name in dict.fromkeys(row["motion"] for row in rows):
-        of = {row["method"]: row for row in rows if row["motion"] == name}
-        percents = [f"{of[m]['similarity_mean']}, {of[m]['similarity_least']}" for m in ("paper", "measured", "jfa")]
-        waves = []
-        for row in (of["paper"], of["measured"], of["jfa"]):
-            least, greatest = row["waves_least"], row["waves_greatest"]
-            waves.append(least if least == greatest else f"{least} to {greatest}")
-        far = f"{of['jfa']['farther_than_l']}, {of['jfa']['farther_than_1.5_l']}"
-        lines.append(f"| {name} | {' | '.join(percents)} | {'; '.join(waves)} | {of['measured']['frames_from_seeds']} | {far} |")
+    lines = ["| rng seed | motion | paper's plan | measured | JFA | waves: paper's plan, measured, JFA |",
+             "| --- | --- | --- | --- | --- | --- |"]
+    for seed in dict.fromkeys(row["rng_seed"] for row in rows):
+        of = {row["method"]: row for row in rows if row["rng_seed"] == seed}
+        of = [of[method] for method in ("paper", "measured", "jfa")]
+        percents = [f"{row['similarity_mean']}, {row['similarity_least']}" for row in of]
+        waves = [" to ".join(dict.fromkeys([row["waves_least"], row["waves_greatest"]])) for row in of]
+        lines.append(f"| {seed} | {of[0]['motion']} | {' | '.join(percents)} | {'; '.join(waves)} |")
     with open(document, encoding="utf-8") as file:
         text = file.read()
     begin, end = "<!-- table motions -->\n", "<!-- end -->"
@@ -159,6 +278,9 @@ def write_table(path, document):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit("usage: motions.py COMMAND CSV, or motions.py CSV DOCUMENT")
-    write_table(*sys.argv[1:]) if sys.argv[1].endswith(".csv") else measure(*sys.argv[1:])
+    if len(sys.argv) < 3:
+        sys.exit("usage: motions.py COMMAND CSV [ROW]..., or motions.py CSV DOCUMENT")
+    if sys.argv[1].endswith(".csv"):
+        write_table(*sys.argv[1:])
+    else:
+        measure(sys.argv[1], sys.argv[2], set(map(int, sys.argv[3:])))

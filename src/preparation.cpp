@@ -163,7 +163,10 @@ void prepare_images(const Device& device) {
 void prepare_at(const Scale& scale, const Device& device, const Specialisation& what) {
   const Grid grid(scale.width, scale.height, what.periodic);
   const MethodOptions options = {what.metric};
-  for (const Method& each : methods()) prepare(each, device, grid, scale.seeds, options, Snap::to_pixels);
+  for (const Method& each : methods()) {
+    if (each.name == "low-resolution" && what.metric == Metric::manhattan) continue;
+    prepare(each, device, grid, scale.seeds, options, Snap::to_pixels);
+  }
   Seeds random = Seeds::random(device, grid, scale.seeds, 1);
   random_step(random, 1, Border::reflect, 1, 1);
   Diagram diagram(device, grid), other(device, grid);

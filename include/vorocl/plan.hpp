@@ -55,10 +55,10 @@ struct DynamicPlanOptions {
   int extra_waves = 0;        ///< 0, 1 or 2: one more wave of step 1, or two of steps 2 and 1
 };
 
-/// Where the waves of dynamic jump flooding get their reach from.
+/// Where the waves of dynamic jump flooding get their reach from, and what they start from.
 enum class Reach {
-  measured,  ///< how far the last labels are from their seeds: see dynamic_jump_flooding()
-  paper,     ///< the seeds' mean density and d_max alone: dynamic_jump_flooding_plan(), the paper's Eq. 4
+  measured,  ///< how far the last labels are from their seeds; from the seeds: dynamic_jump_flooding()
+  paper,     ///< the seeds' mean density and d_max alone, the paper's Eq. 4; from the last labels
   authors,   ///< the same, rounded down where Eq. 4 rounds up, as the program of the paper's authors does
 };
 
@@ -66,10 +66,9 @@ enum class Reach {
 /// `max_displacement` pixels along an axis (the paper's d_max): steps delta_1, half of it, ..., 1 and the
 /// extra waves, with delta_1 = 2^ceil(log2(max(2 L, d_max))) (the paper's Eq. 4), L = sqrt(width * height /
 /// seeds), from 1 to first_step(window). Of Reach::authors, delta_1 = 2^floor(log2(max(2 L, d_max))), so
-/// there is a wave less, unless max(2 L, d_max) is a power of two or both are first_step(window):
-/// docs/evaluation.md says what that is worth. Of Reach::measured it is the plan that
-/// runs where the labels allow it, which is the paper's. Throws Error if the displacement or an option is out
-/// of its range.
+/// there is a wave less, unless max(2 L, d_max) is a power of two or both steps are first_step(window):
+/// docs/evaluation.md says what that is worth. Of Reach::measured no plan is known before the labels are: it
+/// is the paper's. Throws Error if the displacement or an option is out of its range.
 VOROCL_API Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
                                            const DynamicPlanOptions& options = {},
                                            Reach reach = Reach::paper);

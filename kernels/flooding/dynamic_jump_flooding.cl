@@ -11,43 +11,27 @@ VECTOR_KERNEL void advance_labels(global const uint* restrict labels, global con
   store_looked_up(positions, at, out, VOROCL_GUARD + first);
 }
 
-// How far pixels are from their labels' seeds, in every `row_interval`-th row. A work-item takes a vector of each such
-// row among `rows`. In `found`, four words: the greatest distance from where seeds are now, if it is more than
-// `enough`; how many pixels have no label whose seed is there now; and how many were farther than `far`, and `farther`,
-// from where the seed was when the labels were made.
-VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global const uint* restrict before,
-                                  uint count_before, global const uint* restrict now, uint count, int width, int height,
-                                  int row_interval, int rows, uint enough, uint far, uint farther,
+// How far pixels are from where their labels' seeds are now, in the middle row of every `row_interval` rows, or the last of
+// fewer. A work-item takes a vector of each such row among `rows`. In `found`: the greatest distance, if it is more than
+// `enough`, and how many pixels have no label whose seed is there.
+VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
+                                  int width, int height, int row_interval, int rows, uint enough,
                                   global uint* restrict found) {
   const int wide = (width + VOROCL_WIDTH - 1) / VOROCL_WIDTH, item = (int)get_global_id(0);
   const int own = item % wide * VOROCL_WIDTH, x = min(own, width - VOROCL_WIDTH);
   const int first = item / wide * rows, end = min(first + rows, height);
   const uint_v once = select((uint_v)0, (uint_v)1, (uint)x + LANES >= (uint_v)(uint)own);  // the rest is another's too
-  uint_v greatest = (uint_v)enough, missing = (uint_v)0, were_far = (uint_v)0, were_farther = (uint_v)0;
-  for (int y = first; y < end; y += row_interval) {
-    global const uint* const at = labels + y * width + x;
-    const uint_v pixel = vector_positions(x, y);
-    const uint_v position = look_up_positions(at, now, count);
-    const uint_v distance = distance_to_label_in_grid(position, pixel, periods(width, height));
-    const uint_v distance_before =
-        distance_to_label_in_grid(look_up_positions(at, before, count_before), pixel, periods(width, height));
+  uint_v greatest = (uint_v)enough, missing = (uint_v)0;
+  for (int of_row = first; of_row < end; of_row += row_interval) {
+    const int y = min(of_row + row_interval / 2, height - 1);
+    const uint_v position = look_up_positions(labels + y * width + x, positions, count);
+    const uint_v distance =
+        distance_to_label_in_grid(position, vector_positions(x, y), periods(width, height));
     greatest = max(greatest, select(distance, (uint_v)0, (distance & EMPTY_BIT) != 0));
     missing += select((uint_v)0, once, (position & EMPTY_BIT) != 0);
-    were_far += select((uint_v)0, once, distance_before > far);
-    were_farther += select((uint_v)0, once, distance_before > farther);
   }
   if (ANY(greatest > enough)) atomic_max(found, ~lane_min(~greatest));
   if (ANY(missing > 0)) atomic_add(found + 1, lane_sum(missing));
-  if (ANY(were_far > 0)) atomic_add(found + 2, lane_sum(were_far));
-  if (ANY(were_farther > 0)) atomic_add(found + 3, lane_sum(were_farther));
-}
-
-// Counts the seeds that were not there when the labels were made, in the fifth word of `found`.
-kernel void count_born(global const uint* restrict before, uint count_before, global const uint* restrict now,
-                       uint count, global uint* restrict found) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= count || now[id] & EMPTY_BIT) return;
-  if (id >= count_before || before[id] & EMPTY_BIT) atomic_inc(found + 4);
 }
 
 // Stamps the seeds at their new pixels. Seeds on one pixel write the same value.

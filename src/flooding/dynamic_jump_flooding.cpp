@@ -36,15 +36,14 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
     throw Error("a refresh every " + std::to_string(options.refresh_interval) +
                 " frames is not possible; give 0 or more");
   }
+  check_dynamic_plan(window, options.max_displacement.value_or(0), options.plan);
   const std::optional<DiagramContents>& previous = flood.previous();
-  const std::size_t alive = options.alive ? *options.alive : seeds.alive();
-  const double max_displacement =
-      options.max_displacement ? *options.max_displacement : way_since(previous, flood.seeds());
-  const Plan plan = dynamic_jump_flooding_plan(window, alive, max_displacement, options.plan, options.reach);
   // A full JFA has the neighbourhood of a plan that is not mixed.
   const bool von_neumann = options.plan.neighbourhood == NeighbourhoodMix::von_neumann;
   const Plan full = jump_flooding_plan(window, JumpFloodingVariant::jfa,
                                        von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore);
+  const bool measured = options.reach == Reach::measured;
+  const std::size_t alive = options.alive ? *options.alive : measured ? seeds.size() : seeds.alive();
 
   const bool refresh =
       options.refresh_interval > 0 && previous && previous->age + 1 >= options.refresh_interval;
@@ -52,21 +51,22 @@ Report dynamic_jump_flooding(const Seeds& seeds, Diagram& diagram,
     flood.run(full);
     return flood.commit(full.size());
   }
-  const DynamicPlan run =
-      options.reach == Reach::measured
-          ? reaching_plan(window, alive, max_displacement, flood.label_distances(alive), options.metric,
-                          options.plan)
-          : DynamicPlan{false, options.alive || all_labels_live(*previous, flood.seeds()), plan};
-  if (run.from_seeds) {
-    flood.run(run.waves);
-  } else {
-    flood.run_from_labels(run.waves);
-    if (!run.fills && flood.some_unlabelled()) {
-      flood.run(full);
-      return flood.commit(run.waves.size() + full.size());
-    }
+  const int age = previous->age + 1;
+  if (measured) {
+    const Plan plan = reaching_plan(window, alive, flood.label_distances(), options.metric, options.plan);
+    flood.run(plan);
+    return flood.commit(plan.size(), age);
   }
-  return flood.commit(run.waves.size(), previous->age + 1);
+  const double max_displacement =
+      options.max_displacement ? *options.max_displacement : way_since(previous, flood.seeds());
+  const Plan plan = dynamic_jump_flooding_plan(window, alive, max_displacement, options.plan, options.reach);
+  const bool fills = options.alive || all_labels_live(*previous, flood.seeds());
+  flood.run_from_labels(plan);
+  if (!fills && flood.some_unlabelled()) {
+    flood.run(full);
+    return flood.commit(plan.size() + full.size());
+  }
+  return flood.commit(plan.size(), age);
 }
 
 }  // namespace vorocl

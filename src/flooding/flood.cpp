@@ -1,6 +1,5 @@
 #include "flooding/flood.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "runtime/buffer.hpp"
@@ -12,9 +11,6 @@ namespace {
 
 constexpr int row_interval = 8;  // of the rows in which labels are measured
 constexpr int rows_of_item = 8;  // how many of those one work-item takes
-
-/// As kernels compare it; less than the distance to an empty label.
-cl_uint as_word(double compared) { return static_cast<cl_uint>(std::min(compared, 2147483647.0)); }
 
 std::size_t divided_up(int number, int by) { return static_cast<std::size_t>((number + by - 1) / by); }
 
@@ -79,31 +75,20 @@ void Flood::advance_labels() {
       .over_items(count_, positions_, count_, memory_.front, grid_.width());
 }
 
-LabelDistances Flood::label_distances(std::size_t alive) {
+LabelDistances Flood::label_distances() {
   const int width = grid_.width(), height = grid_.height(), rows = row_interval * rows_of_item;
-  constexpr std::size_t words = 5;  // the last one for count_born()
+  constexpr std::size_t words = 2;
   diagram_.reserve(memory_.found, words * sizeof(cl_uint));
   begins_with(fill(diagram_.device, memory_.found, cl_uint{0}, words));
-  // Of labels that name no seeds, those of now have to do.
-  const bool named = previous()->seeds != nullptr;
-  const cl::Buffer& before = named ? *previous()->placement->positions : positions_;
-  const cl_uint count_before = named ? static_cast<cl_uint>(previous()->seeds->size) : count_;
-  const double pixels_per_seed = static_cast<double>(grid_.pixels()) / static_cast<double>(alive);
-  const auto in_lengths = [&](double lengths) {
-    return as_word(radius_of_area(metric_, lengths * lengths * pixels_per_seed));
-  };
-  const cl_uint enough = in_lengths(2);
+  const double pixels_per_seed = static_cast<double>(grid_.pixels()) / std::max(count_, 1u);
+  const auto enough =
+      static_cast<cl_uint>(std::min(radius_of_area(metric_, 4 * pixels_per_seed), 2147483647.0));
   Kernel& kernel = filling_.kernel("flooding/dynamic_jump_flooding.cl", "measure_labels");
   kernel.over_items(divided_up(width, static_cast<int>(kernel.vector_width())) * divided_up(height, rows),
-                    diagram_.labels, before, count_before, positions_, count_, width, height, row_interval,
-                    rows, enough, in_lengths(LabelDistances::far_lengths),
-                    in_lengths(LabelDistances::farther_lengths), memory_.found);
-  filling_.kernel("flooding/dynamic_jump_flooding.cl", "count_born")
-      .over_items(count_, before, count_before, positions_, count_, memory_.found);
+                    diagram_.labels, positions_, count_, width, height, row_interval, rows, enough,
+                    memory_.found);
   const auto found = download<cl_uint>(diagram_.device, memory_.found, words);
-  const double measured = static_cast<double>(divided_up(height, row_interval)) * width;
-  const double greatest = in_pixels(metric_, std::max(found[0], enough));
-  return {greatest, found[2] / measured, found[3] / measured, found[1], row_interval, found[4]};
+  return {in_pixels(metric_, std::max(found[0], enough)), found[1], row_interval};
 }
 
 void Flood::wave(const Wave& wave) {

@@ -13,7 +13,7 @@ struct FloodWorkspace {
   cl::Buffer front, back;  // images of packed positions, which change places with every wave
   cl::Buffer seeded;       // a byte per pixel: whether it holds a seed
   cl::Buffer flag;         // one word, for kernels that report
-  cl::Buffer found;        // five words: see measure_labels() and count_born()
+  cl::Buffer found;        // two words: see measure_labels()
 };
 
 /// Throws Error if the diagram's window is not all of its grid, or seeds lie outside it.
@@ -45,10 +45,9 @@ class Flood {
   /// Starts from the diagram's labels instead of a first wave: their seeds at their present positions.
   void advance_labels();
 
-  /// How far the labels that the diagram holds are from their seeds, in every eighth row: that is enough to
-  /// tell how evenly the seeds are spread. So many of them are there, on which L depends: if no label is
-  /// farther than 2 L, that counts as the greatest distance. Waits.
-  LabelDistances label_distances(std::size_t alive);
+  /// How far the labels that the diagram holds are from where their seeds are now, in every eighth row.
+  /// Waits.
+  LabelDistances label_distances();
 
   void wave(const Wave& wave);
 

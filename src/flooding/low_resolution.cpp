@@ -31,9 +31,9 @@ struct LowResolutionWorkspace {
 
 class Reconstruction {
  public:
-  Reconstruction(const Seeds& seeds, Diagram& diagram, Metric metric)
+  Reconstruction(const Seeds& seeds, Diagram& diagram)
       : diagram_(Internal::state(diagram)),
-        filling_(seeds, diagram, metric, "low-resolution"),
+        filling_(seeds, diagram, Metric::euclidean, "low-resolution"),
         levels_(diagram_.workspace<LowResolutionWorkspace>().levels),
         positions_(*filling_.placement().positions),
         count_(static_cast<cl_uint>(filling_.seeds().size)) {
@@ -113,8 +113,6 @@ class Reconstruction {
 
 }  // namespace
 
-Report low_resolution(const Seeds& seeds, Diagram& diagram, const LowResolutionOptions& options) {
-  return Reconstruction(seeds, diagram, options.metric).run();
-}
+Report low_resolution(const Seeds& seeds, Diagram& diagram) { return Reconstruction(seeds, diagram).run(); }
 
 }  // namespace vorocl

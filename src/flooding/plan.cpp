@@ -12,20 +12,6 @@ namespace vorocl {
 
 namespace {
 
-void check_options(double max_displacement, const DynamicPlanOptions& options) {
-  if (!std::isfinite(max_displacement) || max_displacement < 0) {
-    throw Error("the greatest displacement of a seed is " + std::to_string(max_displacement) +
-                "; it must be 0 pixels or more");
-  }
-  if (options.von_neumann_waves < 0 || options.von_neumann_waves > 2) {
-    throw Error(std::to_string(options.von_neumann_waves) +
-                " von Neumann waves are not possible; 0, 1 or 2 are");
-  }
-  if (options.extra_waves < 0 || options.extra_waves > 2) {
-    throw Error(std::to_string(options.extra_waves) + " extra waves are not possible; 0, 1 or 2 are");
-  }
-}
-
 /// 2 L and max_displacement, the longer one, rounded up to a power of two, or for the authors' plan down;
 /// from 1 to the window's first step. 2 L is compared in integers: step and 2 sqrt(pixels / seeds), both
 /// squared.
@@ -43,6 +29,21 @@ int dynamic_first_step(const Window& window, std::size_t seeds, double max_displ
 }
 
 }  // namespace
+
+void check_dynamic_plan(const Window& window, double max_displacement, const DynamicPlanOptions& options) {
+  refuse_volume(window.grid(), "dynamic jump flooding");
+  if (!std::isfinite(max_displacement) || max_displacement < 0) {
+    throw Error("the greatest displacement of a seed is " + std::to_string(max_displacement) +
+                "; it must be 0 pixels or more");
+  }
+  if (options.von_neumann_waves < 0 || options.von_neumann_waves > 2) {
+    throw Error(std::to_string(options.von_neumann_waves) +
+                " von Neumann waves are not possible; 0, 1 or 2 are");
+  }
+  if (options.extra_waves < 0 || options.extra_waves > 2) {
+    throw Error(std::to_string(options.extra_waves) + " extra waves are not possible; 0, 1 or 2 are");
+  }
+}
 
 void append_extra_waves(Plan& plan, int waves, Neighbourhood neighbourhood) {
   if (waves == 2) plan.push_back({2, neighbourhood});
@@ -68,8 +69,7 @@ Plan jump_flooding_plan(const Window& window, JumpFloodingVariant variant, Neigh
 
 Plan dynamic_jump_flooding_plan(const Window& window, std::size_t seeds, double max_displacement,
                                 const DynamicPlanOptions& options, Reach reach) {
-  refuse_volume(window.grid(), "dynamic jump flooding");
-  check_options(max_displacement, options);
+  check_dynamic_plan(window, max_displacement, options);
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood rest = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   Plan plan;

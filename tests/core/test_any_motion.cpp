@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <set>
 
 #include "brute_force.hpp"
 #include "fixture.hpp"
@@ -93,6 +94,20 @@ Frame evenly(int count, Random& random) {
   return make(count, [&](int) { return anywhere(random); });
 }
 
+/// Evenly spread seeds outside a disc, and so many on its rim.
+Frame with_rim(Random& random, double radius, int rim) {
+  Frame points = evenly(655, random);
+  const auto in_disc = [=](const std::optional<Point>& at) {
+    return std::hypot(at->x - 110, at->y - 120) < radius;
+  };
+  points.erase(std::remove_if(points.begin(), points.end(), in_disc), points.end());
+  for (int i = 0; i < rim; ++i) {
+    const double turn = 6.283185307179586 * random.uniform();
+    points.push_back(inside(110 + radius * std::cos(turn), 120 + radius * std::sin(turn)));
+  }
+  return points;
+}
+
 const std::vector<Motion>& motions() {
   static const std::vector<Motion> all = {
       {"evenly spread, 100 pixels per seed", [](Random& r) { return evenly(655, r); }, walk(5)},
@@ -163,6 +178,14 @@ const std::vector<Motion>& motions() {
          return points;
        },
        walk(2)},
+      {"a void whose rim spins", [](Random& r) { return with_rim(r, 36, 200); },
+       [](Frame& points, int, Random&) {
+         for (std::size_t i = points.size() - 200; i < points.size(); ++i) {
+           const double turn = std::atan2(points[i]->y - 120, points[i]->x - 110) + 0.08;
+           points[i] = inside(110 + 36 * std::cos(turn), 120 + 36 * std::sin(turn));
+         }
+       }},
+      {"a void that the waves just reach", [](Random& r) { return with_rim(r, 54, 400); }, walk(1)},
       {"one seed dies in each frame, one is born", [](Random& r) { return evenly(655, r); },
        [](Frame& points, int frame, Random& r) {
          const auto last = static_cast<std::size_t>(frame) % points.size();
@@ -229,7 +252,7 @@ void check_motion(const Motion& motion, Metric metric, Axes periodic, int frames
   const std::string name = std::string(motion.name) + ", " + name_of(metric);
   BOOST_TEST(of_dynamic.mean >= of_jfa.mean - 0.01,
              name << ": dJFA " << of_dynamic.mean << ", JFA " << of_jfa.mean << " in the mean");
-  BOOST_TEST(of_dynamic.least >= of_jfa.least - 0.1,
+  BOOST_TEST(of_dynamic.least >= of_jfa.least - 0.03,
              name << ": dJFA " << of_dynamic.least << ", JFA " << of_jfa.least << " at the least");
 }
 
@@ -264,20 +287,27 @@ BOOST_AUTO_TEST_CASE(the_paper_s_plan_does_not_reach_seeds_in_a_corner) {
   BOOST_TEST(similarity_of(dynamic, exact) < 90);
 }
 
-// Evenly spread seeds keep the paper's plan, label for label.
-BOOST_AUTO_TEST_CASE(evenly_spread_seeds_get_the_paper_s_labels) {
+// Evenly spread seeds get the wave that mends JFA's labels where the paper's plan has as many waves.
+BOOST_AUTO_TEST_CASE(evenly_spread_seeds_take_few_waves) {
   const Grid grid(400, 300);
   for (const Metric metric : both_metrics) {
     for (const std::size_t count : {200u, 1200u, 7500u, 12000u}) {
       Seeds seeds = Seeds::random(test_device(), grid, count, 3);
-      Diagram measured(test_device(), grid), paper(test_device(), grid);
-      for (std::uint32_t frame = 0; frame < 20; ++frame) {
+      Diagram measured(test_device(), grid), jfa(test_device(), grid), exact(test_device(), grid);
+      double of_measured = 0, of_jfa = 0;
+      for (std::uint32_t frame = 0; frame <= 20; ++frame) {
         const Report report = dynamic_jump_flooding(seeds, measured, {metric});
-        dynamic_jump_flooding(seeds, paper, {metric, {}, 0, Reach::paper});
-        BOOST_TEST(report.start().from_seeds == (frame == 0));
-        BOOST_TEST(similarity_of(measured, paper) == 100.0, count << " seeds, frame " << frame);
+        jump_flooding(seeds, jfa, {metric});
+        exact_diagram(seeds, exact, {metric});
+        if (frame > 0) {
+          const std::size_t of_paper = dynamic_jump_flooding_plan(grid, count, 5).size();
+          BOOST_TEST(report.waves() <= static_cast<int>(of_paper) + 1, count << " seeds, frame " << frame);
+          of_measured += similarity_of(measured, exact);
+          of_jfa += similarity_of(jfa, exact);
+        }
         random_step(seeds, 5, Border::reflect, 4, frame);
       }
+      BOOST_TEST(of_measured >= of_jfa, count << " seeds, " << name_of(metric));
     }
   }
 }
@@ -294,13 +324,12 @@ BOOST_AUTO_TEST_CASE(the_same_plans_for_every_kernel_shape) {
     for (std::size_t frame = 0; frame < 12; ++frame) {
       const Report report = dynamic_jump_flooding(seeds, diagram);
       const std::string plan =
-          (report.start().from_seeds ? "seeds " : "labels ") + std::to_string(report.start().first_step);
+          std::to_string(report.start().first_step) + ": " + std::to_string(report.waves());
       if (expected.size() <= frame) expected.push_back(plan);
       BOOST_TEST(plan == expected[frame], "vector width " << shape.vector_width << ", frame " << frame);
+      if (frame == 5) seeds.move_to(centres(random_pixels(Grid(40, 61), 150, 8)));
       random_step(seeds, 6, Border::reflect, 5, static_cast<std::uint32_t>(frame));
     }
   }
-  const auto from_labels = [](const std::string& plan) { return plan[0] == 'l'; };
-  BOOST_TEST(std::any_of(expected.begin(), expected.end(), from_labels));
-  BOOST_TEST(std::count_if(expected.begin(), expected.end(), from_labels) < 11);
+  BOOST_TEST(std::set<std::string>(expected.begin(), expected.end()).size() > 2u);
 }

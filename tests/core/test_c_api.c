@@ -165,6 +165,7 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 6);
   OK(vorocl_random_step(seeds, 2, VOROCL_PERIODIC, 7, 1));
+  options.reach = VOROCL_REACH_PAPER;
   options.max_displacement = 61;
   OK(vorocl_run("djfa", seeds, diagram, &options));
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
@@ -172,7 +173,8 @@ static void test_dynamic_jump_flooding(const vorocl_device* device) {
   OK(vorocl_random_step(seeds, 2, VOROCL_REFLECT, 7, 2));
   OK(vorocl_seeds_displacement(seeds, &displacement));
   CHECK(displacement == 2);
-  OK(vorocl_run("djfa", seeds, diagram, NULL)); /* the seeds know */
+  options.max_displacement = VOROCL_DISPLACEMENT_OF_SEEDS;
+  OK(vorocl_run("djfa", seeds, diagram, &options)); /* the seeds know */
   OK(vorocl_diagram_report(diagram, &waves, NULL, NULL));
   CHECK(waves == 4);
   OK(run("exact", seeds, exact, VOROCL_EUCLIDEAN));

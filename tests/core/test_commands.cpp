@@ -133,6 +133,6 @@ BOOST_AUTO_TEST_CASE(a_frame_of_dynamic_jump_flooding_reads_once) {
     random_step(seeds, 3, Border::reflect, 1, ++frame);
     waves = dynamic_jump_flooding(seeds, diagram).waves();
   });
-  BOOST_TEST(counts.commands == to_size(waves) + 9);
+  BOOST_TEST(counts.commands == to_size(waves) + 8);
   BOOST_TEST(counts.reads == 1u);
 }

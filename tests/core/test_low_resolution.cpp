@@ -10,28 +10,28 @@ using namespace vorocl;
 
 namespace {
 
-Labels labels_of(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds,
-                 Metric metric = Metric::euclidean) {
+constexpr Metric euclidean = Metric::euclidean;
+
+Labels labels_of(const Device& device, const Grid& grid, const std::vector<Pixel>& seeds) {
   Diagram diagram(device, grid);
-  BOOST_TEST(low_resolution(Seeds(device, grid, centres(seeds), to_centres), diagram, {metric}).waves() == 0);
+  BOOST_TEST(low_resolution(Seeds(device, grid, centres(seeds), to_centres), diagram).waves() == 0);
   return diagram.read();
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(edge_cases_against_a_reference) {
-  for (const Metric metric : both_metrics) {
-    for (const Case& c : all_edge_cases(metric)) {
-      BOOST_TEST_CONTEXT(c.name << ", " << name_of(metric)) {
-        const Labels labels = labels_of(test_device(), c.grid, c.seeds, metric);
-        BOOST_TEST((labels == reference_low_resolution(c.grid, c.seeds, metric)));
-        const Verdict verdict = judge(c.grid, c.seeds, metric, labels, brute_force(c.grid, c.seeds, metric));
-        BOOST_TEST(verdict.unlabelled == 0);
-        BOOST_TEST(verdict.invalid == 0);
-        BOOST_TEST(verdict.too_near == 0);
-        // Measured on these cases: at most 6 pixels of 255.
-        BOOST_TEST(verdict.wrong <= c.grid.pixels() / 40);
-      }
+  for (const Case& c : all_edge_cases(euclidean)) {
+    BOOST_TEST_CONTEXT(c.name) {
+      const Labels labels = labels_of(test_device(), c.grid, c.seeds);
+      BOOST_TEST((labels == reference_low_resolution(c.grid, c.seeds)));
+      const Verdict verdict =
+          judge(c.grid, c.seeds, euclidean, labels, brute_force(c.grid, c.seeds, euclidean));
+      BOOST_TEST(verdict.unlabelled == 0);
+      BOOST_TEST(verdict.invalid == 0);
+      BOOST_TEST(verdict.too_near == 0);
+      // Measured on these cases: at most 6 pixels of 255.
+      BOOST_TEST(verdict.wrong <= c.grid.pixels() / 40);
     }
   }
 }
@@ -40,11 +40,9 @@ BOOST_AUTO_TEST_CASE(seeds_that_share_coarse_pixels_keep_their_cells) {
   // One pixel in four holds a seed: four share a coarse pixel, and three have to be found again.
   const Grid grid(200, 150);
   const auto seeds = random_pixels(grid, grid.pixels() / 4, 5);
-  for (const Metric metric : both_metrics) {
-    const Verdict verdict = judge(grid, seeds, metric, labels_of(test_device(), grid, seeds, metric),
-                                  brute_force(grid, seeds, metric));
-    BOOST_TEST(verdict.wrong <= grid.pixels() / 10000);
-  }
+  const Verdict verdict = judge(grid, seeds, euclidean, labels_of(test_device(), grid, seeds),
+                                brute_force(grid, seeds, euclidean));
+  BOOST_TEST(verdict.wrong <= grid.pixels() / 10000);
 }
 
 BOOST_AUTO_TEST_CASE(evenly_spread_seeds_are_as_right_as_by_jfa) {
@@ -56,9 +54,7 @@ BOOST_AUTO_TEST_CASE(evenly_spread_seeds_are_as_right_as_by_jfa) {
       const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
       Diagram exact(test_device(), grid), diagram(test_device(), grid);
       exact_diagram(seeds, exact);
-      const auto count = [&] {
-        return judge(grid, pixels, Metric::euclidean, diagram.read(), exact.read()).wrong;
-      };
+      const auto count = [&] { return judge(grid, pixels, euclidean, diagram.read(), exact.read()).wrong; };
       low_resolution(seeds, diagram);
       wrong += count();
       jump_flooding(seeds, diagram);
@@ -71,13 +67,11 @@ BOOST_AUTO_TEST_CASE(evenly_spread_seeds_are_as_right_as_by_jfa) {
 BOOST_AUTO_TEST_CASE(the_same_labels_for_every_kernel_shape) {
   const Grid grid(143, 61);
   const auto seeds = random_pixels(grid, 300, 6);
-  for (const Metric metric : both_metrics) {
-    const Labels expected = labels_of(test_device(), grid, seeds, metric);
-    for (const Tuning& shape :
-         {Tuning{1, 32, 8}, Tuning{2, 64, 1}, Tuning{4, 1, 16}, Tuning{8, 64, 1}, Tuning{16, 5, 2}}) {
-      BOOST_TEST_CONTEXT("vector width " << shape.vector_width << ", " << name_of(metric)) {
-        BOOST_TEST((labels_of(test_device().with_tuning(shape), grid, seeds, metric) == expected));
-      }
+  const Labels expected = labels_of(test_device(), grid, seeds);
+  for (const Tuning& shape :
+       {Tuning{1, 32, 8}, Tuning{2, 64, 1}, Tuning{4, 1, 16}, Tuning{8, 64, 1}, Tuning{16, 5, 2}}) {
+    BOOST_TEST_CONTEXT("vector width " << shape.vector_width) {
+      BOOST_TEST((labels_of(test_device().with_tuning(shape), grid, seeds) == expected));
     }
   }
 }
@@ -88,7 +82,7 @@ BOOST_AUTO_TEST_CASE(the_workspace_fits_the_next_frame) {
   for (unsigned frame = 1; frame <= 3; ++frame) {
     const auto seeds = random_pixels(grid, std::size_t{40} * frame, frame);
     low_resolution(Seeds(test_device(), grid, centres(seeds), to_centres), diagram);
-    BOOST_TEST((diagram.read() == reference_low_resolution(grid, seeds, Metric::euclidean)));
+    BOOST_TEST((diagram.read() == reference_low_resolution(grid, seeds)));
   }
 }
 

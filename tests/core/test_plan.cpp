@@ -83,78 +83,62 @@ BOOST_AUTO_TEST_CASE(plans_of_the_authors_program_round_down) {
   BOOST_TEST(plan(Grid(64, 64), 16384) == "1");
 }
 
-// Whether a plan starts from the seeds, and its waves.
-std::string reaching(const Grid& grid, std::size_t seeds, double max_displacement,
-                     const LabelDistances& distances, Metric metric = Metric::euclidean,
-                     const DynamicPlanOptions& options = {}) {
-  const DynamicPlan plan = reaching_plan(grid, seeds, max_displacement, distances, metric, options);
-  return (plan.from_seeds ? "seeds: " : "labels: ") + to_string(plan.waves);
+std::string reaching(const Grid& grid, std::size_t seeds, const LabelDistances& distances,
+                     Metric metric = Metric::euclidean, const DynamicPlanOptions& options = {}) {
+  return to_string(reaching_plan(grid, seeds, distances, metric, options));
 }
 
-BOOST_AUTO_TEST_CASE(a_plan_that_reaches_is_the_papers_where_that_can_be_relied_on) {
-  const Grid grid(1000, 1000);  // with 10,000 seeds L = 10, and the steps 32 to 1 reach 63
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05}) == "labels: 32v 16v 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.1, 0.01}) == "labels: 32v 16v 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05, 0.0101}) == "seeds: 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.101, 0.001}) == "seeds: 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {89, 0.05}) == "labels: 32v 16v 8 4 2 1");  // 63 sqrt 2 = 89.1
-  BOOST_TEST(reaching(grid, 10000, 5, {90, 0.05}) == "seeds: 64 32 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {126, 0.05}, Metric::manhattan) == "labels: 32v 16v 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {127, 0.05}, Metric::manhattan) == "seeds: 64 32 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 19.9, {27, 0.05}) == "labels: 32v 16v 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 20, {27, 0.05}) == "seeds: 16 8 4 2 1");
-  // One seed in a thousand may have appeared.
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05, 0.001, 0, 1, 10}) == "labels: 32v 16v 8 4 2 1");
-  BOOST_TEST(reaching(grid, 10000, 5, {27, 0.05, 0.001, 0, 1, 11}) == "seeds: 16 8 4 2 1");
-  // The paper's plan of 50 seeds has all of JFA's steps: the labels must be nearly right already. L = 141.4.
-  BOOST_TEST(reaching(grid, 50, 70, {300, 0.05}) == "labels: 512v 256v 128 64 32 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 50, 71, {600, 0.05}) == "seeds: 512 256 128 64 32 16 8 4 2 1");
+BOOST_AUTO_TEST_CASE(a_measured_plan_covers_the_greatest_distance) {
+  const Grid grid(1000, 700);  // JFA has 10 waves
+  const auto plan = [&](const LabelDistances& distances) { return reaching(grid, 700000, distances); };
+  BOOST_TEST(plan({0}) == "1 1");  // the paper's plan is 2 1
+  BOOST_TEST(plan({1}) == "1 1");
+  BOOST_TEST(plan({1.1}) == "2 1");
+  BOOST_TEST(plan({3}) == "2 1");
+  BOOST_TEST(plan({3, 0, 8}) == "4 2 1");
+  BOOST_TEST(plan({4, 0, 8}) == "8 4 2 1");
+  BOOST_TEST(plan({511}) == "256 128 64 32 16 8 4 2 1");
+  BOOST_TEST(plan({511.5}) == to_string(jump_flooding_plan(grid)));
+  BOOST_TEST(plan({1024}) == to_string(jump_flooding_plan(grid)));
+  BOOST_TEST(reaching(Grid(1, 1), 1, {0}) == "");
+  BOOST_TEST(reaching(Grid(2, 2), 1, {1}) == "1");
 }
 
-BOOST_AUTO_TEST_CASE(a_plan_from_the_seeds_covers_the_greatest_distance) {
+BOOST_AUTO_TEST_CASE(a_wave_that_the_paper_s_plan_has_more_mends) {
   const Grid grid(1000, 700);
-  BOOST_TEST(reaching(grid, 100, 0, {0, 1}) == "seeds: 1");
-  BOOST_TEST(reaching(grid, 100, 0, {1, 1}) == "seeds: 1");
-  BOOST_TEST(reaching(grid, 100, 0, {1.1, 1}) == "seeds: 2 1");
-  BOOST_TEST(reaching(grid, 100, 0, {3, 1}) == "seeds: 2 1");
-  BOOST_TEST(reaching(grid, 100, 0, {511, 1}) == "seeds: 256 128 64 32 16 8 4 2 1");
-  BOOST_TEST(reaching(grid, 100, 0, {511.5, 1}) == "seeds: " + to_string(jump_flooding_plan(grid)));
-  BOOST_TEST(reaching(grid, 100, 0, {3, 1, 1, 0, 13}) == "seeds: 8 4 2 1");
-  BOOST_TEST(reaching(grid, 100, 0, {1024, 1}) == "seeds: " + to_string(jump_flooding_plan(grid)));
-  const DynamicPlanOptions options = {NeighbourhoodMix::von_neumann, 0, 2};
-  BOOST_TEST(reaching(grid, 100, 0, {6, 1}, Metric::euclidean, options) == "seeds: 4v 2v 1v 2v 1v");
-  BOOST_TEST(reaching(Grid(1, 1), 1, 0, {0, 1}) == "seeds: ");
+  const auto plan = [&](double greatest) { return reaching(grid, 7000, {greatest}); };  // 32v 16v 8 4 2 1
+  BOOST_TEST(plan(15) == "8 4 2 1 1");
+  BOOST_TEST(plan(31) == "16 8 4 2 1 1");
+  BOOST_TEST(plan(31.5) == "32 16 8 4 2 1");
+  BOOST_TEST(plan(64) == "64 32 16 8 4 2 1");
+}
+
+BOOST_AUTO_TEST_CASE(extra_waves_that_are_asked_for_follow_instead) {
+  const Grid grid(1000, 700);
+  const auto plan = [&](double greatest, NeighbourhoodMix mix, int extra_waves) {
+    return reaching(grid, 7000, {greatest}, Metric::euclidean, {mix, 2, extra_waves});
+  };
+  BOOST_TEST(plan(6, NeighbourhoodMix::mixed, 0) == "4 2 1 1");
+  BOOST_TEST(plan(6, NeighbourhoodMix::mixed, 1) == "4 2 1 1");
+  BOOST_TEST(plan(6, NeighbourhoodMix::von_neumann, 2) == "4v 2v 1v 2v 1v");
+  BOOST_TEST(plan(1024, NeighbourhoodMix::moore, 1) == "512 256 128 64 32 16 8 4 2 1 1");
 }
 
 // A pixel without a label is as far from one with a label as the hole is wide, which its pixels bound.
 BOOST_AUTO_TEST_CASE(labels_that_are_missing_lengthen_a_plan) {
   const Grid grid(1000, 1000);
-  const auto missing = [&](std::size_t pixels) {
-    return reaching(grid, 10000, 5, {27, 0.05, 0.001, pixels, 8});
+  const auto missing = [&](std::size_t pixels, Metric metric = Metric::euclidean) {
+    return reaching(grid, 10000, {28, pixels, 8}, metric);
   };
-  BOOST_TEST(missing(286) == "labels: 32v 16v 8 4 2 1");  // 27 + sqrt(4 / pi 8 286) + 8 = 88.98
-  BOOST_TEST(missing(288) == "seeds: 64 32 16 8 4 2 1");
-  BOOST_TEST(missing(709) == "seeds: 64 32 16 8 4 2 1");  // 27 + 84.98 + 8 + 7 = 126.98
-  BOOST_TEST(missing(710) == "seeds: 128 64 32 16 8 4 2 1");
-  BOOST_TEST(missing(125000) == "seeds: " + to_string(jump_flooding_plan(grid)));
+  BOOST_TEST(missing(0) == "32 16 8 4 2 1");
+  BOOST_TEST(missing(742) == "64 32 16 8 4 2 1");  // 28 + sqrt(4 / pi 8 742) + 8 + 4 = 126.94
+  BOOST_TEST(missing(744) == "128 64 32 16 8 4 2 1");
+  BOOST_TEST(missing(125000) == to_string(jump_flooding_plan(grid)));
+  // By the Manhattan metric such a quarter is a triangle: 28 + sqrt(2 8 470) + 8 + 4 = 126.7.
+  BOOST_TEST(missing(470, Metric::manhattan) == "64 32 16 8 4 2 1");
+  BOOST_TEST(missing(476, Metric::manhattan) == "128 64 32 16 8 4 2 1");
   // A strip has no quarter of a disc.
-  BOOST_TEST(reaching(Grid(1000, 8), 100, 5, {27, 0, 0, 80, 1}) == "seeds: 512 256 128 64 32 16 8 4 2 1");
-}
-
-BOOST_AUTO_TEST_CASE(plans_from_labels_know_whether_they_fill_all_pixels) {
-  const auto fills = [](std::size_t seeds, std::size_t missing, int row_interval) {
-    const LabelDistances distances = {4, 0.05, 0.001, missing, row_interval};
-    const DynamicPlan plan = reaching_plan(Grid(1000, 1000), seeds, 1, distances, Metric::euclidean);
-    BOOST_TEST(!plan.from_seeds);
-    return plan.fills;
-  };
-  BOOST_TEST(fills(10000, 63, 8));  // 32v 16v 8 4 2 1: a gap in a row, no wider than the steps reach
-  BOOST_TEST(!fills(10000, 64, 8));
-  // The Moore waves of 8v 4v 2 1 reach 3 pixels along both axes, and 7 rows may lie between measured ones.
-  BOOST_TEST(fills(62500, 0, 8));
-  BOOST_TEST(fills(62500, 1, 4));
-  BOOST_TEST(!fills(62500, 1, 8));
-  BOOST_TEST(!fills(1000000, 0, 8));  // 2v 1 reach 3 rows
+  BOOST_TEST(reaching(Grid(1000, 8), 80, {27, 80, 1}) == "512 256 128 64 32 16 8 4 2 1");
 }
 
 BOOST_AUTO_TEST_CASE(the_neighbourhoods_of_dynamic_plans) {

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(the_table_has_every_study_and_its_numbers_are_those_of_simu
   BOOST_TEST(printed.at("file") == "a.csv");
   BOOST_TEST(printed.at("configurations") == 1);
   const auto rows = rows_of(folder / "a.csv");
-  BOOST_TEST(rows.size() == 38u);
+  BOOST_TEST(rows.size() == 31u);
   std::map<std::string, int> studies;
   for (const auto& [name, row] : rows) {
     BOOST_TEST_CONTEXT(name) {
@@ -104,8 +104,8 @@ BOOST_AUTO_TEST_CASE(the_table_has_every_study_and_its_numbers_are_those_of_simu
                                                     {"von Neumann waves", 4},
                                                     {"extra waves", 3},
                                                     {"refresh interval", 3},
-                                                    {"d_max", 12},
-                                                    {"seeds", 9},
+                                                    {"d_max", 8},
+                                                    {"seeds", 6},
                                                     {"waves", 4}}));
   for (const char* same :
        {"von Neumann waves: 2", "extra waves: 0", "refresh interval: 0", "seeds: uniform, djfa",

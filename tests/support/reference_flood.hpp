@@ -63,14 +63,15 @@ inline Labels reference_flood(const Grid& grid, const std::vector<Pixel>& seeds,
 }
 
 /// Low resolution with reconstruction, from pixels of 4 x 4.
-inline Labels reference_low_resolution(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric) {
+inline Labels reference_low_resolution(const Grid& grid, const std::vector<Pixel>& seeds) {
+  constexpr Metric metric = Metric::euclidean;
   const auto pixels_of_level = [&](int level) {
     const int side = 1 << level;
     return Grid((grid.width() + side - 1) / side, (grid.height() + side - 1) / side, grid.periodic());
   };
   // Whether a label is to be preferred at the middle of a level's pixel.
   const auto better_at = [&](int level) {
-    return [&grid, &seeds, metric, level](std::uint32_t a, std::uint32_t b, const Pixel& pixel) {
+    return [&grid, &seeds, level](std::uint32_t a, std::uint32_t b, const Pixel& pixel) {
       const std::int64_t side = std::int64_t{1} << level;
       const Pixel middle = {std::min<std::int64_t>(pixel.x * side + side / 2, grid.width() - 1),
                             std::min<std::int64_t>(pixel.y * side + side / 2, grid.height() - 1)};

