@@ -37,8 +37,7 @@ static inline int copy_seeds(const SeedIndex* index, uint begin, uint end, uint*
 }
 
 // Adds those seeds of the bins from (first_x, y) to (last_x, y), as far as they are in the frame, that can be
-// candidates for other bins: of a crowded bin only the rim. The crowded bin itself is labelled by rows, without
-// candidates.
+// candidates elsewhere: of a crowded bin only the rim. The pixels of its seeds are labelled by label_crowd().
 static inline int add_seeds(const SeedIndex* index, int first_x, int last_x, int y, uint* seeds, int count) {
   first_x = max(first_x, 0);
   last_x = min(last_x, index->columns - 1);

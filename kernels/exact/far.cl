@@ -161,6 +161,7 @@ VECTOR_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict 
   const Box box = box_of(&index, x * BIN, first * BIN, BIN, (end - first) * BIN);
   if (counts[tile] != TOO_MANY &&
       label_by_tile(&index, lists + (size_t)tile * MOST_CANDIDATES, (int)counts[tile], box, labels)) {
+    label_crowd(&index, x, first, end - first, labels);
     return;
   }
   for (int bin_y = first; bin_y < end; ++bin_y) {
@@ -168,4 +169,5 @@ VECTOR_KERNEL void label_far(SEED_INDEX_PARAMETERS, global const uint* restrict 
     begin_search(&search, box_of(&index, x * BIN, bin_y * BIN, BIN, BIN), &index, pyramid, top_level);
     label_by_search(&search, &index, labels);
   }
+  label_crowd(&index, x, first, end - first, labels);
 }

@@ -1,12 +1,11 @@
-// The first tiers: pairs of bins that have seeds near are labelled by rows, or by candidates from the bins around them.
-// What that cannot do is left to far.cl.
+// The first tier: pairs of bins that have seeds near are labelled by candidates from the bins around them. What that
+// cannot do is left to far.cl.
 
 #ifndef VOROCL_EXACT_NEAR
 #define VOROCL_EXACT_NEAR
 
 #include "exact/collect.cl"
 #include "exact/keys.cl"
-#include "exact/rows.cl"
 
 // The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end.
 // The bins of a row, one beside the other, are added at once.
@@ -34,12 +33,13 @@ static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, i
   return true;
 }
 
-// Labels so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No
+// Labels rows of so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No
 // pixel of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is
 // no farther from some pixel.
-static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
+static bool label_by_near(const SeedIndex* index, int x, int y, int bins, int first, int rows, global uint* labels) {
   Near near;
-  near.box = box_of(index, x * BIN, y * BIN, BIN, bins * BIN);
+  near.box = box_of(index, x * BIN, y * BIN + first, BIN, rows);
+  if (near.box.top > near.box.bottom) return true;
   no_dominators(&near.dominators, near.box);
   if (!take_near(&near, index, x, y, bins, 1) || near.count == 0) return false;
   improve_dominator(&near.dominators, 0, near.seeds, near.count);
@@ -51,6 +51,35 @@ static inline bool label_by_near(const SeedIndex* index, int x, int y, int bins,
   if (near.count > MOST_KEYS) return false;
   label_by_list(index, &near.dominators, near.seeds, near.count, near.box, labels);
   return true;
+}
+
+// Labels the pixels of seeds in crowded bins, of so many bins one above the other: see add_seeds().
+static inline void label_crowd(const SeedIndex* index, int x, int y, int bins, global uint* labels) {
+  const int x0 = x * BIN - margin_x(index->width);
+  for (int bin_y = y; bin_y < min(y + bins, index->rows); ++bin_y) {
+    if (count_seeds(index, x, x, bin_y) < CROWDED) continue;
+    for (int row = bin_y * BIN; row < bin_y * BIN + BIN; ++row) {
+      const int y0 = row - margin_y(index->height);
+      if (y0 < 0 || y0 >= index->height) continue;
+      for (uint rest = seeds_in_row(index, x, row); rest != 0; rest &= rest - 1) {
+        const int column = (int)lowest_bit(rest);
+        if (x0 + column < 0 || x0 + column >= index->width) continue;
+        labels[y0 * index->width + x0 + column] = id_of(index, pack(x * BIN + column, row));
+      }
+    }
+  }
+}
+
+// Whether all pixels of a bin are seeds.
+static inline bool is_full(const SeedIndex* index, int x, int y) {
+  const int columns = min(BIN, frame_width(index->width) - x * BIN);
+  return (int)count_seeds(index, x, x, y) == columns * min(BIN, frame_height(index->height) - y * BIN);
+}
+
+// Labels a bin, or each half of one that has too many candidates.
+static inline bool label_bin(const SeedIndex* index, int x, int y, global uint* labels) {
+  return label_by_near(index, x, y, 1, 0, BIN, labels) || (label_by_near(index, x, y, 1, 0, BIN / 2, labels) &&
+                                                           label_by_near(index, x, y, 1, BIN / 2, BIN / 2, labels));
 }
 
 static inline uint seeds_near(const SeedIndex* index, int x, int y, int bins) {
@@ -74,14 +103,12 @@ static inline uint label_pair(const SeedIndex* index, int x, int y, global uint*
   if (box.left > box.right || box.top > box.bottom) return BOTH;  // in the margin
   const uint seeds = seeds_near(index, x, y, PAIR);
   if (seeds < SPARSE) return 0;
-  if (seeds < MEDIUM) return label_by_near(index, x, y, PAIR, labels) ? BOTH : 0;
-  NearestInRows rows;
-  begin_rows(&rows, index, x, y);
+  if (seeds < MEDIUM) return label_by_near(index, x, y, PAIR, 0, PAIR * BIN, labels) ? BOTH : 0;
   uint labelled = BOTH;
   for (int i = 0; i < min(PAIR, rows_of_grid(index) - y); ++i) {
-    if (seeds_near(index, x, y + i, 1) >= DENSE && label_by_rows(&rows, y + i, labels)) continue;
-    if (!label_by_near(index, x, y + i, 1, labels)) labelled ^= 1u << i;
+    if (!is_full(index, x, y + i) && !label_bin(index, x, y + i, labels)) labelled ^= 1u << i;
   }
+  label_crowd(index, x, y, PAIR, labels);
   return labelled;
 }
 

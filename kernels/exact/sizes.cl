@@ -44,37 +44,18 @@
 #define MOST_CANDIDATES 1024
 #endif
 
-// WHO LABELS A BIN. First by the number of seeds near its pair, in its two bins and the ten around them: a pair with
-// less than SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is
-// labelled as a whole. Then by the number near the bin, in it and the eight around it: one with DENSE or more is
-// labelled by rows. Measured: at these numbers the two ways take the same time.
+// WHO LABELS A BIN. By the number of seeds near its pair, in its two bins and the ten around them: a pair with less than
+// SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is labelled as a whole,
+// of another each bin by itself. Measured: at these numbers the two ways take the same time.
 #define SPARSE 5
 #define MEDIUM 24
-#define DENSE 56
 
-// In a period that is shorter than a bin's surroundings a seed's images are near each other, in an order that rows do
-// not know: there, nothing is labelled by rows.
-#ifdef VOROCL_SHORT_PERIOD
-#undef DENSE
-#define DENSE 0x7fffffff
-#endif
-
-// Rows look for seeds up to so many pixels away along each axis.
+// Where the group shape looks along rows for seeds: up to so many pixels away along each axis.
 #define REACH ((1 << BIN_BITS) - 1)
 
-// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere (see collect.cl), so the bin itself
-// has to be labelled by rows. That is possible if every pixel has one of its seeds within REACH: the pixel that has
-// the most pixels of its bin out of reach is a corner, by the Manhattan metric, with a triangle of OUT_OF_REACH
-// pixels.
-#define OUT_OF_REACH (REACH * (REACH + 1) / 2)
+// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere, and in the bin itself only some can be
+// candidates for pixels without a seed: see collect.cl. The others label their own pixels.
 #define CROWDED 160
-#ifdef VOROCL_SHORT_PERIOD
-#undef CROWDED
-#define CROWDED DENSE
-#endif
-#if CROWDED <= OUT_OF_REACH || CROWDED < DENSE || CROWDED < MEDIUM
-#error "A crowded bin is not always labelled by rows"
-#endif
 
 // A region of more seeds gets no list: its tiles search for themselves.
 #define MOST_OF_REGION 64

@@ -18,10 +18,12 @@
 typedef long one_key;
 typedef long16 keys;
 #define TO_KEYS convert_long16
+#define IS_LESS(a, b) convert_int16((a) < (b))
 #else
 typedef uint one_key;
 typedef uint16 keys;
 #define TO_KEYS as_uint16
+#define IS_LESS(a, b) ((a) < (b))
 #endif
 
 typedef struct {
@@ -32,6 +34,10 @@ typedef struct {
   global const one_key* cost;    // of a site at the place itself
   global keys* key;              // of the sites, see below
   global keys* best;             // of each place: the least key
+  // By place, what sites carry; and what the nearest site of each place does, if that is taken on the way. (It is where
+  // it is all that is wanted. Else it is looked up.)
+  bool takes;
+  global int16 *carried, *found;
   global int *from, *to;         // the ends of the sites that are tried, while places are divided
   // All places are sites, if need be absent ones, and the key of place p is key[p], with images of half a period at
   // both ends. Or the sites are listed: their places are at[0], at[1], ..., along a periodic line with a period of
@@ -41,13 +47,6 @@ typedef struct {
   global int *at, *index;
 } line_t;
 
-// any() of PoCL 3.1 takes lane after lane: this takes four instructions.
-INLINE bool some_of(int16 lanes) {
-  const int8 a = lanes.lo | lanes.hi;
-  const int4 b = a.lo | a.hi;
-  const long2 c = as_long2(b);
-  return ((c.x | c.y) & (long)0x8000000080000000l) != 0;
-}
 #ifdef VOROCL_FAR
 INLINE bool some_from(keys values, one_key limit) {
   const long16 below = values - limit;  // negative
@@ -149,6 +148,20 @@ static bool divide(const line_t* l, int first, int last, int low, int high) {
   return true;
 }
 
+// What the nearest sites of a place carry.
+INLINE int16 carried_by(int16 site, int place, global const int16* carried) {
+  if (!some_of(site != (int16)place)) return carried[place];
+  int from[STRIP], found[STRIP];
+  vstore16(site, 0, from);
+#pragma unroll
+  for (int i = 0; i < STRIP; ++i) found[i] = ((global const int*)carried)[from[i] * STRIP + i];
+  return vload16(0, found);
+}
+static void look_up(const line_t* l, int first, int last) {
+  if (!l->takes) return;
+  for (int p = first; p <= last; ++p) l->found[p] = carried_by(sites_of(l->best[p], l->bits), p, l->carried);
+}
+
 // The images of the sites of a periodic line that is not listed, and absent ones behind both ends.
 static void add_ends(const line_t* l) {
   const int reach = l->period / 2, size = l->size;
@@ -158,12 +171,24 @@ static void add_ends(const line_t* l) {
   }
   const keys absent = (keys)(l->limit << l->bits);
   for (int i = reach + 1; i <= reach + PAD; ++i) l->key[-i] = l->key[size - 1 + i] = absent;
+  for (int i = 1; i <= min(reach, NEAR); ++i) {
+    l->carried[-i] = l->carried[size - i];
+    l->carried[size - 1 + i] = l->carried[i - 1];
+  }
 }
+
+// Takes another site's key, if it is less, and what it carries.
+#define TAKE(other, from)                                                                \
+  do {                                                                                   \
+    const keys other_key = other;                                                        \
+    if (takes) found = select(found, l->carried[from], IS_LESS(other_key, best));      \
+    best = min(best, other_key);                                                         \
+  } while (0)
 
 // A line that is not listed. A place looks around it as far as NEAR, and is done when all that was not looked at is
 // strictly farther away than what it found. Runs of places that are not done are divided; the done ones around a run
 // bound its sites.
-static bool scan(const line_t* l) {
+INLINE bool scan(const line_t* l, const bool takes) {
   const int size = l->size, reach = l->period / 2;
   global const one_key* const cost = l->cost;
   global const keys* const key = l->key;
@@ -176,18 +201,24 @@ static bool scan(const line_t* l) {
     }
     if (!is_near) {
       keys best = key[p];
+      int16 found = (int16)0;
+      if (takes) found = l->carried[p];
       is_near = !some_from(best, cost[1]);
       if (!is_near) {
 #pragma unroll
         for (int k = 1; k <= NEAR; ++k) {
-          best = min(best, min(key[p - k] + cost[k], key[p + k] + cost[k]));
+          TAKE(key[p - k] + cost[k], p - k);
+          TAKE(key[p + k] + cost[k], p + k);
           if (k != NEAR - 1 && !some_from(best, cost[k + 1])) {
             is_near = true;
             break;
           }
         }
       }
-      if (is_near) l->best[p] = best;
+      if (is_near) {
+        l->best[p] = best;
+        if (takes) l->found[p] = found;
+      }
     }
     if (!is_near) {
       if (far_from < 0) far_from = p;
@@ -198,6 +229,7 @@ static bool scan(const line_t* l) {
       const int low = far_from == 0 ? -reach : max(far_from - 1 - NEAR, -reach);
       const int high = p == size ? size - 1 + reach : min(p + NEAR, size - 1 + reach);
       if (!divide(l, far_from, p - 1, low, high)) return false;
+      look_up(l, far_from, p - 1);
       far_from = -1;
     }
   }
@@ -225,15 +257,19 @@ static bool sweep(const line_t* l) {
 }
 #endif
 
-// Finds `best` of all places. Returns whether all sums held.
+// Finds `best` and what is carried there, of all places. Returns whether all sums held.
 static bool find_along_line(const line_t* l) {
 #ifdef VOROCL_MANHATTAN
-  return sweep(l);
+  if (!sweep(l)) return false;
 #else
-  if (l->is_listed) return divide(l, 0, l->size - 1, l->first, l->last);
-  add_ends(l);
-  return scan(l);
+  if (!l->is_listed) {
+    add_ends(l);
+    return l->takes ? scan(l, true) : scan(l, false);
+  }
+  if (!divide(l, 0, l->size - 1, l->first, l->last)) return false;
 #endif
+  look_up(l, 0, l->size - 1);
+  return true;
 }
 
 // How far the site of a row or column is.

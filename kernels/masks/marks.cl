@@ -4,7 +4,7 @@
 #ifndef VOROCL_MASKS_MARKS
 #define VOROCL_MASKS_MARKS
 
-#include "masks/sizes.cl"
+#include "masks/rows.cl"
 
 typedef struct __attribute__((packed)) {
   ulong v;
@@ -141,35 +141,80 @@ kernel void list_marks(global const ushort* restrict marks, global const uint* r
   }
 }
 
-// SEEDS as marks: their pixels are marked, and a list has the id of each mark, the lowest one of several.
+// SEEDS as marks: their pixels are marked, and `labels` has the id of the seed there, the lowest one of several. What
+// other pixels of `labels` hold does not matter. Each work-item paints rows of its own, and looks at all seeds from the
+// last one on: so the lowest id comes last.
 #define EMPTY_SEED 0x80000000u
-#define SEED_PARAMETERS \
-  global const uint *restrict positions, uint count, int height, int words, int bits_x, int bits_y
-static inline uint x_of_seed(uint position, int bits_x) { return position & ((1u << bits_x) - 1); }
-static inline uint word_of_seed(uint position, int height, int words, int bits_x, int bits_y) {
-  const uint y = position >> bits_x & ((1u << bits_y) - 1);
-  const uint z = bits_x + bits_y < 32 ? position >> (bits_x + bits_y) : 0;
-  return (z * (uint)height + y) * (uint)words + x_of_seed(position, bits_x) / 64;
+#define SEEDS_AHEAD 64  // whose pixels are loaded before they are painted
+typedef struct {
+  uint first, rows;  // of a work-item
+  uint width, height, words;
+  uint bits_x, bits_y;
+  global ushort* marks;
+  global uint *counts, *labels;
+} painter_t;
+
+// Rows and columns of seeds, and whether they are the work-item's.
+INLINE int16 find_seeds(const painter_t* p, uint16 position, uint16* row, uint16* x) {
+  const uint shift_z = min(p->bits_x + p->bits_y, 31u), mask_z = shift_z < 31 ? ~0u : 0u;
+  const uint16 y = position >> p->bits_x & ((1u << p->bits_y) - 1);
+  *x = position & ((1u << p->bits_x) - 1);
+  *row = (position >> shift_z & mask_z) * p->height + y;
+  return (*row - p->first < (uint16)p->rows) & ~(as_int16(position) >> 31);
 }
-kernel void mark_seeds(SEED_PARAMETERS, global uint* restrict marks) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= count || positions[id] & EMPTY_SEED) return;
-  const uint word = word_of_seed(positions[id], height, words, bits_x, bits_y), bit = x_of_seed(positions[id], bits_x);
-  atomic_or(marks + (size_t)word * 2 + bit % 64 / 32, 1u << bit % 32);
+
+INLINE void prefetch_seeds(const painter_t* p, uint16 position) {
+  uint16 row, x;
+  const int16 mine = find_seeds(p, position, &row, &x);
+  if (!some_of(mine)) return;
+  uint pixel[STRIP];
+  vstore16(select((uint16)(p->first * p->width), row * p->width + x, mine), 0, pixel);
+#pragma unroll
+  for (int i = 0; i < STRIP; ++i) PREFETCH(p->labels + pixel[i]);
 }
-kernel void count_marks(global const ulong* restrict marks, int rows, int words, global uint* restrict counts) {
-  const int row = (int)get_global_id(0);
-  if (row >= rows) return;
-  uint marks_of_row = 0;
-  for (int i = 0; i < words; ++i) marks_of_row += (uint)popcount(marks[(size_t)row * (size_t)words + (size_t)i]);
-  counts[row] = marks_of_row;
+
+// Without a branch, which random seeds would take one way as often as the other: those of other rows are painted where
+// they do no harm.
+INLINE void paint(const painter_t* p, uint16 position, uint id) {
+  uint16 row, x;
+  const int16 mine = find_seeds(p, position, &row, &x);
+  if (!some_of(mine)) return;
+  uint pixel[STRIP], word[STRIP], bit[STRIP];
+  int is_mine[STRIP];
+  vstore16(row * p->width + x, 0, pixel);
+  vstore16(select((uint16)(p->first * p->words), row * p->words + x / STRIP, mine), 0, word);
+  vstore16(as_uint16(mine) & ((uint16)1u << (x & (STRIP - 1))), 0, bit);
+  vstore16(mine, 0, is_mine);
+#pragma unroll
+  for (int i = STRIP - 1; i >= 0; --i) {
+    global uint* const label = is_mine[i] ? p->labels + pixel[i] : p->counts + p->first;
+    *label = id + (uint)i;
+    p->marks[word[i]] |= (ushort)bit[i];
+  }
 }
-kernel void list_ids(SEED_PARAMETERS, global const ulong* restrict marks, global const uint* restrict starts,
-                     global uint* restrict ids) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= count || positions[id] & EMPTY_SEED) return;
-  const uint word = word_of_seed(positions[id], height, words, bits_x, bits_y);
-  atomic_min(ids + rank_of(marks, starts, word, x_of_seed(positions[id], bits_x) % 64), id);
+
+ITEM_KERNEL void paint_seeds(global const uint* restrict positions, uint count, int width, int height, int rows,
+                             int bits_x, int bits_y, global ushort* marks, global uint* counts, global uint* labels) {
+  const long parts = (long)get_global_size(0), id = (long)get_global_id(0);
+  const uint words = (uint)SHORTS_OF_ROW(width), first = (uint)(id * rows / parts), end = (uint)((id + 1) * rows / parts);
+  const painter_t p = {first,        end - first,  (uint)width, (uint)height, words,
+                       (uint)bits_x, (uint)bits_y, marks,       counts,       labels};
+  for (size_t i = (size_t)first * words; i < (size_t)end * words; ++i) marks[i] = 0;
+  const uint whole = count / STRIP * STRIP;
+  if (whole < count) {
+    uint rest[STRIP];
+    for (uint i = 0; i < STRIP; ++i) rest[i] = whole + i < count ? positions[whole + i] : EMPTY_SEED;
+    paint(&p, vload16(0, rest), whole);
+  }
+  for (uint i = whole; i > 0; i -= STRIP) {
+    if (i > SEEDS_AHEAD) prefetch_seeds(&p, vload16(0, positions + i - STRIP - SEEDS_AHEAD));
+    paint(&p, vload16(0, positions + i - STRIP), i - STRIP);
+  }
+  for (uint row = first; row < end; ++row) {
+    uint marks_of_row = 0;
+    for (uint i = 0; i < words; ++i) marks_of_row += popcount((uint)marks[(size_t)row * words + i]);
+    counts[row] = marks_of_row;
+  }
 }
 
 #endif

@@ -5,6 +5,7 @@
 
 #include "masks/sizes.cl"
 
+#define ITEM_KERNEL kernel __attribute__((reqd_work_group_size(1, 1, 1)))
 #define INLINE __attribute__((always_inline)) static inline
 #define LANE ((int16)(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15))
 typedef struct __attribute__((packed)) {
@@ -13,13 +14,42 @@ typedef struct __attribute__((packed)) {
 #define LOAD_SHORTS(p) (((global const any_ushort16*)(p))->v)
 #define STORE_SHORTS(values, p) (((global any_ushort16*)(p))->v = (values))
 
+// What is read or written soon.
+#ifdef __clang__
+#define PREFETCH(address) __builtin_prefetch(address, 0, 2)
+#else
+#define PREFETCH(address) prefetch(address, 1)
+#endif
+
+// any() of PoCL 3.1 takes lane after lane: this takes four instructions.
+INLINE bool some_of(int16 lanes) {
+  const int8 a = lanes.lo | lanes.hi;
+  const int4 b = a.lo | a.hi;
+  const long2 c = as_long2(b);
+  return ((c.x | c.y) & (long)0x8000000080000000l) != 0;
+}
+// Stores the first ones of 16 values.
+__attribute__((noinline)) static void store_some(const uchar* values, global uchar* out, int bytes) {
+  for (int i = 0; i < bytes; ++i) out[i] = values[i];
+}
+#define STORE_LANES(type, vector, out, lanes)                                                    \
+  do {                                                                                           \
+    if ((lanes) == STRIP) {                                                                      \
+      vstore16(vector, 0, out);                                                                  \
+    } else {                                                                                     \
+      type lane_values[STRIP];                                                                   \
+      vstore16(vector, 0, lane_values);                                                          \
+      store_some((const uchar*)lane_values, (global uchar*)(out), (lanes) * (int)sizeof(type)); \
+    }                                                                                            \
+  } while (0)
+
 // The nearer of the marks at the left and at the right; of two as near the one that comes first in the row. Along a
 // period of `period` columns they may lie beyond its ends.
-INLINE ushort16 nearer(int16 x, int16 last, int16 next, int period) {
-  if (period == 0) return convert_ushort16(select(next, last, x * 2 <= last + next));
+INLINE int16 nearer(int16 x, int16 last, int16 next, int period) {
+  if (period == 0) return select(next, last, x * 2 <= last + next);
   const int16 a = last + select((int16)0, (int16)period, last < 0);
   const int16 b = next - select((int16)0, (int16)period, next >= (int16)period);
-  return convert_ushort16(select(b, a, (x * 2 < last + next) | ((x * 2 == last + next) & (a <= b))));
+  return select(b, a, (x * 2 < last + next) | ((x * 2 == last + next) & (a <= b)));
 }
 
 // The place of the highest bit of 16 that is set, by the exponent of a float.
@@ -27,10 +57,26 @@ INLINE int16 place_of_highest(int16 word) { return (as_int16(convert_float16(wor
 static inline int lowest_of(uint word) { return (int)popcount((word & -word) - 1); }
 static inline int highest_of(uint word) { return 31 - (int)clz(word); }
 
+// Where there are labels: writes those of the nearest marks of a strip, given their columns, the marks of the strip,
+// and the next ones at both sides. A mark is its own nearest one.
+INLINE void label_strip(int16 column, uint word, int x0, int left, int right, int width, global uint* labels) {
+  uint16 label = (uint16)0;
+  if (left >= -width) label = (uint16)labels[left < 0 ? left + width : left];
+  for (uint rest = word; rest != 0; rest &= rest - 1) {
+    const int mark = x0 + lowest_of(rest);
+    label = select(label, (uint16)labels[mark], column == mark);
+  }
+  if (right < 2 * width) {
+    const int mark = right >= width ? right - width : right;
+    label = select(label, (uint16)labels[mark], column == mark);
+  }
+  STORE_LANES(uint, label, labels + x0, min(STRIP, width - x0));
+}
+
 // Writes the column of the nearest mark for each pixel of a row that has one: of 16 pixels together, then those of the
-// next strip, so many values farther on.
+// next strip, so many values farther on; and its label in a row of labels, or null.
 static inline void find_in_row(global const ushort* word, int width, bool is_periodic, global ushort* out,
-                               size_t stride) {
+                               size_t stride, global uint* labels) {
   const int strips = STRIPS_OF(width), period = is_periodic ? width : 0;
   // Marks that are not there are farther than any.
   int none = 1 << 20, left = -none, right = -1;
@@ -56,16 +102,17 @@ static inline void find_in_row(global const ushort* word, int width, bool is_per
       while (j < strips && word[j] == 0) ++j;
       right = j < strips ? j * STRIP + lowest_of(word[j]) : none;
     }
-    if (w == 0) {
-      STORE_SHORTS(nearer(x, (int16)left, (int16)right, period), columns);
-      continue;
+    int16 last = (int16)left, next = (int16)right;
+    if (w != 0) {
+      const int16 up_to = ((int16)2 << LANE) - 1;
+      const int16 below = (int16)((int)w) & up_to, above = (int16)((int)w) & ~up_to;
+      last = select(place_of_highest(below) + x0, last, below == 0);
+      next = select(place_of_highest(above & -above) + x0, next, above == 0);
     }
-    const int16 up_to = ((int16)2 << LANE) - 1;
-    const int16 below = (int16)((int)w) & up_to, above = (int16)((int)w) & ~up_to;
-    const int16 last = select(place_of_highest(below) + x0, (int16)left, below == 0);
-    const int16 next = select(place_of_highest(above & -above) + x0, (int16)right, above == 0);
-    STORE_SHORTS(nearer(x, last, next, period), columns);
-    left = x0 + highest_of(w);
+    const int16 column = nearer(x, last, next, period);
+    STORE_SHORTS(convert_ushort16(column), columns);
+    if (labels != 0) label_strip(column, w, x0, left, right, width, labels);
+    if (w != 0) left = x0 + highest_of(w);
   }
 }
 

@@ -31,12 +31,14 @@
 #define COSTS(size) (2 * REACH_OF_COSTS(size) + 1)
 
 // What a work-item remembers of a line of so many places, in vectors of keys or of whole numbers (lines.cl): the
-// sites' keys, with images along a periodic line; the least key of each place; what the pass before found; and for each
-// place the ends of the sites that are tried, the number of a site in the list of sites, the list, and where these are.
+// sites' keys, with images along a periodic line; the least key of each place; what the sites carry, and what the
+// places find; and for each place the ends of the sites that are tried, the number of a site in the list of sites, the
+// list, and where these are.
 #define KEYS_OF_LINE(longest) (2 * ((longest) + PAD))
+#define CARRIED_BY_LINE(longest) ((longest) + 2 * PAD)
 #define INTS_OF_LINE(longest) (8 * (longest) + 64)
 #define VECTORS_OF_KEYS(longest) (KEYS_OF_LINE(longest) + (longest))
-#define VECTORS_OF_INTS(longest) ((longest) + INTS_OF_LINE(longest) / STRIP + 1)
+#define VECTORS_OF_INTS(longest) (CARRIED_BY_LINE(longest) + (longest) + INTS_OF_LINE(longest) / STRIP + 1)
 
 // What a transform writes, a bit each.
 #define WANTS_SQUARES 1
@@ -46,6 +48,11 @@
 #define WANTS_PLACES 16
 #define WANTS_RANKS 32
 #define WANTS_VALUES 64
+
+// What passes carry from mark to pixel besides the distance: nothing, where the mark is, or its label.
+#define CARRIES_NOTHING 0
+#define CARRIES_PLACES 1
+#define CARRIES_LABELS 2
 
 // What kernels know of images. Squared lengths are whole numbers. `most_...`: ways of so many pixels have the greatest
 // part of a distance that keys hold.
@@ -67,8 +74,7 @@ typedef struct {
   cl_int most_x_of_y, most_x_of_z, most_y_of_z;
   cl_int limits_lengths;               // ... this is set
   cl_int is_unit;                      // the lengths are 1
-  cl_int is_volume, wanted, bytes_of_value;
-  cl_int has_ids;                      // of the marks, which are stored for their ranks
+  cl_int is_volume, wanted, carried, bytes_of_value;
 } images_t;
 
 #endif

@@ -15,31 +15,17 @@
 // Buffers that are not wanted are any.
 #define TARGET_PARAMETERS                                                                                         \
   global uchar *distances, global uint *indices, global uint *places, global uint *ranks, global const uint *starts, \
-      global const uint *ids, global uchar *values, global const uchar *image
-#define TARGETS_OF_PARAMETERS {distances, indices, places, ranks, starts, ids, values, image, marks}
+      global uchar *values, global const uchar *image, global uint *labels
+#define TARGETS_OF_PARAMETERS {distances, indices, places, ranks, starts, values, image, labels, marks}
 typedef struct {
   global uchar* distances;
   global uint *indices, *places, *ranks;
-  global const uint *starts, *ids;
+  global const uint* starts;
   global uchar* values;
   global const uchar* image;
+  global uint* labels;
   global const ushort* marks;
 } targets_t;
-
-// Stores the first ones of 16 values.
-__attribute__((noinline)) static void store_some(const uchar* values, global uchar* out, int bytes) {
-  for (int i = 0; i < bytes; ++i) out[i] = values[i];
-}
-#define STORE_LANES(type, vector, out, lanes)                                                    \
-  do {                                                                                           \
-    if ((lanes) == STRIP) {                                                                      \
-      vstore16(vector, 0, out);                                                                  \
-    } else {                                                                                     \
-      type lane_values[STRIP];                                                                   \
-      vstore16(vector, 0, lane_values);                                                          \
-      store_some((const uchar*)lane_values, (global uchar*)(out), (lanes) * (int)sizeof(type)); \
-    }                                                                                            \
-  } while (0)
 
 // Pixels beside each other, and the columns, rows and slices of their nearest marks. `none`: lanes that have no mark
 // that is near enough.
@@ -117,10 +103,6 @@ INLINE void store_places(const nearest_t* n, const images_t* e, const targets_t*
     vstore16(as_uint16(n->column & 63), 0, bit);
 #pragma unroll
     for (int i = 0; i < STRIP; ++i) rank[i] = rank_of((global const ulong*)t->marks, t->starts, word[i], bit[i]);
-    if (e->has_ids) {
-#pragma unroll
-      for (int i = 0; i < STRIP; ++i) rank[i] = t->ids[rank[i]];
-    }
     STORE_LANES(uint, select(vload16(0, rank), (uint16)NO_MARK, n->none), t->ranks + n->at, n->lanes);
   }
   if (e->wanted & WANTS_VALUES) {
@@ -147,12 +129,20 @@ INLINE void store_indices(const nearest_t* n, const images_t* e, const targets_t
   STORE_LANES(uint, select(as_uint16(n->column), (uint16)NO_MARK, n->none), out, n->lanes);
 }
 
+INLINE size_t index_of_pixel(int x, int y, int z, const images_t* e) {
+  return ((size_t)z * (size_t)e->height + (size_t)y) * (size_t)e->width + (size_t)x;
+}
+
+INLINE void store_labels(int16 labels, int x, int y, int z, int lanes, const images_t* e, const targets_t* t) {
+  STORE_LANES(uint, as_uint16(labels), t->labels + index_of_pixel(x, y, z, e), lanes);
+}
+
 INLINE void store_nearest(nearest_t* n, const images_t* e, const targets_t* t) {
 #ifdef cl_khr_fp64
   // Whole numbers may be rounded, or their unit.
   if (e->limits_lengths) n->none |= convert_int16(lengths_of(n, e) > (double16)as_double(e->longest_length));
 #endif
-  n->at = ((size_t)n->z * (size_t)e->height + (size_t)n->y) * (size_t)e->width + (size_t)n->x;
+  n->at = index_of_pixel(n->x, n->y, n->z, e);
   if (e->wanted & (WANTS_SQUARES | WANTS_FLOATS | WANTS_DOUBLES)) store_distances(n, e, t);
   if (e->wanted & WANTS_INDICES) store_indices(n, e, t);
   if (e->wanted & (WANTS_PLACES | WANTS_RANKS | WANTS_VALUES)) store_places(n, e, t);
@@ -170,6 +160,7 @@ INLINE int16 too_far(keys square, const images_t* e) {
 // Of pixels from (x, y, z) on where there are no marks at all.
 static inline void store_none(int x, int y, int z, int lanes, const images_t* e, const targets_t* t) {
   nearest_t n = {0, x, y, z, lanes, (int16)0, (int16)0, (int16)0, (int16)-1, (keys)0};
+  if (e->carried == CARRIES_LABELS) store_labels((int16)-1, x, y, z, lanes, e, t);
   store_nearest(&n, e, t);
 }
 

@@ -14,28 +14,31 @@
 #else
 #define IS_SECOND 0
 #endif
-#define ITEM_KERNEL kernel __attribute__((reqd_work_group_size(1, 1, 1)))
 
 // Working memory.
 #define MEMORY_PARAMETERS \
   global const one_key *costs, global keys *keys_of_items, global int16 *ints_of_items, global uchar *flags
 typedef struct {
   global keys* keys;
-  global int16* packed;
+  global int16 *carried, *found;
   global int* ints;
 } memory_t;
 static inline memory_t memory_of_item(global keys* all_keys, global int16* all_ints, int longest) {
   memory_t m;
   m.keys = all_keys + (size_t)ITEM * (size_t)VECTORS_OF_KEYS(longest);
-  m.packed = all_ints + (size_t)ITEM * (size_t)VECTORS_OF_INTS(longest);
-  m.ints = (global int*)(m.packed + longest);
+  m.carried = all_ints + (size_t)ITEM * (size_t)VECTORS_OF_INTS(longest) + PAD;
+  m.found = m.carried + longest + PAD;
+  m.ints = (global int*)(m.found + longest);
   return m;
 }
 
 // Makes a line whose sites are the places that have marks, and whose sites have no keys yet. They are listed in `site`.
-static line_t line_of(memory_t m, int longest, int size, int period, int bits, bool saturates, long limit,
+static line_t line_of(memory_t m, int longest, int size, int period, int bits, bool saturates, long limit, bool takes,
                       global const one_key* costs, global const uint* counts, global int** site) {
   line_t l;
+  l.takes = takes;
+  l.carried = m.carried;
+  l.found = m.found;
   l.size = size;
   l.period = period;
   l.bits = bits;
@@ -91,38 +94,66 @@ INLINE void set_key(const line_t* l, int i, int place, keys distance) {
   if (l->period != 0) l->key[i - l->count] = l->key[i + l->count] = key;
 }
 
-// The least keys of a strip's rows. Returns whether all sums held.
-static bool find_along_y(const line_t* l, global const int* site, const images_t* e, global const ushort* columns,
-                         int x0) {
-  begin_keys(l);
-  for (int i = 0; i < l->count; ++i) {
-    const int16 far = convert_int16(LOAD_SHORTS(columns + site[i] * STRIP)) - (LANE + x0);
-    set_key(l, i, site[i], part_of(way_of(far, e->period_x), e->most_x_of_y, (one_key)e->square_x));
-  }
-  return find_along_line(l);
-}
-
-// The columns of the nearest marks of a strip's row `y`, in the rows of their sites.
-INLINE int16 columns_of(int16 site, int y, global const ushort* columns) {
-  if (!some_of(site != (int16)y)) return convert_int16(LOAD_SHORTS(columns + y * STRIP));
+// The columns of the nearest marks of a strip's row `y`, in the rows of their sites. They stand in the strip.
+INLINE int16 columns_of(int16 row, int y, global const ushort* columns) {
+  if (!some_of(row != (int16)y)) return convert_int16(LOAD_SHORTS(columns + y * STRIP));
   int from[STRIP];
   ushort found[STRIP];
-  vstore16(site, 0, from);
+  vstore16(row, 0, from);
 #pragma unroll
   for (int i = 0; i < STRIP; ++i) found[i] = columns[from[i] * STRIP + i];
   return convert_int16(vload16(0, found));
 }
 
+// Values of pixels of a row, of each pixel or of every second one.
+INLINE void store_lanes(uint16 values, global uint* image, size_t at, int step, int lanes) {
+  if (step == 1) {
+    STORE_LANES(uint, values, image + at, lanes);
+  } else {
+    STORE_LANES(ulong, convert_ulong16(values), (global ulong*)image + at, lanes);
+  }
+}
+INLINE uint16 load_lanes(global const uint* image, size_t at, int step, int lanes) {
+  if (lanes == STRIP) {
+    if (step == 1) return vload16(0, image + at);
+    return convert_uint16(vload16(0, (global const ulong*)image + at));
+  }
+  uint value[STRIP];
+  for (int i = 0; i < STRIP; ++i) value[i] = image[(at + (size_t)min(i, lanes - 1)) * (size_t)step];
+  return vload16(0, value);
+}
+
+// Rows lie on pages of their own, which no processor loads ahead by itself.
+#define ROWS_AHEAD 32
+
+// The least keys of a strip's rows, and what they carry: columns, or labels of a slice. Returns whether all sums held.
+static bool find_along_y(const line_t* l, global const int* site, const images_t* e, global const ushort* columns,
+                         global const uint* labels, int x0, int lanes) {
+  begin_keys(l);
+  for (int i = 0; i < l->count; ++i) {
+    const int y = site[i];
+    const int16 column = convert_int16(LOAD_SHORTS(columns + y * STRIP));
+    if (e->carried == CARRIES_LABELS) {
+      PREFETCH(labels + (size_t)min(y + ROWS_AHEAD, e->height - 1) * (size_t)e->width + (size_t)x0);
+      l->carried[y] = as_int16(load_lanes(labels, (size_t)y * (size_t)e->width + (size_t)x0, 1, lanes));
+    }
+    set_key(l, i, y, part_of(way_of(column - (LANE + x0), e->period_x), e->most_x_of_y, (one_key)e->square_x));
+  }
+  return find_along_line(l);
+}
+
 // --- Planes: rows, then strips. ---
 
 ITEM_KERNEL void nearest_in_rows(global const images_t* images, global const ushort* restrict marks,
-                                 global const uint* restrict counts, global ushort* restrict columns) {
+                                 global const uint* restrict counts, global ushort* restrict columns,
+                                 global uint* restrict labels) {
   const int height = images->height, width = images->width, words = SHORTS_OF_ROW(width);
   const int end = (int)((long)(ITEM + 1) * height / ITEMS);
   for (int y = (int)((long)ITEM * height / ITEMS); y < end; ++y) {
     if (counts[y] == 0) continue;
     find_in_row(marks + (size_t)y * (size_t)words, width, images->period_x != 0, columns + y * STRIP,
-                (size_t)SHORTS_OF_STRIP(height));
+                (size_t)SHORTS_OF_STRIP(height),
+                images->carried == CARRIES_LABELS ? labels + (size_t)y * (size_t)width : 0);
   }
 }
 
@@ -132,57 +163,43 @@ ITEM_KERNEL void nearest_in_strips(global const images_t* images, MEMORY_PARAMET
   const targets_t t = TARGETS_OF_PARAMETERS;
   global int* site;
   const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, e.longest), e.longest, e.height, e.period_y,
-                           e.bits_y, e.saturates_y, e.limit_y, costs, counts, &site);
+                           e.bits_y, e.saturates_y, e.limit_y, e.carried == CARRIES_LABELS, costs, counts, &site);
   const int strips = STRIPS_OF(e.width), end = (int)((long)(ITEM + 1) * strips / ITEMS);
   for (int s = (int)((long)ITEM * strips / ITEMS); s < end; ++s) {
     if (IS_SECOND && flags[s] == 0) continue;
     const int x0 = s * STRIP, lanes = min(STRIP, e.width - x0);
     global const ushort* const of_strip = columns + (size_t)s * (size_t)SHORTS_OF_STRIP(e.height);
-    const bool held = l.count == 0 || find_along_y(&l, site, &e, of_strip, x0);
+    const bool held = l.count == 0 || find_along_y(&l, site, &e, of_strip, labels, x0, lanes);
     flags[s] = !held;
     if (!held) continue;
     for (int y = 0; y < e.height; ++y) {
       if (l.count == 0) {
         store_none(x0, y, 0, lanes, &e, &t);
-        continue;
+      } else if (e.carried == CARRIES_LABELS) {
+        store_labels(l.found[y], x0, y, 0, lanes, &e, &t);
+      } else {
+        const keys best = l.best[y], square = square_of(best, l.bits);
+        const int16 row = sites_of(best, l.bits);
+        nearest_t n = {0, x0, y, 0, lanes, (int16)0, row, (int16)0, too_far(square, &e), square};
+        if (e.carried == CARRIES_PLACES) n.column = columns_of(row, y, of_strip);
+        store_nearest(&n, &e, &t);
       }
-      const keys best = l.best[y];
-      nearest_t n = {0, x0, y, 0, lanes, (int16)0, sites_of(best, l.bits), (int16)0, (int16)0, square_of(best, l.bits)};
-      n.column = columns_of(n.row, y, of_strip);
-      n.none = too_far(n.square, &e);
-      store_nearest(&n, &e, &t);
     }
   }
 }
 
-// --- Volumes: slices, then lines along z. ---
-
-// What is known of a voxel in its slice stands in an image: row << 16 | column, in every value or every second one.
-INLINE void store_packed(uint16 packed, global uint* between, size_t at, int step, int lanes) {
-  if (step == 1) {
-    STORE_LANES(uint, packed, between + at, lanes);
-  } else {
-    STORE_LANES(ulong, convert_ulong16(packed), (global ulong*)between + at, lanes);
-  }
-}
-INLINE uint16 load_packed(global const uint* between, size_t at, int step, int lanes) {
-  if (lanes == STRIP) {
-    if (step == 1) return vload16(0, between + at);
-    return convert_uint16(vload16(0, (global const ulong*)between + at));
-  }
-  uint value[STRIP];
-  for (int i = 0; i < STRIP; ++i) value[i] = between[(at + (size_t)min(i, lanes - 1)) * (size_t)step];
-  return vload16(0, value);
-}
+// --- Volumes: slices, then lines along z. What is known of a voxel in its slice stands in an image: row << 16 | column
+// where places are carried, else the squared distance. ---
 
 ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMETERS,
                                    global const ushort* restrict marks, global const uint* restrict counts,
                                    global ushort* restrict columns_of_items, global uint* restrict counts_of_slices,
-                                   global uint* restrict between, int step) {
+                                   global uint* restrict between, int step, global uint* restrict labels) {
   const images_t e = *images;
   const memory_t m = memory_of_item(keys_of_items, ints_of_items, e.longest);
   const int strips = STRIPS_OF(e.width);
   const size_t of_strip = (size_t)SHORTS_OF_STRIP(e.height);
+  const bool has_labels = e.carried == CARRIES_LABELS;
   global ushort* const columns = columns_of_items + (size_t)ITEM * (size_t)strips * of_strip;
   for (int z = ITEM; z < e.depth; z += ITEMS) {
     global uchar* const flag = flags + (size_t)z * (size_t)strips;
@@ -190,51 +207,60 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
     for (int s = 0; IS_SECOND && s < strips; ++s) some |= flag[s];
     if (some == 0) continue;
     global const uint* const of_rows = counts + (size_t)z * (size_t)e.height;
+    global uint* const labels_of_slice = labels + (has_labels ? index_of_pixel(0, 0, z, &e) : 0);
     global int* site;
-    const line_t l = line_of(m, e.longest, e.height, e.period_y, e.bits_y, e.saturates_y, e.limit_y, costs, of_rows,
-                             &site);
+    const line_t l = line_of(m, e.longest, e.height, e.period_y, e.bits_y, e.saturates_y, e.limit_y,
+                             e.carried == CARRIES_LABELS, costs, of_rows, &site);
     counts_of_slices[z] = (uint)l.count;
     for (int i = 0; i < l.count; ++i) {
       const size_t row = (size_t)z * (size_t)e.height + (size_t)site[i];
       find_in_row(marks + row * (size_t)SHORTS_OF_ROW(e.width), e.width, e.period_x != 0, columns + site[i] * STRIP,
-                  of_strip);
+                  of_strip, has_labels && !IS_SECOND ? labels_of_slice + (size_t)site[i] * (size_t)e.width : 0);
     }
     for (int s = 0; s < strips && l.count != 0; ++s) {
       if (IS_SECOND && flag[s] == 0) continue;
       const int x0 = s * STRIP, lanes = min(STRIP, e.width - x0);
       global const ushort* const found = columns + (size_t)s * of_strip;
-      const bool held = find_along_y(&l, site, &e, found, x0);
+      const bool held = find_along_y(&l, site, &e, found, labels_of_slice, x0, lanes);
       flag[s] = !held;
       if (!held) continue;
       for (int y = 0; y < e.height; ++y) {
-        const int16 row = sites_of(l.best[y], l.bits);
-        const size_t at = ((size_t)z * (size_t)e.height + (size_t)y) * (size_t)e.width + (size_t)x0;
-        store_packed(as_uint16(row << 16 | columns_of(row, y, found)), between, at, step, lanes);
+        const keys best = l.best[y];
+        const size_t at = index_of_pixel(x0, y, z, &e);
+        const int16 row = sites_of(best, l.bits);
+        const bool has_places = e.carried == CARRIES_PLACES;
+        store_lanes(has_places ? as_uint16(row << 16 | columns_of(row, y, found)) : convert_uint16(square_of(best, l.bits)),
+                    between, at, step, lanes);
+        if (has_labels) STORE_LANES(uint, as_uint16(l.found[y]), labels + at, lanes);
       }
     }
   }
 }
 
-// The least keys of a line along z.
-static bool find_along_z(const line_t* l, global const int* site, const images_t* e, global const int16* packed,
-                         int x0, int y) {
+// The least keys of a line along z, and what they carry. Returns whether all sums held.
+static bool find_along_z(const line_t* l, global const int* site, const images_t* e, global const uint* between,
+                         int step, global const uint* labels, int x0, int y, int lanes) {
+  const bool has_places = e->carried == CARRIES_PLACES, has_labels = e->carried == CARRIES_LABELS;
+  global int16* const known = has_places ? l->carried : l->found;
+  // Slices lie far apart: all is loaded before it is needed.
+  for (int i = 0; i < l->count; ++i) {
+    const size_t at = index_of_pixel(x0, y, site[i], e);
+    known[site[i]] = as_int16(load_lanes(between, at, step, lanes));
+    if (has_labels) l->carried[site[i]] = as_int16(load_lanes(labels, at, 1, lanes));
+  }
   begin_keys(l);
   for (int i = 0; i < l->count; ++i) {
-    const int16 p = packed[site[i]];
+    const int z = site[i];
+    const int16 p = known[z];
+    if (!has_places) {
+      set_key(l, i, z, TO_KEYS(as_uint16(p)));
+      continue;
+    }
     const int16 dx = way_of((p & 0xffff) - (LANE + x0), e->period_x), dy = way_of((p >> 16) - y, e->period_y);
-    set_key(l, i, site[i],
+    set_key(l, i, z,
             part_of(dx, e->most_x_of_z, (one_key)e->square_x) + part_of(dy, e->most_y_of_z, (one_key)e->square_y));
   }
   return find_along_line(l);
-}
-
-INLINE int16 packed_of(int16 site, int z, global const int16* packed) {
-  if (!some_of(site != (int16)z)) return packed[z];
-  int from[STRIP], found[STRIP];
-  vstore16(site, 0, from);
-#pragma unroll
-  for (int i = 0; i < STRIP; ++i) found[i] = ((global const int*)packed)[from[i] * STRIP + i];
-  return vload16(0, found);
 }
 
 ITEM_KERNEL void nearest_along_z(global const images_t* images, MEMORY_PARAMETERS, global const ushort* marks,
@@ -242,36 +268,31 @@ ITEM_KERNEL void nearest_along_z(global const images_t* images, MEMORY_PARAMETER
                                  TARGET_PARAMETERS) {
   const images_t e = *images;
   const targets_t t = TARGETS_OF_PARAMETERS;
-  const memory_t m = memory_of_item(keys_of_items, ints_of_items, e.longest);
   global int* site;
-  const line_t l = line_of(m, e.longest, e.depth, e.period_z, e.bits_z, e.saturates_z, e.limit_z, costs,
-                           counts_of_slices, &site);
+  const line_t l = line_of(memory_of_item(keys_of_items, ints_of_items, e.longest), e.longest, e.depth, e.period_z,
+                           e.bits_z, e.saturates_z, e.limit_z, e.carried == CARRIES_LABELS, costs, counts_of_slices,
+                           &site);
   const int strips = STRIPS_OF(e.width);
   for (int y = ITEM; y < e.height; y += ITEMS) {
     for (int s = 0; s < strips; ++s) {
       global uchar* const flag = flags + (size_t)y * (size_t)strips + s;
       if (IS_SECOND && *flag == 0) continue;
       const int x0 = s * STRIP, lanes = min(STRIP, e.width - x0);
-      for (int i = 0; i < l.count; ++i) {
-        const size_t at = ((size_t)site[i] * (size_t)e.height + (size_t)y) * (size_t)e.width + (size_t)x0;
-        m.packed[site[i]] = as_int16(load_packed(between, at, step, lanes));
-      }
-      const bool held = l.count == 0 || find_along_z(&l, site, &e, m.packed, x0, y);
+      const bool held = l.count == 0 || find_along_z(&l, site, &e, between, step, labels, x0, y, lanes);
       *flag = !held;
       if (!held) continue;
       for (int z = 0; z < e.depth; ++z) {
         if (l.count == 0) {
           store_none(x0, y, z, lanes, &e, &t);
-          continue;
+        } else if (e.carried == CARRIES_LABELS) {
+          store_labels(l.found[z], x0, y, z, lanes, &e, &t);
+        } else {
+          const keys best = l.best[z], square = square_of(best, l.bits);
+          const int16 slice = sites_of(best, l.bits);
+          const int16 place = e.carried == CARRIES_PLACES ? carried_by(slice, z, l.carried) : (int16)0;
+          nearest_t n = {0, x0, y, z, lanes, place & 0xffff, place >> 16, slice, too_far(square, &e), square};
+          store_nearest(&n, &e, &t);
         }
-        const keys best = l.best[z];
-        const keys square = square_of(best, l.bits);
-        nearest_t n = {0, x0, y, z, lanes, (int16)0, (int16)0, sites_of(best, l.bits), (int16)0, square};
-        const int16 packed = packed_of(n.slice, z, m.packed);
-        n.column = packed & 0xffff;
-        n.row = packed >> 16;
-        n.none = too_far(n.square, &e);
-        store_nearest(&n, &e, &t);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "exact/outer.hpp"
 #include "masks/mask_engine.hpp"
 
 namespace vorocl {
@@ -33,8 +34,12 @@ bool shows_marks(const Filling& filling) {
 }  // namespace
 
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
-  return state.device.tuning().shape == Shape::vector &&
-         (shows_marks(filling) || filling.placement().is_crowded);
+  if (state.device.tuning().shape != Shape::vector) return false;
+  if (shows_marks(filling)) return true;
+  constexpr std::size_t pixels_per_seed = 24;  // of fewer seeds candidates take a shorter time (measured)
+  const Placement& placement = filling.placement();
+  return placement.is_crowded || (!filling.seeds().fractions && !placement.grid.is_volume() &&
+                                  filling.seeds().size > placement.grid.pixels() / pixels_per_seed);
 }
 
 Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
@@ -42,15 +47,16 @@ Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {
   PassesWorkspace& memory = state.workspace<PassesWorkspace>();
   MaskEngine& engine = engine_of(state, memory, placement.grid, filling.metric());
   NearestTargets targets;
-  targets.ranks = state.labels;
   if (shows_marks(filling)) {
+    targets.ranks = state.labels;
     const auto [first, last] = engine.run(state.kernels, *filling.seeds().marks, targets);
     return filling.commit(0, first, last);
   }
-  const cl::Event first =
-      memory.seeds->take_seeds(state.kernels, placement.grid, *placement.positions, filling.seeds().size);
+  const cl::Event first = memory.seeds->paint(state.kernels, placement.grid, *placement.positions,
+                                              filling.seeds().size, state.labels);
+  targets.labels = state.labels;
   const cl::Event last = engine.run(state.kernels, *memory.seeds, targets).last;
-  return filling.commit(0, first, last);
+  return filling.commit(0, first, add_outer_seeds(filling, state, last));
 }
 
 }  // namespace vorocl

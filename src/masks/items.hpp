@@ -9,10 +9,19 @@
 
 namespace vorocl {
 
+inline std::size_t units_of(const Device& device) {
+  return device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
+}
+
 inline std::size_t items_of(const Device& device) {
   constexpr std::size_t least = 16, each_unit = 2;
-  const std::size_t units = device_info<cl_uint>(device.cl_device()(), CL_DEVICE_MAX_COMPUTE_UNITS);
-  return std::max(least, each_unit * units);
+  return std::max(least, each_unit * units_of(device));
+}
+
+/// The same of painting seeds, where each looks at all of them.
+inline std::size_t painters_of(const Device& device) {
+  constexpr std::size_t most = 8;
+  return std::min(most, units_of(device));
 }
 
 }  // namespace vorocl

@@ -120,27 +120,15 @@ struct PositionBits {
 
 }  // namespace
 
-cl::Event Marks::take_seeds(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions,
-                            std::size_t seeds) {
+cl::Event Marks::paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions,
+                       std::size_t seeds, const cl::Buffer& labels) {
   make_room();
-  if (ids() == nullptr || size_of(ids) < seeds * word)
-    ids = allocate(device, seeds * word, "the ids of marks");
   const PositionBits bits_of_position(grid);
-  const auto words = static_cast<cl_int>(shorts_of_row() * sizeof(cl_ushort) / sizeof(cl_ulong));
-  const auto row_count = static_cast<cl_int>(shape.rows());
-  const auto of_seeds = [&](const char* name, const auto&... more) {
-    mask_kernel(kernels, device, name)
-        .over_items(seeds, positions, static_cast<cl_uint>(seeds), shape.height, words, bits_of_position.x,
-                    bits_of_position.y, more...);
-  };
-  cl::Event first = fill(device, bits, cl_uint{0}, shape.rows() * shorts_of_row() * sizeof(cl_ushort) / word);
-  of_seeds("mark_seeds", bits);
-  mask_kernel(kernels, device, "count_marks").over_items(shape.rows(), bits, row_count, words, counts);
-  mask_kernel(kernels, device, "sum_counts").in_groups_of(1).over_items(1, counts, row_count);
-  rank(kernels);
-  fill(device, ids, no_label, seeds);
-  of_seeds("list_ids", bits, starts, ids);
-  return first;
+  return mask_kernel(kernels, device, "paint_seeds")
+      .in_groups_of(1)
+      .over_items(std::min(painters_of(device), shape.rows()), positions, static_cast<cl_uint>(seeds),
+                  shape.width, shape.height, static_cast<cl_int>(shape.rows()), bits_of_position.x,
+                  bits_of_position.y, bits, counts, labels);
 }
 
 void Marks::list(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions) const {

@@ -39,7 +39,6 @@ struct Marks {
   ImageShape shape;
   cl::Buffer bits, counts;  // of pixels; of rows (see sum_counts())
   cl::Buffer starts;        // null until they are ranked
-  cl::Buffer ids;           // of seeds by ranks, where they are no ranks; else null
 
   Marks(const Device& device_of_marks, const ImageShape& shape_of_image)
       : device(without_vectors(device_of_marks)), shape(shape_of_image) {}
@@ -49,9 +48,10 @@ struct Marks {
   /// Makes the bits of an image on the device; returns the command.
   cl::Event mark(KernelSet& kernels, const cl::Buffer& pixels, PixelType type, Marked marked);
 
-  /// Marks the pixels that have seeds, ranks the marks, and lists their ids. Returns the first command.
-  cl::Event take_seeds(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions,
-                       std::size_t seeds);
+  /// Marks the pixels that have seeds, and writes their ids there, the lowest of several. Returns the
+  /// command.
+  cl::Event paint(KernelSet& kernels, const PixelGrid& grid, const cl::Buffer& positions, std::size_t seeds,
+                  const cl::Buffer& labels);
 
   /// Makes it possible to look up the number of a mark.
   void rank(KernelSet& kernels);

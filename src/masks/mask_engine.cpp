@@ -75,10 +75,10 @@ MaskEngine::MaskEngine(const Device& device, const ImageShape& shape, const Pixe
     return std::int64_t{side - 1} * (side - 1) * square;
   };
   const auto [x, y, z] = whole.squares;
-  const std::int64_t most_in_slice = most_square(shape.width, x) + most_square(shape.height, y);
-  along_y_ = make_pass(shape.height, y, most_in_slice, std::max(x, y));
+  most_in_slice_ = most_square(shape.width, x) + most_square(shape.height, y);
+  along_y_ = make_pass(shape.height, y, most_in_slice_, std::max(x, y));
   if (shape.depth > 1) {
-    along_z_ = make_pass(shape.depth, z, most_in_slice + most_square(shape.depth, z), std::max({x, y, z}));
+    along_z_ = make_pass(shape.depth, z, most_in_slice_ + most_square(shape.depth, z), std::max({x, y, z}));
   }
 }
 
@@ -109,7 +109,17 @@ void MaskEngine::reserve(cl::Buffer& buffer, std::size_t bytes) {
   held_ += size_of(buffer);
 }
 
-cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool has_ids, bool is_far) const {
+int MaskEngine::carried_for(const NearestTargets& targets) const {
+  if (targets.labels() != nullptr) return CARRIES_LABELS;
+  const int wanted = wanted_of(targets);
+  const bool is_unit = size_.x == 1 && size_.y == 1 && (size_.z == 1 || shape_.depth == 1);
+  // Distances along lengths that are not whole are those of offsets.
+  const bool of_squares = is_unit || (wanted == WANTS_SQUARES && !std::isfinite(targets.farthest));
+  const bool distances_alone = (wanted & ~(WANTS_SQUARES | WANTS_FLOATS | WANTS_DOUBLES)) == 0;
+  return distances_alone && of_squares ? CARRIES_NOTHING : CARRIES_PLACES;
+}
+
+cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, bool is_far) const {
   images_t images = {};
   images.square_x = whole_.squares[0];
   images.square_y = whole_.squares[1];
@@ -144,19 +154,22 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, bool has_ids, bo
   images.most_y_of_z = way_of_limit(along_z_.limit, whole_.squares[1]);
   images.is_volume = shape_.is_volume;
   images.wanted = wanted_of(targets);
+  images.carried = carried;
   images.bytes_of_value = static_cast<cl_int>(bytes_of(targets.type_of_values));
-  images.has_ids = has_ids;
   return allocate_with(device_, &images, sizeof images, "the sizes of an image");
 }
 
 template <typename Run>
-cl::Event MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips,
-                               Run run) {
-  cl::Event first = pass.starts_far ? fill(device_, flags_, cl_uchar{1}, strips)
-                                    : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
-  if (!pass.saturates) return first;
-  return run(mask_kernel(kernels, device_, name, {metric_, Neighbourhood::moore, Extent::far}),
-             pass.far_costs, true);
+Commands MaskEngine::run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips,
+                              Run run) {
+  const cl::Event first = pass.starts_far
+                              ? fill(device_, flags_, cl_uchar{1}, strips)
+                              : run(mask_kernel(kernels, device_, name, {metric_}), pass.costs, false);
+  if (!pass.saturates) return {first, first};
+  const cl::Event last =
+      run(mask_kernel(kernels, device_, name, {metric_, Neighbourhood::moore, Extent::far}), pass.far_costs,
+          true);
+  return {first, last};
 }
 
 Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTargets& targets) {
@@ -164,7 +177,6 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   const auto depth = static_cast<std::size_t>(shape_.depth);
   const std::size_t strips = static_cast<std::size_t>(STRIPS_OF(shape_.width)),
                     longest = std::max(height, depth);
-  const std::size_t of_columns = strips * SHORTS_OF_STRIP(height) * sizeof(cl_ushort);
   const bool is_volume = depth > 1, saturates = along_y_.saturates || along_z_.saturates;
   const std::size_t items_of_slices = std::min(items_, depth), items_of_strips = std::min(items_, strips);
   const std::size_t items = std::min(items_, is_volume ? longest : strips);
@@ -172,30 +184,32 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
   reserve(keys_, items * VECTORS_OF_KEYS(longest) * bytes_of_keys);
   reserve(ints_, items * VECTORS_OF_INTS(longest) * bytes_of_ints);
   reserve(flags_, strips * (is_volume ? longest : 1));
+  const std::size_t of_columns = strips * SHORTS_OF_STRIP(height) * sizeof(cl_ushort);
   reserve(columns_, of_columns * (is_volume ? items_of_slices : 1));
-  const cl::Buffer near = images_of(targets, marks.ids() != nullptr, false),
-                   far = saturates ? images_of(targets, marks.ids() != nullptr, true) : nothing_;
+  const int carried = carried_for(targets);
+  const cl::Buffer near = images_of(targets, carried, false),
+                   far = saturates ? images_of(targets, carried, true) : nothing_;
   const auto given = [&](const cl::Buffer& buffer) -> const cl::Buffer& {
     return buffer() == nullptr ? nothing_ : buffer;
   };
   const auto run_last = [&](std::size_t count, Kernel& kernel, const auto&... arguments) {
     return kernel.in_groups_of(1).over_items(count, arguments..., given(targets.distances),
                                              given(targets.indices), given(targets.places),
-                                             given(targets.ranks), given(marks.starts), given(marks.ids),
-                                             given(targets.values), given(targets.image));
+                                             given(targets.ranks), given(marks.starts), given(targets.values),
+                                             given(targets.image), given(targets.labels));
   };
   if (!is_volume) {
-    const cl::Event first =
-        mask_kernel(kernels, device_, "nearest_in_rows")
-            .in_groups_of(1)
-            .over_items(std::min(items_, height), near, marks.bits, marks.counts, columns_);
-    const cl::Event last =
+    const cl::Event first = mask_kernel(kernels, device_, "nearest_in_rows")
+                                .in_groups_of(1)
+                                .over_items(std::min(items_, height), near, marks.bits, marks.counts,
+                                            columns_, given(targets.labels));
+    const Commands in_strips =
         run_pass(kernels, along_y_, "nearest_in_strips", strips,
                  [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
                    return run_last(items_of_strips, kernel, is_far ? far : near, costs, keys_, ints_, flags_,
                                    marks.bits, marks.counts, columns_);
                  });
-    return {first, last};
+    return {first, in_strips.last};
   }
   // What is known in the slices stands in a target until the last pass, if one has room.
   const auto holds = [](PixelType type) { return static_cast<cl_int>(bytes_of(type) / sizeof(cl_uint)); };
@@ -218,19 +232,20 @@ Commands MaskEngine::run(KernelSet& kernels, const Marks& marks, const NearestTa
     between = between_;
   }
   reserve(slices_, depth * word);
-  const cl::Event first = run_pass(kernels, along_y_, "nearest_in_slices", strips * depth,
-                                   [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
-                                     return kernel.in_groups_of(1).over_items(
-                                         items_of_slices, is_far ? far : near, costs, keys_, ints_, flags_,
-                                         marks.bits, marks.counts, columns_, slices_, between, step);
-                                   });
-  const cl::Event last =
+  const Commands in_slices =
+      run_pass(kernels, along_y_, "nearest_in_slices", strips * depth,
+               [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
+                 return kernel.in_groups_of(1).over_items(items_of_slices, is_far ? far : near, costs, keys_,
+                                                          ints_, flags_, marks.bits, marks.counts, columns_,
+                                                          slices_, between, step, given(targets.labels));
+               });
+  const Commands along_z =
       run_pass(kernels, along_z_, "nearest_along_z", strips * height,
                [&](Kernel& kernel, const cl::Buffer& costs, bool is_far) {
                  return run_last(std::min(items_, height), kernel, is_far ? far : near, costs, keys_, ints_,
                                  flags_, marks.bits, slices_, between, step);
                });
-  return {first, last};
+  return {in_slices.first, along_z.last};
 }
 
 }  // namespace vorocl

@@ -14,9 +14,10 @@ namespace vorocl {
 struct NearestTargets {
   cl::Buffer distances;
   PixelType type_of_distances = PixelType::float32;  // or float64; uint32: squares
-  cl::Buffer indices, places, ranks;                 // ranks: ids where the marks have some
-  cl::Buffer values, image;                          // may be one buffer
+  cl::Buffer indices, places, ranks;
+  cl::Buffer values, image;  // may be one buffer
   PixelType type_of_values = PixelType::uint32;
+  cl::Buffer labels;  // alone: has those of the marks, and gets those of all pixels
   double farthest = std::numeric_limits<double>::infinity();
 };
 
@@ -45,13 +46,16 @@ class MaskEngine {
     bool starts_far = false;  // these would seldom do
   };
   Pass make_pass(int size, std::int64_t square, std::int64_t most, std::int64_t greatest_square) const;
+  /// What passes carry for these targets (kernels/masks/sizes.cl).
+  int carried_for(const NearestTargets& targets) const;
+
   void reserve(cl::Buffer& buffer, std::size_t bytes);
 
-  /// Runs a kernel by keys of 32 bits, and of 64 where these do not hold all. Returns the last command.
+  /// Runs a kernel by keys of 32 bits, and of 64 where these do not hold all.
   template <typename Run>
-  cl::Event run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips, Run run);
+  Commands run_pass(KernelSet& kernels, const Pass& pass, const char* name, std::size_t strips, Run run);
 
-  cl::Buffer images_of(const NearestTargets& targets, bool has_ids, bool is_far) const;
+  cl::Buffer images_of(const NearestTargets& targets, int carried, bool is_far) const;
 
   Device device_;  // without vectors
   ImageShape shape_;
@@ -60,6 +64,7 @@ class MaskEngine {
   Metric metric_;
   std::size_t items_;
   Pass along_y_, along_z_;
+  std::int64_t most_in_slice_;  // of squared distances
   cl::Buffer keys_, ints_, flags_, columns_, slices_, between_, nothing_;
   std::size_t held_ = 0;
 };
