@@ -38,7 +38,7 @@ bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   if (shows_marks(filling)) return true;
   constexpr std::size_t pixels_per_seed = 24;  // of fewer seeds candidates take a shorter time (measured)
   const Placement& placement = filling.placement();
-  return placement.is_crowded || (!filling.seeds().fractions && !placement.grid.is_volume() &&
+  return placement.is_crowded || (!filling.seeds().are_points && !placement.grid.is_volume() &&
                                   filling.seeds().size > placement.grid.pixels() / pixels_per_seed);
 }
 
