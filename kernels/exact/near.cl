@@ -33,9 +33,9 @@ static inline bool take_near(Near* near, const SeedIndex* index, int x, int y, i
   return true;
 }
 
-// Labels rows of so many bins, one above the other, if there are seeds near and all of their candidates are; else false. No
-// pixel of the box is farther from the seed nearest to its centre than the farthest corner is, so every candidate is
-// no farther from some pixel.
+// Labels rows of so many bins, one above the other, if there are seeds near and all of their candidates are; else
+// false. No pixel of the box is farther from the seed nearest to its centre than the farthest corner is, so every
+// candidate is no farther from some pixel.
 static bool label_by_near(const SeedIndex* index, int x, int y, int bins, int first, int rows, global uint* labels) {
   Near near;
   near.box = box_of(index, x * BIN, y * BIN + first, BIN, rows);

@@ -44,17 +44,17 @@
 #define MOST_CANDIDATES 1024
 #endif
 
-// WHO LABELS A BIN. By the number of seeds near its pair, in its two bins and the ten around them: a pair with less than
-// SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is labelled as a whole,
-// of another each bin by itself. Measured: at these numbers the two ways take the same time.
+// WHO LABELS A BIN. By the number of seeds near its pair, in its two bins and the ten around them: a pair with less
+// than SPARSE is left to label_far, because its candidates are seldom near; one with less than MEDIUM is labelled as a
+// whole, of another each bin by itself. Measured: at these numbers the two ways take the same time.
 #define SPARSE 5
 #define MEDIUM 24
 
 // Where the group shape looks along rows for seeds: up to so many pixels away along each axis.
 #define REACH ((1 << BIN_BITS) - 1)
 
-// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere, and in the bin itself only some can be
-// candidates for pixels without a seed: see collect.cl. The others label their own pixels.
+// Of a bin with CROWDED seeds or more only some seeds can be candidates elsewhere, and in the bin itself only some can
+// be candidates for pixels without a seed: see collect.cl. The others label their own pixels.
 #define CROWDED 160
 
 // A region of more seeds gets no list: its tiles search for themselves.

@@ -196,7 +196,8 @@ INLINE void paint(const painter_t* p, uint16 position, uint id) {
 ITEM_KERNEL void paint_seeds(global const uint* restrict positions, uint count, int width, int height, int rows,
                              int bits_x, int bits_y, global ushort* marks, global uint* counts, global uint* labels) {
   const long parts = (long)get_global_size(0), id = (long)get_global_id(0);
-  const uint words = (uint)SHORTS_OF_ROW(width), first = (uint)(id * rows / parts), end = (uint)((id + 1) * rows / parts);
+  const uint words = (uint)SHORTS_OF_ROW(width);
+  const uint first = (uint)(id * rows / parts), end = (uint)((id + 1) * rows / parts);
   const painter_t p = {first,        end - first,  (uint)width, (uint)height, words,
                        (uint)bits_x, (uint)bits_y, marks,       counts,       labels};
   for (size_t i = (size_t)first * words; i < (size_t)end * words; ++i) marks[i] = 0;

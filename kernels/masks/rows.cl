@@ -14,8 +14,8 @@ typedef struct __attribute__((packed)) {
 #define LOAD_SHORTS(p) (((global const any_ushort16*)(p))->v)
 #define STORE_SHORTS(values, p) (((global any_ushort16*)(p))->v = (values))
 
-// What is read or written soon.
-#ifdef __clang__
+// What is read or written soon. (The function of PoCL does nothing; Oclgrind knows no other.)
+#ifdef POCL_DEVICE_ADDRESS_BITS
 #define PREFETCH(address) __builtin_prefetch(address, 0, 2)
 #else
 #define PREFETCH(address) prefetch(address, 1)

@@ -35,7 +35,7 @@
 // places find; and for each place the ends of the sites that are tried, the number of a site in the list of sites, the
 // list, and where these are.
 #define KEYS_OF_LINE(longest) (2 * ((longest) + PAD))
-#define CARRIED_BY_LINE(longest) ((longest) + 2 * PAD)
+#define CARRIED_BY_LINE(longest) ((longest) + PAD + PAD)
 #define INTS_OF_LINE(longest) (8 * (longest) + 64)
 #define VECTORS_OF_KEYS(longest) (KEYS_OF_LINE(longest) + (longest))
 #define VECTORS_OF_INTS(longest) (CARRIED_BY_LINE(longest) + (longest) + INTS_OF_LINE(longest) / STRIP + 1)

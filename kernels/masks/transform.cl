@@ -229,8 +229,9 @@ ITEM_KERNEL void nearest_in_slices(global const images_t* images, MEMORY_PARAMET
         const size_t at = index_of_pixel(x0, y, z, &e);
         const int16 row = sites_of(best, l.bits);
         const bool has_places = e.carried == CARRIES_PLACES;
-        store_lanes(has_places ? as_uint16(row << 16 | columns_of(row, y, found)) : convert_uint16(square_of(best, l.bits)),
-                    between, at, step, lanes);
+        uint16 known = convert_uint16(square_of(best, l.bits));
+        if (has_places) known = as_uint16(row << 16 | columns_of(row, y, found));
+        store_lanes(known, between, at, step, lanes);
         if (has_labels) STORE_LANES(uint, as_uint16(l.found[y]), labels + at, lanes);
       }
     }

@@ -103,9 +103,10 @@ void make_diagrams(const Device& device, const Grid& grid, Metric metric) {
 }
 
 /// Seeds on every pixel at the left, some in the middle and none at the right: the exact engine takes another
-/// way in each part. Its lists of two entries overflow nearly always.
-void make_exact_diagrams(const Device& device, const Grid& grid, Metric metric) {
-  std::vector<Pixel> pixels = every_pixel({35, grid.height()});
+/// way in each part. Its lists of two entries overflow nearly always. `rows`: those that are full at the
+/// left.
+void make_exact_diagrams(const Device& device, const Grid& grid, int rows, Metric metric) {
+  std::vector<Pixel> pixels = every_pixel({18, rows});
   for (Pixel pixel : random_pixels({40, grid.height()}, 40, 4)) pixels.push_back({pixel.x + 35, pixel.y});
   pixels.push_back(pixels.back());
   const Seeds seeds(device, grid, centres(pixels), to_centres);
@@ -378,8 +379,10 @@ int main() {
       make_diagrams(shaped, grid, metric);
       make_seeds(shaped, grid);
     }
-    make_exact_diagrams(shaped, Grid(176, 90), metric);
-    make_exact_diagrams(shaped, Grid(140, 66, Axes::xy), other);
+    for (const int rows : {17, 66}) {  // few seeds, and so many that passes label the plane
+      make_exact_diagrams(shaped, Grid(176, 90), rows, metric);
+      make_exact_diagrams(shaped, Grid(140, 66, Axes::xy), rows, other);
+    }
     make_windows(shaped, metric);
     make_diagrams_of_points(shaped, metric);
     if (!in_groups) make_ring(shaped, metric);
