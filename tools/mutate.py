@@ -74,10 +74,10 @@ HOST_TESTS = [
     ("tools/formats/csv.cpp", ["points"]), ("tools/formats/npy.cpp", ["points", "label_files"]),
     ("tools/formats/tiff.cpp", ["label_files", "large_claims"]), ("tools/formats/vtk.cpp", ["vtk"]),
     ("tools/formats/numbered_files.cpp", ["output_files", "simulate_files"]),
-    ("tools/formats/output_file.cpp", ["written_files", "resume"]),
+    ("tools/formats/output_file.cpp", ["written_files", "resume_tiles"]),
     ("tools/formats/images/image_header.cpp", ["large_claims"]),
     ("tools/formats/trajectory/*.cpp", ["trajectory", "trajectory_errors", "xyz"]),
-    ("tools/app/outputs/journal.cpp", ["resume"]),
+    ("tools/app/outputs/journal.cpp", ["resume_tiles"]),
     ("tools/app/sources/particles.cpp", ["particle_slots", "periodic_step", "simulate_trajectory"]),
     ("tools/app/sources/bounds.cpp", ["bounds"]),
 ]
@@ -198,7 +198,7 @@ class Host:
 
     def builds(self, tests):
         targets = ["vorocl_tool", *(f"test_{test}" for test in tests)]
-        if "resume" in tests:
+        if "resume_tiles" in tests:
             targets.append("vorocl_faults")
         return subprocess.run(["cmake", "--build", "build", "--target", *targets], cwd=self.folder,
                               env=self.environment, stdout=subprocess.DEVNULL,

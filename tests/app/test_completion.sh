@@ -21,7 +21,7 @@ expect "render relax" re
 expect "cells compare" c
 expect "devices" d
 expect "--check" devices --c
-expect "--resume" simulate --res
+expect "--resume" tiles --res
 expect "jfa jfa+1 jfa+2" render --method j
 expect "euclidean manhattan" render --metric ""
 expect "viridis viridis_r" render --metric manhattan --palette v

@@ -246,7 +246,7 @@ BOOST_AUTO_TEST_CASE(what_exact_frames_cannot_do_is_refused_before_the_work) {
   refuses(folder, "simulate --exact --random 5 --size 9x9 --cells c.csv", usage, {"--exact", "trajectory"});
   for (const char* const option :
        {"--method jfa", "--metric manhattan", "-o f.mp4", "--labels l%d.npy", "--statistics s.csv",
-        "--resume", "--compare-with jfa", "--units px", "--snap", "--size 9x9", "--fit frame"}) {
+        "--compare-with jfa", "--units px", "--snap", "--size 9x9", "--fit frame"}) {
     const std::string text = option;
     refuses(folder, fmt::format("{}--cells c.csv {}", exact, text), usage,
             {text.substr(0, text.find(' ')), "--exact"});

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/sources/random_seeds.hpp"
+#include "formats/npy.hpp"
 #include "formats/raster_files.hpp"
 #include "run_command.hpp"
 

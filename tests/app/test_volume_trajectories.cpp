@@ -137,8 +137,6 @@ BOOST_AUTO_TEST_CASE(what_is_complete_of_a_run_stays) {
              std::string::npos);
   BOOST_TEST(content_of(folder / "v.pvd").find("timestep=\"7\" part=\"0\" file=\"v0.vti\"") !=
              std::string::npos);
-  folder.file("v%d.vti.journal", "of a run");
-  BOOST_TEST(run(folder, run_of_it).error.find("v%d.vti.journal") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
@@ -502,34 +500,6 @@ BOOST_AUTO_TEST_CASE(frames_share_what_does_not_repeat) {
   BOOST_TEST(run(folder, spaced + "--cells c.csv").error.find("other units") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_run_goes_on_where_it_stopped) {
-  const TemporaryFolder folder, whole;
-  const std::string run_of_it =
-      "simulate --trajectory a.lammpstrj --size 20x40x12 --method jfa --labels l%d.vti --cells c.csv "
-      "--adjacency a%d.csv -o p%d.png --slice z=3 --points-overlay ";
-  const std::string good = dump_frame(7, first, some, false) + dump_frame(8, first, others, true);
-  whole.file("a.lammpstrj", good);
-  succeeds(whole, run_of_it);
-  folder.file("a.lammpstrj", good.substr(0, good.size() - 10));
-  BOOST_TEST(run(folder, run_of_it + "--resume").error.find("frames complete before that: 1") !=
-             std::string::npos);
-  BOOST_TEST(content_of(folder / "l1.vti").empty());
-  std::vector<Particle> moved = some;
-  moved[0].at[2] += 2;
-  folder.file("a.lammpstrj", dump_frame(7, first, moved, false) + dump_frame(8, first, others, true));
-  refuses(folder, run_of_it + "--resume", failure, {"the seeds of frames 0 to 0 are others"});
-  Space deeper = first;
-  deeper.low[2] -= 0.01;  // each particle is in its voxel still
-  folder.file("a.lammpstrj", dump_frame(7, deeper, some, false) + dump_frame(8, first, others, true));
-  refuses(folder, run_of_it + "--resume", failure, {"the seeds of frames 0 to 0 are others"});
-  folder.file("a.lammpstrj", good);
-  succeeds(folder, run_of_it + "--resume");
-  BOOST_TEST((folder.names() == whole.names()));
-  for (const std::string& name : whole.names()) {
-    if (name != "streams") BOOST_TEST((content_of(folder / name) == content_of(whole / name)), name);
-  }
-}
-
 BOOST_AUTO_TEST_CASE(flooding_is_compared_with_exact_labels) {
   if (!can_be_exact()) return;
   const TemporaryFolder folder;
@@ -665,7 +635,6 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
     refuses(folder, simulate + option, usage, {"djfa is for planes; volumes have"});
   }
   refuses(folder, simulate + "-o %d.png", usage, {"-o needs --slice z=K"});
-  refuses(folder, simulate + "-o a.mp4 --slice z=1 --resume", usage, {"--resume cannot go on with a film"});
   for (const std::string of_volumes : {"--bounds 0,0,0,8,8,8", "--periodic xz", "--columns x,y,z"}) {
     refuses(folder, "render --points p.csv --size 8x8 --labels a.npy " + of_volumes, usage, {"for volumes"});
   }

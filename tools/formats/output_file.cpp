@@ -222,7 +222,7 @@ void GrowingFile::finish() {
 }
 
 void GrowingFile::mark() {
-  if (name_ || !part_.empty()) marked_ = lseek(descriptor_, 0, SEEK_CUR);  // a device cannot be cut
+  if (name_) marked_ = lseek(descriptor_, 0, SEEK_CUR);  // a device cannot be cut
 }
 
 void GrowingFile::flush() {

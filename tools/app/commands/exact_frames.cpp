@@ -63,7 +63,8 @@ class ExactRun {
   explicit ExactRun(const ExactFramesOptions& options)
       : options_(options),
         cells_(options.cells, exact_cells_table(options.cells.kind.table()->columns)),
-        pairs_(options.adjacency, exact_pairs_table()) {
+        pairs_(options.adjacency, exact_pairs_table()),
+        frame_(options.frames.first) {
     if (!options.polygons.empty()) polygons_.emplace(options.polygons);
   }
 
@@ -71,15 +72,15 @@ class ExactRun {
     const Seeds seeds = input.place(device);
     const Report report = exact_cells(seeds, result_);
     ExactCellRows rows(seeds, result_, input, points_up(options_.seeds));
-    if (frames_ % options_.every == 0) {
-      cells_.add(rows, frames_, input.timestep.value_or(frames_));
-      pairs_.add(rows, frames_, input.timestep.value_or(frames_));
-      if (polygons_) rows.write_polygons(polygons_->file(frames_));
+    if (frame_ % options_.every == 0) {
+      cells_.add(rows, frame_, input.timestep.value_or(frame_));
+      pairs_.add(rows, frame_, input.timestep.value_or(frame_));
+      if (polygons_) rows.write_polygons(polygons_->file(frame_));
     }
     mark_tables();
     uncertified_ += rows.uncertified();
     milliseconds_.add(report.milliseconds());
-    ++frames_;
+    ++frame_;
   }
 
   /// Gives the tables, with the rows of complete frames, their names.
@@ -88,19 +89,22 @@ class ExactRun {
     pairs_.finish();
   }
 
-  int frames() const { return frames_; }
+  int next_frame() const { return frame_; }
+  bool has_tables() const { return cells_.table() != nullptr || pairs_.table() != nullptr; }
+  int frames() const { return frame_ - options_.frames.first; }
 
   void print_result(const Device& device) const {
     if (options_.json) {
       print_json(Json{{"exact", true},
                       {"device", device.name()},
-                      {"frames", frames_ - 1},
+                      {"first_frame", options_.frames.first},
+                      {"frames", frames() - 1},
                       {"uncertified", uncertified_},
                       {"milliseconds", milliseconds_.mean()}});
       return;
     }
-    print("exact cells of frame 0 and {} after it in {:.1f} ms each, on {}\n", counted(frames_ - 1, "frame"),
-          milliseconds_.mean(), device.name());
+    print("exact cells of frame {} and {} after it in {:.1f} ms each, on {}\n", options_.frames.first,
+          counted(frames() - 1, "frame"), milliseconds_.mean(), device.name());
     print_written(requested_files(options_));
   }
 
@@ -118,7 +122,7 @@ class ExactRun {
   ExactTables cells_, pairs_;
   std::optional<NumberedFiles> polygons_;
   ExactCellsResult result_;
-  int frames_ = 0;
+  int frame_;                    // the next one
   std::size_t uncertified_ = 0;  // cells
   Samples milliseconds_;
 };
@@ -131,14 +135,19 @@ void run_exact_frames(const ExactFramesOptions& options) {
   check_seed_options(options.seeds, false);
   ExactRun run(options);
   ExactFrames frames(options.seeds);
+  while (frames.count() < options.frames.first && frames.skip()) {
+    if (interruption.came()) throw Error("interrupted, before the first frame was made");
+  }
   std::optional<ExactInput> input = frames.next();
-  if (!input) throw Error(options.seeds.trajectory + ": there is no frame");
+  if (!input)
+    throw Error(fmt::format("{}: there is no frame {}, only {}", options.seeds.trajectory,
+                            options.frames.first, counted(frames.count(), "frame")));
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   std::string trouble, late;
   try {
-    const int most = options.frames ? *options.frames + 1 : std::numeric_limits<int>::max();
-    for (Progress progress; input; input = run.frames() < most ? frames.next() : std::nullopt) {
+    const int last = options.frames.last.value_or(std::numeric_limits<int>::max());
+    for (Progress progress; input; input = run.next_frame() <= last ? frames.next() : std::nullopt) {
       run.add(device, *input);
       progress.show(run.frames(), std::nullopt);
       if (interruption.came()) {
@@ -156,7 +165,8 @@ void run_exact_frames(const ExactFramesOptions& options) {
     late = fmt::format("; {}", error.what());
   }
   if (!trouble.empty())
-    throw Error(fmt::format("{}; frames complete before that: {}{}", trouble, run.frames(), late));
+    throw Error(fmt::format("{}; frames complete before that: {}{}{}", trouble, run.frames(),
+                            how_to_continue(options.frames, run.frames(), run.has_tables()), late));
   run.print_result(device);
 }
 

@@ -1,11 +1,10 @@
 // vorocl simulate --exact: cells as polygons in each frame of a trajectory, without diagrams.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "app/outputs/diagram_files.hpp"
-#include "app/sources/seed_input.hpp"
+#include "app/sources/moving_seeds.hpp"
 
 namespace vorocl::command {
 
@@ -13,9 +12,9 @@ struct ExactFramesOptions {
   SeedOptions seeds;
   std::string device;
   FileRequest cells, adjacency;
-  std::string polygons;       // a pattern; empty: not asked for
-  std::optional<int> frames;  // after frame 0; none: all
-  int every = 1;              // of the numbered files
+  std::string polygons;  // a pattern; empty: not asked for
+  FrameRange frames;
+  int every = 1;  // of the numbered files
   bool json = false;
 };
 

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -19,7 +18,6 @@
 #include "app/terminal/selected_device.hpp"
 #include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
-#include "vorocl/version.hpp"
 
 namespace vorocl::command {
 
@@ -69,33 +67,30 @@ class Run {
                                       source_.view(), buffers_);
   }
 
-  /// Goes through the frames that an earlier run has completed. A method that goes on from the last labels
-  /// makes them anew, because what it knows of them besides the labels is in no file. Throws Error if they
-  /// are of other seeds.
-  void pass_complete_frames() {
-    const FrameJournal& journal = *writer_.journal();
+  /// Goes through the frames before the first one. A method that goes on from the last labels makes them
+  /// anew, because what it knows of them besides the labels is in no file. Throws Error if there are fewer.
+  void pass_frames() {
+    const int first = options_.motion.frames.first;
     const bool makes_all =
         options_.method.continues || (options_.compare_with && options_.compare_with->continues);
     Progress progress;
-    for (int frame = 0; frame <= journal.last_frame(); ++frame) {
-      if (frame > 0 && !source_.next()) refuse_seeds();
-      const bool needs_diagram = writer_.needs_diagram(frame);
+    for (int frame = 0; frame < first; ++frame) {
+      if (frame > 0) require_next(frame);
+      const bool needs_diagram = writer_.needs_diagram(frame, first);
       makes_all || needs_diagram ? make_diagrams() : simulation_.skip();
-      add_to_hash();
-      if (frame == journal.last_frame() && course_.seeds.value() != journal.seeds()) refuse_seeds();
       const std::shared_ptr<Measures> measures = needs_diagram ? this->measures() : nullptr;
-      writer_.go_on_from(facts(), measures.get());
+      writer_.pass(facts(), measures.get());
       progress.show(frame + 1, source_.done());
-      if (interruption_.came()) throw Error("interrupted, before there was a new frame");
+      if (interruption_.came()) throw Error("interrupted, before the first frame was made");
     }
-    course_.frames = course_.made_before = writer_.complete();
+    if (first > 0) require_next(first);
   }
 
-  /// The frames behind those that are complete: all, or those before a signal or an error.
+  /// The frames of the run: all, or those before a signal or an error.
   void make_frames() {
     Progress progress;
     try {
-      for (bool more = course_.frames == 0 || source_.next(); more; more = source_.next()) {
+      for (bool more = true; more; more = source_.next()) {
         add_frame();
         progress.show(simulation_.frame() + 1, source_.done());
         if (interruption_.came()) {
@@ -127,11 +122,10 @@ class Run {
     });
   }
 
-  [[noreturn]] void refuse_seeds() const {
-    const FrameJournal& journal = *writer_.journal();
-    throw Error(
-        fmt::format("the seeds of frames 0 to {} are others than those that {} is of; give those, or {}",
-                    journal.last_frame(), journal.path(), how_to_start_again(journal.path())));
+  void require_next(int frame) {
+    if (!source_.next())
+      throw Error(fmt::format("{}: there is no frame {}, only {}", options_.seeds.trajectory,
+                              options_.motion.frames.first, counted(frame, "frame")));
   }
 
   /// Makes the diagrams of the next frame.
@@ -154,10 +148,6 @@ class Run {
     if (writer_.wants(frame)) {
       measures = this->measures();
       facts.milliseconds = simulation_.report(main_engine).milliseconds();
-    }
-    if (writer_.journal() != nullptr) {
-      add_to_hash();
-      facts.seeds = course_.seeds.value();
     }
     writer_.add(std::move(facts), measures);
     if (frame % most_frames_ahead == 0) {
@@ -199,35 +189,7 @@ class Run {
             0,
             source_.box(),
             source_.values(),
-            {},
-            source_.view().units};
-  }
-
-  /// Adds what the frame's files follow from, besides the options.
-  void add_to_hash() {
-    const auto add = [this](double value) {
-      std::uint64_t bits = 0;
-      std::memcpy(&bits, &value, sizeof bits);
-      course_.seeds.add(bits);
-    };
-    const View& view = source_.view();
-    const Grid& grid = view.window.grid();
-    for (const std::optional<Point>& of_grid : simulation_.seeds().read_pixels()) {
-      const Point place = of_grid ? view.from_grid(*of_grid) : Point{-1, -1, -1};
-      for (const double value : {place.x, place.y, place.z}) add(value);
-    }
-    for (const Axis* const axis : {&grid.x(), &grid.y(), &grid.z()}) {
-      for (const double value : {axis->from(), axis->to()}) add(value);
-    }
-    for (const int value : {view.picture.size.width(), view.picture.size.height(), view.x, view.y})
-      add(value);
-    const Bounds bounds = view.picture.georeference ? view.picture.georeference->bounds : Bounds();
-    for (const double at : {bounds.x0, bounds.y0, bounds.x1, bounds.y1}) add(at);
-    add(grid.tilt());
-    add(static_cast<double>(grid.periodic()));
-    for (const std::uint32_t id : source_.ids()) course_.seeds.add(id);
-    for (const double value : source_.values()) add(value);
-    course_.seeds.add(static_cast<std::uint64_t>(source_.timestep().value_or(0)));
+            {}};
   }
 
   const SimulateOptions& options_;
@@ -247,7 +209,7 @@ void run(const SimulateOptions& options) {
   const Interruption interruption;  // before there are files
   check_outputs(as_usage([&] { return requested_files(options.output); }), options.seeds);
   check_picture_options(options.output.picture);
-  FrameWriter writer(options.output, options.other_is_exact(), options.run);
+  FrameWriter writer(options.output, options.other_is_exact());
   const std::unique_ptr<MovingSeeds> source = read_moving_seeds(options.seeds, options.motion, interruption);
   const View& view = source->view();
   const std::optional<VolumeSlice>& slice = options.output.picture.slice;
@@ -256,15 +218,9 @@ void run(const SimulateOptions& options) {
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   Run run(options, *source, device, interruption, writer);
-  const FrameJournal* const journal = writer.journal();
-  if (journal != nullptr) run.pass_complete_frames();
+  run.pass_frames();
   run.make_frames();
   const Course& course = run.course();
-  if (journal != nullptr && !course.trouble.empty()) {
-    throw Error(
-        fmt::format("{}; frames complete before that: {}; the same command goes on behind them, with {}",
-                    course.trouble, course.frames, journal->path()));
-  }
   std::string late;
   try {
     if (course.frames > 0) writer.finish();
@@ -272,7 +228,12 @@ void run(const SimulateOptions& options) {
     if (course.trouble.empty()) throw;
     late = fmt::format("; {}", error.what());
   }
-  if (!course.trouble.empty()) throw Error(course.trouble + writer.progress() + late);
+  if (!course.trouble.empty()) {
+    const bool is_film = extension_of(options.output.picture_path) == film_extension;
+    const std::string more =
+        is_film ? "" : how_to_continue(options.motion.frames, course.frames, writer.has_tables());
+    throw Error(course.trouble + writer.progress() + more + late);
+  }
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
 
@@ -374,7 +335,6 @@ void add_simulate(CommandLine& line) {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(*options);
-    options->run = "version " VOROCL_VERSION "\n" + command.given({"--resume", "--device", "--json"});
     run(*options);
   });
 }

@@ -29,11 +29,11 @@ Json json_of(const SimulateOptions& options, const MovingSeeds& source, Simulati
   Json result = json_of_diagram(options.method, options.method_options.metric, seeds, source.view());
   result.update(Json{{"seeds", seeds.alive()},
                      {"empty_cells", measures.cell_count().empty},
-                     {"frames", simulation.frame()},
+                     {"first_frame", options.motion.frames.first},
+                     {"frames", simulation.frame() - options.motion.frames.first},
                      {"waves", simulation.report(main_engine).waves()},
                      {"milliseconds", simulation.milliseconds(main_engine)},
                      {"host_milliseconds", simulation.host_milliseconds(main_engine)}});
-  if (options.output.resume) result["made_before"] = course.made_before;
   if (options.method.continues) {
     const PlanSamples& plans = course.plans;
     result["plans"] = Json{{"first_step", range(plans.first_steps)},
@@ -72,12 +72,9 @@ void print_text(const SimulateOptions& options, const MovingSeeds& source, Simul
                 const Course& course, Measures& measures) {
   const Seeds& seeds = simulation.seeds();
   const View& view = source.view();
-  const auto frames = [](int count) { return counted(count, "frame"); };
-  print("{} after frame 0, {} on {}, on {}\n", frames(simulation.frame()), counted(seeds.alive(), "seed"),
-        size_text(view), seeds.device().name());
-  if (course.made_before > 0)
-    print("made before: {}, from frame 0 on; times and means are of the others\n",
-          frames(course.made_before));
+  const int first = options.motion.frames.first;
+  print("{} after frame {}, {} on {}, on {}\n", counted(simulation.frame() - first, "frame"), first,
+        counted(seeds.alive(), "seed"), size_text(view), seeds.device().name());
   const CellCount count = measures.cell_count();
   print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
   const auto name_of = [&](const Method& method, Metric metric) {

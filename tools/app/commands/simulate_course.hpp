@@ -6,7 +6,6 @@
 
 #include "app/outputs/frame_writer.hpp"
 #include "app/sources/moving_seeds.hpp"
-#include "formats/values.hpp"
 #include "trials/samples.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/simulation.hpp"
@@ -29,7 +28,6 @@ struct SimulateOptions {
   bool json = false;
   bool exact = false;    // cells as polygons, and no diagrams
   std::string polygons;  // of these; empty: not asked for
-  std::string run;       // in lines, what a run must share with the one that it goes on with
 
   Metric other_metric() const { return compare_metric.value_or(method_options.metric); }
   bool other_is_exact() const {
@@ -57,9 +55,7 @@ struct PlanSamples {
 /// How far a run has come.
 struct Course {
   int frames = 0;        // that are complete, with all that is written of them
-  int made_before = 0;   // of these, by the run that this one goes on with
-  int timed = 0;         // whose diagrams this run has made, without frame 0
-  Hash seeds;            // of all frames, if the run can be resumed
+  int timed = 0;         // whose diagrams were made, without frame 0
   Samples similarities;  // of the frames after frame 0, where all methods start from nothing
   ErrorSamples errors;   // the same, where the other method is exact
   PlanSamples plans;     // where the method is djfa

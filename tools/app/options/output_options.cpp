@@ -69,11 +69,6 @@ void add_frame_writer_options(Command& command, FrameWriterOptions& options) {
           "before, the diagram's milliseconds, and the box of a trajectory; of volumes the same with volumes "
           "and voxels")
       .value_name("FILE");
-  command.add(
-      "--resume", options.resume,
-      "Go on where the same command stopped when something ended it: behind the last frame whose numbered "
-      "files and rows of tables are complete. The command that ended must have had --resume too. Not for "
-      "films");
   command
       .add("--every", options.every,
            "Write pictures, files and rows of cells and pairs only of frames 0, K, 2 K, ...")

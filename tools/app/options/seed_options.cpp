@@ -352,11 +352,34 @@ void add_units_option(Command& command, SeedOptions& options, const std::string&
       .default_text("data for " + with_data + ", else px");
 }
 
+namespace {
+
+FrameRange parse_frames(const std::string& text) {
+  const std::size_t colon = text.find(':');
+  const auto number = [](const std::string& of) {
+    const auto parsed = parse_number<int>(of);
+    return parsed && *parsed >= 0 && *parsed < std::numeric_limits<int>::max() ? parsed : std::nullopt;
+  };
+  const auto first = colon == std::string::npos ? 0 : number(text.substr(0, colon));
+  const std::string after = colon == std::string::npos ? text : text.substr(colon + 1);
+  const auto last = number(after);
+  const bool has_last = last && *last >= std::max(first.value_or(0), colon == std::string::npos ? 1 : 0);
+  if (!first || (!has_last && (colon == std::string::npos || !after.empty()))) {
+    throw Error(
+        "\"" + text +
+        "\" must be the last frame, at least 1, or the first and the last one, such as 100:200 or 100:");
+  }
+  return {*first, last};
+}
+
+}  // namespace
+
 void add_motion_options(Command& command, MotionOptions& options) {
   command
-      .add("--frames", options.frames, "Number of frames after frame 0; for a trajectory the greatest number")
-      .value_name("A")
-      .in_range(1, std::numeric_limits<int>::max() - 1);
+      .add_parsed("--frames", options.frames, parse_frames,
+                  "Frames to make: 0 to L, or K to L, which continues a run that was ended. Of a trajectory "
+                  "without L, all from K on")
+      .value_name("[K:]L");
   const Option trajectory = command.option("--trajectory");
   command
       .add("--step-length", options.step_length,

@@ -42,10 +42,9 @@ std::string collection_path(const FileRequest& request) {
   return (before.parent_path() / ((name.empty() ? request.kind.option.substr(2) : name) + ".pvd")).string();
 }
 
-FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : request_(request) {
+FrameFiles::FrameFiles(const FileRequest& request) : request_(request) {
   if (request.is_long_table()) {
-    table_ = open_table(request.path, journal);
-    needs_header_ = is_new(journal);
+    table_ = std::make_unique<GrowingFile>(OutputFile(request.path));
     return;
   }
   files_.emplace(request.path);
@@ -55,24 +54,25 @@ FrameFiles::FrameFiles(const FileRequest& request, FrameJournal* journal) : requ
 
 void FrameFiles::add(int frame, std::int64_t time, Measures& measures) {
   if (table_) {
-    const TableKind& kind = *request_.kind.table();
-    const std::string header = header_of(frame, measures.view().units);
-    if (std::exchange(needs_header_, false)) *table_ << header;
-    kind.add_rows(*table_, fmt::format("{},{},", frame, time), measures);
+    add_header(frame, measures.view().units);
+    request_.kind.table()->add_rows(*table_, fmt::format("{},{},", frame, time), measures);
     return;
   }
   request_.kind.write(files_->file(frame), measures);
-  go_on_from(frame, time, measures.view().units);
+  list(frame, time);
 }
 
-std::string FrameFiles::header_of(int frame, const Units& units) {
+void FrameFiles::add_header(int frame, const Units& units) {
   const std::vector<std::string>& columns = request_.kind.table()->columns;
   // And what the header does not say: a volume's distances may be in units of any spacing.
   std::string header = "frame,timestep," + units.header(columns), names = units.of_area();
   if (std::find(columns.begin(), columns.end(), "largest_distance") != columns.end())
     names += units.of_length();
-  if (header_.empty()) std::tie(header_, units_) = std::tie(header, names);
-  if (header == header_ && names == units_) return header;
+  if (header_.empty()) {
+    std::tie(header_, units_) = std::tie(header, names);
+    *table_ << header;
+  }
+  if (header == header_ && names == units_) return;
   const std::string px = Units().of_area();
   throw Error(
       fmt::format("frame {} is measured in other units than the frames before, because its box has "
@@ -81,8 +81,12 @@ std::string FrameFiles::header_of(int frame, const Units& units) {
                   units.of_area() == px ? "" : ", or with --units px"));
 }
 
-void FrameFiles::go_on_from(int frame, std::int64_t time, const Units& units) {
-  if (table_) header_of(frame, units);
+void FrameFiles::pass(int frame, std::int64_t time) {
+  std::error_code ignored;
+  if (files_ && fs::exists(files_->path(frame), ignored)) list(frame, time);
+}
+
+void FrameFiles::list(int frame, std::int64_t time) {
   if (collection_) listed_.push_back({time, fs::path(files_->path(frame)).filename().string()});
 }
 
@@ -91,10 +95,10 @@ void FrameFiles::finish() {
   if (collection_) write_pvd(*collection_, listed_);
 }
 
-FrameStatistics::FrameStatistics(const std::string& path, FrameJournal* journal)
-    : file_(open_table(path, journal)), needs_header_(is_new(journal)) {}
+FrameStatistics::FrameStatistics(const std::string& path)
+    : file_(std::make_unique<GrowingFile>(OutputFile(path))) {}
 
-void FrameStatistics::go_on_from(Measures& measures) { last_labels_ = measures.labels_in_picture(); }
+void FrameStatistics::pass(Measures& measures) { last_labels_ = measures.labels_in_picture(); }
 
 void FrameStatistics::read(Measures& measures) {
   measures.statistics();
@@ -104,7 +108,7 @@ void FrameStatistics::read(Measures& measures) {
 void FrameStatistics::add(int frame, std::int64_t time, double milliseconds, const std::optional<Box>& box,
                           Measures& measures) {
   const bool is_volume = measures.view().window.grid().is_volume();
-  if (std::exchange(needs_header_, false)) *file_ << header_of_statistics(is_volume);
+  if (!std::exchange(has_header_, true)) *file_ << header_of_statistics(is_volume);
   const CellStatistics& statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.
   const std::vector<std::uint32_t>& labels = measures.labels_in_picture();

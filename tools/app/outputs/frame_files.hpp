@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "app/outputs/diagram_files.hpp"
-#include "app/outputs/frame_journal.hpp"
 #include "app/outputs/measures.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/raster_files.hpp"
@@ -25,8 +24,8 @@ std::string collection_path(const FileRequest& request);
 /// and timestep before its own, and grows under a temporary name until finish().
 class FrameFiles {
  public:
-  /// Throws Error if no file can be made there. With a journal, the table can be continued.
-  explicit FrameFiles(const FileRequest& request, FrameJournal* journal = nullptr);
+  /// Throws Error if no file can be made there.
+  explicit FrameFiles(const FileRequest& request);
 
   /// Reads what add() writes, from the device.
   void read(Measures& measures) const { request_.kind.read(measures); }
@@ -35,8 +34,8 @@ class FrameFiles {
   /// those of the frames before.
   void add(int frame, std::int64_t time, Measures& measures);
 
-  /// As add(), of a frame whose file or rows are there.
-  void go_on_from(int frame, std::int64_t time, const Units& units);
+  /// Lists the file of a frame, if an earlier run has left one.
+  void pass(int frame, std::int64_t time);
 
   /// The table; null where there are numbered files.
   GrowingFile* table() const { return table_.get(); }
@@ -48,13 +47,13 @@ class FrameFiles {
   void finish();
 
  private:
-  /// The first line of a table in these units. Throws as add().
-  std::string header_of(int frame, const Units& units);
+  /// Writes the first line of the table, or checks that it is the same in these units. Throws as add().
+  void add_header(int frame, const Units& units);
+  void list(int frame, std::int64_t time);
 
   FileRequest request_;
   std::optional<NumberedFiles> files_;
   std::unique_ptr<GrowingFile> table_;
-  bool needs_header_ = false;
   std::string header_, units_;  // of the table, as the first frame is measured; empty before it
   std::optional<OutputFile> collection_;
   std::vector<TimedFile> listed_;
@@ -64,7 +63,7 @@ class FrameFiles {
 class FrameStatistics {
  public:
   /// Throws Error if the file cannot be made there.
-  explicit FrameStatistics(const std::string& path, FrameJournal* journal = nullptr);
+  explicit FrameStatistics(const std::string& path);
 
   /// Reads what add() counts, from the device.
   static void read(Measures& measures);
@@ -74,8 +73,8 @@ class FrameStatistics {
   void add(int frame, std::int64_t time, double milliseconds, const std::optional<Box>& box,
            Measures& measures);
 
-  /// Goes on behind a frame that is in the table.
-  void go_on_from(Measures& measures);
+  /// The frame before the first one of the table.
+  void pass(Measures& measures);
 
   GrowingFile* table() const { return file_.get(); }
 
@@ -83,7 +82,7 @@ class FrameStatistics {
 
  private:
   std::unique_ptr<GrowingFile> file_;
-  bool needs_header_;
+  bool has_header_ = false;
   std::vector<std::uint32_t> last_labels_;  // by id, in the picture of the frame before; empty: there is none
 };
 

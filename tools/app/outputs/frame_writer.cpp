@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <exception>
-#include <filesystem>
 #include <utility>
 
 #include "app/terminal/console.hpp"
@@ -14,39 +12,6 @@
 namespace vorocl::command {
 
 namespace {
-
-/// Those that grow with every frame.
-std::vector<std::string> tables_of(const std::vector<RequestedFile>& files) {
-  std::vector<std::string> tables;
-  for (const RequestedFile& file : files) {
-    if (!file.path.empty() && !file.numbered && extension_of(file.path) == ".csv")
-      tables.push_back(file.path);
-  }
-  return tables;
-}
-
-/// Beside the first file that is asked for; "" without files.
-std::string journal_of_frames(const std::vector<RequestedFile>& files) {
-  const auto first =
-      std::find_if(files.begin(), files.end(), [](const auto& file) { return !file.path.empty(); });
-  return first == files.end() ? "" : journal_path(first->path);
-}
-
-/// That of a run which can go on; none for another, which must not take the place of one that can.
-std::unique_ptr<FrameJournal> open_journal(const FrameWriterOptions& options, const std::string& path,
-                                           const std::string& run) {
-  if (!options.resume) {
-    if (!path.empty()) refuse_journal(path);
-    return nullptr;
-  }
-  if (extension_of(options.picture_path) == film_extension) {
-    throw UsageError(
-        "--resume cannot go on with a film; write pictures, such as -o frames/%05d.png, and make the film of "
-        "them");
-  }
-  if (path.empty()) throw UsageError("--resume needs files to write: there is nothing to go on with");
-  return std::make_unique<FrameJournal>(path, run);
-}
 
 /// Says on standard error where a film's sides, which are even, are longer than those of its pictures.
 void note_of_size(const Film& film, const cv::Size& picture) {
@@ -77,26 +42,15 @@ std::vector<RequestedFile> requested_files(const FrameWriterOptions& options) {
   return files;
 }
 
-FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, const std::string& run)
+FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors)
     : options_(options), painter_(options.picture, true) {
-  const std::vector<RequestedFile> requested = as_usage([&] { return requested_files(options); });
-  journal_ = open_journal(options, journal_of_frames(requested), run);
-  check_written();
   open_files();
-  // The tables behind the journal: one that stays without it would be nobody's.
-  if (journal_) journal_->begin(tables_of(requested));
-  for (const FileRequest& request : options.files) {
-    if (request.is_long_table() && !request.path.empty()) {
-      files_.push_back(std::make_unique<FrameFiles>(request, journal_.get()));
-    }
-  }
   if (!options.similarity_path.empty()) {
-    similarities_ = open_table(
-        options.similarity_path,
-        std::string("frame,similarity") + (with_errors ? ",wrong_percent,largest_excess,mean_excess" : ""),
-        journal_.get());
+    similarities_ = std::make_unique<GrowingFile>(OutputFile(options.similarity_path));
+    *similarities_ << "frame,similarity" << (with_errors ? ",wrong_percent,largest_excess,mean_excess" : "")
+                   << "\n";
   }
-  if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path, journal_.get());
+  if (!options.statistics_path.empty()) statistics_.emplace(options.statistics_path);
   for (const auto& files : files_) {
     if (files->table() != nullptr) tables_.push_back(files->table());
   }
@@ -106,25 +60,12 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options, bool with_errors, co
 
 void FrameWriter::open_files() {
   for (const FileRequest& request : options_.files) {
-    if (!request.is_long_table() && !request.path.empty())
-      files_.push_back(std::make_unique<FrameFiles>(request));
+    if (!request.path.empty()) files_.push_back(std::make_unique<FrameFiles>(request));
   }
   if (extension_of(options_.picture_path) == film_extension) {
     film_.emplace(options_.picture_path, options_.frames_per_second);
   } else if (!options_.picture_path.empty()) {
     pictures_.emplace(options_.picture_path);
-  }
-}
-
-void FrameWriter::check_written() const {
-  std::error_code ignored;
-  for (int frame = 0; journal_ && frame <= journal_->last_frame(); frame += options_.every) {
-    for (const RequestedFile& file : requested_files(options_)) {
-      if (!file.numbered || file.path.empty()) continue;
-      const std::string path = NumberedName(file.path).with(frame);
-      if (std::filesystem::exists(path, ignored)) continue;
-      throw Error(path + " is missing, which an earlier run wrote; " + how_to_start_again(journal_->path()));
-    }
   }
 }
 
@@ -152,7 +93,7 @@ void FrameWriter::write(const FrameFacts& facts, Measures* measures) {
   if (facts.similarity && similarities_) write_similarity(facts.frame, *facts.similarity);
   if (wants_images(facts.frame)) write_images(facts, *measures);
   if (statistics_) statistics_->add(facts.frame, facts.time, facts.milliseconds, facts.box, *measures);
-  journal_ ? journal_->complete(facts.frame, facts.seeds) : mark_tables();
+  mark_tables();
   ++complete_;
   if (wants_images(facts.frame)) ++frames_;
 }
@@ -164,22 +105,17 @@ void FrameWriter::mark_tables() {
   }
 }
 
-bool FrameWriter::needs_diagram(int frame) const {
-  if (frame == journal_->last_frame()) return true;  // which the next row of the statistics is compared with
-  return pictures_ && wants_images(frame) && !painter_.is_independent();
+bool FrameWriter::needs_diagram(int frame, int first) const {
+  if (statistics_ && frame == first - 1) return true;  // which their first row is compared with
+  return (film_ || pictures_) && wants_images(frame) && !painter_.is_independent();
 }
 
-void FrameWriter::go_on_from(const FrameFacts& facts, Measures* measures) {
+void FrameWriter::pass(const FrameFacts& facts, Measures* measures) {
   if (wants_images(facts.frame)) {
-    for (const auto& files : files_) files->go_on_from(facts.frame, facts.time, facts.units);
-    if (pictures_ && measures != nullptr && !painter_.is_independent())
-      painter_.draw(*measures, facts.values);
-    ++frames_;
+    for (const auto& files : files_) files->pass(facts.frame, facts.time);
+    if ((film_ || pictures_) && measures != nullptr) painter_.draw(*measures, facts.values);
   }
-  if (statistics_ && measures != nullptr && facts.frame == journal_->last_frame()) {
-    statistics_->go_on_from(*measures);
-  }
-  ++complete_;
+  if (statistics_ && measures != nullptr) statistics_->pass(*measures);
 }
 
 void FrameWriter::write_images(const FrameFacts& facts, Measures& measures) {
@@ -211,7 +147,6 @@ std::string FrameWriter::progress() const {
 
 void FrameWriter::finish() {
   painter_.note_of_scale();
-  if (journal_) journal_->finish();
   std::exception_ptr first;
   const auto finish = [&first](auto& output) {
     try {
@@ -225,7 +160,6 @@ void FrameWriter::finish() {
   if (statistics_) finish(*statistics_);
   if (film_) finish(*film_);
   if (first) std::rethrow_exception(first);
-  if (journal_) journal_->remove();
 }
 
 }  // namespace vorocl::command

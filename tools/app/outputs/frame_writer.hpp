@@ -25,7 +25,6 @@ struct FrameWriterOptions {
   int every = 1;
   double frames_per_second = 25;
   PictureOptions picture;
-  bool resume = false;
 };
 
 /// The files that it asks for, the collections among them. Throws Error for a pattern without its place for a
@@ -47,22 +46,18 @@ struct FrameFacts {
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
   std::vector<double> values = {};        ///< those that pictures may show, as in Painter::draw()
   std::optional<FrameSimilarity> similarity = std::nullopt;
-  Units units = {};         ///< what the frame is measured in
-  std::uint64_t seeds = 0;  ///< what the journal notes of the seeds of all frames so far
 };
 
 /// Each numbered file is whole as soon as it is there. The film and the tables grow under temporary names
-/// until finish(); without it, they do not stay, unless the run can be resumed.
+/// until finish(); without it, they do not stay.
 ///
 /// Frames are written in order by a thread of its own, behind the caller, who can make the next one
 /// meanwhile. It holds one frame at most, and none behind one that failed.
 class FrameWriter {
  public:
   /// Throws UsageError for names that are not possible, Error if no files can be made there.
-  /// `with_errors`: errors are written beside the similarities. `run` says in lines what is written, for runs
-  /// that can be resumed: Error if there is a journal of another one, or a file is missing that it names.
-  explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false,
-                       const std::string& run = "");
+  /// `with_errors`: errors are written beside the similarities.
+  explicit FrameWriter(const FrameWriterOptions& options, bool with_errors = false);
 
   /// Whether add() writes anything of this frame's diagram.
   bool wants(int frame) const { return statistics_ || wants_images(frame); }
@@ -75,17 +70,18 @@ class FrameWriter {
   /// Waits until all frames are written. Throws what went wrong.
   void wait() { behind_.wait(); }
 
-  /// How far an earlier run came, if this one goes on with it; null: it cannot be resumed.
-  FrameJournal* journal() const { return journal_.get(); }
+  /// Whether pass() needs the diagram of a frame before the `first` one of the run.
+  bool needs_diagram(int frame, int first) const;
 
-  /// Whether go_on_from() needs the diagram of a frame that is complete.
-  bool needs_diagram(int frame) const;
-
-  /// As add(), of a frame that is complete: writes nothing. `measures` are null if it needs none.
-  void go_on_from(const FrameFacts& facts, Measures* measures);
+  /// A frame before the first one of the run, in order: what is written of later ones follows from it.
+  /// `measures` are null if it needs none.
+  void pass(const FrameFacts& facts, Measures* measures);
 
   /// The frames that are complete, once wait() has ended, also where it threw.
   int complete() const { return complete_; }
+
+  /// Whether rows of all frames go into one file.
+  bool has_tables() const { return !tables_.empty(); }
 
   /// "; frames complete before that: 3, written of them: 2", for the error that ended a run.
   std::string progress() const;
@@ -97,7 +93,6 @@ class FrameWriter {
 
  private:
   void open_files();
-  void check_written() const;
   bool wants_images(int frame) const;
   void read(int frame, Measures& measures) const;
   void write(const FrameFacts& facts, Measures* measures);
@@ -107,7 +102,6 @@ class FrameWriter {
 
   FrameWriterOptions options_;
   Painter painter_;
-  std::unique_ptr<FrameJournal> journal_;
   std::optional<Film> film_;
   std::optional<NumberedFiles> pictures_;
   std::vector<std::unique_ptr<FrameFiles>> files_;

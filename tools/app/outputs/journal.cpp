@@ -21,6 +21,11 @@ namespace {
 
 const std::string title = "VoroCL journal", end_of_run = "steps";
 
+/// For errors: what to remove of the run that a journal is of, which cannot go on.
+std::string how_to_start_again(const std::string& journal) {
+  return "remove " + journal + " and the .part files of its outputs to start again";
+}
+
 bool is_file(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::exists(path, ignored);
@@ -157,10 +162,6 @@ void Journal::open(const std::function<void()>& output) const {
 
 void Journal::remove() {
   if (unlink(path_.c_str()) != 0) throw Error("removing " + path_ + " failed: " + reason(errno));
-}
-
-std::string how_to_start_again(const std::string& journal) {
-  return "remove " + journal + " and the .part files of its outputs to start again";
 }
 
 std::string journal_path(const std::string& output) { return output + ".journal"; }

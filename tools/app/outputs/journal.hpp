@@ -26,9 +26,9 @@ class FileLock {
   int descriptor_ = -1;
 };
 
-/// What the run is, in lines, and behind them a line for each step that is complete. frame_journal.hpp and
-/// tile_journal.hpp say what such a line holds. Each line ends with a checksum of itself and of all lines
-/// before it, so that what is left after damage is no journal, or the beginning of the one that was there.
+/// What the run is, in lines, and behind them a line for each step that is complete: see TileJournal. Each
+/// line ends with a checksum of itself and of all lines before it, so that what is left after damage is no
+/// journal, or the beginning of the one that was there.
 class Journal {
  public:
   const std::string& path() const { return path_; }
@@ -74,9 +74,6 @@ class Journal {
   Hash hash_;              // of these lines
   FileLock lock_;          // while the run goes on
 };
-
-/// For errors: what to remove of the run that a journal is of, which cannot go on.
-std::string how_to_start_again(const std::string& journal);
 
 /// The path of the journal of a run whose first output this is.
 std::string journal_path(const std::string& output);

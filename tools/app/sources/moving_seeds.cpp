@@ -1,5 +1,7 @@
 #include "app/sources/moving_seeds.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <future>
 #include <system_error>
@@ -20,7 +22,7 @@ class RandomWalk : public MovingSeeds {
   RandomWalk(const SeedOptions& seeds, const MotionOptions& motion)
       : input_(read_input(seeds)),
         motion_{*motion.step_length, seeds.rng_seed, motion.border},
-        frames_(*motion.frames) {
+        frames_(*motion.frames.last) {
     refuse_window(input_, "random motion");
   }
 
@@ -69,7 +71,7 @@ class Trajectory : public MovingSeeds {
   Trajectory(const SeedOptions& seeds, const MotionOptions& motion, const Fitted&... fitted)
       : particles_(seeds, 0, fitted...),
         snap_(seeds.snapping()),
-        frames_(motion.frames),
+        frames_(motion.frames.last),
         bytes_(particles_.bytes_left()) {
     take_particles(present_);
   }
@@ -145,21 +147,29 @@ class Trajectory : public MovingSeeds {
 
 }  // namespace
 
+std::string how_to_continue(const FrameRange& frames, int complete, bool has_tables) {
+  const int next = frames.first + complete;
+  if (complete == 0 || (frames.last && next > *frames.last)) return {};
+  return fmt::format("; --frames {}:{} makes the others{}", next,
+                     frames.last ? std::to_string(*frames.last) : "",
+                     has_tables ? ", with other names of tables" : "");
+}
+
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption) {
   const bool needs_all = motion.fit == Fit::all && !seeds.bounds;
   if (seeds.depth > 1) {
     return std::make_unique<Trajectory<VolumeFrames>>(
         seeds, motion,
-        needs_all ? sides_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
+        needs_all ? sides_of_all_frames(seeds.trajectory, motion.frames.last, interruption) : std::nullopt);
   }
   if (!seeds.trajectory.empty()) {
     check_seed_options(seeds);
     return std::make_unique<Trajectory<TrajectorySeeds>>(
         seeds, motion, motion.fit,
-        needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames, interruption) : std::nullopt);
+        needs_all ? bounds_of_all_frames(seeds.trajectory, motion.frames.last, interruption) : std::nullopt);
   }
-  if (!motion.frames) throw UsageError("--frames A is required, except with --trajectory");
+  if (!motion.frames.last) throw UsageError("--frames L or K:L is required, except with --trajectory");
   if (!motion.step_length) throw UsageError("--step-length D is required, except with --trajectory");
   SeedOptions of_pixels = seeds;
   snap_for("random motion", of_pixels);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
@@ -13,8 +14,18 @@
 
 namespace vorocl::command {
 
+/// The frames that a run makes, from 0 on: all that there are without a last one.
+struct FrameRange {
+  int first = 0;
+  std::optional<int> last = std::nullopt;
+};
+
+/// "; --frames 3:20 makes the others", for the error that ended a run behind so many frames; empty where none
+/// is left, or none is complete.
+std::string how_to_continue(const FrameRange& frames, int complete, bool has_tables);
+
 struct MotionOptions {
-  std::optional<int> frames;
+  FrameRange frames;
   std::optional<int> step_length;
   Border border = Border::reflect;
   Fit fit = Fit::all;  // of a trajectory
