@@ -31,7 +31,8 @@ Plan reaching_plan(const Window& window, std::size_t seeds, const LabelDistances
                    const DynamicPlanOptions& options) {
   const bool von_neumann = options.neighbourhood == NeighbourhoodMix::von_neumann;
   const Neighbourhood neighbourhood = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
-  const double needed = farthest(distances, window, metric) + distances.row_interval / 2;
+  const int rows_between = distances.row_interval / 2;
+  const double needed = farthest(distances, window, metric) + rows_between;
   Plan plan = jump_flooding_plan(window, JumpFloodingVariant::jfa, neighbourhood);
   // Without its first wave, JFA's plan still reaches the sum of the other steps.
   while (plan.size() > 1 && reach_of(plan) - plan.front().step >= needed) plan.erase(plan.begin());
