@@ -108,6 +108,7 @@ BOOST_AUTO_TEST_CASE(a_manhattan_diagram_is_measured_by_manhattan) {
   const Seeds seeds(test_device(), grid, centres(pixels), to_centres);
   for (const Method& each : methods()) {
     for (const Metric metric : both_metrics) {
+      if (each.name == "low-resolution" && metric == Metric::manhattan) continue;
       Diagram diagram(test_device(), grid);
       each.run(seeds, diagram, {metric});
       const std::vector<std::uint32_t> labels = diagram.read();
