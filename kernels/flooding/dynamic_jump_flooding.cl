@@ -11,9 +11,9 @@ VECTOR_KERNEL void advance_labels(global const uint* restrict labels, global con
   store_looked_up(positions, at, out, VOROCL_GUARD + first);
 }
 
-// How far pixels are from where their labels' seeds are now, in the middle row of every `row_interval` rows, or the last
-// of fewer. A work-item takes a vector of each such row among `rows`. In `found`: the greatest distance, if it is more
-// than `enough`, and how many pixels have no label whose seed is there.
+// How far pixels are from where their labels' seeds are now, in the middle row of every `row_interval` rows, or the
+// last of fewer. A work-item takes a vector of each such row among `rows`. In `found`: the greatest distance, if it is
+// more than `enough`, and how many pixels have no label whose seed is there.
 VECTOR_KERNEL void measure_labels(global const uint* restrict labels, global const uint* restrict positions, uint count,
                                   int width, int height, int row_interval, int rows, uint enough,
                                   global uint* restrict found) {
