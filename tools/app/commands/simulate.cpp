@@ -16,6 +16,7 @@
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
 #include "app/terminal/selected_device.hpp"
+#include "formats/files.hpp"
 #include "formats/values.hpp"
 #include "vorocl/similarity.hpp"
 
