@@ -191,8 +191,10 @@ def verdict(piece, name, found):
         return "not compared"
     if right["seeds"] != found["seeds"]:
         return "not compared: the seeds are others"
-    wrong = [method for method in METHODS if right.get(method, found["methods"][method]["labels"]) != found["methods"][method]["labels"]]
-    return "WRONG: " + ", ".join(wrong) if wrong else "right"
+    wrong = [method for method in METHODS if method in right and right[method] != found["methods"][method]["labels"]]
+    unknown = [method for method in METHODS if method not in right]
+    known = "WRONG: " + ", ".join(wrong) if wrong else "right"
+    return known + (f" (not compared: {', '.join(unknown)})" if unknown else "")
 
 
 def write_labels():
