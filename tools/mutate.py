@@ -77,7 +77,7 @@ HOST_TESTS = [
     ("tools/formats/output_file.cpp", ["written_files", "resume_tiles"]),
     ("tools/formats/images/image_header.cpp", ["large_claims"]),
     ("tools/formats/trajectory/*.cpp", ["trajectory", "trajectory_errors", "xyz"]),
-    ("tools/app/outputs/journal.cpp", ["resume_tiles"]),
+    ("tools/app/outputs/tile_journal.cpp", ["resume_tiles"]),
     ("tools/app/sources/particles.cpp", ["particle_slots", "periodic_step", "simulate_trajectory"]),
     ("tools/app/sources/bounds.cpp", ["bounds"]),
 ]

@@ -36,6 +36,5 @@ only_in() {
 }
 only_in CLI/ app/options/command_line.cpp
 only_in opencv2/imgcodecs formats/images/image_module.cpp
-only_in opencv2/videoio formats/images/opencv_film_module.cpp
-only_in 'lib(av|sw)' formats/images/ffmpeg_film_module.cpp
+only_in 'lib(av|sw)' formats/images/film_module.cpp
 exit $trouble

@@ -18,20 +18,19 @@ const void* load_module(const std::string& file, const std::string& advice) {
   return reinterpret_cast<const void* (*)()>(function)();
 }
 
-namespace {
-
-const char* const advice = "install vorocl again, with the folder vorocl of its libraries, and OpenCV";
-
-}  // namespace
-
 const ImageModule& image_module() {
-  static const auto& module = *static_cast<const ImageModule*>(load_module("vorocl_images.so", advice));
+  static const auto& module = *static_cast<const ImageModule*>(load_module(
+      "vorocl_images.so", "install vorocl again, with the folder vorocl of its libraries, and OpenCV"));
   return module;
 }
 
-const FilmModule& film_module() {
-  static const auto& module = *static_cast<const FilmModule*>(load_module("vorocl_films.so", advice));
-  return module;
+FilmOpener film_opener() {
+  static const auto& opener = *static_cast<const FilmOpener*>(
+      load_module("vorocl_films.so",
+                  "films need FFmpeg's libraries, where vorocl is built: install libavcodec-dev, "
+                  "libavformat-dev and libswscale-dev and build it again, or write numbered pictures, such "
+                  "as frames/%05d.png"));
+  return opener;
 }
 
 }  // namespace vorocl::command

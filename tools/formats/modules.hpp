@@ -26,31 +26,23 @@ class ImageModule {
   ~ImageModule() = default;
 };
 
-/// A film that pictures are appended to; complete when it is destroyed.
+/// What film_module.cpp makes: a film that pictures are appended to. No function throws or prints.
 class FilmEncoder {
  public:
   virtual ~FilmEncoder() = default;
-  /// Whether nothing is known to have gone wrong so far.
+  /// Whether all has gone well so far.
   virtual bool add(const cv::Mat& picture) = 0;
+  /// Writes the end. Whether the file is whole.
+  virtual bool finish() = 0;
 };
 
-/// What the modules of films do. No function throws or prints.
-class FilmModule {
- public:
-  /// An H.264 film of pictures of this size; null if this machine cannot make it.
-  virtual std::unique_ptr<FilmEncoder> open(const std::string& path, double frames_per_second,
-                                            const cv::Size& size) const = 0;
-
-  /// How many pictures a film has; 0 if it cannot be read.
-  virtual long count_pictures(const std::string& path) const = 0;
-
- protected:
-  ~FilmModule() = default;
-};
+/// An H.264 film of pictures of this size; null if this machine cannot make it.
+using FilmOpener = std::unique_ptr<FilmEncoder> (*)(const std::string& path, double frames_per_second,
+                                                    const cv::Size& size);
 
 /// Load the module at the first call. Throw Error, which says why, if that fails.
 const ImageModule& image_module();
-const FilmModule& film_module();
+FilmOpener film_opener();
 
 /// What the function vorocl_module() of a module returns; the module stays. Throws Error with the loader's
 /// reason, and `advice`, if it cannot be loaded.

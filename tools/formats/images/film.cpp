@@ -4,11 +4,8 @@
 #include <malloc.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <filesystem>
 #include <opencv2/core.hpp>
 
-#include "formats/files.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
@@ -31,30 +28,6 @@ OutputFile to_be_film(const std::string& path) {
   OutputFile file(path);
   file.require_file("a film");
   return file;
-}
-
-/// Whether an .mp4 file ends where its last box does. A box is its size (4 bytes, big-endian, this field
-/// included), its name (4 bytes) and its content; a size of 1 stands for one of 8 bytes behind the name.
-bool has_whole_boxes(const std::string& path) {
-  std::ifstream file = open_to_read(path);
-  const std::uint64_t end = std::filesystem::file_size(path);
-  const auto number = [&file](int bytes) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<std::uint64_t>(file.get() & 0xff);
-    return value;
-  };
-  std::uint64_t place = 0;
-  while (file && place < end) {
-    file.seekg(static_cast<std::streamoff>(place));
-    std::uint64_t size = number(4);
-    if (size == 1) {
-      file.ignore(4);
-      size = number(8);
-    }
-    if (size < 8 || size > end - place) return false;
-    place += size;
-  }
-  return file && place == end && end > 0;
 }
 
 /// On CPUs with AVX-512, x264's film of pictures whose width is no multiple of 64 depends on memory that was
@@ -84,7 +57,7 @@ void Film::add(const cv::Mat& picture) {
   }
   if (!encoder_) {
     make_unset_memory_the_same();
-    encoder_ = film_module().open(file_.temporary_path(), frames_per_second_, size);
+    encoder_ = film_opener()(file_.temporary_path(), frames_per_second_, size);
   }
   if (!encoder_) {
     throw Error(
@@ -105,12 +78,7 @@ Error Film::failed() const {
 void Film::finish() {
   if (pictures_ == 0) return;
   behind_.wait();
-  encoder_.reset();
-  // Not every encoder says what went wrong.
-  const std::string path = file_.temporary_path();
-  if (!has_whole_boxes(path) || film_module().count_pictures(path) != pictures_) {
-    throw failed();
-  }
+  if (!encoder_->finish()) throw failed();
   file_.finish();
 }
 

@@ -1,4 +1,4 @@
-// The module of films, vorocl_films.so, where FFmpeg's own libraries encode them.
+// The module of films, vorocl_films.so: FFmpeg's libraries encode them.
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
@@ -15,9 +15,6 @@ namespace {
 
 /// Films are the same on every machine: x264 makes other bytes with another number of threads.
 constexpr int encoder_threads = 4;
-
-/// Else the first colon of a name would end that of a protocol.
-std::string url_of(const std::string& path) { return "file:" + path; }
 
 struct Free {
   void operator()(AVFormatContext* file) const {
@@ -37,11 +34,6 @@ class Encoder : public FilmEncoder {
  public:
   Encoder(const std::string& path, double frames_per_second, const cv::Size& size)
       : fails_(!open_codec(frames_per_second, size) || !open_file(path) || !open_picture(size)) {}
-  ~Encoder() override {
-    if (!fails_ && encode(nullptr)) av_write_trailer(file_.get());
-  }
-  Encoder(const Encoder&) = delete;
-  Encoder& operator=(const Encoder&) = delete;
 
   bool is_open() const { return !fails_; }
 
@@ -49,6 +41,10 @@ class Encoder : public FilmEncoder {
     fails_ = fails_ || !convert(picture) || !encode(frame_.get());
     ++frame_->pts;
     return !fails_;
+  }
+
+  bool finish() override {
+    return !fails_ && encode(nullptr) && av_write_trailer(file_.get()) == 0 && avio_closep(&file_->pb) >= 0;
   }
 
  private:
@@ -90,7 +86,8 @@ class Encoder : public FilmEncoder {
       return false;
     stream->time_base = codec_->time_base;
     stream->avg_frame_rate = codec_->framerate;
-    return avio_open(&file->pb, url_of(path).c_str(), AVIO_FLAG_WRITE) >= 0 &&
+    const std::string url = "file:" + path;  // else the first colon of a name would end that of a protocol
+    return avio_open(&file->pb, url.c_str(), AVIO_FLAG_WRITE) >= 0 &&
            avformat_write_header(file, nullptr) >= 0;
   }
 
@@ -136,25 +133,13 @@ class Encoder : public FilmEncoder {
   bool fails_;
 };
 
-class Module : public FilmModule {
- public:
-  std::unique_ptr<FilmEncoder> open(const std::string& path, double frames_per_second,
-                                    const cv::Size& size) const override {
-    av_log_set_level(AV_LOG_QUIET);  // what goes wrong is said in our words
-    auto encoder = std::make_unique<Encoder>(path, frames_per_second, size);
-    if (!encoder->is_open()) return nullptr;
-    return encoder;
-  }
-
-  long count_pictures(const std::string& path) const override {
-    av_log_set_level(AV_LOG_QUIET);
-    AVFormatContext* film = nullptr;
-    if (avformat_open_input(&film, url_of(path).c_str(), nullptr, nullptr) < 0) return 0;
-    const long pictures = film->nb_streams > 0 ? static_cast<long>(film->streams[0]->nb_frames) : 0;
-    avformat_close_input(&film);
-    return pictures;
-  }
-};
+std::unique_ptr<FilmEncoder> open_film(const std::string& path, double frames_per_second,
+                                       const cv::Size& size) {
+  av_log_set_level(AV_LOG_QUIET);  // what goes wrong is said in our words
+  auto encoder = std::make_unique<Encoder>(path, frames_per_second, size);
+  if (!encoder->is_open()) return nullptr;
+  return encoder;
+}
 
 }  // namespace
 
@@ -162,6 +147,6 @@ class Module : public FilmModule {
 
 /// What modules.cpp asks for, by this name.
 extern "C" __attribute__((visibility("default"))) const void* vorocl_module() {
-  static const vorocl::command::Module module;
-  return static_cast<const vorocl::command::FilmModule*>(&module);
+  static const vorocl::command::FilmOpener opener = vorocl::command::open_film;
+  return &opener;
 }
