@@ -31,9 +31,9 @@ points = project(x - 180, 90 - y)
 bounds = (-1600, -1400, 1600, 1400)
 # Far cities are stretched, and so far away that they are nobody's next here.
 points = points[np.abs(points).max(axis=1) < 4000]
-plane = dict(shape=(700, 800), bounds=bounds, y_up=True)
-kilometres = vorocl.distances(points, **plane)
-labels = vorocl.diagram(points, **plane)
+plane = vorocl.Grid((700, 800), bounds=bounds, y_up=True)
+kilometres = vorocl.distances(points, plane)
+labels = vorocl.diagram(points, plane)
 
 figure, axis = pyplot.subplots(figsize=(7.6, 6), layout="constrained")
 extent = (bounds[0], bounds[2], bounds[1], bounds[3])

@@ -1,6 +1,8 @@
 """Labels, against brute force and SciPy's k-d tree."""
 
+import pickle
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -98,11 +100,29 @@ def test_bounds_map_to_pixels():
     points = rng.uniform((-180, -90), (180, 90), (50, 2))
     points[0] = 180, 90  # falls in the last pixel where points outside are refused
     pixels = np.minimum((points + (180, 90)) * (144, 72) / (360, 180), np.nextafter((144, 72), 0))
-    plane = {"shape": (72, 144), "bounds": (-180, -90, 180, 90), "outside": "refuse"}
-    np.testing.assert_array_equal(vorocl.diagram(points, **plane), brute_force(pixels, (72, 144)))
-    upside_down = vorocl.diagram(points, **plane, y_up=True)
+    plane = vorocl.Grid((72, 144), bounds=(-180, -90, 180, 90))
+    np.testing.assert_array_equal(vorocl.diagram(points, plane, outside="refuse"), brute_force(pixels, (72, 144)))
+    upside_down = vorocl.diagram(points, replace(plane, y_up=True), outside="refuse")
     pixels[:, 1] = from_below(pixels[:, 1], 72)
     np.testing.assert_array_equal(upside_down, brute_force(pixels, (72, 144)))
+
+
+def test_a_grid_is_what_its_shape_and_keywords_say():
+    frame = dict(bounds=(0, 0, 2, 1), periodic=[np.bool_(True), True], tilt=0.5, y_up=True)
+    grid = vorocl.Grid((20, 40), **frame)
+    assert grid == pickle.loads(pickle.dumps(grid)) == vorocl.Grid([20, 40], **frame) != vorocl.Grid((20, 40))
+    assert grid == vorocl.Seeds([], (20, 40), **frame).grid and hash(grid) == hash(replace(grid, tilt=0.5))
+    points = rng.uniform(0, (2, 1), (30, 2))
+    for function in vorocl.diagram, vorocl.distances, vorocl.cells, vorocl.areas, vorocl.vertices:
+        np.testing.assert_array_equal(function(points, grid), function(points, (20, 40), **frame))
+    np.testing.assert_array_equal(vorocl.adjacency(points, grid)[1], vorocl.adjacency(points, (20, 40), **frame)[1])
+    assert vorocl.errors(vorocl.diagram(points, grid), points, grid, truth="true").wrong_pixels == 0
+    moved = vorocl.Simulation(grid).step(points).read()
+    np.testing.assert_array_equal(moved, vorocl.diagram(points, grid))
+    with pytest.raises(vorocl.BadArgument, match="bounds and y_up must be said in the vorocl.Grid"):
+        vorocl.areas(points, grid, bounds=(0, 0, 1, 1), y_up=False)
+    with pytest.raises(TypeError, match="unexpected keyword argument 'shape'"):
+        vorocl.areas(points, grid, shape=(20, 40))
 
 
 def test_y_goes_up_in_pixels():

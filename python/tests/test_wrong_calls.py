@@ -38,7 +38,7 @@ WRONG = {
     + [np.zeros((3, 2), "M8[s]"), np.array([["1", "2"]]), np.array([[1, None]], object), np.zeros((2, 2, 2))]
     + [[(np.inf, 1)], [(1, -np.inf)], [(-1, 0)], [(0, 8)], [(10, 0)], [(1e300, 0)], np.full((3, 2), 2**63, "u8")]
     + [np.broadcast_to(np.float64(1), (2**31, 2)), np.broadcast_to(np.int8(1), (2**62, 1)), np.zeros(2, "V16")],
-    "shape": NO_NUMBERS + [5, (5,), (1, 2, 3), (0, 4, 5), (-1, 4, 5), (0, 5), (5, 0), (-1, 5), (32769, 1), (2**63, 1)]
+    "grid": NO_NUMBERS + [5, (5,), (1, 2, 3), (0, 4, 5), (-1, 4, 5), (0, 5), (5, 0), (-1, 5), (32769, 1), (2**63, 1)]
     + [(-(2**70), 1), (32768, 32769), (1.5, 2), ("1", "2"), (None, None), np.zeros((2, 2))]
     + [(np.nan, 1), "ab", 10**400, (10**400, 1)],
     "method": [None, 1, "", "Exact", "exact ", "jfa+3", b"exact", "x" * 10**6, [], "\0", "ex\0act", Hostile()],
@@ -70,6 +70,7 @@ WRONG = {
     "max_displacement": [-1, np.nan, "x", [], 10**400, Hostile()],
 }
 WRONG["sampling"] = ["x", [], (1, 1001), (1, 1, 1), -1, 0, np.nan, np.inf, object(), {}, Hostile()]
+WRONG["shape"] = WRONG["grid"]
 WRONG["spacing"] = WRONG["sampling"]
 WRONG["input"] = NO_NUMBERS + [np.zeros((2, 2, 2, 2)), [[1], [1, 2]], np.array([["a", "b"]]), np.zeros((2, 2), "M8[s]")]
 WRONG["label_image"] = WRONG["input"] + [np.zeros((2, 2), "V8")]
@@ -79,7 +80,7 @@ WRONG["distances"] += [frozen(np.zeros((8, 10))), np.broadcast_to(0.0, (8, 10))]
 WRONG["indices"] = WRONG["distances"]
 WRONG["a"] = WRONG["labels"] + [np.zeros((3, 3), int), np.full((8, 10), -1), np.full((8, 10), 2**32), np.zeros((8, 10))]
 
-POINTS = ("points", "shape", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device")
+POINTS = ("points", "grid", "method", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device")
 CALLS = {
     vorocl.diagram: POINTS + ("out",),
     vorocl.distances: POINTS + ("out", "units"),
@@ -87,21 +88,22 @@ CALLS = {
     vorocl.areas: POINTS + ("units",),
     vorocl.adjacency: POINTS + ("units",),
     vorocl.vertices: POINTS + ("units",),
+    vorocl.Grid: ("shape", "bounds", "periodic", "tilt", "y_up"),
     vorocl.exact_cells: ("points", "bounds", "periodic", "tilt", "outside", "device"),
-    vorocl.relax: ("points", "shape", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
+    vorocl.relax: ("points", "grid", "rounds", "density", "method", "bounds", "periodic", "outside", "y_up", "snap", "device"),
     vorocl.from_mask: ("mask", "method", "metric", "periodic", "out", "device"),
     vorocl.expand_labels: ("label_image", "distance", "spacing", "device"),
     vorocl.distance_transform_edt: ("input", "sampling", "distances", "indices", "device"),
     vorocl.similarity: ("a", "b"),
     vorocl.errors: ("labels", "points", "metric", "bounds", "periodic", "tilt", "outside", "y_up", "truth", "device"),
-    vorocl.Seeds: ("points", "shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
-    vorocl.Diagram: ("shape", "periodic", "device", "labels"),
-    vorocl.Simulation: ("shape", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
+    vorocl.Seeds: ("points", "grid", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
+    vorocl.Diagram: ("grid", "periodic", "device", "labels"),
+    vorocl.Simulation: ("grid", "bounds", "periodic", "tilt", "outside", "y_up", "snap", "device"),
 }
-RIGHT_VALUES = {"points": RIGHT, "shape": (8, 10), **dict.fromkeys(("mask", "input", "label_image", "labels", "a", "b"), LABELS)}
+RIGHT_VALUES = {"points": RIGHT, "grid": (8, 10), "shape": (8, 10), **dict.fromkeys(("mask", "input", "label_image", "labels", "a", "b"), LABELS)}
 RIGHT_VALUES["outside"] = "refuse"
 # What is right for one call alone.
-ALLOWED = {(vorocl.Diagram, "labels"): [None], (vorocl.Simulation, "bounds"): [FAR_BOUNDS]}
+ALLOWED = {(vorocl.Diagram, "labels"): [None], (vorocl.Simulation, "bounds"): [FAR_BOUNDS], (vorocl.Grid, "bounds"): [FAR_BOUNDS]}
 
 
 def refused(call, *arguments, **named):

@@ -3,6 +3,7 @@
 `diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `areas`, `adjacency`, `vertices`
 and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons; `from_mask`,
 `expand_labels` and `distance_transform_edt` take images, also of volumes; `similarity` and `errors` compare labels.
+A `Grid` says which stretch of the points' plane a diagram shows, and which axes repeat.
 `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs that use OpenCL too.
 """
 
@@ -40,6 +41,7 @@ from ._functions import (
     similarity,
     vertices,
 )
+from ._grid import Grid
 from ._objects import CELL, Diagram, Seeds, Simulation
 from ._preparation import prepare
 from ._vorocl import DeviceDescription, DistanceErrors, Report
@@ -61,6 +63,7 @@ __all__ = [
     "Error",
     "ExactCells",
     "FileError",
+    "Grid",
     "HostMemoryError",
     "KernelBuildError",
     "NO_LABEL",

@@ -13,9 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _vorocl
 from ._errors import BadArgument
 
-Shape = Union[Tuple[int, int], Tuple[int, int, int]]
-Bounds = Union[Tuple[float, float, float, float], Tuple[float, float, float, float, float, float]]
-Periodic = Sequence[bool]
 Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", "low-resolution", "exact"]
 Metric = Literal["euclidean", "manhattan"]
 Outside = Literal["count", "absent", "refuse"]
@@ -57,57 +54,7 @@ def to_points(points: ArrayLike, dimensions: int = 2) -> NDArray[np.float64]:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
-def to_grid(
-    shape: Shape,
-    periodic: Periodic,
-    bounds: Optional[Bounds] = None,
-    outside: Outside = "count",
-    y_up: bool = False,
-    tilt: float = 0.0,
-) -> _vorocl.Grid:
-    """The grid of a shape (H, W) or (D, H, W), of its periodic axes (x, y) or (x, y, z) and its tilt, and of what it
-    shows of the points' space.
-
-    Points at the bounds' far ends are inside, unless what is outside them counts all round: not in volumes, which
-    refuse it.
-    """
-    far = 2**31  # past every limit, of which the library tells
-    try:
-        sides = [max(-far, min(operator.index(side), far)) for side in shape]
-    except (TypeError, ValueError):
-        sides = []
-    if len(sides) not in (2, 3):
-        raise BadArgument(f"shape must be two whole numbers (H, W), or three (D, H, W); this is {shown(shape)}")
-    if len(sides) == 3 and sides[0] == 1:
-        raise BadArgument(f"a volume of one slice is a plane: give the shape {tuple(sides[1:])}, and points (x, y)")
-    depth, height, width = [1, *sides][-3:]
-    try:
-        axes = [_to_bool(axis) for axis in periodic]
-    except (TypeError, ValueError):
-        axes = []
-    if len(axes) == 2 and not any(axes):  # the default
-        axes = [False] * len(sides)
-    if len(axes) != len(sides):
-        wanted = {2: "two booleans (x, y)", 3: "three booleans (x, y, z) for a volume"}
-        raise BadArgument(f"periodic must be {wanted[len(sides)]}; this is {shown(periodic)}")
-    corners, upwards, tilted = to_bounds(bounds, len(sides)), to_flag(y_up, "y_up"), to_number(tilt, "tilt")
-    closed = corners is not None and (to_outside(outside) != "count" or any(axes) or depth > 1)
-    x, y, z = [*axes, False][:3]
-    return _vorocl.Grid(width, height, depth, x, y, z, tilted, corners, upwards, closed)
-
-
-def shape_of(grid: _vorocl.Grid) -> Shape:
-    """(H, W) of a grid, or (D, H, W) of a volume."""
-    return (grid.height, grid.width) if grid.depth == 1 else (grid.depth, grid.height, grid.width)
-
-
-def periodic_of(grid: _vorocl.Grid) -> Periodic:
-    """Which axes (x, y) of a grid are periodic, or (x, y, z) of a volume."""
-    axes = (grid.periodic_x, grid.periodic_y)
-    return axes if grid.depth == 1 else (*axes, grid.periodic_z)
-
-
-def _to_bool(value: object) -> bool:
+def to_bool(value: object) -> bool:
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError
     return bool(value)
@@ -116,26 +63,9 @@ def _to_bool(value: object) -> bool:
 def to_flag(value: bool, name: str) -> bool:
     """A boolean, and nothing that only counts as one."""
     try:
-        return _to_bool(value)
+        return to_bool(value)
     except TypeError:
         raise BadArgument(f"{name} must be True or False; this is {shown(value)}") from None
-
-
-def to_bounds(bounds: Optional[Bounds], dimensions: int = 2) -> Optional[Bounds]:
-    """Four floats (x0, y0, x1, y1), or of a volume six."""
-    if bounds is None:
-        return None
-    numbers = {2: "four numbers (x0, y0, x1, y1)", 3: "six numbers (x0, y0, z0, x1, y1, z1) for a volume"}
-    try:
-        corners: Any = tuple(float(value) for value in bounds)
-    except (TypeError, ValueError, OverflowError):
-        corners = ()
-    if len(corners) != 2 * dimensions:
-        raise BadArgument(f"bounds must be {numbers[dimensions]}; this is {shown(bounds)}")
-    if any(low == high for low, high in zip(corners, corners[dimensions:])):
-        raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")
-    checked: Bounds = corners
-    return checked
 
 
 def to_outside(outside: Outside) -> Outside:
@@ -262,7 +192,7 @@ def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
     return np.ascontiguousarray(array, dtype=np.uint32)
 
 
-def to_density(density: ArrayLike, shape: Shape) -> NDArray[np.float32]:
+def to_density(density: ArrayLike, shape: Tuple[int, ...]) -> NDArray[np.float32]:
     """Weights of pixels, C-contiguous; what they must be, the library says."""
     array = to_image(density, "density")
     if array.dtype.kind not in "biuf":

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
-from ._arguments import Bounds, Outside, Periodic, shown, to_grid, to_outside, to_points
+from ._arguments import Outside, shown, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
+from ._grid import Bounds, Grid, Periodic
 from ._parameters import with_parameters
 
 EXACT_CELL = np.dtype(
@@ -212,7 +213,7 @@ def exact_cells(
     """
     if bounds is None:
         raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); these are {shown(bounds)}")
-    grid = to_grid((1, 1), periodic, bounds, outside, tilt=tilt)
+    grid = Grid((1, 1), bounds, periodic, tilt)._of(outside)
     array = to_points(points)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
     return ExactCells(array, _vorocl.exact_cells(seeds))

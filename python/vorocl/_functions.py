@@ -2,33 +2,27 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import threading
-from typing import Any, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, NamedTuple, Optional, Protocol, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
 from ._arguments import (
-    Bounds,
     Method,
     Metric,
     Outside,
-    Periodic,
     Sampling,
-    Shape,
     Truth,
     Units,
     output,
-    periodic_of,
-    shape_of,
     shown,
-    to_bounds,
     to_count,
     to_density,
     to_flag,
-    to_grid,
     to_image,
     to_labels,
     to_mask,
@@ -45,6 +39,7 @@ from ._arguments import (
 )
 from ._device import Device, to_device
 from ._errors import BadArgument
+from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid
 from ._objects import Diagram, Seeds
 from ._parameters import with_parameters
 
@@ -67,44 +62,27 @@ _workspace = _Workspace()
 
 def _filled(
     points: ArrayLike,
-    shape: Shape,
+    grid: Grid,
     method: Method,
     metric: Metric,
-    bounds: Optional[Bounds],
-    periodic: Periodic,
-    tilt: float,
     outside: Outside,
-    y_up: bool,
     snap: Optional[bool],
     device: Optional[Device],
     labels: Optional[NDArray[np.uint32]] = None,
 ) -> Diagram:
     """The diagram, which is the thread's until its next call; or its labels alone, in an array."""
-    grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
-    shape, periodic, tilt = shape_of(grid), periodic_of(grid), grid.tilt
-    corners, array = to_bounds(bounds, len(shape)), to_points(points, len(shape))
-    snapped = to_snap(snap, method)
-    wanted = (shape, periodic, tilt, corners, to_outside(outside), y_up, snapped, to_device(device))
+    array, snapped = to_points(points, len(grid.shape)), to_snap(snap, method)
+    wanted = (grid, to_outside(outside), snapped, to_device(device))
     if _workspace.made_for != wanted:
         _workspace.made_for = None
-        seeds = Seeds(
-            array,
-            shape,
-            bounds=corners,
-            periodic=periodic,
-            tilt=tilt,
-            outside=outside,
-            y_up=y_up,
-            snap=snapped,
-            device=device,
-        )
-        _workspace.seeds, _workspace.diagram = seeds, Diagram(shape, periodic=periodic, device=device)
+        _workspace.seeds = Seeds(array, grid, outside=outside, snap=snapped, device=device)
+        _workspace.diagram = Diagram(grid, device=device)
         _workspace.made_for = wanted
     else:
         _workspace.seeds._seeds.move_to(array, None)  # without asking how far
     made = _workspace.diagram
     if method in _CONTINUING:
-        made = Diagram(shape, periodic=periodic, device=device)  # or it would go on from the last call's labels
+        made = Diagram(grid, device=device)  # or it would go on from the last call's labels
     if labels is None:
         made.fill(_workspace.seeds, method, metric)
     else:
@@ -115,18 +93,15 @@ def _filled(
 @with_parameters
 def diagram(
     points: ArrayLike,
-    shape: Shape,
+    grid: Union[Grid, Shape],
     *,
     method: Method = "exact",
     metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
     outside: Outside = "count",
-    y_up: bool = False,
     snap: Optional[bool] = None,
     out: Optional[NDArray[np.uint32]] = None,
     device: Optional[Device] = None,
+    **frame: Unpack[Frame],
 ) -> NDArray[np.uint32]:
     """Give every pixel the row of its nearest point.
 
@@ -142,7 +117,7 @@ def diagram(
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap>
+    <points, grid, method, metric, outside, snap>
     out : ndarray, optional
         Where the labels go: uint32 of the shape, C-contiguous. Without it, a new array.
     <device>
@@ -178,8 +153,9 @@ def diagram(
     <BLANKLINE>
            [[0, 0, 1, 1]]], dtype=uint32)
     """
-    labels = output(out, shape_of(to_grid(shape, periodic)), np.uint32)
-    _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device, labels)
+    made = to_grid(grid, frame)
+    labels = output(out, made.shape, np.uint32)
+    _filled(points, made, method, metric, outside, snap, device, labels)
     return labels
 
 
@@ -197,7 +173,7 @@ def _transform(
     z, y, x = (1.0,) * (3 - pixels.ndim) + tuple(sizes or (1.0,) * pixels.ndim)
     return _vorocl.transform(
         to_device(device)._device,
-        to_grid(shape, periodic),
+        Grid(shape, periodic=periodic)._of("count"),
         (x, y, z),
         pixels.view(np.uint8),
         pixels.dtype.str[1:],
@@ -265,9 +241,10 @@ def from_mask(
         return labels
     pixels = pixels[0] if pixels.ndim == 3 and len(pixels) == 1 else pixels
     shape: Any = pixels.shape
-    made = Diagram(shape, periodic=periodic, device=device)
+    grid = Grid(shape, periodic=periodic)
+    made = Diagram(grid, device=device)
     marked = (pixels != 0) & (pixels == pixels)
-    seeds = _vorocl.Seeds.from_mask(made.device._device, to_grid(shape, periodic), marked.view(np.uint8))
+    seeds = _vorocl.Seeds.from_mask(made.device._device, grid._of("count"), marked.view(np.uint8))
     made._diagram.fill(seeds, method, metric, None)
     made.read(labels.reshape(made.shape))
     return labels
@@ -442,25 +419,22 @@ def _fill_transform(
 @with_parameters
 def distances(
     points: ArrayLike,
-    shape: Shape,
+    grid: Union[Grid, Shape],
     *,
     method: Method = "exact",
     metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
     outside: Outside = "count",
-    y_up: bool = False,
     snap: Optional[bool] = None,
     units: Optional[Units] = None,
     out: Optional[NDArray[np.float32]] = None,
     device: Optional[Device] = None,
+    **frame: Unpack[Frame],
 ) -> NDArray[np.float32]:
     """Give every pixel the distance to its nearest point.
 
     Parameters
     ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, units>
+    <points, grid, method, metric, outside, snap, units>
     out : ndarray, optional
         Where the distances go: float32 of the shape, C-contiguous. Without it, a new array.
     <device>
@@ -483,218 +457,61 @@ def distances(
            [1., 2., 3., 4.]], dtype=float32)
     """
     to_units(units, True)
-    values = output(out, shape_of(to_grid(shape, periodic)), np.float32)
-    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).distances(values, units=units)
+    made = to_grid(grid, frame)
+    values = output(out, made.shape, np.float32)
+    return _filled(points, made, method, metric, outside, snap, device).distances(values, units=units)
 
 
-@with_parameters
-def cells(
-    points: ArrayLike,
-    shape: Shape,
-    *,
-    method: Method = "exact",
-    metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
-    outside: Outside = "count",
-    y_up: bool = False,
-    snap: Optional[bool] = None,
-    units: Optional[Units] = None,
-    device: Optional[Device] = None,
-) -> NDArray[Any]:
-    """Measure the cell of every point.
-
-    Parameters
-    ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
-
-    Returns
-    -------
-    ndarray
-        A structured array with one row per point; ``pandas.DataFrame(...)`` makes a table of it. Its dtype in pixels has
-        the fields of ``vorocl.CELL``, whole numbers of pixels. Along a periodic axis, pixels count where they lie the shorter
-        way round from the point, which may be outside the grid. The fields are
-
-        ``x``, ``y``
-            The point's position in the diagram; NaN if the point is absent.
-        ``area``
-            0 if the point is absent, or others are nearer to all pixels. Areas sum to that of the grid.
-        ``centroid_x``, ``centroid_y``
-            The mean of the centres of the pixels; NaN of an empty cell.
-        ``left``, ``top``, ``right``, ``bottom``
-            In pixels the first and last columns and rows; right < left and bottom < top in an empty cell. In the units
-            of the points the outer edges of these, so that top > bottom if y goes up; NaN of an empty cell.
-        ``perimeter``
-            Of the pixel edges that the cell shares with other cells: the grid's edge is no border.
-        ``neighbours``
-            Cells that it shares an edge with.
-        ``largest_distance``
-            Of its pixels to the point, in `metric`; NaN of an empty cell.
-        ``touches_border``
-            Whether it has a pixel next to a border of the grid; a periodic axis has none.
-
-        Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
-        say so, ``perimeter_px`` and ``largest_distance_px``.
-
-        In a volume there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
-        slices) too. Its area is the volume of a cell, and its perimeter the voxel faces that it shares with others.
-
-    Raises
-    ------
-    BadPoint, BadArgument, DeviceMemoryError, DeviceError
-
-    Examples
-    --------
-    >>> import vorocl
-    >>> cells = vorocl.cells([(0.5, 0.5), (7.5, 3.5)], (4, 8))
-    >>> cells["area"]
-    array([16, 16], dtype=uint32)
-    >>> cells[["left", "top", "right", "bottom"]][1].tolist()
-    (3, 0, 7, 3)
-    >>> whole = vorocl.cells([(1, 0.5)], (4, 8), bounds=(0, 0, 4, 2), y_up=True)[0]
-    >>> whole[["area", "centroid_x", "centroid_y", "top"]].tolist()
-    (8.0, 2.0, 1.0, 2.0)
-    >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["area", "centroid_z", "perimeter"]].tolist()
-    [(18, 1.0, 6), (18, 1.0, 6)]
-    """
-    to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).cells(units=units)
+Measured = TypeVar("Measured", covariant=True)
 
 
-@with_parameters
-def areas(
-    points: ArrayLike,
-    shape: Shape,
-    *,
-    method: Method = "exact",
-    metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
-    outside: Outside = "count",
-    y_up: bool = False,
-    snap: Optional[bool] = None,
-    units: Optional[Units] = None,
-    device: Optional[Device] = None,
-) -> NDArray[Any]:
-    """Measure the areas of the cells and nothing else, which takes a part of the time that `cells` takes.
-
-    Parameters
-    ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
-
-    Returns
-    -------
-    ndarray
-        Shape (N,), by row of `points`, as the field ``area`` of `cells`: uint32 in pixels, else float64. In a volume
-        the volumes, uint32 in voxels.
-
-    Raises
-    ------
-    BadPoint, BadArgument, DeviceMemoryError, DeviceError
-
-    Examples
-    --------
-    >>> import vorocl
-    >>> vorocl.areas([(0.5, 0.5), (7.5, 3.5)], (4, 8))
-    array([16, 16], dtype=uint32)
-    >>> vorocl.areas([(0.25, 0.25), (3.75, 1.75)], (4, 8), bounds=(0, 0, 4, 2))
-    array([4., 4.])
-    """
-    to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).areas(units=units)
+class _Measure(Protocol[Measured]):
+    def __call__(
+        self,
+        points: ArrayLike,
+        grid: Union[Grid, Shape],
+        *,
+        method: Method = "exact",
+        metric: Metric = "euclidean",
+        outside: Outside = "count",
+        snap: Optional[bool] = None,
+        units: Optional[Units] = None,
+        device: Optional[Device] = None,
+        **frame: Unpack[Frame],
+    ) -> Measured: ...
 
 
-@with_parameters
-def adjacency(
-    points: ArrayLike,
-    shape: Shape,
-    *,
-    method: Method = "exact",
-    metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
-    outside: Outside = "count",
-    y_up: bool = False,
-    snap: Optional[bool] = None,
-    units: Optional[Units] = None,
-    device: Optional[Device] = None,
-) -> Tuple[NDArray[np.uint32], NDArray[np.uint32]]:
-    """Find the cells that touch, and how long their borders are.
+def _of_points(measure: Callable[..., Measured]) -> _Measure[Measured]:
+    """What a method measures of a diagram, as a function of its points."""
 
-    In an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch along
-    less than a few pixels.
+    def function(
+        points: ArrayLike,
+        grid: Union[Grid, Shape],
+        *,
+        method: Method = "exact",
+        metric: Metric = "euclidean",
+        outside: Outside = "count",
+        snap: Optional[bool] = None,
+        units: Optional[Units] = None,
+        device: Optional[Device] = None,
+        **frame: Unpack[Frame],
+    ) -> Measured:
+        to_units(units, True)
+        return measure(_filled(points, to_grid(grid, frame), method, metric, outside, snap, device), units=units)
 
-    Parameters
-    ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
-
-    Returns
-    -------
-    pairs : ndarray
-        uint32, shape (M, 2): rows (a, b) with a < b, each pair once, sorted.
-    lengths : ndarray
-        Shape (M,): of the pixel edges that the cells share; uint32 in pixels, else float64. Where pixels are no squares
-        in the units of `bounds` a length has no scale: then ``units="pixels"`` is needed. In a volume the areas of
-        contact: of the voxel faces that the cells share.
-
-    Raises
-    ------
-    BadPoint, BadArgument, DeviceMemoryError, DeviceError
-
-    Examples
-    --------
-    >>> import vorocl
-    >>> pairs, lengths = vorocl.adjacency([(0.5, 0.5), (4.5, 0.5), (8.5, 0.5)], (2, 9))
-    >>> pairs.tolist(), lengths.tolist()
-    ([[0, 1], [1, 2]], [2, 2])
-    """
-    to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).adjacency(units=units)
+    function.__name__ = function.__qualname__ = measure.__name__
+    function.__annotations__["return"] = measure.__annotations__["return"]
+    text = inspect.getdoc(measure)
+    if text is not None:  # python -OO leaves none
+        title = "Parameters\n----------\n"
+        function.__doc__ = text.replace(title, title + "<points, grid, method, metric, outside, snap, device>\n")
+    return with_parameters(function)
 
 
-@with_parameters
-def vertices(
-    points: ArrayLike,
-    shape: Shape,
-    *,
-    method: Method = "exact",
-    metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
-    outside: Outside = "count",
-    y_up: bool = False,
-    snap: Optional[bool] = None,
-    units: Optional[Units] = None,
-    device: Optional[Device] = None,
-) -> NDArray[np.float64]:
-    """Find the vertices: the pixel corners where three or more cells meet.
-
-    Parameters
-    ----------
-    <points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, units, device>
-
-    Returns
-    -------
-    ndarray
-        float64, shape (M, 2), rows (x, y), sorted by row of pixels and then column. Corners on the grid's edge do not
-        count; along a periodic axis there is none, and the corners between the last pixels and the first are at its end.
-
-    Raises
-    ------
-    BadPoint, BadArgument, DeviceMemoryError, DeviceError
-
-    Examples
-    --------
-    >>> import vorocl
-    >>> vorocl.vertices([(0.5, 0.5), (3.5, 0.5), (1.5, 3.5)], (4, 4)).tolist()
-    [[2.0, 2.0]]
-    """
-    to_units(units, True)
-    return _filled(points, shape, method, metric, bounds, periodic, tilt, outside, y_up, snap, device).vertices(units=units)
+cells = _of_points(Diagram.cells)
+areas = _of_points(Diagram.areas)
+adjacency = _of_points(Diagram.adjacency)
+vertices = _of_points(Diagram.vertices)
 
 
 class Relaxation(NamedTuple):
@@ -714,17 +531,15 @@ class Relaxation(NamedTuple):
 @with_parameters
 def relax(
     points: ArrayLike,
-    shape: Shape,
+    grid: Union[Grid, Shape],
     *,
     rounds: int = 100,
     density: Optional[ArrayLike] = None,
     method: Method = "exact",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
     outside: Outside = "count",
-    y_up: bool = False,
     snap: Optional[bool] = None,
     device: Optional[Device] = None,
+    **frame: Unpack[Frame],
 ) -> Relaxation:
     """Move points to the centroids of their cells, again and again: Lloyd's algorithm on pixels.
 
@@ -733,15 +548,15 @@ def relax(
 
     Parameters
     ----------
-    <points, shape>
+    <points, grid>
     rounds : int, optional
         How many at most. It ends before if no point would move by 1/64 of a pixel or more.
     density : array_like, optional
-        How dense the points shall be: an image of `shape` with a number of at least 0 for each pixel. The centroids are
+        How dense the points shall be: an image of the grid with a number of at least 0 for each pixel. The centroids are
         those of cells whose pixels weigh as much (Secord 2002, "Weighted Voronoi stippling"). Weights are rounded to
         1/65535 of the greatest. Points whose cells weigh nothing stay. Many points come to lie as densely as the square
         root of the density: give its square for points as dense as it is.
-    <method, bounds, periodic, outside, y_up, snap, device>
+    <method, outside, snap, device>
 
     Returns
     -------
@@ -760,17 +575,9 @@ def relax(
     >>> relaxed.points.tolist(), relaxed.converged
     ([[2.0, 2.0], [6.0, 2.0]], True)
     """
-    seeds = Seeds(
-        points,
-        shape,
-        bounds=bounds,
-        periodic=periodic,
-        outside=outside,
-        y_up=y_up,
-        snap=to_snap(snap, method),
-        device=device,
-    )
-    made = Diagram(shape, periodic=periodic, device=device)
+    shown_by = to_grid(grid, frame)
+    seeds = Seeds(points, shown_by, outside=outside, snap=to_snap(snap, method), device=device)
+    made = Diagram(shown_by, device=device)
     weights = None if density is None else to_density(density, made.shape)
     done = made._diagram.relax(
         seeds._seeds, to_text(method, "method"), "euclidean", to_count(rounds, "rounds"), weights
@@ -815,15 +622,13 @@ def similarity(a: ArrayLike, b: ArrayLike) -> float:
 def errors(
     labels: ArrayLike,
     points: ArrayLike,
+    grid: Union[Grid, Shape, None] = None,
     *,
     metric: Metric = "euclidean",
-    bounds: Optional[Bounds] = None,
-    periodic: Periodic = (False, False),
-    tilt: float = 0.0,
     outside: Outside = "count",
-    y_up: bool = False,
     truth: Truth = "snapped",
     device: Optional[Device] = None,
+    **frame: Unpack[Frame],
 ) -> _vorocl.DistanceErrors:
     """Judge labels by an exact diagram of the points: how many are wrong, and by how many pixels.
 
@@ -834,7 +639,11 @@ def errors(
     ----------
     labels : array_like
         Integers, shape (H, W) or (D, H, W): rows of `points`.
-    <points, metric, bounds, periodic, tilt, outside, y_up, truth, device>
+    <points>
+    grid : Grid, optional
+        That of the labels. Without it, the one of their shape, and `bounds`, `periodic`, `tilt` and `y_up` are keywords
+        here, too.
+    <metric, outside, truth, device>
 
     Returns
     -------
@@ -857,9 +666,8 @@ def errors(
     image = to_labels(labels)
     to_truth(truth)
     shape: Any = image.shape
-    seeds = Seeds(
-        points, shape, bounds=bounds, periodic=periodic, tilt=tilt, outside=outside, y_up=y_up, device=device
-    )
-    judged = Diagram(shape, periodic=periodic, device=device)
+    shown_by = to_grid(shape if grid is None else grid, frame)
+    seeds = Seeds(points, shown_by, outside=outside, device=device)
+    judged = Diagram(shown_by, device=device)
     judged.write(image, seeds, metric)
     return judged.errors(truth)

@@ -4,24 +4,19 @@ from __future__ import annotations
 
 import math
 import sys
-from typing import Any, List, Optional, Tuple, cast
+from typing import Any, List, Optional, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
 from ._arguments import (
-    Bounds,
     Method,
     Metric,
     Outside,
-    Periodic,
-    Shape,
     Truth,
     Units,
     output,
-    shape_of,
-    to_grid,
     to_labels,
     to_number,
     to_outside,
@@ -33,6 +28,7 @@ from ._arguments import (
 )
 from ._device import Buffer, Device, OnDevice, is_of_pyopencl, to_device
 from ._errors import BadArgument
+from ._grid import Bounds, Frame, Grid, Shape, Unpack, to_grid
 from ._parameters import with_parameters
 
 CELL = np.dtype(
@@ -76,7 +72,7 @@ class Seeds(OnDevice):
 
     Parameters
     ----------
-    <points, shape, bounds, periodic, tilt, outside, y_up, snap, device>
+    <points, grid, outside, snap, device>
 
     Points may be a `pyopencl.array.Array` of float32 or float64 in the context of `device`, whole and contiguous. They
     stay on the device, are placed there behind what its queue holds, and nothing waits for them unless they may lie
@@ -105,29 +101,29 @@ class Seeds(OnDevice):
     def __init__(
         self,
         points: ArrayLike,
-        shape: Shape,
+        grid: Union[Grid, Shape],
         *,
-        bounds: Optional[Bounds] = None,
-        periodic: Periodic = (False, False),
-        tilt: float = 0.0,
         outside: Outside = "count",
-        y_up: bool = False,
         snap: Optional[bool] = None,
         device: Optional[Device] = None,
+        **frame: Unpack[Frame],
     ) -> None:
-        grid = to_grid(shape, periodic, bounds, outside, y_up, tilt)
-        sides = shape_of(grid)
-        there = _points_there(points, len(sides))
-        array = np.empty((0, len(sides))) if there else to_points(points, len(sides))
-        self._shape, self._periodic, self._outside, self._y_up = sides, periodic, outside, y_up
-        self._bounds, self._tilt = bounds, tilt  # of the present frame
-        self._are_in_data = bounds is not None or y_up  # and not in pixels with y down
+        self._grid, self._outside = to_grid(grid, frame), to_outside(outside)  # the grid of the present frame
+        self._are_in_data = self._grid.bounds is not None or self._grid.y_up  # and not in pixels with y down
         self._device = to_device(device)
-        how = to_outside(outside), to_snap(snap)
+        dimensions = len(self._grid.shape)
+        how = self._outside, to_snap(snap)
+        there = _points_there(points, dimensions)
         if there:
-            self._seeds = _vorocl.Seeds.from_buffer(self._device._device, grid, there, *how)
+            self._seeds = _vorocl.Seeds.from_buffer(self._device._device, self._grid._of(outside), there, *how)
         else:
-            self._seeds = _vorocl.Seeds(self._device._device, grid, array, *how)
+            array = to_points(points, dimensions)
+            self._seeds = _vorocl.Seeds(self._device._device, self._grid._of(outside), array, *how)
+
+    @property
+    def grid(self) -> Grid:
+        """The grid of the present frame."""
+        return self._grid
 
     @property
     def device(self) -> Device:
@@ -180,19 +176,16 @@ class Seeds(OnDevice):
         >>> seeds.move_to([(1, 3), (5, 2)])
         2
         """
-        there = _points_there(points, len(self._shape))
+        dimensions, is_same = len(self._grid.shape), bounds is None and tilt is None
+        there = _points_there(points, dimensions)
         if there:
-            if bounds is not None or tilt is not None:
+            if not is_same:
                 raise BadArgument("points on the device keep the bounds and the tilt of their grid: make new Seeds of them")
             self._seeds.move_to_buffer(there)
             return None
-        grid = None
-        shown = self._bounds if bounds is None else bounds
-        tilted = self._tilt if tilt is None else tilt
-        if bounds is not None or tilt is not None:
-            grid = to_grid(self._shape, self._periodic, shown, self._outside, self._y_up, tilted)
-        self._seeds.move_to(to_points(points, len(self._shape)), grid)
-        self._bounds, self._tilt = shown, tilted
+        grid = self._grid._showing(bounds, tilt)
+        self._seeds.move_to(to_points(points, dimensions), None if is_same else grid._of(self._outside))
+        self._grid = grid
         self._are_in_data = self._are_in_data or bounds is not None
         return int(self._seeds.displacement)
 
@@ -210,11 +203,12 @@ class Seeds(OnDevice):
             Shape (N, 2), rows (x, y), in a volume (N, 3), rows (x, y, z); NaN for a seed that is absent.
         """
         in_pixels = not to_units(units, self._are_in_data)
-        points = np.empty((len(self), len(self._shape)))
+        points = np.empty((len(self), len(self._grid.shape)))
         self._seeds.read(points, in_pixels=in_pixels)
         return points
 
 
+@with_parameters
 class Diagram(OnDevice):
     """A Voronoi diagram: an image of labels, kept on the device.
 
@@ -223,8 +217,9 @@ class Diagram(OnDevice):
 
     Parameters
     ----------
-    shape, periodic, device
-        Those of the seeds that it will be filled from. Their bounds and their tilt it takes from them.
+    <grid>
+        What its seeds have; their bounds and their tilt it takes from them.
+    <device>
     labels : pyopencl.Buffer, optional
         Where the labels are to be: at least 4 bytes per pixel, of the device's context, which kernels can read and write.
 
@@ -251,20 +246,20 @@ class Diagram(OnDevice):
 
     def __init__(
         self,
-        shape: Shape,
+        grid: Union[Grid, Shape],
         *,
-        periodic: Periodic = (False, False),
         device: Optional[Device] = None,
         labels: Optional[Buffer] = None,
+        **frame: Unpack[Frame],
     ) -> None:
-        grid = to_grid(shape, periodic)
-        self._shape = shape_of(grid)
+        made = to_grid(grid, frame)
+        self._shape = made.shape
         self._device = to_device(device)
         self._are_in_data = False  # what the points of its seeds are in
         if labels is None:
-            self._diagram = _vorocl.Diagram(self._device._device, grid)
+            self._diagram = _vorocl.Diagram(self._device._device, made._of("count"))
         else:
-            self._diagram = _vorocl.Diagram.over_buffer(self._device._device, grid, _handle(labels))
+            self._diagram = _vorocl.Diagram.over_buffer(self._device._device, made._of("count"), _handle(labels))
 
     @property
     def device(self) -> Device:
@@ -421,11 +416,60 @@ class Diagram(OnDevice):
 
     @with_parameters
     def cells(self, *, units: Optional[Units] = None) -> NDArray[Any]:
-        """Measure every cell: see `vorocl.cells`.
+        """Measure the cell of every point.
 
         Parameters
         ----------
         <units>
+
+        Returns
+        -------
+        ndarray
+            A structured array with one row per point; ``pandas.DataFrame(...)`` makes a table of it. Its dtype in pixels has
+            the fields of ``vorocl.CELL``, whole numbers of pixels. Along a periodic axis, pixels count where they lie the shorter
+            way round from the point, which may be outside the grid. The fields are
+
+            ``x``, ``y``
+                The point's position in the diagram; NaN if the point is absent.
+            ``area``
+                0 if the point is absent, or others are nearer to all pixels. Areas sum to that of the grid.
+            ``centroid_x``, ``centroid_y``
+                The mean of the centres of the pixels; NaN of an empty cell.
+            ``left``, ``top``, ``right``, ``bottom``
+                In pixels the first and last columns and rows; right < left and bottom < top in an empty cell. In the units
+                of the points the outer edges of these, so that top > bottom if y goes up; NaN of an empty cell.
+            ``perimeter``
+                Of the pixel edges that the cell shares with other cells: the grid's edge is no border.
+            ``neighbours``
+                Cells that it shares an edge with.
+            ``largest_distance``
+                Of its pixels to the point, in `metric`; NaN of an empty cell.
+            ``touches_border``
+                Whether it has a pixel next to a border of the grid; a periodic axis has none.
+
+            Where pixels are no squares in the units of `bounds` a length has no scale: there the names of those in pixels
+            say so, ``perimeter_px`` and ``largest_distance_px``.
+
+            In a volume there are ``z``, ``centroid_z``, ``front`` and ``back`` (the first and last
+            slices) too. Its area is the volume of a cell, and its perimeter the voxel faces that it shares with others.
+
+        Raises
+        ------
+        BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> cells = vorocl.cells([(0.5, 0.5), (7.5, 3.5)], (4, 8))
+        >>> cells["area"]
+        array([16, 16], dtype=uint32)
+        >>> cells[["left", "top", "right", "bottom"]][1].tolist()
+        (3, 0, 7, 3)
+        >>> whole = vorocl.cells([(1, 0.5)], (4, 8), bounds=(0, 0, 4, 2), y_up=True)[0]
+        >>> whole[["area", "centroid_x", "centroid_y", "top"]].tolist()
+        (8.0, 2.0, 1.0, 2.0)
+        >>> vorocl.cells([(0, 0, 0), (5, 0, 0)], (2, 3, 6), method="jfa")[["area", "centroid_z", "perimeter"]].tolist()
+        [(18, 1.0, 6), (18, 1.0, 6)]
         """
         in_data = to_units(units, self._are_in_data)
         cells = self._diagram.cells().view(CELL)[:, 0]
@@ -465,11 +509,29 @@ class Diagram(OnDevice):
 
     @with_parameters
     def areas(self, *, units: Optional[Units] = None) -> NDArray[Any]:
-        """Measure the areas of the cells and nothing else: see `vorocl.areas`.
+        """Measure the areas of the cells and nothing else, which takes a part of the time that `cells` takes.
 
         Parameters
         ----------
         <units>
+
+        Returns
+        -------
+        ndarray
+            Shape (N,), by row of `points`, as the field ``area`` of `cells`: uint32 in pixels, else float64. In a volume
+            the volumes, uint32 in voxels.
+
+        Raises
+        ------
+        BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> vorocl.areas([(0.5, 0.5), (7.5, 3.5)], (4, 8))
+        array([16, 16], dtype=uint32)
+        >>> vorocl.areas([(0.25, 0.25), (3.75, 1.75)], (4, 8), bounds=(0, 0, 4, 2))
+        array([4., 4.])
         """
         in_data = to_units(units, self._are_in_data)
         pixels = self._diagram.areas()[:, 0]
@@ -477,11 +539,34 @@ class Diagram(OnDevice):
 
     @with_parameters
     def adjacency(self, *, units: Optional[Units] = None) -> Tuple[NDArray[np.uint32], NDArray[Any]]:
-        """Find the cells that touch: see `vorocl.adjacency`.
+        """Find the cells that touch, and how long their borders are.
+
+        In an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch along
+        less than a few pixels.
 
         Parameters
         ----------
         <units>
+
+        Returns
+        -------
+        pairs : ndarray
+            uint32, shape (M, 2): rows (a, b) with a < b, each pair once, sorted.
+        lengths : ndarray
+            Shape (M,): of the pixel edges that the cells share; uint32 in pixels, else float64. Where pixels are no squares
+            in the units of `bounds` a length has no scale: then ``units="pixels"`` is needed. In a volume the areas of
+            contact: of the voxel faces that the cells share.
+
+        Raises
+        ------
+        BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> pairs, lengths = vorocl.adjacency([(0.5, 0.5), (4.5, 0.5), (8.5, 0.5)], (2, 9))
+        >>> pairs.tolist(), lengths.tolist()
+        ([[0, 1], [1, 2]], [2, 2])
         """
         length = self._length() if to_units(units, self._are_in_data) else None
         rows = self._diagram.adjacency()
@@ -489,11 +574,27 @@ class Diagram(OnDevice):
 
     @with_parameters
     def vertices(self, *, units: Optional[Units] = None) -> NDArray[np.float64]:
-        """Find the pixel corners where three or more cells meet: see `vorocl.vertices`.
+        """Find the vertices: the pixel corners where three or more cells meet.
 
         Parameters
         ----------
         <units>
+
+        Returns
+        -------
+        ndarray
+            float64, shape (M, 2), rows (x, y), sorted by row of pixels and then column. Corners on the grid's edge do not
+            count; along a periodic axis there is none, and the corners between the last pixels and the first are at its end.
+
+        Raises
+        ------
+        BadPoint, BadArgument, DeviceMemoryError, DeviceError
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> vorocl.vertices([(0.5, 0.5), (3.5, 0.5), (1.5, 3.5)], (4, 4)).tolist()
+        [[2.0, 2.0]]
         """
         in_data = to_units(units, self._are_in_data)
         corners = self._diagram.vertices()
@@ -544,10 +645,10 @@ class Simulation(OnDevice):
 
     Parameters
     ----------
-    <shape>
+    <grid>
     method : str, optional
         As that of `Diagram.fill`. "djfa" goes on from the last frame; "exact" is faster, and right.
-    <metric, bounds, periodic, tilt, outside, y_up, snap, device>
+    <metric, outside, snap, device>
 
     Attributes
     ----------
@@ -572,30 +673,20 @@ class Simulation(OnDevice):
 
     def __init__(
         self,
-        shape: Shape,
+        grid: Union[Grid, Shape],
         *,
         method: Method = "exact",
         metric: Metric = "euclidean",
-        bounds: Optional[Bounds] = None,
-        periodic: Periodic = (False, False),
-        tilt: float = 0.0,
         outside: Outside = "count",
-        y_up: bool = False,
         snap: Optional[bool] = None,
         device: Optional[Device] = None,
+        **frame: Unpack[Frame],
     ) -> None:
         self._method, self._metric = to_text(method, "method"), to_text(metric, "metric")
-        self.diagram = Diagram(shape, periodic=periodic, device=device)
+        made = to_grid(grid, frame)
+        self.diagram = Diagram(made, device=device)
         self.seeds = Seeds(
-            (),
-            shape,
-            bounds=bounds,
-            periodic=periodic,
-            tilt=tilt,
-            outside=outside,
-            y_up=y_up,
-            snap=to_snap(snap, self._method),
-            device=self.diagram.device,
+            (), made, outside=outside, snap=to_snap(snap, self._method), device=self.diagram.device
         )
         self.report: Optional[_vorocl.Report] = None
 

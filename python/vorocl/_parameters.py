@@ -19,12 +19,15 @@ snap : bool, optional
 truth : {"snapped", "true"}, optional
     Whether points at the centres of their pixels are the truth, as for methods that flood, or the points themselves,
     rounded to 1/4096 of a pixel.""",
+    "grid": """\
+grid : Grid or (int, int) or (int, int, int)
+    A `Grid`; or its shape (H, W), of a volume (D, H, W). Then `bounds`, `periodic`, `tilt` and `y_up` are
+    keywords here, too.""",
     "shape": """\
-shape : (int, int)
-    The grid, (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that
-    flood take up to 32,000. Or a volume, (D, H, W) in voxels, which `diagram`, `distances`, `cells`, `areas`,
-    `adjacency`, `errors`, `Seeds`, `Diagram` and `Simulation` take: sides up to 16,384, and as many voxels as
-    2048 x 1024 x 1024; along periodic axes half as many.""",
+shape : (int, int) or (int, int, int)
+    (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that flood take up
+    to 32,000. Or a volume, (D, H, W) in voxels: sides up to 16,384, and as many voxels as 2048 x 1024 x 1024; along
+    periodic axes half as many.""",
     "method": """\
 method : str, optional
     "exact", or one that floods and is approximate: "standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa",

@@ -1,0 +1,158 @@
+"""The grid of a diagram: its pixels, and what of the points' space they show."""
+
+from __future__ import annotations
+
+import functools
+import operator
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Type, TypedDict, Union
+
+from . import _vorocl
+from ._arguments import Outside, shown, to_bool, to_flag, to_number, to_outside
+from ._errors import BadArgument
+from ._parameters import with_parameters
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack as Unpack
+else:  # at run time the type of the keywords alone
+    Unpack = Type
+
+Shape = Union[Tuple[int, int], Tuple[int, int, int]]
+Bounds = Union[Tuple[float, float, float, float], Tuple[float, float, float, float, float, float]]
+Periodic = Sequence[bool]
+
+
+@with_parameters
+@dataclass(frozen=True)
+class Grid:
+    """The pixels of a diagram, or the voxels of a volume, and what of the points' space they show.
+
+    Functions take one, or its shape alone with the other arguments by their names: ``areas(points, (4, 8), y_up=True)``
+    is ``areas(points, Grid((4, 8), y_up=True))``. Grids are equal if all that they say is; ``dataclasses.replace()`` makes
+    others of them.
+
+    Parameters
+    ----------
+    <shape, bounds, periodic, tilt, y_up>
+
+    Raises
+    ------
+    BadArgument
+        If no diagram can have it.
+
+    Examples
+    --------
+    >>> import vorocl
+    >>> plane = vorocl.Grid((1, 8), bounds=(-180, -90, 180, 90), periodic=(True, False))
+    >>> vorocl.diagram([(-157.5, 0), (22.5, 0)], plane)
+    array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
+    >>> vorocl.areas([(-157.5, 0), (22.5, 0)], plane, units="pixels")
+    array([5, 3], dtype=uint32)
+    """
+
+    shape: Shape
+    bounds: Optional[Bounds] = None
+    periodic: Periodic = (False, False)
+    tilt: float = 0.0
+    y_up: bool = False
+
+    def __post_init__(self) -> None:
+        shape = _to_shape(self.shape)
+        checked = {
+            "shape": shape,
+            "bounds": _to_bounds(self.bounds, len(shape)),
+            "periodic": _to_periodic(self.periodic, len(shape)),
+            "tilt": to_number(self.tilt, "tilt"),
+            "y_up": to_flag(self.y_up, "y_up"),
+        }
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
+        self._of("count")  # the library refuses what is not possible
+
+    def _of(self, outside: Outside) -> _vorocl.Grid:
+        """For points of which those outside are dealt with so.
+
+        Points at the bounds' far ends are inside, unless what is outside them counts all round: not in volumes, which
+        refuse it.
+        """
+        counts = to_outside(outside) == "count" and not any(self.periodic) and len(self.shape) == 2
+        return _made(self, self.bounds is not None and not counts)
+
+    def _showing(self, bounds: Optional[Bounds], tilt: Optional[float]) -> Grid:
+        """With other bounds or another tilt, where there are any."""
+        return replace(
+            self, bounds=self.bounds if bounds is None else bounds, tilt=self.tilt if tilt is None else tilt
+        )
+
+
+class Frame(TypedDict, total=False):
+    """What a grid has besides its shape: the keywords of functions that take a shape."""
+
+    bounds: Optional[Bounds]
+    periodic: Periodic
+    tilt: float
+    y_up: bool
+
+
+def to_grid(grid: Union[Grid, Shape], frame: Frame) -> Grid:
+    """A grid, or that of a shape and of what keywords say besides."""
+    unknown = [name for name in frame if name not in Frame.__annotations__]
+    if unknown:
+        raise TypeError(f"got an unexpected keyword argument '{unknown[0]}'")
+    if not isinstance(grid, Grid):
+        return Grid(grid, **frame)
+    if frame:
+        raise BadArgument(f"{' and '.join(frame)} must be said in the vorocl.Grid, not beside it")
+    return grid
+
+
+@functools.lru_cache(maxsize=64)
+def _made(grid: Grid, closed: bool) -> _vorocl.Grid:
+    depth, height, width = [1, *grid.shape][-3:]
+    x, y, z = [*grid.periodic, False][:3]
+    return _vorocl.Grid(width, height, depth, x, y, z, grid.tilt, grid.bounds, grid.y_up, closed)
+
+
+def _to_shape(shape: Shape) -> Shape:
+    far = 2**31  # past every limit, of which the library tells
+    try:
+        sides: Any = tuple(max(-far, min(operator.index(side), far)) for side in shape)
+    except (TypeError, ValueError):
+        sides = ()
+    if len(sides) not in (2, 3):
+        raise BadArgument(
+            f"a grid must be a vorocl.Grid or a shape: two whole numbers (H, W), or three (D, H, W); this is {shown(shape)}"
+        )
+    if len(sides) == 3 and sides[0] == 1:
+        raise BadArgument(f"a volume of one slice is a plane: give the shape {sides[1:]}, and points (x, y)")
+    checked: Shape = sides
+    return checked
+
+
+def _to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
+    try:
+        axes = tuple(to_bool(axis) for axis in periodic)
+    except (TypeError, ValueError):
+        axes = ()
+    if len(axes) == 2 and not any(axes):  # the default
+        axes = (False,) * dimensions
+    if len(axes) != dimensions:
+        wanted = {2: "two booleans (x, y)", 3: "three booleans (x, y, z) for a volume"}
+        raise BadArgument(f"periodic must be {wanted[dimensions]}; this is {shown(periodic)}")
+    return axes
+
+
+def _to_bounds(bounds: Optional[Bounds], dimensions: int) -> Optional[Bounds]:
+    if bounds is None:
+        return None
+    numbers = {2: "four numbers (x0, y0, x1, y1)", 3: "six numbers (x0, y0, z0, x1, y1, z1) for a volume"}
+    try:
+        corners: Any = tuple(float(value) for value in bounds)
+    except (TypeError, ValueError, OverflowError):
+        corners = ()
+    if len(corners) != 2 * dimensions:
+        raise BadArgument(f"bounds must be {numbers[dimensions]}; this is {shown(bounds)}")
+    if any(low == high for low, high in zip(corners, corners[dimensions:])):
+        raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")
+    checked: Bounds = corners
+    return checked
