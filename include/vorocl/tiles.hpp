@@ -122,6 +122,40 @@ class VOROCL_API PlaneSeeds : public SeedSource {
   std::unique_ptr<PlaneSeedsState> state_;
 };
 
+struct PlaneMaskState;
+
+/// The pixels of a grid of any size that are not 0, as seeds: ids are their numbers, row by row from 0, as of
+/// Seeds::from_mask(). On the host: a bit for each pixel, and 8 bytes for each row.
+///
+/// Threads: one thread at a time while rows are added, any number from then on.
+class VOROCL_API PlaneMask : public SeedSource {
+ public:
+  /// Without rows. Throws Error for a volume or a tilted grid.
+  explicit PlaneMask(const Grid& grid);
+  ~PlaneMask() override;
+  PlaneMask(PlaneMask&& other) noexcept;
+  PlaneMask& operator=(PlaneMask&& other) noexcept;
+
+  /// Appends rows, a byte for each pixel. Throws Error if the grid has fewer, or there are 2^32 - 1 seeds or
+  /// more, which ids cannot number; what was added before is kept.
+  void add_rows(const std::uint8_t* pixels, std::int64_t count);
+
+  /// The rows that were added.
+  std::int64_t rows() const;
+
+  const Grid& grid() const override;
+
+  /// How many seeds there are.
+  std::uint64_t id_end() const override;
+
+  /// As PlaneSeeds::find_near(). Throws Error if rows are missing, too.
+  void find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const override;
+
+ private:
+  PlaneMaskState& state() const;
+  std::unique_ptr<PlaneMaskState> state_;
+};
+
 /// A tile with its labels, which are ids of seeds or no_label, row-major.
 struct TileLabels {
   std::uint64_t number = 0;  ///< in its Tiling

@@ -1,11 +1,10 @@
 #include "tiles/plane_seeds.hpp"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
 #include "runtime/pixel_grid.hpp"
-#include "tiles/rim_walk.hpp"
+#include "tiles/near_seeds.hpp"
 
 namespace vorocl {
 
@@ -71,50 +70,10 @@ std::uint64_t PlaneSeeds::id_end() const { return state().id_end; }
 Snap PlaneSeeds::snap() const { return state().snap; }
 void PlaneSeeds::sort() const { state().sort(); }
 
-void PlaneSeedsState::find_near(const PlaneRectangle& rectangle, Metric metric,
-                                std::vector<PlaneSeed>& seeds) {
-  if (tree.size() == 0) return;
-  tree.find_inside(rectangle, seeds);
-  // A seed outside that owns a pixel inside owns every point of the plane between them: so one of the rim
-  // too. Ties are decided the same at both.
-  std::vector<std::size_t> on_rim;
-  const auto owner_at = [&](const Place& point, const SeedImage& guess) {
-    SeedImage owner = guess;
-    if (owner.distance != too_far) owner = tree.seen_from(point, grid, metric, guess);
-    tree.find_nearest(point, grid, metric, owner);
-    on_rim.push_back(owner.index);
-    return owner;
-  };
-  const auto find_between = [&](const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
-                                std::size_t most, std::vector<std::size_t>& found) {
-    if (at_a == at_b) return true;  // what wins at both ends wins between them
-    return tree.find_between(a, at_a, b, at_b, grid, metric, rectangle, most, found);
-  };
-  walk_rim(rectangle, 32, owner_at, find_between, on_rim);
-  std::sort(on_rim.begin(), on_rim.end());
-  on_rim.erase(std::unique(on_rim.begin(), on_rim.end()), on_rim.end());
-  for (const std::size_t index : on_rim) {
-    const PlaneSeed seed = tree.seed(index);
-    if (!holds(rectangle, seed.x, seed.y)) seeds.push_back(seed);
-  }
-}
-
 void PlaneSeeds::find_near(const Window& window, Metric metric, std::vector<PlaneSeed>& seeds) const {
-  if (window.longest_side() > Window::max_side) {
-    throw Error("the window has " + std::to_string(window.width()) + " x " + std::to_string(window.height()) +
-                " pixels; " + std::to_string(Window::max_side) + " along a side are possible");
-  }
   PlaneSeedsState& all = state();
   all.sort();
-  seeds.clear();
-  const std::vector<PlaneRectangle> parts = parts_of(window);
-  for (const PlaneRectangle& part : parts) all.find_near(part, metric, seeds);
-  if (parts.size() == 1) return;
-  // What owns pixels of several parts was found several times.
-  const auto by_id = [](const PlaneSeed& a, const PlaneSeed& b) { return a.id < b.id; };
-  const auto same = [](const PlaneSeed& a, const PlaneSeed& b) { return a.id == b.id; };
-  std::sort(seeds.begin(), seeds.end(), by_id);
-  seeds.erase(std::unique(seeds.begin(), seeds.end(), same), seeds.end());
+  NearSeeds(all.tree, all.grid, metric).find(window, seeds);
 }
 
 }  // namespace vorocl

@@ -46,9 +46,6 @@ struct PlaneSeedsState {
     id_end = std::max<std::uint64_t>(id_end, seed.id + std::uint64_t{1});
   }
 
-  /// Appends the seeds near a rectangle: PlaneSeeds::find_near().
-  void find_near(const PlaneRectangle& rectangle, Metric metric, std::vector<PlaneSeed>& seeds);
-
   Grid grid;
   Snapping snapping;
   Snap snap;

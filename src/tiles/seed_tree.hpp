@@ -39,17 +39,25 @@ class SeedTree {
   /// Appends the seeds in a rectangle.
   void find_inside(const PlaneRectangle& rectangle, std::vector<PlaneSeed>& found) const;
 
-  /// Makes `best` the image that wins at a point, if it does not yet.
-  void find_nearest(const Place& point, const Grid& grid, Metric metric, SeedImage& best) const;
-
-  /// The image as it is seen from another point.
-  SeedImage seen_from(const Place& point, const Grid& grid, Metric metric, SeedImage image) const;
-
-  /// Appends the seeds outside a rectangle that win somewhere on an axis-parallel line from a to b, and some
-  /// that do not, given the images that win at both ends. Returns false if they are more than `most`.
-  bool find_between(const Place& a, const SeedImage& at_a, const Place& b, const SeedImage& at_b,
-                    const Grid& grid, Metric metric, const PlaneRectangle& rectangle, std::size_t most,
-                    std::vector<std::size_t>& found) const;
+  /// See NearSeeds.
+  template <typename Enters, typename Use>
+  bool visit(Enters enters, Use use) const {
+    const auto judge = [&](const Box& box) {
+      return enters(box) ? SeedBoxes::Verdict::enter : SeedBoxes::Verdict::pass;
+    };
+    return boxes_.visit(judge, [&](std::size_t first, std::size_t end, bool) {
+      for (std::size_t i = first; i < end; ++i) {
+        if (!use(i)) return false;
+      }
+      return true;
+    });
+  }
+  template <typename Distance, typename Counts, typename Use>
+  void visit_nearest_first(Distance distance, Counts counts, Use use) const {
+    boxes_.visit_nearest_first(distance, counts, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) use(i);
+    });
+  }
 
  private:
   void sort_places();
@@ -60,7 +68,6 @@ class SeedTree {
   std::int32_t y_of(std::size_t index) const {
     return static_cast<std::int32_t>(places_[index] >> 32 ^ z_bias);
   }
-  Place place_of(std::size_t index) const { return vorocl::place_of(seed(index)); }
 
   bool has_parts_;
   std::vector<std::uint64_t> places_;  // on the Z-curve; once they are in order, y and x

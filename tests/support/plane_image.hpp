@@ -42,7 +42,7 @@ class Image {
   std::vector<int> times_;
 };
 
-inline Labels labels_of(const PlaneSeeds& seeds, const Tiling& tiling, const TileOptions& options = {}) {
+inline Labels labels_of(const SeedSource& seeds, const Tiling& tiling, const TileOptions& options = {}) {
   Image image(tiling);
   exact_tiles(
       test_device(), seeds, tiling, [&](const TileLabels& tile) { image.add(tile); }, options);
