@@ -2,6 +2,7 @@
 #define BOOST_TEST_MODULE tiles_command
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 
 #include "app/sources/random_seeds.hpp"
@@ -72,6 +73,72 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_one_grid) {
       }
     }
   }
+}
+
+/// A mask of 150 x 100 pixels with a few seeds, a disc of them and a hole in it.
+void write_mask(const TemporaryFolder& folder) {
+  cv::Mat mask(100, 150, CV_8U, cv::Scalar(0));
+  cv::circle(mask, {40, 50}, 30, cv::Scalar(200), cv::FILLED);
+  cv::circle(mask, {45, 55}, 12, cv::Scalar(0), cv::FILLED);
+  for (const cv::Point seed : {cv::Point(149, 0), {120, 99}, {100, 3}, {100, 5}})
+    mask.at<std::uint8_t>(seed) = 1;
+  cv::imwrite(folder / "m.png", mask);
+  cv::imwrite(folder / "m.tif", mask);
+  write_npy(OutputFile(folder / "m.npy"), Size(150, 100),
+            std::vector<std::uint8_t>(mask.begin<std::uint8_t>(), mask.end<std::uint8_t>()));
+}
+
+BOOST_AUTO_TEST_CASE(labels_of_masks_are_those_of_one_grid) {
+  const TemporaryFolder folder;
+  write_mask(folder);
+  for (const std::string more :
+       {"", " --threshold 100", " --periodic xy", " --metric manhattan --periodic y"}) {
+    succeeds(folder, "render --mask m.png" + more + " --labels whole.npy");
+    const std::string whole = content_of(folder / "whole.npy");
+    for (const std::string mask : {"m.png", "m.tif", "m.npy"}) {
+      for (const std::string tile : {"16", "33", "4096"}) {
+        succeeds(folder, "tiles --mask " + mask + more + " --tile " + tile + " --labels tiles.npy");
+        BOOST_TEST((content_of(folder / "tiles.npy") == whole), mask << more << " in tiles of " << tile);
+      }
+    }
+  }
+  const Json result = Json::parse(succeeds(folder, "tiles --mask m.npy --labels a.zarr --json"));
+  BOOST_TEST(result.at("seeds") == cv::countNonZero(cv::imread(folder / "m.png", cv::IMREAD_UNCHANGED)));
+}
+
+BOOST_AUTO_TEST_CASE(masks_may_be_longer_than_a_grid_of_one_diagram) {
+  const TemporaryFolder folder;
+  constexpr int width = 40000;
+  std::string pixels(2 * width, '\0');
+  pixels[width + 100] = pixels[width - 1] = 1;
+  const std::string header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 40000), }";
+  folder.file("m.npy", std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size() + 1) + '\0' +
+                           header + '\n' + pixels);
+  refuses(folder, "render --mask m.npy --labels a.npy", failure, {"m.npy", "40000"});
+  succeeds(folder, "tiles --mask m.npy --tile 1000 --labels a.npy");
+  const std::string labels = content_of(folder / "a.npy");
+  const std::size_t first = labels.size() - 2 * width * sizeof(std::uint32_t);
+  std::size_t wrong = 0;
+  for (std::size_t i = 0; i < 2 * width; ++i) {
+    const auto x = static_cast<int>(i % width), y = static_cast<int>(i / width);
+    const auto squared = [](int dx, int dy) { return static_cast<double>(dx) * dx + dy * dy; };
+    const bool is_left = squared(x - 100, y - 1) < squared(x - (width - 1), y);
+    wrong += labels[first + i * sizeof(std::uint32_t)] != (is_left ? 1 : 0);
+  }
+  BOOST_TEST(wrong == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(what_masks_in_tiles_cannot_have_is_refused) {
+  const TemporaryFolder folder;
+  write_mask(folder);
+  refuses(folder, "tiles --mask m.npy --labels a.npy --bounds 0,0,1,1", usage, {"--bounds needs --points"});
+  refuses(folder, "tiles --mask m.npy --labels a.npy --size 100x150", failure,
+          {"m.npy is 150 x 100 pixels and --size says 100 x 150"});
+  refuses(folder, "tiles --mask m.npy --labels a.npy --threshold 255", failure,
+          {"m.npy has no pixel that is greater than 255"});
+  refuses(folder, "tiles --mask m.npy --labels m.npy", usage, {"would replace the file that --mask reads"});
+  refuses(folder, "tiles --random 5 --size 9x9 --threshold 1 --labels a.npy", usage,
+          {"--threshold", "--mask"});
 }
 
 BOOST_AUTO_TEST_CASE(tables_are_those_of_one_grid) {
@@ -210,9 +277,10 @@ BOOST_AUTO_TEST_CASE(what_makes_no_sense_is_refused) {
   std::filesystem::create_directory(folder / "there.zarr");
   const std::string random = "tiles --random 9 --size 40x30 ", points = "tiles --points p.csv --size 40x30 ";
   refuses(folder, "tiles --random 9 --labels a.npy", usage, {"--size"});
-  refuses(folder, "tiles --size 40x30 --labels a.npy", usage, {"--random,--points"});
+  refuses(folder, "tiles --size 40x30 --labels a.npy", usage, {"--random,--points,--mask"});
   refuses(folder, "tiles p.csv --size 40x30 --labels a.npy", usage, {"for its seeds write --points p.csv"});
-  refuses(folder, "tiles m.png --random 5 --size 40x30 --labels a.npy", usage, {"neither an option"});
+  refuses(folder, "tiles m.png --size 40x30 --labels a.npy", usage, {"for its seeds write --mask m.png"});
+  refuses(folder, "tiles m.xyz --random 5 --size 40x30 --labels a.npy", usage, {"neither an option"});
   refuses(folder, random, usage, {"nothing to write", "--labels"});
   refuses(folder, random + "--labels a.vti", usage, {"a.vti", ".npy, .zarr, .tif, .tiff"});
   refuses(folder, random + "--labels a.npy -o a.gif", usage, {"a.gif", ".png"});

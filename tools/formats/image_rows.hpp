@@ -16,7 +16,7 @@ namespace vorocl::command {
 
 /// What an image file says of its pixels.
 struct ImageInfo {
-  Size size = Size(1, 1);
+  std::int64_t width = 1, height = 1;            ///< which may be more than a diagram has
   std::int64_t depth = 1;                        ///< slices of a volume
   std::size_t bands = 1;                         ///< numbers of a pixel
   bool has_alpha = false;                        ///< the last of them says how opaque it is
@@ -45,6 +45,9 @@ class ImageRows {
  private:
   ImageInfo info_;
 };
+
+/// The size of a file's image. Throws Error if no diagram can have it.
+Size diagram_size(const std::string& path, std::int64_t width, std::int64_t height);
 
 /// An image of any kind that is read: .npy by its extension, others by their first bytes. Throws Error if the
 /// file is something else or damaged.

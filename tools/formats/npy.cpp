@@ -219,7 +219,7 @@ class NpyRows : public ImageRows {
       : ImageRows(info), array_(std::move(array)) {}
 
   void next(std::vector<double>& row) override {
-    row.resize(static_cast<std::size_t>(info().size.width()));
+    row.resize(static_cast<std::size_t>(info().width));
     array_->read(first_, row.size(), row.data());
     first_ += row.size();
   }
@@ -238,15 +238,16 @@ std::unique_ptr<ImageRows> open_npy_image(const std::string& path) {
     return side >= 1 && side <= static_cast<std::size_t>(most);
   };
   const std::size_t skipped = shape.size() == 3 ? 1 : 0;
-  if (shape.size() != skipped + 2 || !fits(shape[skipped], Size::max_side) ||
-      !fits(shape[skipped + 1], Size::max_side) ||
+  if (shape.size() != skipped + 2 || !fits(shape[skipped], Axis::max_pixels) ||
+      !fits(shape[skipped + 1], Axis::max_pixels) ||
       (skipped > 0 && !fits(shape[0], Window::max_side_of_volume))) {
     throw Error(path + " has the shape " + to_string(shape) +
-                "; images have (height, width), with sides from 1 to " + std::to_string(Size::max_side) +
+                "; images have (height, width), with sides from 1 to " + std::to_string(Axis::max_pixels) +
                 ", and labels of a volume (depth, height, width)");
   }
   ImageInfo info;
-  info.size = Size(static_cast<int>(shape[skipped + 1]), static_cast<int>(shape[skipped]));
+  info.width = static_cast<std::int64_t>(shape[skipped + 1]);
+  info.height = static_cast<std::int64_t>(shape[skipped]);
   if (skipped > 0) info.depth = static_cast<std::int64_t>(shape[0]);
   info.type = array->header().type;
   array->require_all();

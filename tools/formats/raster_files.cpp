@@ -47,10 +47,10 @@ LabelImage read_labels(const std::string& path) {
   if (info.type[0] == 'f' || info.bands > 1) {
     throw Error(path + " holds no labels: these are one whole number per pixel");
   }
-  LabelImage image{info.size, {}, info.depth};
-  image.labels.reserve(info.size.pixels() * static_cast<std::size_t>(info.depth));
+  LabelImage image{diagram_size(path, info.width, info.height), {}, info.depth};
+  image.labels.reserve(image.size.pixels() * static_cast<std::size_t>(info.depth));
   std::vector<double> row;
-  for (std::int64_t i = 0; i < info.size.height() * info.depth; ++i) {
+  for (std::int64_t i = 0; i < info.height * info.depth; ++i) {
     rows->next(row);
     for (const double number : row) {
       if (number < INT32_MIN || number > UINT32_MAX)

@@ -101,10 +101,10 @@ class TiffRows : public ImageRows {
         file_(std::move(file)),
         is_tiled_(TIFFIsTiled(file_.get()) != 0),
         bits_(field<std::uint16_t>(file_, TIFFTAG_BITSPERSAMPLE)),
-        width_(static_cast<std::uint32_t>(info.size.width())) {
+        width_(static_cast<std::uint32_t>(info.width)) {
     const bool is_separate = field<std::uint16_t>(file_, TIFFTAG_PLANARCONFIG) == PLANARCONFIG_SEPARATE;
     planes_ = is_separate ? info.bands : 1;
-    const auto height = static_cast<std::uint32_t>(info.size.height());
+    const auto height = static_cast<std::uint32_t>(info.height);
     block_width_ = is_tiled_ ? field<std::uint32_t>(file_, TIFFTAG_TILEWIDTH) : width_;
     block_height_ = is_tiled_ ? field<std::uint32_t>(file_, TIFFTAG_TILELENGTH)
                               : std::min(height, field<std::uint32_t>(file_, TIFFTAG_ROWSPERSTRIP));
@@ -115,7 +115,7 @@ class TiffRows : public ImageRows {
     ImageHeader block = header_of(file_);
     block.width = block_width_;
     block.height = block_height_;
-    checked_size(path, block, std::filesystem::file_size(path));
+    check_pixels(path, block, std::filesystem::file_size(path));
     if (row_bytes_ < needed || block_bytes_ / block_height_ < needed) throw Error(path + " is damaged");
     across_ = (width_ + block_width_ - 1) / block_width_;
     blocks_.resize(planes_ * across_ * block_bytes_);
@@ -186,7 +186,8 @@ ImageHeader read_tiff_header(const std::string& path) { return header_of(open_ti
 
 std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
   File file = open_tiff(path);
-  const Size size = checked_size(path, header_of(file), std::filesystem::file_size(path));
+  const ImageHeader header = header_of(file);
+  check_pixels(path, header, std::filesystem::file_size(path));
   std::uint16_t colors = PHOTOMETRIC_MINISBLACK, others = 0;
   TIFFGetField(file.get(), TIFFTAG_PHOTOMETRIC, &colors);
   ImageInfo info;
@@ -195,7 +196,8 @@ std::unique_ptr<ImageRows> open_tiff_image(const std::string& path) {
                             colors != PHOTOMETRIC_RGB && colors != PHOTOMETRIC_MASK)) {
     return nullptr;
   }
-  info.size = size;
+  info.width = header.width;
+  info.height = header.height;
   info.bands = field<std::uint16_t>(file, TIFFTAG_SAMPLESPERPIXEL);
   const std::uint16_t* kinds = nullptr;
   if (TIFFGetField(file.get(), TIFFTAG_EXTRASAMPLES, &others, &kinds) == 1 && others > 0)

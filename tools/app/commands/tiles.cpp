@@ -1,4 +1,7 @@
 // vorocl tiles: the exact diagram of a plane that may be far larger than a device, tile by tile.
+#include <memory>
+#include <utility>
+
 #include "app/commands/commands.hpp"
 #include "app/commands/tiles_options.hpp"
 #include "app/terminal/console.hpp"
@@ -11,7 +14,7 @@ namespace vorocl::command {
 namespace {
 
 /// Makes the tiles that are still to be made. Throws Error if a signal comes before all are.
-TilesCourse make_tiles(const TilesOptions& options, const Device& device, const PlaneSeeds& seeds,
+TilesCourse make_tiles(const TilesOptions& options, const Device& device, const SeedSource& seeds,
                        const Tiling& tiling, PlaneWriter& writer, const Interruption& interruption) {
   TilesCourse course;
   course.made_before = course.tiles = writer.made_before().size();
@@ -40,21 +43,36 @@ TilesCourse make_tiles(const TilesOptions& options, const Device& device, const 
   return course;
 }
 
-void run_tiles(const TilesOptions& options) {
+/// The seeds of a plane, ready to be asked for, and what is known of them.
+std::pair<std::unique_ptr<SeedSource>, PlaneFacts> read_seeds(const PlaneInputOptions& options,
+                                                              MaskRows* rows, const Grid& plane,
+                                                              const Interruption& interruption) {
+  const auto stops = [&] { return interruption.came(); };
+  if (rows != nullptr) {
+    auto mask = std::make_unique<PlaneMask>(plane);
+    PlaneFacts facts = read_plane_mask(options.seeds.mask, *rows, stops, *mask);
+    return {std::move(mask), std::move(facts)};
+  }
+  auto seeds = std::make_unique<PlaneSeeds>(plane, SeedsOptions{Outside::count, options.seeds.snapping()});
+  PlaneReading reading;
+  reading.add = [&](std::uint64_t, const std::vector<Point>& places) { seeds->add(places); };
+  reading.reserve = [&](std::uint64_t count) { seeds->reserve(static_cast<std::size_t>(count)); };
+  reading.stops = stops;
+  PlaneFacts facts = read_plane_seeds(options, reading);
+  seeds->sort();
+  return {std::move(seeds), std::move(facts)};
+}
+
+void run_tiles(TilesOptions options) {
   const Interruption interruption;  // before there are files
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
+  const std::unique_ptr<MaskRows> mask = open_plane_mask(options.input);
   const Tiling tiling = tiling_of(options, device);
   PlaneWriter writer(options.output, tiling, georeference(options, tiling), run_of(options, tiling));
-  PlaneSeeds seeds(tiling.window().grid(), {Outside::count, options.input.seeds.snapping()});
-  PlaneReading reading;
-  reading.add = [&](std::uint64_t, const std::vector<Point>& places) { seeds.add(places); };
-  reading.reserve = [&](std::uint64_t count) { seeds.reserve(static_cast<std::size_t>(count)); };
-  reading.stops = [&] { return interruption.came(); };
-  const PlaneFacts facts = read_plane_seeds(options.input, reading);
-  seeds.sort();
+  const auto [seeds, facts] = read_seeds(options.input, mask.get(), tiling.window().grid(), interruption);
   writer.begin(facts.name);
-  const TilesCourse course = make_tiles(options, device, seeds, tiling, writer, interruption);
+  const TilesCourse course = make_tiles(options, device, *seeds, tiling, writer, interruption);
   writer.finish(facts.units);
   print_result(options, device, facts, tiling, course);
 }

@@ -75,7 +75,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
   command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
       .value_name("N")
       .in_range(1, Size::max_side)
-      .default_text("what a quarter of the device's memory holds, 4096 at most");
+      .default_text("what a quarter of the device's memory holds, 4096 at most, 2048 of a mask");
   command
       .add_parsed("--only", options->part, parse_part,
                   "Make a part of the plane alone: the pixels from (X0, Y0) up to, and without, (X1, Y1)")
@@ -121,7 +121,10 @@ bool is_tiff_name(const std::string& path) {
 }
 
 Tiling tiling_of(const TilesOptions& options, const Device& device) {
-  const int side = options.side > 0 ? options.side : default_tile_side(device);
+  constexpr int most_of_masks = 2048;  // which may have a seed on each pixel
+  const bool has_mask = !options.input.seeds.mask.empty();
+  const int usual = std::min(default_tile_side(device), has_mask ? most_of_masks : Size::max_side);
+  const int side = options.side > 0 ? options.side : usual;
   const Tiling tiling(window_of(options), side);
   constexpr std::uint64_t most = std::uint64_t{1} << 24;
   if (tiling.count() > most) {

@@ -43,6 +43,8 @@ TilesOptions with_one_side(TilesOptions options, const Ranks& ranks, const Devic
 }
 
 void check_files(const TilesOptions& options, const Ranks& ranks) {
+  if (!options.input.seeds.mask.empty())
+    throw UsageError("--mask is for vorocl tiles, one process that holds a bit for each pixel");
   if (ranks.count > 1 && is_tiff_name(options.output.labels)) {
     throw UsageError("--labels " + options.output.labels +
                      ": one process alone can write a TIFF file; take .zarr or .npy");

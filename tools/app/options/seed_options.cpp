@@ -17,8 +17,8 @@ namespace vorocl::command {
 
 namespace {
 
-/// Whose option a file is that stands alone: of all sources of seeds, or of points.
-enum class Sources { all, points };
+/// Whose option a file is that stands alone: of all sources of seeds, or of those that a plane can have.
+enum class Sources { all, of_planes };
 
 /// What to write instead of the name of a file alone.
 std::string option_for(const std::string& file, Sources sources) {
@@ -30,7 +30,7 @@ std::string option_for(const std::string& file, Sources sources) {
                              : is_one_of({".xyz", ".extxyz", ".lammpstrj", ".dump"})         ? "--trajectory "
                              : is_one_of({".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"}) ? "--mask "
                                                                                              : nullptr;
-  if (option == nullptr || (sources == Sources::points && option != std::string_view("--points "))) {
+  if (option == nullptr || (sources == Sources::of_planes && option == std::string_view("--trajectory "))) {
     return "\"" + file + "\" is neither an option nor the value of one";
   }
   return "\"" + file + "\" is no option; for its seeds write " + option + file;
@@ -202,6 +202,19 @@ std::optional<Grid> parse_plane(const std::string& text) {
   return Grid(width, height);
 }
 
+void add_mask_option(Command& command, Command& source, SeedOptions& options) {
+  const Option mask =
+      source
+          .add("--mask", options.mask,
+               "Pixels of an image or a .npy array that are not 0, numbered in row-major order")
+          .value_name("FILE");
+  command
+      .add_parsed("--threshold", options.threshold, parse_threshold,
+                  "Pixels of the mask that are greater than T, instead of those that are not 0")
+      .value_name("T")
+      .needs(mask);
+}
+
 }  // namespace
 
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, Makes makes) {
@@ -211,20 +224,11 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   constexpr std::size_t most_seeds = Window::max_pixels;
   const Option random = add_random_option(source, options, most_seeds);
   const Option points = add_points_option(source, options);
-  const Option mask =
-      source
-          .add("--mask", options.mask,
-               "Pixels of an image or a .npy array that are not 0, numbered in row-major order")
-          .value_name("FILE");
+  add_mask_option(command, source, options);
   const Option trajectory =
       source.add("--trajectory", options.trajectory, "Particles of a LAMMPS text dump or an XYZ file")
           .value_name("FILE");
 
-  command
-      .add_parsed("--threshold", options.threshold, parse_threshold,
-                  "Pixels of the mask that are greater than T, instead of those that are not 0")
-      .value_name("T")
-      .needs(mask);
   Option rng_seed = add_rng_seed_option(command, options);
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
   add_columns_option(command, options, volumes).needs(points);
@@ -276,15 +280,17 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
 void add_plane_options(Command& command, PlaneInputOptions& options) {
   SeedOptions& seeds = options.seeds;
   Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", 1, 1);
-  command.refuse_words([](const std::string& word) { return option_for(word, Sources::points); });
+  command.refuse_words([](const std::string& word) { return option_for(word, Sources::of_planes); });
   const Option random = add_random_option(source, seeds, no_label - 1);
   const Option points = add_points_option(source, seeds);
+  add_mask_option(command, source, seeds);
   add_rng_seed_option(command, seeds).needs(random);
   add_columns_option(command, seeds, false).needs(points);
   add_decimal_option(command, seeds).needs(points);
-  command.add_parsed("--size", options.size, parse_plane, "Width and height of the plane in pixels")
-      .value_name("WxH")
-      .required();
+  command
+      .add_parsed("--size", options.size, parse_plane,
+                  "Width and height of the plane in pixels; with --mask those of the image")
+      .value_name("WxH");
   add_bounds_option(command, seeds,
                     "Rectangle in data units that the plane shows; else the bounding box of the points");
   add_outside_option(command, seeds);

@@ -159,6 +159,17 @@ Grid PlaneInputOptions::plane() const {
   return {size->width(), size->height(), seeds.periodic.value_or(Axes::none)};
 }
 
+std::unique_ptr<MaskRows> open_plane_mask(PlaneInputOptions& options) {
+  const SeedOptions& seeds = options.seeds;
+  if (seeds.mask.empty()) return nullptr;
+  auto rows = std::make_unique<MaskRows>(seeds.mask, seeds.threshold);
+  for (const std::string& note : rows->notes()) print_note(note);
+  const Grid plane(rows->width(), rows->height());
+  check_mask_size(seeds.mask, plane, options.size);
+  options.size = plane;
+  return rows;
+}
+
 void check_plane_options(const PlaneInputOptions& options) {
   const SeedOptions& seeds = options.seeds;
   if (!seeds.points.empty()) {
@@ -176,12 +187,29 @@ void check_plane_options(const PlaneInputOptions& options) {
                             : seeds.units == MeasureUnits::data ? "--units data"
                                                                 : nullptr;
   if (given != nullptr) throw UsageError(std::string(given) + " needs --points");
+  if (seeds.mask.empty()) options.plane();
 }
 
 PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading) {
   const SeedOptions& seeds = options.seeds;
   return seeds.points.empty() ? make_random(seeds, options.plane(), reading)
                               : read_points(seeds, options.plane(), reading);
+}
+
+PlaneFacts read_plane_mask(const std::string& path, MaskRows& rows, const std::function<bool()>& stops,
+                           PlaneMask& mask) {
+  const SteadyFile file(path);
+  Hash hash;
+  std::vector<std::uint8_t> pixels;
+  while (mask.rows() < mask.grid().height()) {
+    check_stop(stops);
+    pixels.clear();
+    rows.next(pixels);
+    mask.add_rows(pixels.data(), 1);
+    hash.add_text({reinterpret_cast<const char*>(pixels.data()), pixels.size()});
+  }
+  file.check();
+  return {mask.id_end(), Units(), fmt::format("{} {:016x}", mask.id_end(), hash.value())};
 }
 
 }  // namespace vorocl::command

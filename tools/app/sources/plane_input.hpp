@@ -2,18 +2,20 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "app/sources/seed_input.hpp"
 #include "app/sources/view.hpp"
+#include "formats/images/pictures.hpp"
 #include "formats/point_files.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl::command {
 
-/// The seeds' options that a plane has (points or random ones), and its size instead of a grid's.
+/// The seeds' options that a plane has (points, a mask or random ones), and its size instead of a grid's.
 struct PlaneInputOptions {
   SeedOptions seeds;
   std::optional<Grid> size;  // as given: without periodic axes
@@ -21,6 +23,10 @@ struct PlaneInputOptions {
   /// The plane itself, in pixels. Throws UsageError without a size.
   Grid plane() const;
 };
+
+/// Opens the mask, if one is asked for, whose size is the plane's. Throws Error if it cannot be read, and for
+/// another size.
+std::unique_ptr<MaskRows> open_plane_mask(PlaneInputOptions& options);
 
 /// What no parser can say. Throws UsageError, and Error for bounds that have no scale.
 void check_plane_options(const PlaneInputOptions& options);
@@ -54,5 +60,9 @@ struct PlaneFacts {
 /// Reads the seeds, or makes them, in blocks. Throws Error if it is told to stop, and if a file is bad or
 /// changes, which names the first point that cannot be a seed; warns on standard error as read_input().
 PlaneFacts read_plane_seeds(const PlaneInputOptions& options, const PlaneReading& reading);
+
+/// Reads a mask. Throws Error if it is told to stop, and if the file is damaged or changes.
+PlaneFacts read_plane_mask(const std::string& path, MaskRows& rows, const std::function<bool()>& stops,
+                           PlaneMask& mask);
 
 }  // namespace vorocl::command

@@ -68,11 +68,8 @@ Input plane_from_points(const SeedOptions& options) {
 Input plane_from_mask(const SeedOptions& options) {
   const Mask mask = read_mask(options.mask, options.threshold);
   for (const std::string& note : mask.notes) print_note(note);
-  if (options.size && *options.size != mask.size) {
-    throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough",
-                            options.mask, mask.size.width(), mask.size.height(), options.size->width(),
-                            options.size->height()));
-  }
+  check_mask_size(options.mask, mask.size.grid(),
+                  options.size ? std::optional<Grid>(options.size->grid()) : std::nullopt);
   const Grid grid = mask.size.grid(periodic_axes(options));
   return {
       {mask.size, grid},
@@ -118,6 +115,12 @@ Input plane_from_trajectory(const SeedOptions& options) {
 }
 
 }  // namespace
+
+void check_mask_size(const std::string& path, const Grid& mask, const std::optional<Grid>& asked_for) {
+  if (!asked_for || *asked_for == mask) return;
+  throw Error(fmt::format("{} is {} x {} pixels and --size says {} x {}; the mask alone is enough", path,
+                          mask.width(), mask.height(), asked_for->width(), asked_for->height()));
+}
 
 CsvPoints read_points(const SeedOptions& options, bool has_z) {
   as_usage([&] { check_extension(options.points, {".csv", ".npy"}); });

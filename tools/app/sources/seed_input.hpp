@@ -24,7 +24,7 @@ struct SeedOptions {
   std::uint64_t rng_seed = 1;
   std::string points;
   std::string mask;
-  std::optional<double> threshold;  // of the mask: see read_mask()
+  std::optional<double> threshold;  // of the mask: see MaskRows
   std::string trajectory;
   int frame = 0;  // of the trajectory
   std::optional<Size> size;
@@ -74,6 +74,9 @@ CsvPoints read_points(const SeedOptions& options, bool has_z = false);
 
 /// Throws UsageError for options of .csv files, if the points are no such file.
 void refuse_csv_options(const SeedOptions& options);
+
+/// Throws Error if a mask is not of the size that was asked for.
+void check_mask_size(const std::string& path, const Grid& mask, const std::optional<Grid>& asked_for);
 
 /// Columns of the input, by seed.
 struct KeptColumns {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <string_view>
 
@@ -146,14 +147,20 @@ ImageHeader read_image_header(const std::string& path, const std::vector<std::ui
   return is_pnm(bytes) ? read_pnm(bytes) : read_tiff_header(path);
 }
 
-Size checked_size(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes) {
+Size diagram_size(const std::string& path, std::int64_t width, std::int64_t height) {
   try {
-    const Size size(header.width, header.height);
-    const std::uint64_t bytes = size.pixels() * header.bits_per_pixel / 8;
-    if (bytes / (header.is_compressed ? most_packed : 1) <= file_bytes) return size;
+    return {width, height};
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
+}
+
+void check_pixels(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes) {
+  const double bits = static_cast<double>(header.width) * static_cast<double>(header.height) *
+                      static_cast<double>(header.bits_per_pixel);
+  const double packed =
+      std::floor(std::floor(bits / 8) / static_cast<double>(header.is_compressed ? most_packed : 1));
+  if (header.width > 0 && header.height > 0 && packed <= static_cast<double>(file_bytes)) return;
   throw Error(fmt::format("{} is no image that can be read: its {} bytes cannot hold {} x {} pixels", path,
                           file_bytes, header.width, header.height));
 }

@@ -34,7 +34,8 @@ void read_more(std::ifstream& file, std::size_t count, std::vector<std::uint8_t>
 
 ImageInfo info_of(const cv::Mat& picture, const ImageHeader& header) {
   ImageInfo info;
-  info.size = Size(picture.cols, picture.rows);
+  info.width = picture.cols;
+  info.height = picture.rows;
   info.bands = static_cast<std::size_t>(picture.channels());
   info.has_alpha = picture.channels() == 4;
   info.type = picture.depth() == CV_8U ? "u1" : picture.depth() == CV_16U ? "u2" : "f4";
@@ -48,8 +49,8 @@ class PictureRows : public ImageRows {
       : ImageRows(info_of(picture, header)), picture_(picture) {}
 
   void next(std::vector<double>& row) override {
-    row.resize(static_cast<std::size_t>(info().size.width()) * info().bands);
-    cv::Mat numbers(1, info().size.width(), CV_64FC(picture_.channels()), row.data());
+    row.resize(static_cast<std::size_t>(info().width) * info().bands);
+    cv::Mat numbers(1, picture_.cols, CV_64FC(picture_.channels()), row.data());
     picture_.row(row_++).convertTo(numbers, CV_64F);
     for (std::size_t i = 2; info().bands > 2 && i < row.size(); i += info().bands)
       std::swap(row[i - 2], row[i]);
@@ -74,7 +75,8 @@ std::unique_ptr<ImageRows> open_image(const std::string& path) {
   while (file) read_more(file, 1 << 20, bytes);
   if (file.bad()) throw Error("reading " + path + " failed");
   const ImageHeader header = read_image_header(path, bytes);
-  checked_size(path, header, bytes.size());
+  diagram_size(path, header.width, header.height);  // or it is not decoded
+  check_pixels(path, header, bytes.size());
   cv::Mat picture = image_module().decode(bytes, header.is_plain);
   if (picture.empty()) throw Error(path + " is no image that can be read");
   return std::make_unique<PictureRows>(picture, header);
@@ -108,34 +110,45 @@ std::vector<std::string> notes_of(const std::string& path, const ImageInfo& info
 
 }  // namespace
 
-Mask read_mask(const std::string& path, std::optional<double> threshold) {
-  const std::unique_ptr<ImageRows> rows = open_image(path);
-  const ImageInfo& info = rows->info();
-  const std::size_t all = info.bands, colors = all - (info.has_alpha ? 1 : 0);
+MaskRows::MaskRows(const std::string& path, std::optional<double> threshold)
+    : path_(path), threshold_(threshold), rows_(open_image(path)), rows_left_(height()) {
+  const ImageInfo& info = rows_->info();
+  const std::size_t colors = info.bands - (info.has_alpha ? 1 : 0);
   if (info.depth > 1) throw Error(path + " holds a volume; masks are planes");
   if (colors > 4) {
     throw Error(fmt::format("{} has {} bands; a mask has one, or the colours of a picture", path, colors));
   }
-  Mask mask{info.size, {}, notes_of(path, info, threshold.has_value())};
-  mask.pixels.reserve(info.size.pixels());
-  std::vector<double> row;
-  bool has_seeds = false;
-  for (int y = 0; y < info.size.height(); ++y) {
-    rows->next(row);
-    for (const double* pixel = row.data(); pixel < row.data() + row.size(); pixel += all) {
-      const bool is_there = !info.has_alpha || pixel[colors] != 0;
-      const bool is_set =
-          is_there && std::any_of(pixel, pixel + colors, [&](double number) {
-            return !rows->is_absent(number) && (threshold ? number > *threshold : number != 0);
-          });
-      mask.pixels.push_back(is_set ? 1 : 0);
-      has_seeds = has_seeds || is_set;
-    }
+}
+
+std::vector<std::string> MaskRows::notes() const {
+  return notes_of(path_, rows_->info(), threshold_.has_value());
+}
+
+void MaskRows::next(std::vector<std::uint8_t>& pixels) {
+  const ImageInfo& info = rows_->info();
+  const std::size_t all = info.bands, colors = all - (info.has_alpha ? 1 : 0);
+  rows_->next(row_);
+  for (const double* pixel = row_.data(); pixel < row_.data() + row_.size(); pixel += all) {
+    const bool is_there = !info.has_alpha || pixel[colors] != 0;
+    const bool is_set =
+        is_there && std::any_of(pixel, pixel + colors, [&](double number) {
+          return !rows_->is_absent(number) && (threshold_ ? number > *threshold_ : number != 0);
+        });
+    pixels.push_back(is_set ? 1 : 0);
+    has_seeds_ = has_seeds_ || is_set;
   }
-  if (has_seeds) return mask;
-  throw Error(fmt::format("{} has no pixel that is {}{}: there is no seed", path,
-                          threshold ? fmt::format("greater than {}", *threshold) : "not zero",
+  if (--rows_left_ > 0 || has_seeds_) return;
+  throw Error(fmt::format("{} has no pixel that is {}{}: there is no seed", path_,
+                          threshold_ ? fmt::format("greater than {}", *threshold_) : "not zero",
                           info.pages > 1 ? fmt::format(" in the first of its {} pages", info.pages) : ""));
+}
+
+Mask read_mask(const std::string& path, std::optional<double> threshold) {
+  MaskRows rows(path, threshold);
+  Mask mask{diagram_size(path, rows.width(), rows.height()), {}, rows.notes()};
+  mask.pixels.reserve(mask.size.pixels());
+  for (int y = 0; y < mask.size.height(); ++y) rows.next(mask.pixels);
+  return mask;
 }
 
 DensityImage read_density(const std::string& path) {
@@ -147,10 +160,10 @@ DensityImage read_density(const std::string& path) {
   const std::size_t all = info.bands, colors = all - (info.has_alpha ? 1 : 0);
   if (!is_array && (white == 0 || (colors != 1 && colors != 3)))
     throw Error(path + " is no picture of 8 or 16 bits, grey or in colours; give other numbers as .npy");
-  DensityImage density{info.size, {}};
-  density.values.reserve(info.size.pixels());
+  DensityImage density{diagram_size(path, info.width, info.height), {}};
+  density.values.reserve(density.size.pixels());
   std::vector<double> row;
-  for (int y = 0; y < info.size.height(); ++y) {
+  for (int y = 0; y < density.size.height(); ++y) {
     rows->next(row);
     for (const double* pixel = row.data(); pixel < row.data() + row.size(); pixel += all) {
       const double grey = colors == 1 ? pixel[0] : 0.299 * pixel[0] + 0.587 * pixel[1] + 0.114 * pixel[2];

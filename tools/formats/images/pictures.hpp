@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "formats/image_rows.hpp"
 #include "formats/output_file.hpp"
 #include "formats/raster.hpp"
 
@@ -33,9 +35,8 @@ void check_is_image(const std::string& path, const std::vector<std::uint8_t>& fi
 /// Of such a file, whose content is `bytes`. Throws Error if it is damaged.
 ImageHeader read_image_header(const std::string& path, const std::vector<std::uint8_t>& bytes);
 
-/// The size of the image. Throws Error if no diagram can have it, or so small a file cannot hold
-/// so many pixels: memory is taken only for what the file has.
-Size checked_size(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes);
+/// Throws Error if so small a file cannot hold so many pixels: memory is taken only for what the file has.
+void check_pixels(const std::string& path, const ImageHeader& header, std::uint64_t file_bytes);
 
 /// The extensions of files that a picture can be written to.
 const std::vector<std::string>& picture_extensions();
@@ -43,17 +44,42 @@ const std::vector<std::string>& picture_extensions();
 /// Of 8 bits, in one channel or three (BGR). Throws Error if the file cannot be written.
 void write_picture(const OutputFile& file, const cv::Mat& picture);
 
-/// Which pixels of an image are seeds.
+/// Which pixels of an image are seeds, row by row, of any image, or .npy: those of which one band is not 0,
+/// or greater than the threshold. None is where a pixel is transparent, or a number is NaN or what the file
+/// says for no data. Memory: that of some rows, and for files that OpenCV decodes the decoded image.
+class MaskRows {
+ public:
+  /// Throws Error if the file cannot be read, or holds a volume or other bands than colours.
+  MaskRows(const std::string& path, std::optional<double> threshold);
+
+  std::int64_t width() const { return rows_->info().width; }
+  std::int64_t height() const { return rows_->info().height; }
+
+  /// Of what a user may not expect of the file.
+  std::vector<std::string> notes() const;
+
+  /// Appends the next row: 1 where a pixel is a seed, else 0. Throws Error if the file is damaged, and at the
+  /// last row if there is no seed.
+  void next(std::vector<std::uint8_t>& pixels);
+
+ private:
+  std::string path_;
+  std::optional<double> threshold_;
+  std::unique_ptr<ImageRows> rows_;
+  std::vector<double> row_;
+  std::int64_t rows_left_;
+  bool has_seeds_ = false;
+};
+
+/// All of them.
 struct Mask {
   Size size;
   std::vector<std::uint8_t> pixels;  // row-major, 0 where there is no seed
-  std::vector<std::string> notes;    // of what a user may not expect of the file
+  std::vector<std::string> notes;
 };
 
-/// From any image, or .npy: a pixel is set if one of its bands is not 0, or greater than the threshold. None
-/// is where a pixel is transparent, or a number is NaN or what the file says for no data. Memory: a byte per
-/// pixel, and for files that OpenCV decodes the decoded image. Throws Error if the file cannot be read or no
-/// pixel is set.
+/// Memory: a byte per pixel beside that of the rows. Throws Error as MaskRows, and if no diagram can have the
+/// size.
 Mask read_mask(const std::string& path, std::optional<double> threshold = std::nullopt);
 
 /// How much pixels weigh: the numbers of .npy, or the darkness of pixels of 8 or 16 bits: how far its grey
