@@ -1,5 +1,5 @@
-# What is installed: the libraries, their headers, the CMake package and the pkg-config files, and the programs'
-# completion and manual pages (tools/ installs the programs). The kernels are inside the library.
+# What is installed: the libraries, their headers, the CMake package and the pkg-config files, and the command's
+# completion and manual page (tools/ installs the command). The kernels are inside the library.
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/VoroCL)
 
 install(TARGETS vorocl EXPORT VoroCLTargets)
@@ -45,8 +45,6 @@ foreach(name IN LISTS pkgconfig_files)
 endforeach()
 
 if(VOROCL_BUILD_TOOLS)
-  foreach(program IN ITEMS vorocl vorocl-study)
-    install(FILES tools/vorocl.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
-    install(FILES docs/${program}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-  endforeach()
+  install(FILES tools/vorocl.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vorocl)
+  install(FILES docs/vorocl.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()

@@ -23,7 +23,7 @@ lint)
   shift
   [ $# -gt 0 ] || set -- src tools tests
   configure build-lint
-  find "$@" -name '*.cpp' -not -path 'tests/package/*' -not -path 'tests/benchmarks/*' -not -path 'tools/simulated_warps/*' |
+  find "$@" -name '*.cpp' -not -path 'tests/package/*' -not -path 'tests/benchmarks/*' |
     xargs --max-procs "$(nproc)" --max-args 1 clang-tidy --quiet -p build-lint
   ;;
 quick)

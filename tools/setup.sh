@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
 # The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides),
-# drivers (what tools/check_drivers.sh runs the tests on), intel (what tools/check_gpu.sh intel compiles with) and warps (what
-# tools/simulated_warps counts with). Without any: build and test.
+# drivers (what tools/check_drivers.sh runs the tests on) and intel (what tools/check_gpu.sh intel compiles with). Without any:
+# build and test.
 #   setup.sh gpu FOLDER    copies what tools/gpu_report.sh needs besides a compiler into FOLDER, some 10 MB, for a machine
 #                          without a network whose C library is at least as new as this one's
 set -euo pipefail
@@ -43,13 +43,12 @@ for group in "$@"; do
     packages+=(clang "libclang-rt-$clang-dev" "libclc-$clang-dev" "libclc-$clang" clang-format clang-tidy oclgrind valgrind doxygen python3-vtk9
       python3-numpy python3-zarr python3-gdal python3-pip libopenmpi-dev openmpi-bin procps abigail-tools xz-utils)
     ;;
-  warps) packages+=(g++ oclgrind liboclgrind-dev llvm-14-dev) ;; # the LLVM that Oclgrind is built with
   drivers)
     packages+=(pocl-opencl-icd python3-pip)
     ! grep -q '^VERSION_ID="13"' /etc/os-release || packages+=(mesa-opencl-icd)
     ;;
   intel) ;;
-  *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, intel, warps and gpu FOLDER" >&2; exit 2 ;;
+  *) echo "setup.sh: there is no group \"$group\", but build, test, check, drivers, intel and gpu FOLDER" >&2; exit 2 ;;
   esac
 done
 

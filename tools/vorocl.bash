@@ -1,4 +1,4 @@
-# Completion of vorocl and vorocl-study in bash. It reads the command's own --help, and so never falls behind it.
+# Completion of vorocl in bash. It reads the command's own --help, and so never falls behind it.
 
 # The choices of an option that takes a NAME: what its help lists behind the last colon.
 _vorocl_choices() {
@@ -28,4 +28,4 @@ _vorocl() {
 }
 
 # What has no choices is a file.
-complete -o default -F _vorocl vorocl vorocl-study
+complete -o default -F _vorocl vorocl

@@ -23,7 +23,6 @@ may_include app/sources formats trials app/terminal
 may_include app/outputs formats trials app/terminal app/sources
 may_include app/options formats trials app/terminal app/sources app/outputs
 may_include app/commands formats trials app/terminal app/sources app/outputs app/options
-may_include studies formats trials app/terminal app/sources app/options
 
 # What takes long to compile, or to load, is included in one place.
 only_in() {

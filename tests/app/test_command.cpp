@@ -49,7 +49,8 @@ BOOST_AUTO_TEST_CASE(subcommands_that_have_left_say_where_they_are) {
   for (const std::string subcommand : {"evaluate", "ablation"}) {
     for (const char* options : {"", " -o t.csv", " --help"}) {
       refuses(folder, subcommand + options, usage,
-              {fmt::format("vorocl {0} is now vorocl-study {0}, with the same options\n", subcommand)});
+              {fmt::format("vorocl {0} is now tools/studies/study.py {0}, in the source of VoroCL\n",
+                           subcommand)});
     }
   }
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The completion of the programs: test_completion.sh VOROCL VOROCL_STUDY
+# The completion of the command: test_completion.sh VOROCL
 set -euo pipefail
-command=$1 study=$2
+command=$1
 # shellcheck disable=SC1091
 source "$(dirname "$0")/../../tools/vorocl.bash"
 
@@ -35,9 +35,3 @@ expect "exact" cells --method e
 expect "--relaxed-points" relax --rel
 expect "--no-snap" cells --no
 expect "" render --points cities
-
-command=$study
-expect "evaluate" ev
-expect "evaluate ablation" ""
-expect "--seeds" evaluate --se
-expect "--resume --repeats" evaluate --re

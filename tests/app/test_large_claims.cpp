@@ -98,9 +98,6 @@ BOOST_AUTO_TEST_CASE(small_files_take_little_memory) {
   folder.file("columns.csv", std::string(1 << 19, ',') + "lat\n");
   refuses(folder, "render --points columns.csv --size 9x9" + mask_options, failure,
           {"columns.csv:1", "no column x"});
-  folder.file("evaluation.csv", std::string(20 << 20, ',') + "\n");
-  refuses(folder, "vorocl-study evaluate --resume -o evaluation.csv", failure,
-          {"evaluation.csv", "no evaluation"});
 #ifndef __SANITIZE_ADDRESS__
   BOOST_TEST(most_memory() < 250);  // some 130 of them are libraries and the driver
 #endif

@@ -231,8 +231,7 @@ BOOST_AUTO_TEST_CASE(what_is_unknown_is_told_where_the_help_is) {
   refuses(folder, "render --size 9x9 --pints p.csv", usage,
           {"--pints is unknown; did you mean --points? see"});
   refuses(folder, render + "--xyzzy", usage, {"--xyzzy is unknown; see vorocl render --help\n"});
-  refuses(folder, "vorocl-study evaluat", usage,
-          {"evaluat is unknown; did you mean evaluate? see vorocl-study --help\n"});
+  refuses(folder, "rendr", usage, {"rendr is unknown; did you mean render? see vorocl --help\n"});
   refuses(folder, render + "-o a.png --color neighbors", usage,
           {"\"neighbors\" is unknown; did you mean neighbours? there are id, distance"});
   refuses(folder, render + "-o a.png --palette virdis", usage, {"did you mean viridis? "});

@@ -34,14 +34,32 @@ def compare(what, published, found):
 
 stale = []
 pages = os.path.join(source, "docs", "evaluation")
-for row in table(os.path.join(pages, "evaluation.csv")):
-    if row["method"] != "djfa" or not (all_rows or (row["n"], row["seeds"]) in {("500", "13"), ("500", "15625")}):
-        continue
-    size = f"{row['n']}x{row['n']}"
-    found = run("simulate", "--random", row["seeds"], "--size", size, "--frames", row["frames"], "--step-length", row["step_length"],
-                "--method", "djfa", "--reach", "paper", "--metric", row["metric"], "--compare-with", "exact")["similarity"]
-    compare(f"evaluation.csv, {row['seeds']} seeds on {size}, {row['metric']}", row["similarity_to_exact_mean"], found["mean"])
-    compare(f"evaluation.csv, {row['seeds']} seeds on {size}, least", row["similarity_to_exact_least"], found["least"])
+
+
+def study(what, keys, columns, *arguments):
+    """Makes rows of the study again, with the least of times, and compares the columns."""
+    with tempfile.TemporaryDirectory() as folder:
+        again = os.path.join(folder, "again.csv")
+        script = os.path.join(source, "tools", "studies", "study.py")
+        subprocess.run([sys.executable, script, what, "-o", again, "--vorocl", command, "--timed-frames", "1", "--repeats", "1",
+                        *arguments], check=True, stdout=subprocess.DEVNULL)
+        name = {"evaluate": "evaluation", "ablation": "ablation"}[what] + ".csv"
+        published = {tuple(row[key] for key in keys): row for row in table(os.path.join(pages, name))}
+        for row in table(again):
+            key = tuple(row[key] for key in keys)
+            if "clusters" in row.get("setting", "") or "gradient" in row.get("setting", ""):
+                continue  # drawn by another generator
+            for column in columns:
+                compare(f"{name}, {key}, {column}", published[key][column], float(row[column]))
+
+
+errors = ["similarity_to_exact_mean", "similarity_to_exact_least", "wrong_percent_mean", "wrong_percent_greatest", "largest_excess",
+          "mean_excess"]
+study("evaluate", ["n", "seeds", "method", "metric"], errors + ["coincident_seeds", "waves", "similarity_to_jfa_mean",
+      "similarity_to_jfa_least", "similarity_to_euclidean_jfa_mean", "similarity_to_euclidean_jfa_least"],
+      *([] if all_rows else ["--sizes", "500", "--seeds", "13,15625"]))
+if all_rows:
+    study("ablation", ["study", "setting"], errors + ["d_max", "waves_mean"])
 for row in table(os.path.join(pages, "tolerance.csv")):
     if not (all_rows or row["n"] == "1000"):
         continue

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# The figures of a tiny evaluation: test_plot_evaluation.sh VOROCL_STUDY. Exits with 77 where python3-matplotlib is not installed.
+# The figures of a tiny evaluation: test_plot_evaluation.sh VOROCL. Exits with 77 where python3-matplotlib is not installed.
 set -euo pipefail
-study=$1
-plot=$(dirname "$(realpath "$0")")/../../tools/studies/paper/plot_evaluation.py
+command=$1
+plot=$(dirname "$(realpath "$0")")/../../tools/studies/plot_evaluation.py
 /usr/bin/python3 -c 'import matplotlib' 2>/dev/null || { echo "python3-matplotlib is not installed: skipped"; exit 77; }
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 export MPLCONFIGDIR=$folder/matplotlib
 
-"$study" evaluate --sizes 40,64 --seeds 2%,20% --frames 5 --timed-frames 3 -o table.csv >/dev/null
+"$(dirname "$plot")/study.py" evaluate --vorocl "$command" --sizes 40,64 --seeds 2%,20% --frames 5 --timed-frames 3 -o table.csv >/dev/null
 "$plot" table.csv -o figures >/dev/null
 for name in similarity times speedup errors; do
   for axis in n density; do
@@ -26,7 +26,7 @@ refuses() {
   [ ! -e none ] || { echo "a folder was made for $2"; exit 1; }
 }
 printf 'x,y\n1,2\n' >points.csv
-refuses 'points.csv is no table of vorocl-study evaluate: it has no column version' points.csv
+refuses 'points.csv is no table of study.py evaluate: it has no column version' points.csv
 refuses 'cannot read missing.csv: No such file' missing.csv
 head -n 1 table.csv >empty.csv
 refuses 'holds no configuration' empty.csv

@@ -1,4 +1,4 @@
-// Runs the vorocl command and vorocl-study as their users do, and checks how they end.
+// Runs the vorocl command as its users do, and checks how it ends.
 #pragma once
 
 #include <fcntl.h>
@@ -17,18 +17,6 @@ namespace vorocl {
 
 constexpr int failure = 1, usage = 2;
 
-/// A program and its arguments, of a line of arguments of vorocl, or of one that begins with "vorocl-study".
-struct Line {
-  explicit Line(const std::string& line) : arguments(line) {
-    const std::string study = "vorocl-study ";
-    if (line.rfind(study, 0) != 0) return;
-    name = "vorocl-study";
-    path = VOROCL_COMMAND "-study";
-    arguments = line.substr(study.size());
-  }
-  std::string name = "vorocl", path = VOROCL_COMMAND, arguments;
-};
-
 struct Result {
   int exit_code;
   std::string out;
@@ -40,25 +28,19 @@ struct Result {
 inline Result run(const TemporaryFolder& folder, const std::string& arguments,
                   const std::string& settings = "", const std::string& redirections = "") {
   const TemporaryFolder streams;
-  const Line line(arguments);
-  const std::string shell = "cd '" + folder / "" + "' && " + settings + " '" + line.path + "' " +
-                            line.arguments + " > '" + streams / "out" + "' 2> '" + streams / "error" + "' " +
-                            redirections;
+  const std::string shell = "cd '" + folder / "" + "' && " + settings + " '" VOROCL_COMMAND "' " + arguments +
+                            " > '" + streams / "out" + "' 2> '" + streams / "error" + "' " + redirections;
   const int status = std::system(shell.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(streams / "out"),
           content_of(streams / "error")};
 }
 
-/// Starts a program of these words in the folder, with both streams in its file "streams"; returns its
+/// Starts the command with these words in the folder, with both streams in its file "streams"; returns its
 /// process.
 inline pid_t start(const TemporaryFolder& folder, std::vector<std::string> words) {
   const pid_t process = fork();
   if (process != 0) return process;
-  if (words.front() == "vorocl-study") {
-    words.front() = VOROCL_COMMAND "-study";
-  } else {
-    words.insert(words.begin(), VOROCL_COMMAND);
-  }
+  words.insert(words.begin(), VOROCL_COMMAND);
   std::vector<char*> pointers;
   pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
@@ -83,11 +65,10 @@ inline void refuses(const TemporaryFolder& folder, const std::string& arguments,
                     std::initializer_list<std::string> parts, const std::string& settings = "") {
   const auto files_before = folder.names();
   const Result result = run(folder, arguments, settings);
-  const Line line(arguments);
-  BOOST_TEST_CONTEXT(line.name << " " << line.arguments << "\nsays: " << result.error) {
+  BOOST_TEST_CONTEXT("vorocl " << arguments << "\nsays: " << result.error) {
     BOOST_TEST(result.exit_code == exit_code);
     BOOST_TEST(result.out == "");
-    BOOST_TEST(result.error.rfind(line.name + ": error: ", 0) == 0u);
+    BOOST_TEST(result.error.rfind("vorocl: error: ", 0) == 0u);
     BOOST_TEST(std::count(result.error.begin(), result.error.end(), '\n') == 1);
     for (const std::string& part : parts) BOOST_TEST(result.error.find(part) != std::string::npos, part);
     BOOST_TEST((folder.names() == files_before));

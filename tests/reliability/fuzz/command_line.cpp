@@ -1,6 +1,6 @@
-// Command lines, a word in each line of the input, up to where a device is needed: none is found. They are of
-// vorocl, or of vorocl-study where that is the first word. Words have no slash, so that nothing is written
-// outside a folder of the test's own; files of all kinds that are read lie there.
+// Command lines, a word in each line of the input, up to where a device is needed: none is found. Words
+// have no slash, so that nothing is written outside a folder of the test's own; files of all kinds that are
+// read lie there.
 #include <unistd.h>
 
 #include <exception>
@@ -10,7 +10,6 @@
 
 #include "app/commands/commands.hpp"
 #include "fuzz.hpp"
-#include "studies/study_line.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;
@@ -52,16 +51,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (char& c : word) c = c == '/' || c == '\0' ? '_' : c;
     words.push_back(word);
   }
-  const bool is_study = words.size() > 1 && words[1] == "vorocl-study";
-  if (is_study) words.erase(words.begin());
   std::vector<char*> arguments;
   arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  read_or_refuse([&] {
-    const auto run = is_study ? run_study : run_command;
-    run(static_cast<int>(words.size()), arguments.data());
-  });
+  read_or_refuse([&] { run_command(static_cast<int>(words.size()), arguments.data()); });
   folder.clean();
   return 0;
 }

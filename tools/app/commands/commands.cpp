@@ -12,7 +12,8 @@ namespace {
 /// Says where the subcommands are that have left.
 void refuse_moved(const std::string& subcommand) {
   if (subcommand != "evaluate" && subcommand != "ablation") return;
-  throw UsageError("vorocl " + subcommand + " is now vorocl-study " + subcommand + ", with the same options");
+  throw UsageError("vorocl " + subcommand + " is now tools/studies/study.py " + subcommand +
+                   ", in the source of VoroCL");
 }
 
 }  // namespace

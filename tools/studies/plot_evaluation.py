@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of a table that vorocl-study evaluate has written (needs python3-matplotlib)."""
+"""Draws the figures of a table that study.py evaluate has written (needs python3-matplotlib)."""
 
 import argparse
 import csv
@@ -37,12 +37,12 @@ def read_table(path):
             reader = csv.DictReader(file)
             missing = [name for name in TEXTS + NUMBERS if name not in (reader.fieldnames or [])]
             if missing:
-                raise BadTable(f"{path} is no table of vorocl-study evaluate: it has no column {missing[0]}")
+                raise BadTable(f"{path} is no table of study.py evaluate: it has no column {missing[0]}")
             rows = [read_row(path, reader.line_num, row) for row in reader]
     except OSError as error:
         raise BadTable(f"cannot read {path}: {error.strerror}") from error
     except (UnicodeDecodeError, csv.Error) as error:
-        raise BadTable(f"{path} is no table of vorocl-study evaluate: {error}") from error
+        raise BadTable(f"{path} is no table of study.py evaluate: {error}") from error
     if not rows:
         raise BadTable(f"{path} holds no configuration yet")
     for name in ["version", "device", "step_length", "frames", "timed_frames"]:
@@ -373,7 +373,7 @@ def figures(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("table", help="what vorocl-study evaluate -o has written (.csv)")
+    parser.add_argument("table", help="what study.py evaluate -o has written (.csv)")
     parser.add_argument(
         "-o", "--output", metavar="FOLDER", help="where the .png and .pdf files go (default: beside the table)"
     )

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
-# similarities, plans, resolution, ablation and tables; without any, all of them. vorocl-study lies beside VOROCL.
+# similarities, plans, resolution, ablation and tables; without any, all of them.
 set -euo pipefail
-cd "$(dirname "$0")/../../.."
+cd "$(dirname "$0")/../.."
 vorocl=$(realpath "${1:-build/tools/vorocl}")
-study=$vorocl-study
+study() { tools/studies/study.py "$@" --vorocl "$vorocl"; }
 shift || true
 parts=" ${*:-pictures lengths evaluation large similarities plans resolution ablation tables} "
 out=$PWD/docs/evaluation
@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 export POCL_AFFINITY=1 MPLCONFIGDIR=$work/matplotlib
 mkdir -p "$out"
 wants() { [[ $parts == *" $1 "* ]]; }
-montage() { tools/studies/paper/montage.py -o "$out/$1.png" "${@:2}"; }
+montage() { tools/studies/montage.py -o "$out/$1.png" "${@:2}"; }
 
 if wants pictures; then
   "$vorocl" render --random 17 --size 500x500 --method exact --edges 2 --points-overlay -o "$work/17.png"
@@ -60,16 +60,16 @@ fi
 
 if wants lengths; then
   "$vorocl" render --random 10000 --size 2000x2000 --method exact --labels "$work/labels.npy"
-  tools/studies/paper/plot_region_lengths.py "$work/labels.npy" -o "$out/lengths.png" --dpi 80 >"$work/lengths.csv"
+  tools/studies/plot_region_lengths.py "$work/labels.npy" -o "$out/lengths.png" --dpi 80 >"$work/lengths.csv"
   mv "$work/lengths.csv" "$out/"
 fi
 
 if wants evaluation; then
-  "$study" evaluate -o "$work/evaluation.csv"
+  study evaluate -o "$work/evaluation.csv"
   mv "$work/evaluation.csv" "$out/"
 fi
 if wants large; then
-  "$study" evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 5 -o "$work/evaluation-10000.csv"
+  study evaluate --sizes 10000 --seeds 1% --frames 1 --timed-frames 5 -o "$work/evaluation-10000.csv"
   mv "$work/evaluation-10000.csv" "$out/"
 fi
 if wants similarities; then
@@ -137,11 +137,11 @@ for row in json.load(sys.stdin)['results']:
   mv "$work/resolution.csv" "$out/"
 fi
 if wants ablation; then
-  "$study" ablation -o "$work/ablation.csv"
+  study ablation -o "$work/ablation.csv"
   mv "$work/ablation.csv" "$out/"
 fi
 if wants tables; then
-  tools/studies/paper/plot_evaluation.py "$out/evaluation.csv" -o "$work/figures" --dpi 70
+  tools/studies/plot_evaluation.py "$out/evaluation.csv" -o "$work/figures" --dpi 70
   mv "$work"/figures/{similarity,times,speedup}_{n,density}.png "$out/"
-  tools/studies/paper/evaluation_tables.py docs/evaluation.md "$out"
+  tools/studies/evaluation_tables.py docs/evaluation.md "$out"
 fi

@@ -24,7 +24,7 @@ def number(row, column):
 
 
 class Evaluation:
-    """Rows of vorocl-study evaluate, by n, seeds, method and metric."""
+    """Rows of study.py evaluate, by n, seeds, method and metric."""
 
     def __init__(self, rows):
         self.rows = {(int(row["n"]), int(row["seeds"]), row["method"], row["metric"]): row for row in rows}
@@ -135,7 +135,7 @@ def ablation_table(ablation):
             f"{median:.2f} ({least:.2f}, {greatest:.2f})", shown(number(row, "wrong_percent_mean"), 4, " %"),
             shown(number(row, "wrong_percent_greatest"), 4, " %"), f"{number(row, 'mean_excess'):.2g}",
             shown(number(row, "largest_excess"), 1),
-            shown(number(row, "differing_between_runs_mean"), 4, " %"),
+            shown(number(row, "differing_between_runs_mean"), 4, " %") if "differing_between_runs_mean" in row else "",
         ])
         before = row["study"]
     return table(head, rows)
