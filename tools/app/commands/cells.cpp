@@ -9,7 +9,6 @@
 #include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
-#include "app/outputs/volume_files.hpp"
 #include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
@@ -98,11 +97,8 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
     return;
   }
   print_diagram(options.method, seeds, view, report);
-  if (options.is_volume()) {
-    print_cells_of_volume(statistics.empty_cells, seeds.alive(), unlabelled);
-  } else {
-    print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive());
-  }
+  print_empty_cells(statistics.empty_cells, statistics.cells, seeds.alive(), name_of_pixel(view));
+  if (options.is_volume()) print_unlabelled(unlabelled, seeds.alive());
   print("the mean {} is {:.6g}, with a deviation of {:.6g} ({})\n", options.is_volume() ? "volume" : "area",
         statistics.mean_area, statistics.area_deviation, view.units.area_title());
   if (!options.is_volume()) print("{}, ", counted(measures.vertices(), "vertex", "vertices"));

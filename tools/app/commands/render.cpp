@@ -1,12 +1,13 @@
 // vorocl render: one diagram, as a picture, as labels, or both.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/commands/commands.hpp"
-#include "app/commands/render_volume.hpp"
+#include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
 #include "app/outputs/measures.hpp"
 #include "app/sources/volume_input.hpp"
@@ -33,6 +34,7 @@ struct RenderOptions {
   bool json = false;
 
   bool draws() const { return !picture_path.empty() || !waves_pattern.empty(); }
+  bool is_volume() const { return seeds.depth > 1; }
 };
 
 std::vector<RequestedFile> requested_files(const RenderOptions& options) {
@@ -49,11 +51,14 @@ struct Outputs {
 
 Outputs open_outputs(const RenderOptions& options) {
   if (!options.draws() && options.labels.path.empty()) {
-    throw UsageError("nothing to write: give -o PICTURE, --labels FILE or both, or --waves PICTURES");
+    throw UsageError(options.is_volume()
+                         ? "nothing to write: give -o PICTURE with --slice z=K, --labels FILE or both"
+                         : "nothing to write: give -o PICTURE, --labels FILE or both, or --waves PICTURES");
   }
   if (!options.waves_pattern.empty() && !options.method.plan) {
     throw UsageError("--waves: the method " + std::string(options.method.name) + " has no waves");
   }
+  if (options.is_volume()) check_slice(options.picture, options.picture_path, volume_size(options.seeds));
   check_outputs(requested_files(options), options.seeds);
   if (options.draws()) check_picture_options(options.picture);
   Outputs outputs;
@@ -67,19 +72,24 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
                   Measures& measures) {
   const View& view = measures.view();
   const CellCount count = measures.cell_count();
+  std::size_t unlabelled = 0;
+  if (options.is_volume()) {
+    const std::vector<std::uint32_t>& labels = measures.labels();
+    unlabelled = static_cast<std::size_t>(std::count(labels.begin(), labels.end(), no_label));
+  }
   if (options.json) {
     Json result = json_of_diagram(options.method, options.method_options.metric, seeds, view);
-    result.update(Json{{"seeds", seeds.alive()},
-                       {"empty_cells", count.empty},
-                       {"frames", 1},
-                       {"waves", report.waves()},
+    result.update(Json{{"seeds", seeds.alive()}, {"empty_cells", count.empty}});
+    result.update(options.is_volume() ? Json{{"unlabelled_voxels", unlabelled}} : Json{{"frames", 1}});
+    result.update(Json{{"waves", report.waves()},
                        {"milliseconds", report.milliseconds()},
                        {"host_milliseconds", report.host_milliseconds()}});
     print_json(result);
     return;
   }
   print_diagram(options.method, seeds, view, report);
-  print_empty_cells(count.empty, count.cells, seeds.alive());
+  print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
+  if (options.is_volume()) print_unlabelled(unlabelled, seeds.alive());
   print_written(requested_files(options));
 }
 
@@ -102,8 +112,8 @@ void draw_waves(const NumberedFiles& files, const Plan& plan, const Input& input
 
 void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
-  const Input input = read_input(options.seeds);
-  check_picture_size(options.picture, input.view.picture.size);
+  const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
+  if (!options.is_volume()) check_picture_size(options.picture, input.view.picture.size);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
@@ -111,7 +121,7 @@ void run(const RenderOptions& options) {
   Diagram diagram = buffers.diagram_to_read(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
-  if (outputs.labels) labels_kind().write(*outputs.labels, measures);
+  if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
     // First, so that the waves have its scale.
@@ -126,11 +136,19 @@ void run(const RenderOptions& options) {
   print_result(options, seeds, report, measures);
 }
 
-/// The options that a volume has. Throws UsageError for the others.
-VolumeRendering volume_of(const Command& command, const RenderOptions& options) {
+/// Throws UsageError for options that volumes do not have, and asks for the files that they do.
+void prepare_volume(const Command& command, RenderOptions& options) {
   if (command.has("--waves")) refuse_in_volumes("--waves");
-  return {options.seeds,        options.method,      options.method_options, options.device,
-          options.picture_path, options.labels.path, options.picture,        options.json};
+  check_volume_method(options.method, options.method_options.metric);
+  options.labels = of_volume(options.labels);
+}
+
+/// Throws UsageError for options that planes do not have.
+void prepare_plane(RenderOptions& options) {
+  if (options.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
+  snap_for(options.method, options.seeds);
+  options.seeds.value_column = options.picture.color.column;
+  if (!options.method.windows) options.seeds.keeps_inside = keeps_flooding_inside;
 }
 
 }  // namespace
@@ -164,11 +182,7 @@ void add_render(CommandLine& line) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
     }
     check_crs(options->seeds.crs, {options->labels.path});
-    if (options->seeds.depth > 1) return render_volume(volume_of(command, *options));
-    if (options->picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-    snap_for(options->method, options->seeds);
-    options->seeds.value_column = options->picture.color.column;
-    if (!options->method.windows) options->seeds.keeps_inside = keeps_flooding_inside;
+    options->is_volume() ? prepare_volume(command, *options) : prepare_plane(*options);
     run(*options);
   });
 }

@@ -24,10 +24,9 @@ void check_volume_method(const Method& method, Metric metric) {
   throw UsageError("the method " + method.name + " is for planes; volumes have " + names);
 }
 
-void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled) {
-  if (empty > 0) print("{} of {} seeds own no voxel\n", empty, seeds);
-  if (unlabelled == 0) return;
-  print("{} without a label: {}\n", counted(unlabelled, "voxel"),
+void print_unlabelled(std::size_t voxels, std::size_t seeds) {
+  if (voxels == 0) return;
+  print("{} without a label: {}\n", counted(voxels, "voxel"),
         seeds == 0 ? "there are no seeds" : "no wave reached them");
 }
 

@@ -18,7 +18,7 @@ VolumeSize volume_size(const SeedOptions& seeds);
 /// Throws UsageError for a method that knows planes alone, or no such metric in volumes.
 void check_volume_method(const Method& method, Metric metric);
 
-/// Says which seeds own no voxel and which voxels no method reached; nothing if there are none.
-void print_cells_of_volume(std::size_t empty, std::size_t seeds, std::size_t unlabelled);
+/// Says how many voxels no method reached; nothing if there are none.
+void print_unlabelled(std::size_t voxels, std::size_t seeds);
 
 }  // namespace vorocl::command

@@ -20,11 +20,13 @@ namespace vorocl::command {
 namespace {
 
 void write_label_file(const OutputFile& file, Measures& measures) {
-  write_labels(file, measures.view().picture, measures.labels_in_picture());
+  const View& view = measures.view();
+  view.is_volume() ? write_voxels(file, "label", view.voxels(), measures.labels_by_id())
+                   : write_labels(file, view.picture, measures.labels_in_picture());
 }
 
-/// A cell as its row in a table: pixels of the picture in the view's units. What a cell without pixels does
-/// not have is unknown.
+/// A cell as its row in a table: pixels of the picture, or voxels, in the view's units. What a cell without
+/// pixels does not have is unknown.
 class CellRow {
  public:
   CellRow(Measures& measures, std::uint32_t label)
@@ -33,14 +35,18 @@ class CellRow {
   double id() const { return measures_.id_of(label_); }
   double x() const { return x_at(measures_.seeds()[label_]->x); }
   double y() const { return y_at(measures_.seeds()[label_]->y); }
+  double z() const { return z_at(measures_.seeds()[label_]->z); }
   double area() const { return view_.units.area(measures_.pixels()[label_]); }
   double centroid_x() const { return if_full(x_at(centroid().x)); }
   double centroid_y() const { return if_full(y_at(centroid().y)); }
+  double centroid_z() const { return if_full(z_at(centroid().z)); }
   double left() const { return if_full(x_at(shape().left)); }
   double top() const { return if_full(y_at(shape().top)); }
+  double front() const { return if_full(z_at(shape().front)); }
   double right() const { return if_full(view_.units.x_end(static_cast<double>(shape().right) + view_.x)); }
   double bottom() const { return if_full(view_.units.y_end(static_cast<double>(shape().bottom) + view_.y)); }
-  double perimeter() const { return view_.units.length(measures_.perimeters()[label_]); }
+  double back() const { return if_full(view_.units.z_end(shape().back)); }
+  double perimeter() const { return view_.units.border(measures_.perimeters()[label_]); }
   double neighbours() const { return measures_.neighbours()[label_]; }
   double largest_distance() const { return if_full(view_.units.length(measures_.largest_distance(label_))); }
   double touches_border() const { return shape().touches_border ? 1 : 0; }
@@ -48,6 +54,7 @@ class CellRow {
  private:
   double x_at(double of_diagram) const { return view_.units.x(of_diagram + view_.x); }
   double y_at(double of_diagram) const { return view_.units.y(of_diagram + view_.y); }
+  double z_at(double of_diagram) const { return view_.units.z(of_diagram); }
   Point centroid() const { return measures_.sums()[label_].centroid(); }
   const CellShape& shape() const { return measures_.shapes()[label_]; }
   double if_full(double value) const { return measures_.pixels()[label_] > 0 ? value : RowText::unknown; }
@@ -71,15 +78,18 @@ constexpr Source seed = entry_of<std::optional<Point>, &Measures::seeds>,
                  perimeter = entry_of<std::uint32_t, &Measures::perimeters>,
                  neighbours = entry_of<std::uint32_t, &Measures::neighbours>;
 
+enum class Of { planes, volumes, both };
+
 struct CellColumn {
   std::string name;
+  Of of;
   Source source;
   /// Finds the values of the labels [begin, end).
   void (*find)(Measures& measures, const std::uint32_t* begin, const std::uint32_t* end, double* values);
 };
 
 template <Source source, double (CellRow::*value)() const>
-CellColumn column(const char* name) {
+CellColumn column(const char* name, Of of = Of::both) {
   const auto find = [](Measures& measures, const std::uint32_t* begin, const std::uint32_t* end,
                        double* values) {
     constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
@@ -88,7 +98,7 @@ CellColumn column(const char* name) {
       *values++ = (CellRow(measures, *label).*value)();
     }
   };
-  return {name, source, find};
+  return {name, of, source, find};
 }
 
 const std::vector<CellColumn>& all_cell_columns() {
@@ -96,21 +106,27 @@ const std::vector<CellColumn>& all_cell_columns() {
       column<seed, &CellRow::id>("id"),
       column<seed, &CellRow::x>("x"),
       column<seed, &CellRow::y>("y"),
-      column<pixels, &CellRow::area>("area"),
+      column<seed, &CellRow::z>("z", Of::volumes),
+      column<pixels, &CellRow::area>("area", Of::planes),
+      column<pixels, &CellRow::area>("volume", Of::volumes),
       column<sums, &CellRow::centroid_x>("centroid_x"),
       column<sums, &CellRow::centroid_y>("centroid_y"),
+      column<sums, &CellRow::centroid_z>("centroid_z", Of::volumes),
       column<shape, &CellRow::left>("left"),
       column<shape, &CellRow::top>("top"),
+      column<shape, &CellRow::front>("front", Of::volumes),
       column<shape, &CellRow::right>("right"),
       column<shape, &CellRow::bottom>("bottom"),
-      column<perimeter, &CellRow::perimeter>("perimeter"),
+      column<shape, &CellRow::back>("back", Of::volumes),
+      column<perimeter, &CellRow::perimeter>("perimeter", Of::planes),
+      column<perimeter, &CellRow::perimeter>("surface", Of::volumes),
       column<neighbours, &CellRow::neighbours>("neighbours"),
       column<shape, &CellRow::largest_distance>("largest_distance"),
       column<shape, &CellRow::touches_border>("touches_border")};
   return columns;
 }
 
-void read_plane_cells(const std::vector<CellColumn>& columns, Measures& measures) {
+void read_cells(const std::vector<CellColumn>& columns, Measures& measures) {
   for (const CellColumn& column : columns) {
     if (column.source != pixels) column.source(measures, 0);
   }
@@ -118,8 +134,8 @@ void read_plane_cells(const std::vector<CellColumn>& columns, Measures& measures
   pixels(measures, 0);  // behind the sums, which have them
 }
 
-void add_plane_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
-                     Measures& measures) {
+void add_cells(const std::vector<CellColumn>& columns, GrowingFile& table, const std::string& first,
+               Measures& measures) {
   // A column after the other for some rows, so that each is a short loop; then row by row the text.
   constexpr std::ptrdiff_t most_rows = 256;
   const auto add = [&](RowText& text, const std::uint32_t* begin, const std::uint32_t* end) {
@@ -139,16 +155,17 @@ void add_plane_cells(const std::vector<CellColumn>& columns, GrowingFile& table,
   add_pieces(table, first, measures.cells(), add);
 }
 
-void add_plane_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
+void add_pairs(GrowingFile& table, const std::string& first, Measures& measures) {
   const Units& units = measures.view().units;
   add_rows(table, first, measures.pairs_by_id(), [&units](RowText& text, const CellPair& pair) {
-    text.add(pair.a, pair.b, units.length(pair.length));
+    text.add(pair.a, pair.b, units.border(pair.length));
   });
 }
 
 void write_distance_file(const OutputFile& file, Measures& measures) {
   const View& view = measures.view();
   const std::vector<float> distances = view.units.lengths(measures.distances());
+  if (view.is_volume()) return write_voxels(file, "distance", view.voxels(), distances);
   std::vector<float> room;
   write_pixels(file, "distance", view.picture, view.in_picture(distances, INFINITY, room));
 }
@@ -189,9 +206,11 @@ const FileKind& labels_kind() {
   return kind;
 }
 
-std::vector<std::string> cell_columns() {
+std::vector<std::string> cell_columns(bool of_volume) {
   std::vector<std::string> names;
-  for (const CellColumn& column : all_cell_columns()) names.push_back(column.name);
+  for (const CellColumn& column : all_cell_columns()) {
+    if (column.of != (of_volume ? Of::planes : Of::volumes)) names.push_back(column.name);
+  }
   return names;
 }
 
@@ -203,12 +222,12 @@ FileKind cells_kind(const std::vector<std::string>& names) {
     columns.push_back(*column);
   }
   const auto add_rows = [columns](GrowingFile& table, const std::string& first, Measures& measures) {
-    add_plane_cells(columns, table, first, measures);
+    add_cells(columns, table, first, measures);
   };
   return {"--cells",
           "A .csv file with one row per cell: its area, centroid, extent, perimeter, neighbours",
           {".csv"},
-          [columns](Measures& measures) { read_plane_cells(columns, measures); },
+          [columns](Measures& measures) { read_cells(columns, measures); },
           TableKind{names, add_rows, true}};
 }
 
@@ -218,7 +237,7 @@ const FileKind& adjacency_kind() {
       "A .csv file with one row per pair of cells that touch: their ids and the pixel edges they share",
       {".csv"},
       [](Measures& measures) { measures.pairs(); },
-      TableKind{{"a", "b", "length"}, add_plane_pairs}};
+      TableKind{{"a", "b", "length"}, add_pairs}};
   return kind;
 }
 
@@ -239,6 +258,18 @@ const FileKind& border_kind() {
       [](Measures& measures) { measures.borders(); },
       write_border_file};
   return kind;
+}
+
+FileRequest of_volume(FileRequest request) {
+  FileKind& kind = request.kind;
+  if (kind.table() == nullptr) {
+    kind.extensions = volume_extensions();
+  } else if (kind.table()->of_cells) {
+    kind = cells_kind(cell_columns(true));
+  } else {
+    std::get<TableKind>(kind.content).columns = {"a", "b", "area"};
+  }
+  return request;
 }
 
 RequestedFile requested(const FileRequest& request) {

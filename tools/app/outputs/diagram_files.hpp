@@ -40,8 +40,8 @@ struct FileKind {
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-/// The columns that a table of cells can have, in their order.
-std::vector<std::string> cell_columns();
+/// The columns that a table of cells of a plane can have, or of a volume, in their order.
+std::vector<std::string> cell_columns(bool of_volume = false);
 /// One row per cell with these of the columns, one row per pair of cells that touch: .csv. The manual page
 /// explains the columns.
 FileKind cells_kind(const std::vector<std::string>& columns = cell_columns());
@@ -59,6 +59,9 @@ struct FileRequest {
   /// Whether the file is one table of all frames: its name has no place for a number.
   bool is_long_table() const { return kind.table() != nullptr && path.find('%') == std::string::npos; }
 };
+
+/// The same of a volume: with other formats, or all of its columns. Borders are of planes alone.
+FileRequest of_volume(FileRequest of_plane);
 
 /// As check_outputs() takes it, for one diagram.
 RequestedFile requested(const FileRequest& request);

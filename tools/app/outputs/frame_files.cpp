@@ -107,7 +107,7 @@ void FrameStatistics::read(Measures& measures) {
 
 void FrameStatistics::add(int frame, std::int64_t time, double milliseconds, const std::optional<Box>& box,
                           Measures& measures) {
-  const bool is_volume = measures.view().window.grid().is_volume();
+  const bool is_volume = measures.view().is_volume();
   if (!std::exchange(has_header_, true)) *file_ << header_of_statistics(is_volume);
   const CellStatistics& statistics = measures.statistics();
   // Counted here and not on the device, where a particle's label may be another's in the next frame.

@@ -270,7 +270,7 @@ Json json_of_diagram(const Method& method, Metric metric, const Seeds& seeds, co
   return json;
 }
 
-const char* name_of_pixel(const View& view) { return view.window.grid().is_volume() ? "voxel" : "pixel"; }
+const char* name_of_pixel(const View& view) { return view.is_volume() ? "voxel" : "pixel"; }
 
 const char* unit_of_distances(const Grid& grid) {
   return grid.is_spaced() ? "units of the spacing" : grid.is_volume() ? "voxels" : "pixels";

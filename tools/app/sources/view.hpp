@@ -68,7 +68,8 @@ class Units {
   /// Of a position in pixels of the picture.
   double x(double pixels) const { return x_.at(pixels); }
   double y(double pixels) const { return y_.at(pixels); }
-  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y), z_.at(pixels.z)}; }
+  double z(double pixels) const { return z_.at(pixels); }
+  Point position(const Point& pixels) const { return {x(pixels.x), y(pixels.y), z(pixels.z)}; }
 
   /// The sides of a pixel.
   Point sides() const { return {x_.side_of_pixel(), y_.side_of_pixel(), z_.side_of_pixel()}; }
@@ -171,6 +172,8 @@ struct View {
   Size size() const { return Size(window); }
 
   bool fills_picture() const { return size() == picture.size; }
+
+  bool is_volume() const { return window.grid().is_volume(); }
 
   /// Of a volume.
   VolumeRaster voxels() const {
