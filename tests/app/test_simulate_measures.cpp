@@ -37,17 +37,28 @@ TableRow statistics_on_host(int frame, const LabelledGrid& image, const std::opt
     for (std::size_t i = 0; i < image.labels.size(); ++i)
       *changed += image.labels[i] != before->labels[i] ? 1 : 0;
   }
-  return {frame, cells, cells - static_cast<double>(areas.size()), mean, std::sqrt(variance), changed};
+  TableRow row = {frame,  cells, cells - static_cast<double>(areas.size()), mean, std::sqrt(variance),
+                  changed};
+  row.resize(12);
+  std::map<double, double> with;  // so many neighbours
+  for (const TableRow& cell : cells_on_host(image, seeds, Metric::euclidean)) {
+    if (*cell[3] > 0) with[*cell[11]] += 1 / static_cast<double>(areas.size());
+  }
+  for (const int neighbours : {3, 4, 5, 6, 7, 8, 9}) row.emplace_back(with[neighbours]);
+  return row;
 }
 
 void check_statistics(const TableRow& row, const TableRow& expected) {
-  BOOST_TEST_REQUIRE(row.size() == 12u);
+  BOOST_TEST_REQUIRE(row.size() == 19u);
   for (const std::size_t exact : {0u, 1u, 2u, 5u})
     BOOST_TEST((row[exact] == expected[exact]), "column " << exact);
   for (const std::size_t near : {3u, 4u}) {
     BOOST_TEST(row[near].value() == expected[near].value(), boost::test_tools::tolerance(1e-9));
   }
   BOOST_TEST(row[6].value() > 0);
+  for (std::size_t share = 12; share < row.size(); ++share) {
+    BOOST_TEST(std::abs(row[share].value() - expected[share].value()) < 1e-9, "column " << share);
+  }
 }
 
 }  // namespace
@@ -67,7 +78,8 @@ BOOST_AUTO_TEST_CASE(every_kth_frame_is_measured_and_every_frame_counted) {
   const Table table = read_table(folder / "s.csv");
   BOOST_TEST(table.header ==
              "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-             "box_x0,box_y0,box_x1,box_y1,timestep");
+             "box_x0,box_y0,box_x1,box_y1,timestep,neighbours_3,neighbours_4,neighbours_5,neighbours_6,"
+             "neighbours_7,neighbours_8,neighbours_9");
   BOOST_TEST_REQUIRE(table.rows.size() == 7u);
   std::optional<LabelledGrid> before;
   for (int frame = 0; frame <= 6; ++frame) {

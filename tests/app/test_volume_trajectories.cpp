@@ -426,7 +426,9 @@ BOOST_AUTO_TEST_CASE(tables_of_all_frames_are_those_of_each) {
   }
   BOOST_TEST(statistics.header ==
              "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,box_x0,box_y0,"
-             "box_z0,box_x1,box_y1,box_z1,timestep");
+             "box_z0,box_x1,box_y1,box_z1,timestep,neighbours_8,neighbours_9,neighbours_10,neighbours_11,"
+             "neighbours_12,neighbours_13,neighbours_14,neighbours_15,neighbours_16,neighbours_17,neighbours_"
+             "18,neighbours_19,neighbours_20,neighbours_21,neighbours_22");
   for (std::size_t frame = 0; frame < 2; ++frame) {
     const auto counts = counts_of(frame == 0 ? before : after);
     const double mean = 1200 / static_cast<double>(counts.size());

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <tuple>
 #include <utility>
@@ -16,11 +18,41 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* header_of_statistics(bool is_volume) {
-  return is_volume ? "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,"
-                     "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1,timestep\n"
-                   : "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
-                     "box_x0,box_y0,box_x1,box_y1,timestep\n";
+/// Numbers of neighbours that have a column: what cells of even and of random seeds have, the first and the
+/// last.
+std::array<std::uint32_t, 2> columns_of_neighbours(bool is_volume) {
+  return is_volume ? std::array<std::uint32_t, 2>{8, 22} : std::array<std::uint32_t, 2>{3, 9};
+}
+
+std::string header_of_statistics(bool is_volume) {
+  std::string header =
+      is_volume ? "frame,cells,empty_cells,mean_volume,volume_deviation,changed_voxels,milliseconds,"
+                  "box_x0,box_y0,box_z0,box_x1,box_y1,box_z1,timestep"
+                : "frame,cells,empty_cells,mean_area,area_deviation,changed_pixels,milliseconds,"
+                  "box_x0,box_y0,box_x1,box_y1,timestep";
+  const auto [least, most] = columns_of_neighbours(is_volume);
+  for (std::uint32_t n = least; n <= most; ++n) header += fmt::format(",neighbours_{}", n);
+  return header + "\n";
+}
+
+/// For each of those numbers the share of the cells that have it, of all that own pixels; each with a comma
+/// before it.
+std::string shares_of_neighbours(Measures& measures) {
+  const auto [least, most] = columns_of_neighbours(measures.view().window.grid().is_volume());
+  std::vector<std::size_t> counts(most + 1);
+  std::size_t cells = 0;
+  for (std::size_t label = 0; label < measures.pixels().size(); ++label) {
+    if (measures.pixels()[label] == 0) continue;
+    ++cells;
+    const std::uint32_t neighbours = measures.neighbours()[label];
+    if (neighbours <= most) ++counts[neighbours];
+  }
+  std::string shares;
+  for (std::uint32_t n = least; n <= most; ++n) {
+    shares += ',';
+    if (cells > 0) shares += fmt::format("{}", static_cast<double>(counts[n]) / static_cast<double>(cells));
+  }
+  return shares;
 }
 
 std::string corners_of(const std::optional<Box>& box, bool is_volume) {
@@ -102,6 +134,8 @@ void FrameStatistics::pass(Measures& measures) { last_labels_ = measures.labels_
 
 void FrameStatistics::read(Measures& measures) {
   measures.statistics();
+  measures.pixels();
+  measures.neighbours();
   measures.labels();
 }
 
@@ -125,8 +159,9 @@ void FrameStatistics::add(int frame, std::int64_t time, double milliseconds, con
   }
   const std::string areas =
       statistics.cells > 0 ? fmt::format("{},{}", statistics.mean_area, statistics.area_deviation) : ",";
-  *file_ << fmt::format("{},{},{},{},{},{:.6f},{},{}\n", frame, statistics.cells, statistics.empty_cells,
-                        areas, changed, milliseconds, corners_of(box, is_volume), time);
+  *file_ << fmt::format("{},{},{},{},{},{:.6f},{},{}{}\n", frame, statistics.cells, statistics.empty_cells,
+                        areas, changed, milliseconds, corners_of(box, is_volume), time,
+                        shares_of_neighbours(measures));
 }
 
 }  // namespace vorocl::command
