@@ -1,8 +1,9 @@
 /// @file
 /// VoroCL for C, and for whatever calls C: what the C++ headers of the same names do, with status codes.
 ///
-/// Covers devices, seeds and their motion, diagrams of windows and of volumes, all methods and measures, and
-/// Lloyd relaxation. C has no plans of waves, simulations, planes in tiles or pictures.
+/// Covers devices, seeds and their motion, diagrams of windows and of volumes, all methods and measures,
+/// Lloyd relaxation, and distance transforms of images. C has no plans of waves, simulations, planes in tiles
+/// or pictures.
 ///
 /// A grid with a third axis is a volume, whose pixels are voxels; vorocl::Grid says what takes one. All else
 /// is VOROCL_BAD_ARGUMENT there. What is "row-major" is so slice after slice.
@@ -718,6 +719,72 @@ VOROCL_API vorocl_status vorocl_field_buffer(const vorocl_field* field, cl_mem* 
 
 /// Copies the values to the host: `bytes` must be their size, 0 while the field is empty. Waits.
 VOROCL_API vorocl_status vorocl_field_read(const vorocl_field* field, void* values, size_t bytes);
+
+/// @}
+
+/// @name Distance transforms of images: see vorocl::DistanceTransform
+/// @{
+
+/// What a pixel of an image is in memory. One of these; integers with a sign are given as those without.
+typedef int vorocl_pixel_type;
+enum {
+  VOROCL_PIXEL_UINT8 = 0,
+  VOROCL_PIXEL_UINT16 = 1,
+  VOROCL_PIXEL_UINT32 = 2,
+  VOROCL_PIXEL_UINT64 = 3,
+  VOROCL_PIXEL_FLOAT32 = 4,
+  VOROCL_PIXEL_FLOAT64 = 5
+};
+
+/// An image that is read: row-major, without gaps, at `pixels` in the host's memory or in a buffer of the
+/// device's context; the other one is NULL.
+typedef struct vorocl_image_source {
+  const void* pixels;
+  cl_mem buffer;
+  vorocl_pixel_type type;
+} vorocl_image_source;
+
+/// An image that is written, likewise. It is not wanted if both are NULL, as an initialiser leaves them.
+typedef struct vorocl_image_target {
+  void* pixels;
+  cl_mem buffer;
+  vorocl_pixel_type type;
+} vorocl_image_target;
+
+/// Which pixels others look for: those that are zero, or those that are not. NaN is never marked.
+typedef int vorocl_marked;
+enum { VOROCL_MARKED_ZEROS = 0, VOROCL_MARKED_NON_ZEROS = 1 };
+
+/// What a transform writes: see vorocl::TransformTargets, which says the types of each.
+typedef struct vorocl_transform_targets {
+  vorocl_image_target distances;  ///< float32, float64; uint32: squares
+  vorocl_image_target indices;    ///< uint32: images of indices along z (of volumes), y and x
+  vorocl_image_target places;     ///< uint32: x + width * (y + height * z)
+  vorocl_image_target ranks;      ///< uint32: the number among the marked pixels, row-major
+  vorocl_image_target values;     ///< of the type of the image: what the nearest marked pixel has
+} vorocl_transform_targets;
+
+/// Exact distance transforms of images of one size. It keeps its kernels and memory from image to image.
+typedef struct vorocl_distance_transform vorocl_distance_transform;
+
+/// Of images of a grid's size and periods. `size` are the three lengths of a pixel along x, y and z, up to
+/// 1,000 times each other; NULL: 1.
+VOROCL_API vorocl_status vorocl_distance_transform_create(const vorocl_device* device, vorocl_grid grid,
+                                                          const double size[3],
+                                                          vorocl_distance_transform** transform);
+VOROCL_API void vorocl_distance_transform_free(vorocl_distance_transform* transform);
+
+/// Transforms an image. What is farther than `farthest`, in the units of the sizes, has no nearest pixel:
+/// infinity, VOROCL_NO_LABEL and 0 are written. INFINITY (math.h): all have one. Enqueues and returns if all
+/// images are buffers, else waits.
+VOROCL_API vorocl_status vorocl_distance_transform_run(vorocl_distance_transform* transform,
+                                                       const vorocl_image_source* image, vorocl_marked marked,
+                                                       double farthest,
+                                                       const vorocl_transform_targets* targets);
+
+/// Whether the last image had a marked pixel: 1 or 0. Waits.
+VOROCL_API vorocl_status vorocl_distance_transform_found(const vorocl_distance_transform* transform,
+                                                         int* found);
 
 /// @}
 
