@@ -7,6 +7,7 @@ _vorocl_choices() {
       if (entry ~ "^ +([^ ]*,)?" option "[ :=]+NAME") { sub(/.*: /, "", entry); gsub(/,/, "", entry); sub(/:NAME/, ":", entry); print entry }
     }
     /^ +-/ { take(); entry = $0; next }
+    /^($|[^ ])/ { take(); entry = ""; next } # the title of a section
     { entry = entry " " $0 }
     END { take() }'
 }

@@ -44,6 +44,20 @@ BOOST_AUTO_TEST_CASE(every_level_has_help) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(help_has_sections_with_the_common_ones_first) {
+  const TemporaryFolder folder;
+  const std::string help = succeeds(folder, "render --help");
+  std::size_t at = 0;
+  for (const std::string line :
+       {"Seeds, from one of these:", "  --random ", "Files to write:", "  -o ",
+        "Grid and units:", "  --size ", "What the seeds' files say:", "  --columns ",
+        "Method:", "  --method ", "Pictures:", "  --color ", "Run:", "  -h,--help ", "  --device "}) {
+    const std::size_t found = help.find("\n" + line, at);
+    BOOST_TEST_REQUIRE(found != std::string::npos, line << " is not behind the others in\n" << help);
+    at = found;
+  }
+}
+
 BOOST_AUTO_TEST_CASE(subcommands_that_have_left_say_where_they_are) {
   const TemporaryFolder folder;
   for (const std::string subcommand : {"evaluate", "ablation"}) {

@@ -1,4 +1,4 @@
-// The worked example of CONTRIBUTING.md, "Adding a metric": Chebyshev's, the greater offset along an axis, in
+// The worked example of docs/extending.md, "Adding a metric": Chebyshev's, the greater offset along an axis, in
 // flooding.
 #define BOOST_TEST_MODULE another_metric
 #include <algorithm>

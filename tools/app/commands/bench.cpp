@@ -92,8 +92,10 @@ void add_bench(CommandLine& line) {
   add_seed_options(command, options->seeds, 1, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds, "Make exact diagrams and judge all labels");
+  command.begin_section("Methods");
   add_methods_option(command, options->methods);
   add_method_options(command, options->benchmark.method);
+  command.begin_section("Benchmark");
   command
       .add("--tile", options->benchmark.tile,
            "Time exact from seeds to labels on the host too, in one grid and in tiles of N x N pixels, whose "

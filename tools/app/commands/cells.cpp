@@ -148,6 +148,7 @@ void add_cells(CommandLine& line) {
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
+  command.begin_section(files_to_write);
   CellsFiles& files = options->files;
   for (FileRequest* const request :
        {&files.cells, &files.adjacency, &files.distance, &files.border, &files.labels}) {

@@ -199,6 +199,7 @@ void add_compare(CommandLine& line) {
   add_seed_options(command, options->seeds, 0, false, Makes::volumes_too);
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds, "Judge labels");
+  command.begin_section("Method");
   add_metric_option(command, options->metric);
   add_device_option(command, options->device);
   add_json_option(command, options->json);

@@ -264,6 +264,7 @@ void add_relax(CommandLine& line) {
   add_frame_option(command, options->seeds);
   add_snap_option(command, options->seeds);
   add_units_option(command, options->seeds);
+  command.begin_section("Relaxation");
   command
       .add("--rounds", options->rounds,
            "Greatest number of rounds; the relaxation ends sooner when no seed moves by 1/64 of a pixel")

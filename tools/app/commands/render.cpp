@@ -163,6 +163,7 @@ void add_render(CommandLine& line) {
   add_method_option(command, options->method, "How to make the diagram");
   add_method_options(command, options->method_options);
   add_device_option(command, options->device);
+  command.begin_section(files_to_write);
   command.add("-o", options->picture_path, "Picture to write: .png, .jpg, .bmp or .tif")
       .value_name("PICTURE");
   add_file_option(command, options->labels);

@@ -293,11 +293,12 @@ void add_simulate(CommandLine& line) {
   Command command =
       line.add("simulate", "Make the diagrams of moving seeds: a film, pictures, labels, times");
   add_seed_options(command, options->seeds, 1, true, Makes::volumes_too);
-  add_motion_options(command, options->motion);
   add_units_option(command, options->seeds);
   add_snap_option(command, options->seeds);
+  add_motion_options(command, options->motion);
   add_method_option(command, options->method, "How to make the diagrams");
   add_method_options(command, options->method_options);
+  command.begin_section("Another method, to compare with");
   const auto set_other = [](const std::string& name) { return choose(method_choices(), name); };
   const Option compare_with =
       command

@@ -71,6 +71,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       line.add("tiles", "Make the diagram of a plane that is larger than a device, tile by tile");
   add_plane_options(command, options->input);
   add_units_option(command, options->input.seeds, "points");
+  command.begin_section("Tiles");
   add_metric_option(command, options->metric);
   command.add("--tile", options->side, "Side of the tiles in pixels; of a .tif file a multiple of 16")
       .value_name("N")
@@ -80,6 +81,7 @@ void add_tiles(CommandLine& line, const std::function<void(const TilesOptions&)>
       .add_parsed("--only", options->part, parse_part,
                   "Make a part of the plane alone: the pixels from (X0, Y0) up to, and without, (X1, Y1)")
       .value_name("X0,Y0,X1,Y1");
+  command.begin_section(files_to_write);
   command
       .add("--labels", options->output.labels,
            "Labels: a .npy file (uint32), a .zarr folder (Zarr version 2, a chunk per tile) or a .tif file "

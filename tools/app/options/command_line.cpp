@@ -77,6 +77,11 @@ Option& Option::excludes(const Option& other) {
   return *this;
 }
 
+Option& Option::in_section(const char* title) {
+  option_->group(title);
+  return *this;
+}
+
 Option Command::add(const std::string& name, bool& flag, const std::string& about) {
   return Option(*app_->add_flag(name, flag, about));
 }
@@ -144,9 +149,12 @@ void Command::refuse_words(const std::function<std::string(const std::string& wo
 Command Command::add_group(const std::string& name, const std::string& about, std::size_t least,
                            std::size_t most) {
   CLI::App* const group = app_->add_option_group(name, about);
+  group->set_help_flag();
   group->require_option(least, most);
   return Command(*group);
 }
+
+void Command::begin_section(const char* title) { app_->option_defaults()->group(title); }
 
 Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
 
@@ -172,9 +180,32 @@ void Command::set_work(const std::function<void()>& work) { app_->callback(work)
 
 namespace {
 
-/// CLI11 shows the words of refuse_words() in the usage, without their name.
 class Help : public CLI::Formatter {
  public:
+  /// Of a subcommand: groups of options, of which one must be given, and then sections.
+  std::string make_help(const CLI::App* app, std::string name, CLI::AppFormatMode mode) const override {
+    if (app->get_parent() == nullptr) return Formatter::make_help(app, name, mode);
+    std::string text = make_description(app) + make_usage(app, name) + make_positionals(app);
+    const auto add_section = [&](const CLI::App* of, const std::string& title, const std::string& group) {
+      const auto options = of->get_options(
+          [&](const CLI::Option* option) { return option->get_group() == group && option->nonpositional(); });
+      if (!options.empty()) text += make_group(title, false, options);
+    };
+    for (const CLI::App* const group : app->get_subcommands({}))
+      add_section(group, group->get_description(), "Options");
+    std::vector<std::string> titles = app->get_groups();
+    const auto rank = [](const std::string& title) {
+      return title == files_to_write ? 0 : title == grid_section ? 1 : title == run_section ? 3 : 2;
+    };
+    std::stable_sort(titles.begin(), titles.end(),
+                     [&rank](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+    for (const std::string& title : titles) {
+      if (!title.empty()) add_section(app, title, title);
+    }
+    return text;
+  }
+
+  /// CLI11 shows the words of refuse_words() in the usage, without their name.
   std::string make_usage(const CLI::App* app, std::string name) const override {
     constexpr std::string_view nameless = " []";
     std::string usage = Formatter::make_usage(app, std::move(name));
@@ -196,7 +227,9 @@ CommandLine::CommandLine(const std::string& about, const std::string& name, cons
 CommandLine::~CommandLine() = default;
 
 Command CommandLine::add(const std::string& name, const std::string& about) {
-  return Command(*app_->add_subcommand(name, about));
+  CLI::App* const subcommand = app_->add_subcommand(name, about);
+  subcommand->get_help_ptr()->group(run_section);
+  return Command(*subcommand);
 }
 
 void CommandLine::run(int argc, char** argv) {

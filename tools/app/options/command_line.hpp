@@ -36,6 +36,7 @@ class Option {
   Option& needs(const Option& other);
   Option& needs(const std::string& name);
   Option& excludes(const Option& other);
+  Option& in_section(const char* title);  ///< of the help, not in that of begin_section()
 
  private:
   CLI::Option* option_;
@@ -62,6 +63,11 @@ T choose(const Choices<T>& choices, const std::string& text) {
   for (const auto& choice : choices) names.push_back(choice.first);
   throw Error("\"" + text + "\" is unknown; " + did_you_mean(text, names) + "there are " + names_of(choices));
 }
+
+/// Titles of sections that the help of most subcommands has.
+constexpr const char *files_to_write = "Files to write", *grid_section = "Grid and units",
+                     *seed_files = "What the seeds' files say", *pictures_section = "Pictures",
+                     *run_section = "Run";
 
 /// A subcommand, or a group of its options. Options are stored in the variables that are given with them,
 /// which must stay where they are until the work runs.
@@ -120,6 +126,10 @@ class Command {
 
   /// A group of options of which at least and at most so many must be given.
   Command add_group(const std::string& name, const std::string& about, std::size_t least, std::size_t most);
+
+  /// The help lists what is added from here on under this title. After the seeds come what is written and
+  /// the grid, and run_section last.
+  void begin_section(const char* title);
 
   /// An option that was added before.
   Option option(const std::string& name) const;

@@ -12,14 +12,16 @@ Option add_metric_option(Command& command, Metric& metric) {
 }
 
 Option add_device_option(Command& command, std::string& request) {
-  return command.add(
-      "--device", request,
-      "Part of a platform's or device's name, or platform:device indices (vorocl devices lists "
-      "them); else what the environment variable VOROCL_DEVICE says, else the best there is");
+  return command
+      .add("--device", request,
+           "Part of a platform's or device's name, or platform:device indices (vorocl devices lists "
+           "them); else what the environment variable VOROCL_DEVICE says, else the best there is")
+      .in_section(run_section);
 }
 
 Option add_json_option(Command& command, bool& json) {
-  return command.add("--json", json, "Print one JSON object of results and nothing else on standard output");
+  return command.add("--json", json, "Print one JSON object of results and nothing else on standard output")
+      .in_section(run_section);
 }
 
 Choices<Method> method_choices() {
@@ -29,11 +31,13 @@ Choices<Method> method_choices() {
 }
 
 void add_method_option(Command& command, Method& method, const std::string& about) {
+  command.begin_section("Method");
   command.add_choice("--method", method, method_choices(), about).default_text(method.name);
 }
 
 void add_method_options(Command& command, MethodOptions& options) {
   add_metric_option(command, options.metric);
+  command.begin_section("Flooding, for its study");
   const Choices<std::optional<NeighbourhoodMix>> neighbourhoods = {
       {"moore", NeighbourhoodMix::moore},
       {"von-neumann", NeighbourhoodMix::von_neumann},

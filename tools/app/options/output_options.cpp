@@ -40,6 +40,7 @@ void add_cell_columns_option(Command& command, FileRequest& cells) {
 
 void add_film_options(Command& command, FrameWriterOptions& options, const std::string& value_name,
                       const std::string& about) {
+  command.begin_section(files_to_write);
   const Option picture = command.add("-o", options.picture_path, about).value_name(value_name);
   command.add("--fps", options.frames_per_second, "Frames per second of the film")
       .value_name("F")
@@ -47,6 +48,7 @@ void add_film_options(Command& command, FrameWriterOptions& options, const std::
       .default_is_value()
       .needs(picture);
   add_picture_options(command, options.picture);
+  command.begin_section(files_to_write);
 }
 
 void add_frame_writer_options(Command& command, FrameWriterOptions& options) {

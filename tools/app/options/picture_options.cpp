@@ -46,6 +46,7 @@ VolumeSlice parse_slice(const std::string& text) {
 }  // namespace
 
 void add_picture_options(Command& command, PictureOptions& options) {
+  command.begin_section(pictures_section);
   const Choices<std::optional<Palette>> palettes = {
       {"viridis", Palette::viridis},     {"turbo", Palette::turbo},     {"greys", Palette::greys},
       {"viridis_r", Palette::viridis_r}, {"turbo_r", Palette::turbo_r}, {"greys_r", Palette::greys_r},
@@ -108,7 +109,8 @@ void add_slice_option(Command& command, PictureOptions& options) {
   command
       .add_parsed("--slice", options.slice, parse_slice,
                   "Of a volume, the slice that the picture shows, from 0: z=K, or along x or y")
-      .value_name("z=K");
+      .value_name("z=K")
+      .in_section(pictures_section);
 }
 
 void check_slice(const PictureOptions& options, const std::string& picture_path, const VolumeSize& sides) {

@@ -219,7 +219,8 @@ void add_mask_option(Command& command, Command& source, SeedOptions& options) {
 
 void add_seed_options(Command& command, SeedOptions& options, std::size_t least, bool move, Makes makes) {
   const bool volumes = makes == Makes::volumes_too;
-  Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", least, 1);
+  Command source = command.add_group("Seeds", "Seeds, from one of these", least, 1);
+  command.begin_section(seed_files);
   if (least > 0) command.refuse_words([](const std::string& word) { return option_for(word, Sources::all); });
   constexpr std::size_t most_seeds = Window::max_pixels;
   const Option random = add_random_option(source, options, most_seeds);
@@ -233,6 +234,7 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   move ? rng_seed.excludes(trajectory) : rng_seed.needs(random);
   add_columns_option(command, options, volumes).needs(points);
   add_decimal_option(command, options).needs(points);
+  command.begin_section(grid_section);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
       (volumes ? "; with a depth, those of a volume" : "");
@@ -279,7 +281,8 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
 
 void add_plane_options(Command& command, PlaneInputOptions& options) {
   SeedOptions& seeds = options.seeds;
-  Command source = command.add_group("Seeds", "Where the seeds come from (one of these)", 1, 1);
+  Command source = command.add_group("Seeds", "Seeds, from one of these", 1, 1);
+  command.begin_section(seed_files);
   command.refuse_words([](const std::string& word) { return option_for(word, Sources::of_planes); });
   const Option random = add_random_option(source, seeds, no_label - 1);
   const Option points = add_points_option(source, seeds);
@@ -287,6 +290,7 @@ void add_plane_options(Command& command, PlaneInputOptions& options) {
   add_rng_seed_option(command, seeds).needs(random);
   add_columns_option(command, seeds, false).needs(points);
   add_decimal_option(command, seeds).needs(points);
+  command.begin_section(grid_section);
   command
       .add_parsed("--size", options.size, parse_plane,
                   "Width and height of the plane in pixels; with --mask those of the image")
@@ -338,7 +342,8 @@ void add_keep_option(Command& command, SeedOptions& options) {
           "Columns of the CSV file, by name or by index, that tables of cells and polygons have too; all: "
           "every one that has a name")
       .value_name("COLUMN,...")
-      .needs("--points");
+      .needs("--points")
+      .in_section(seed_files);
 }
 
 void add_frame_option(Command& command, SeedOptions& options) {
@@ -346,7 +351,8 @@ void add_frame_option(Command& command, SeedOptions& options) {
       .value_name("K")
       .in_range(0, std::numeric_limits<int>::max() - 1)
       .default_is_value()
-      .needs("--trajectory");
+      .needs("--trajectory")
+      .in_section(seed_files);
 }
 
 void add_units_option(Command& command, SeedOptions& options, const std::string& with_data) {
@@ -381,6 +387,7 @@ FrameRange parse_frames(const std::string& text) {
 }  // namespace
 
 void add_motion_options(Command& command, MotionOptions& options) {
+  command.begin_section("Frames");
   command
       .add_parsed("--frames", options.frames, parse_frames,
                   "Frames to make: 0 to L, or K to L, which continues a run that was ended. Of a trajectory "
