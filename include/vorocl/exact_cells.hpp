@@ -1,6 +1,8 @@
-// The Voronoi cells of seeds as polygons, without pixels: areas, neighbours, vertices.
+// The Voronoi cells of seeds as polygons, and in volumes as polyhedra, without pixels: areas, neighbours,
+// vertices.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -16,12 +18,15 @@ namespace vorocl {
 
 struct ExactCellsState;
 
-/// What exact_cells() knows of a cell, in the units of the data. An empty cell has the area 0 and the
-/// centroid (NaN, NaN): that of an absent seed, of a seed that lies where one with a lower id does, and of
-/// one outside the rectangle whose cell does not reach into it.
+/// What exact_cells() knows of a cell, in the units of the data. An empty cell has the area 0 and a centroid
+/// of NaNs: that of an absent seed, of a seed that lies where one with a lower id does, and of one outside
+/// the rectangle whose cell does not reach into it.
+///
+/// A measure has one name in planes and volumes: the area of a volume's cell is its volume, its perimeter its
+/// surface, and its edges are its faces; the rectangle is the box.
 struct ExactCell {
   double area = 0;
-  Point centroid;        ///< across a period's end it may lie outside the rectangle
+  Point centroid;        ///< across a period's end it may lie outside the rectangle; in a plane z is 0
   double perimeter = 0;  ///< with the sides of the rectangle that bound it
   std::uint32_t neighbours =
       0;  ///< edges that it shares with cells; one with which it shares two counts twice
@@ -48,6 +53,32 @@ struct ExactPolygons {
   std::vector<double> lengths;            ///< of each edge; none is 0
 };
 
+/// A face that two cells of a volume share, in the units of the data. Across the ends of periods two cells
+/// may share several faces, and a cell may be its own neighbour.
+struct ExactFace {
+  std::uint32_t a = 0, b = 0;  ///< their ids, a <= b
+  double area = 0;
+
+  /// So many periods along x, y and z the image of b lies behind the face: seen from the point of a as it was
+  /// given, that of b is image times the periods further away than its point says. So the face is normal to
+  /// point b + image * periods - point a.
+  std::array<std::int32_t, 3> image = {};
+};
+
+/// All cells of a volume as polyhedra, in the units of the data. Cell i has the vertices from
+/// vertex_offsets[i] up to vertex_offsets[i + 1], and the faces from offsets[i] up to offsets[i + 1], none if
+/// it is empty; across a period's end it is whole. Face j has the corners from corner_offsets[j] up to
+/// corner_offsets[j + 1], counter-clockwise as seen from outside: rows of `vertices`.
+struct ExactPolyhedra {
+  std::vector<std::uint32_t> offsets;         ///< one more than there are cells
+  std::vector<std::uint32_t> neighbours;      ///< the cell behind each face; no_label: a side of the box
+  std::vector<double> areas;                  ///< of each face; none is 0
+  std::vector<std::uint64_t> corner_offsets;  ///< one more than there are faces
+  std::vector<std::uint64_t> corners;
+  std::vector<std::uint64_t> vertex_offsets;  ///< one more than there are cells
+  std::vector<Point> vertices;
+};
+
 /// What must hold for the cells as a whole.
 struct ExactCellsCheck {
   double area = 0;  ///< the sum of all cells
@@ -62,8 +93,9 @@ struct ExactCellsCheck {
 /// was moved from or exact_cells() threw: then its buffers are null.
 ///
 /// Each of its functions waits: only then it is known whether cells had more edges than kernels have private
-/// memory for, which are cut once more in global memory. The polygons are put in order when they are first
-/// asked for. All throw Error if the device has too little memory for that. The result may be empty then.
+/// memory for, which are cut once more in global memory. The polygons, and faces, are put in order when they
+/// are first asked for. All throw Error if the device has too little memory for that. The result may be empty
+/// then.
 ///
 /// Threads: one thread at a time.
 ///
@@ -80,22 +112,32 @@ class VOROCL_API ExactCellsResult {
   std::size_t size() const;
 
   const cl::Buffer& areas() const;       ///< double per cell
-  const cl::Buffer& centroids() const;   ///< double2 per cell
+  const cl::Buffer& centroids() const;   ///< two doubles per cell, in a volume three
   const cl::Buffer& perimeters() const;  ///< double per cell
   const cl::Buffer& neighbours() const;  ///< uint32 per cell
   const cl::Buffer& flags() const;       ///< byte per cell: 1 touches the border, 2 certified, 3 both
 
-  std::size_t edges() const;                  ///< of all polygons
+  std::size_t edges() const;                  ///< of all polygons; of a volume the faces of all cells
   const cl::Buffer& offsets() const;          ///< as in ExactPolygons: uint32 per cell, and one
-  const cl::Buffer& vertices() const;         ///< double2 per edge
+  const cl::Buffer& vertices() const;         ///< double2 per edge; of a volume a null buffer
   const cl::Buffer& edge_neighbours() const;  ///< uint32 per edge
-  const cl::Buffer& lengths() const;          ///< double per edge
+  const cl::Buffer& lengths() const;          ///< double per edge, of a volume the area of each face
 
   std::vector<ExactCell> read() const;
+
+  /// Throws Error if the cells are those of a volume.
   ExactPolygons read_polygons() const;
 
-  /// Each edge between two cells once, sorted by a and then b.
+  /// Each edge between two cells once, sorted by a and then b. Throws as read_polygons().
   std::vector<ExactPair> read_pairs() const;
+
+  /// Each face between two cells once, sorted by a, b and the image. Throws Error if the cells are those of a
+  /// plane.
+  std::vector<ExactFace> read_faces() const;
+
+  /// The cells are cut once more for that; about 1,200 bytes per cell of device memory while it lasts. Throws
+  /// as read_faces().
+  ExactPolyhedra read_polyhedra() const;
 
   /// Sums the areas, and looks for each edge on its other side.
   ExactCellsCheck check() const;
@@ -107,16 +149,17 @@ class VOROCL_API ExactCellsResult {
   std::unique_ptr<ExactCellsState> state_;
 };
 
-/// Cuts the rectangle of the seeds' grid into their Euclidean Voronoi cells, without a diagram: the grid's
-/// axes say where it begins and ends and which axes are periodic, its pixels do not count. Seeds outside it
-/// count as far as their cells reach into it.
+/// Cuts the rectangle of the seeds' grid, or the box of a volume, into their Euclidean Voronoi cells, without
+/// a diagram: the grid's axes say where it begins and ends and which axes are periodic, its pixels do not
+/// count. In a plane seeds outside it count as far as their cells reach into it.
 ///
 /// Points are taken as they were given (as the centres of their pixels where they were made on the device),
-/// and rounded to a power of two that is at most 2^-29 of the
-/// rectangle's longer side, or of what holds the seeds outside too. So are the rectangle's sides. Whole
-/// numbers, halves and so on stay as they are. Of these points the cells are exact: neighbours are decided in
-/// whole numbers, and cells that touch in a point are none. Vertices are right to about 2^-50 of their
-/// distance from the seed. The same numbers come on every device.
+/// and rounded to a power of two that is at most 2^-29 of the rectangle's longer side, or of what holds the
+/// seeds outside too; in a volume it is at most 2^-39 of the longest side. So are the rectangle's sides.
+/// Whole numbers, halves and so on stay as they are. Of these points the cells are exact: neighbours are
+/// decided in whole numbers, and cells that touch in a point, or of a volume in an edge, are none. Vertices
+/// are right to about 2^-50 of their distance from the seed, in a volume to 2^-36 where planes are almost
+/// parallel. The same numbers come on every device that has fused multiply-add.
 ///
 /// Of a grid that is tilted (Grid::tilted()) the cells are those of what repeats so, and points are rounded
 /// to 2^-28 of the longer side.
@@ -124,11 +167,12 @@ class VOROCL_API ExactCellsResult {
 /// Each cell starts as the rectangle and is cut by bisectors, with the seeds that are near in a tree first,
 /// until no seed is nearer to one of its vertices than its own: the security radius of Ray, Sokolov, Lefebvre
 /// and Levy ("Meshless Voronoi on the GPU", 2018), vertex by vertex. Cost: the host sorts the points, in
-/// about 0.1 us each; the device takes 1.5 us per cell and core. Memory: 115 bytes per seed, and 116 more
-/// where polygons are asked for.
+/// about 0.1 us each; the device takes 1.5 us per cell and core, in a volume 2.6 us. Memory: 115 bytes per
+/// seed, and 116 more where polygons are asked for; in a volume 380, and 200 more where faces are.
 ///
 /// Enqueues and returns, after a wait where only the device has the points. Throws Error if the device has no
-/// doubles (cl_khr_fp64) or too little memory, or if the rectangle has no extent along an axis.
+/// doubles (cl_khr_fp64) or too little memory, if the rectangle has no extent along an axis, or if the grid
+/// has an axis that is spaced.
 VOROCL_API Report exact_cells(const Seeds& seeds, ExactCellsResult& result);
 
 }  // namespace vorocl

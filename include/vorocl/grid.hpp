@@ -166,7 +166,8 @@ class VOROCL_API Axis {
 ///
 /// Seeds, diagrams, prepare(), exact_diagram(), jump_flooding(), its plan, flood(), cell_sums(),
 /// cell_shapes(), cell_statistics(), adjacency(), distance_errors(), similarity(), distance_field() and
-/// expand_labels() take volumes, and planes with an axis that is spaced; others throw Error for them.
+/// expand_labels() take volumes, and planes with an axis that is spaced; exact_cells() takes volumes without
+/// one. Others throw Error for them.
 class VOROCL_API Grid {
  public:
   Grid(const Axis& x, const Axis& y, const Axis& z = Axis(1)) : x_(x), y_(y), z_(z) {}

@@ -625,7 +625,7 @@ VOROCL_API vorocl_status vorocl_adjacency_read_cells(const vorocl_adjacency* adj
                                                      uint32_t* perimeters, size_t count);
 
 /// @}
-/// @name Cells as polygons: see vorocl::exact_cells()
+/// @name Cells as polygons, and in volumes as polyhedra: see vorocl::exact_cells()
 /// @{
 
 /// What was cut, on the device; to be used frame after frame. As vorocl::ExactCellsResult.
@@ -634,14 +634,15 @@ typedef struct vorocl_exact_cells vorocl_exact_cells;
 VOROCL_API vorocl_status vorocl_exact_cells_create(vorocl_exact_cells** cells);
 VOROCL_API void vorocl_exact_cells_free(vorocl_exact_cells* cells);
 
-/// Cuts the rectangle of the seeds' grid into their cells, without a diagram. Enqueues and returns.
-/// VOROCL_DEVICE_ERROR if the device has no doubles.
+/// Cuts the rectangle of the seeds' grid, or the box of a volume, into their cells, without a diagram.
+/// Enqueues and returns. VOROCL_DEVICE_ERROR if the device has no doubles.
 VOROCL_API vorocl_status vorocl_exact_cells_cut(vorocl_exact_cells* cells, const vorocl_seeds* seeds);
 
 /// The cells, one per seed; 0 if it is empty.
 VOROCL_API vorocl_status vorocl_exact_cells_count(const vorocl_exact_cells* cells, size_t* count);
 
-/// As vorocl::ExactCell, in the units of the data. An empty cell has the area 0 and a centroid of NaN.
+/// As vorocl::ExactCell, in the units of the data: of a volume the area is the cell's volume, the perimeter
+/// its surface. An empty cell has the area 0 and a centroid of NaN.
 typedef struct vorocl_exact_cell {
   double area;
   vorocl_point centroid;
@@ -655,29 +656,65 @@ typedef struct vorocl_exact_cell {
 VOROCL_API vorocl_status vorocl_exact_cells_read(const vorocl_exact_cells* all, vorocl_exact_cell* cells,
                                                  size_t count);
 
-/// Per cell its area (double), centroid (2 doubles), perimeter (double), neighbours (uint32_t) and flags (a
-/// byte: 1 touches the border, 2 certified). Each may be NULL. The buffers are valid until the next cut.
-/// Waits.
+/// Per cell its area (double), centroid (2 doubles, in a volume 3), perimeter (double), neighbours (uint32_t)
+/// and flags (a byte: 1 touches the border, 2 certified). Each may be NULL. The buffers are valid until the
+/// next cut. Waits.
 VOROCL_API vorocl_status vorocl_exact_cells_buffers(const vorocl_exact_cells* cells, cl_mem* areas,
                                                     cl_mem* centroids, cl_mem* perimeters, cl_mem* neighbours,
                                                     cl_mem* flags);
 
-/// The edges of all polygons. Waits.
+/// The edges of all polygons, of a volume the faces of all cells. Waits.
 VOROCL_API vorocl_status vorocl_exact_cells_edges(const vorocl_exact_cells* cells, size_t* edges);
 
 /// The polygons: those edges of a cell that begin at its offset (uint32_t per cell, and one),
 /// counter-clockwise where y points up. Per edge the vertex where it begins (2 doubles), the cell behind it
-/// (uint32_t; VOROCL_NO_LABEL: a side of the rectangle) and its length (double). Each may be NULL. Waits.
+/// (uint32_t; VOROCL_NO_LABEL: a side of the rectangle) and its length (double). Of a volume the same of
+/// faces, whose lengths are areas, without vertices. Each may be NULL. Waits.
 VOROCL_API vorocl_status vorocl_exact_cells_polygon_buffers(const vorocl_exact_cells* cells, cl_mem* offsets,
                                                             cl_mem* vertices, cl_mem* neighbours,
                                                             cl_mem* lengths);
 
-/// The same on the host: `count` must be the number of cells, `offsets` has one more, and the others have
-/// `edges`, which must be all. Each may be NULL. Waits.
+/// The same on the host, of a plane: `count` must be the number of cells, `offsets` has one more, and the
+/// others have `edges`, which must be all. Each may be NULL. Waits.
 VOROCL_API vorocl_status vorocl_exact_cells_read_polygons(const vorocl_exact_cells* cells, uint32_t* offsets,
                                                           size_t count, vorocl_point* vertices,
                                                           uint32_t* neighbours, double* lengths,
                                                           size_t edges);
+
+/// As vorocl::ExactFace: a face that two cells of a volume share, a <= b. It is normal to
+/// point b + image * periods - point a.
+typedef struct vorocl_exact_face {
+  uint32_t a, b;
+  double area;
+  int32_t image[3];
+} vorocl_exact_face;
+
+/// The faces between cells of a volume, each once, sorted: the first `room` of them, and how many there are.
+/// With no room, `faces` may be NULL. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_read_faces(const vorocl_exact_cells* cells,
+                                                       vorocl_exact_face* faces, size_t room, size_t* count);
+
+/// All cells of a volume as polyhedra, on the host; as vorocl::ExactPolyhedra.
+typedef struct vorocl_exact_polyhedra vorocl_exact_polyhedra;
+
+/// What polyhedra hold. The arrays are valid until the polyhedra are freed.
+typedef struct vorocl_polyhedra_arrays {
+  size_t cells, faces, corners, vertices;
+  const uint32_t* offsets;          ///< cells + 1: where the faces of each cell begin
+  const uint32_t* neighbours;       ///< of each face the cell behind it; VOROCL_NO_LABEL: a side of the box
+  const double* areas;              ///< of each face
+  const uint64_t* corner_offsets;   ///< faces + 1: where the corners of each face begin
+  const uint64_t* corner_vertices;  ///< of each corner, counter-clockwise as seen from outside
+  const uint64_t* vertex_offsets;   ///< cells + 1: where the vertices of each cell begin
+  const vorocl_point* points;       ///< of each vertex
+} vorocl_polyhedra_arrays;
+
+/// Cuts the cells once more. Waits.
+VOROCL_API vorocl_status vorocl_exact_cells_polyhedra(const vorocl_exact_cells* cells,
+                                                      vorocl_exact_polyhedra** polyhedra);
+VOROCL_API vorocl_status vorocl_exact_polyhedra_arrays(const vorocl_exact_polyhedra* polyhedra,
+                                                       vorocl_polyhedra_arrays* arrays);
+VOROCL_API void vorocl_exact_polyhedra_free(vorocl_exact_polyhedra* polyhedra);
 
 /// @}
 /// @name Images: see vorocl::Field

@@ -5,18 +5,6 @@
 
 #define ROOM 24  // cells of random points have 6 edges in the mean, and one in 10^10 as many as 20
 
-// Cells of coincident points but the first, and of points that are not there, are empty.
-kernel void clear_cells(uint cells, global double* restrict areas, global double2* restrict centroids,
-                        global double* restrict perimeters, global uint* restrict edge_counts,
-                        global uint* restrict neighbours, global uchar* restrict flags) {
-  const uint id = (uint)get_global_id(0);
-  if (id >= cells) return;
-  areas[id] = perimeters[id] = 0;
-  centroids[id] = (double2)NAN;
-  edge_counts[id] = neighbours[id] = 0;
-  flags[id] = CERTIFIED;
-}
-
 // A work-item cuts the cells of so many sites of a leaf: all of them one after the other, in the same memory, with one
 // search of the leaves around; or one, where a device needs many items.
 kernel __attribute__((vec_type_hint(float8))) void cut_cells(SITE_PARAMETERS, MEASURE_PARAMETERS, uint of_item) {
@@ -60,7 +48,7 @@ kernel void place_edges(SITE_PARAMETERS, global const uint* restrict ids, global
 
 // Measures the edges, and puts their vertices into the units of the data. The lengths lie where found edges did. In the
 // order of cells, so that memory is read and written as it lies.
-kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restrict sites_of_cells, double2 origin,
+kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restrict sites_of_cells, double4 origin,
                           double step, global const uint* restrict offsets, global double2* restrict vertices,
                           global double* restrict lengths) {
   const uint id = (uint)get_global_id(0);
@@ -74,7 +62,7 @@ kernel void measure_edges(SITE_PARAMETERS, uint cells, global const uint* restri
   for (uint i = offset; i < end; ++i) {
     const double2 to = i + 1 < end ? vertices[i + 1] : first, way = to - from;
     lengths[i] = sqrt(way.s0 * way.s0 + way.s1 * way.s1) / 2 * step;
-    vertices[i] = origin + (at + from / 2) * step;
+    vertices[i] = origin.xy + (at + from / 2) * step;
     from = to;
   }
 }

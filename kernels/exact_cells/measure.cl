@@ -3,23 +3,10 @@
 #ifndef VOROCL_EXACT_CELLS_MEASURE
 #define VOROCL_EXACT_CELLS_MEASURE
 
+#define FOUND_EDGE uint2
+
+#include "exact_cells/found.cl"
 #include "exact_cells/search.cl"
-
-#define TOUCHES_BORDER 1u
-#define CERTIFIED 2u
-
-// What sites are called in the caller's list; where step 0 is, and how long one, in the units of the data; and what
-// is found, by the caller's ids. `begins` is by site: where its edges lie among the found ones, of which each is a
-// site and an image. They come in the order in which cells are done. `counters`: the edges found; the cells in the
-// queue of those with more edges than there is room for.
-#define MEASURE_PARAMETERS \
-  global const uint *ids, double2 origin, double step, global double *areas, global double2 *centroids, \
-      global double *perimeters, global uint *edge_counts, global uint *neighbours, global uchar *flags, \
-      global uint *begins, global uint2 *found, uint room_for_edges, global uint *counters, global uint *queue
-
-#define MEASURE_ARGUMENTS \
-  ids, origin, step, areas, centroids, perimeters, edge_counts, neighbours, flags, begins, found, room_for_edges, \
-      counters, queue
 
 // The edge that begins in the lowest vertex, and of two in the left one.
 static inline int first_edge(const polygon_t* polygon) {
@@ -68,7 +55,7 @@ static inline void measure_cell(const tree_t* tree, const near_t* near, MEASURE_
   flags[id] = (uchar)((touching > 0 ? TOUCHES_BORDER : 0u) | CERTIFIED);
   areas[id] = area / 8 * step * step;
   perimeters[id] = perimeter / 2 * step;
-  centroids[id] = origin + (convert_double2(at) + moment / (3 * area) / 2) * step;
+  vstore2(origin.xy + (convert_double2(at) + moment / (3 * area) / 2) * step, id, centroids);
 }
 
 #endif

@@ -18,14 +18,13 @@
 #ifndef VOROCL_EXACT_CELLS_POLYGON
 #define VOROCL_EXACT_CELLS_POLYGON
 
+#include "exact_cells/lanes.cl"
 #include "exact_cells/wide.cl"
 
 // Where polygons lie: private for the many, global for those with more edges than that has room for.
 #ifndef POLYGON_SPACE
 #define POLYGON_SPACE private
 #endif
-
-#define NO_CELL 0xffffffffu  // behind a side of the box
 
 #define LANES 8  // vertices that a line is tried against at once
 
@@ -149,15 +148,6 @@ static inline int exact_side(const polygon_t* polygon, int k, line_t line) {
                       product(line.c, cross_of(p, q))));
 }
 
-// A bit for each lane that holds, and back.
-#define LANE_BITS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))
-static inline int8 lanes_of(int bits) { return (bits & LANE_BITS) != 0; }
-static inline int bits_of_ints(int8 lanes) {
-  const int8 bits = lanes & LANE_BITS;
-  const int4 of_four = bits.lo | bits.hi;
-  const int2 of_two = of_four.lo | of_four.hi;
-  return of_two.s0 | of_two.s1;
-}
 static inline int bits_of_longs(long8 lanes) {
   const long8 bits = lanes & (long8)(1, 2, 4, 8, 16, 32, 64, 128);
   const long4 of_four = bits.lo | bits.hi;
@@ -165,7 +155,6 @@ static inline int bits_of_longs(long8 lanes) {
   return (int)(of_two.s0 | of_two.s1);
 }
 
-static inline int lowest_bit(int bits) { return 31 - (int)clz(bits & -bits); }
 static inline int highest_bit(int bits) { return 31 - (int)clz(bits); }
 
 // Which of the vertices from k on, as bits, are beyond a line (s0), and which are beyond or on it (s1).

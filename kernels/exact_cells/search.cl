@@ -8,10 +8,6 @@
 #define VOROCL_EXACT_CELLS_SEARCH
 
 #include "exact_cells/polygon.cl"
-#include "exact_cells/sizes.cl"
-
-#define FAN_BITS 3
-#define MOST_LEVELS 10  // of boxes, for 2^30 sites
 
 // Which sites there are: in the kernels' arguments, and as what functions take.
 #define SITE_PARAMETERS \
@@ -78,27 +74,8 @@ static inline void begin_polygon(polygon_t* polygon, const tree_t* tree, int2 at
 
 // --- boxes and sites, eight at a time ---
 
-#define FAR 0xffffffffu  // of those that cut nothing
-
-// The nearest of eight come first: numbers that grow with a squared distance, and end with which one it is.
-static inline uint8 order_of(float8 distances, int8 may_cut) {
-  const uint8 order = (as_uint8(distances) & ~(uint)(FAN - 1)) | (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
-  return order | ~as_uint8(may_cut);
-}
-
-static inline uint least_of(uint8 numbers) {
-  const uint4 of_four = min(numbers.lo, numbers.hi);
-  const uint2 of_two = min(of_four.lo, of_four.hi);
-  return min(of_two.s0, of_two.s1);
-}
-
-static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
-
 // Behind which nothing can cut.
 static inline uint end_of(const polygon_t* polygon) { return as_uint(4 * polygon->reach); }
-
-// Those of eight of which there are so many.
-static inline int8 first_of(uint many) { return (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int)min(many, (uint)FAN); }
 
 // Cuts the cell by the sites of a leaf, the nearest first. `from` is the cell's site as the image of the tree sees it.
 static inline void cut_by_leaf(polygon_t* polygon, const tree_t* tree, uint leaf, int2 from, int image) {
@@ -131,12 +108,6 @@ static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group) 
   return boxes;
 }
 
-// Those of a group that are there: its last ones may not be.
-static inline int8 are_there(const tree_t* tree, int level, uint group) {
-  const uint nodes = (tree->count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level);
-  return first_of(nodes - group * FAN);
-}
-
 // Which of eight boxes, of those that count, may hold sites that cut.
 static inline uint8 order_of_boxes(const polygon_t* polygon, boxes_t boxes, int8 that_count, int2 from) {
   const float8 left = convert_float8(boxes.left - from.s0), right = convert_float8(boxes.right - from.s0),
@@ -158,7 +129,8 @@ static inline uint8 order_of_boxes(const polygon_t* polygon, boxes_t boxes, int8
 static inline uint8 order_of_group(const polygon_t* polygon, const tree_t* tree, int level, uint group, uint own,
                                    int2 from) {
   const int8 is_other = (int8)(0, 1, 2, 3, 4, 5, 6, 7) != (int)(own - group * FAN);
-  return order_of_boxes(polygon, boxes_of_group(tree, level, group), are_there(tree, level, group) & is_other, from);
+  const int8 that_count = are_there(tree->count, level, group) & is_other;
+  return order_of_boxes(polygon, boxes_of_group(tree, level, group), that_count, from);
 }
 
 // Cuts a cell by the sites in a group's boxes, the nearest box first, but not by those in the box `own`.
@@ -210,7 +182,7 @@ static inline int boxes_within(const tree_t* tree, int level, uint group, int4 b
   const boxes_t boxes = boxes_of_group(tree, level, group);
   const float8 away_x = max(convert_float8(max(boxes.left - box.s1, box.s0 - boxes.right)), 0.0f);
   const float8 away_y = max(convert_float8(max(boxes.lower - box.s3, box.s2 - boxes.upper)), 0.0f);
-  return bits_of_ints((away_x * away_x + away_y * away_y < distance) & are_there(tree, level, group));
+  return bits_of_ints((away_x * away_x + away_y * away_y < distance) & are_there(tree->count, level, group));
 }
 
 static inline int4 box_of_leaf(const tree_t* tree, uint leaf) {

@@ -1,8 +1,12 @@
-// A size of the tree of sites, for kernels and for the host.
+// Sizes of the tree of sites, and of large cells, for kernels and for the host.
 
 #ifndef VOROCL_EXACT_CELLS_SIZES
 #define VOROCL_EXACT_CELLS_SIZES
 
 #define FAN 8  // the sites of a leaf, and the boxes that one is around
+
+// Of a polyhedron in global memory, with room for so many vertices, a multiple of 64, and planes: CELL_LISTS
+// of polyhedron.cl.
+#define CELL_BYTES(room) (176 * (room) + 512)
 
 #endif

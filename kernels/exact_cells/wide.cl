@@ -13,8 +13,17 @@ typedef struct {
   long high;
 } wide_t;
 
+// The upper halves of products: some compilers take many steps for mul_hi().
+#ifdef __SIZEOF_INT128__
+static inline ulong upper_half(ulong a, ulong b) { return (ulong)((unsigned __int128)a * b >> 64); }
+static inline long upper_half_signed(long a, long b) { return (long)((__int128)a * b >> 64); }
+#else
+static inline ulong upper_half(ulong a, ulong b) { return mul_hi(a, b); }
+static inline long upper_half_signed(long a, long b) { return mul_hi(a, b); }
+#endif
+
 static inline wide_t product(long a, long b) {
-  const wide_t wide = {(ulong)a * (ulong)b, mul_hi(a, b)};
+  const wide_t wide = {(ulong)a * (ulong)b, upper_half_signed(a, b)};
   return wide;
 }
 

@@ -1,4 +1,4 @@
-"""Cells as polygons, against SciPy, freud, Shapely and GeoPandas."""
+"""Cells as polygons and polyhedra, against SciPy, freud, Shapely and GeoPandas."""
 
 import freud
 import geopandas
@@ -6,7 +6,7 @@ import numpy as np
 import pandas
 import pytest
 import shapely
-from scipy.spatial import Voronoi
+from scipy.spatial import ConvexHull, Voronoi
 
 import vorocl
 
@@ -169,3 +169,89 @@ def test_points_outside(points):
     assert counted.sum() == pytest.approx(8) and 0 < (counted[outside] > 0).sum() < outside.sum()
     with pytest.raises(vorocl.BadPoint):
         vorocl.exact_cells(moved, BOUNDS, outside="refuse")
+
+
+BOX = (-1.0, 2.0, 0.0, 3.0, 4.0, 1.0)
+
+
+@pytest.fixture(scope="module")
+def places():
+    return rng.uniform(BOX[:3], BOX[3:], (600, 3))
+
+
+def test_inner_polyhedra_are_those_of_scipy(places):
+    found = vorocl.exact_cells(places, BOX, polyhedra=True)
+    assert len(found) == 600 and found.cells.dtype == vorocl.EXACT_VOLUME_CELL and found.pairs.dtype == vorocl.EXACT_FACE
+    assert found.cells["certified"].all() and found.cells["volume"].sum() == pytest.approx(8, rel=1e-14)
+    voronoi = Voronoi(places)
+    inner = 0
+    for row, region in enumerate(voronoi.point_region):
+        corners = voronoi.regions[region]
+        vertices = voronoi.vertices[corners]
+        if -1 in corners or (vertices < BOX[:3]).any() or (vertices > BOX[3:]).any():
+            continue
+        inner += 1
+        hull = ConvexHull(vertices)
+        assert found.cells["volume"][row] == pytest.approx(hull.volume, rel=1e-9)
+        assert found.cells["surface"][row] == pytest.approx(hull.area, rel=1e-9)
+        assert not found.cells["touches_border"][row]
+        own, faces = found.polyhedron(row)
+        assert len(faces) == found.offsets[row + 1] - found.offsets[row] == found.cells["neighbours"][row]
+        same = ConvexHull(own)
+        assert len(own) == len(same.vertices) and same.volume == pytest.approx(hull.volume, rel=1e-9)
+        for corners in faces:  # counter-clockwise, seen from outside
+            p, q, r = own[corners[:3]]
+            assert np.cross(q - p, r - p) @ (p - places[row]) > 0
+    assert inner > 150
+    there = {(min(a, b), max(a, b)) for a, b in voronoi.ridge_points.tolist()}
+    assert edges_of(found.pairs) <= there
+    np.testing.assert_allclose(
+        np.add.reduceat(found.areas, found.offsets[:-1]), found.cells["surface"], rtol=1e-12
+    )
+
+
+def test_periodic_volumes_are_those_of_freud(places):
+    sides = np.subtract(BOX[3:], BOX[:3])
+    found = vorocl.exact_cells(places, BOX, periodic=(True, True, True))
+    box = freud.box.Box(*sides)
+    voronoi = freud.locality.Voronoi().compute((box, places - BOX[:3] - sides / 2))
+    np.testing.assert_allclose(found.cells["volume"], voronoi.volumes, rtol=2e-4)  # freud's are made in floats
+    there = {(min(a, b), max(a, b)) for a, b in voronoi.nlist[:].tolist()}
+    assert there <= edges_of(found.pairs)
+    assert edges_of(found.pairs[found.pairs["area"] > 1e-4]) <= there  # freud leaves out smaller ones
+    a, b = found.pairs["a"], found.pairs["b"]
+    image = np.column_stack([found.pairs[f"image_{axis}"] for axis in "xyz"])
+    way = places[b] + image * sides - places[a]
+    share = (found.pairs["area"] / np.linalg.norm(way, axis=1))[:, None] * way
+    sums = np.zeros((600, 3))
+    np.add.at(sums, a, share)
+    np.add.at(sums, b, -share)
+    np.testing.assert_allclose(sums, 0, atol=1e-10)  # the surfaces are closed
+    assert not found.cells["touches_border"].any()
+
+
+def test_tables_of_volumes(places):
+    given = places.copy()
+    given[7] = np.nan
+    given[9] = given[8]
+    found = vorocl.exact_cells(given, BOX)
+    frame = found.to_pandas()
+    assert list(frame.columns[:4]) == ["x", "y", "z", "volume"] and len(frame) == 600
+    assert (frame.loc[[7, 9], "volume"] == 0).all() and frame.loc[[7, 9], "centroid_z"].isna().all()
+    assert frame["volume"].sum() == pytest.approx(8)
+    assert len(vorocl.exact_cells(np.zeros((0, 3)), BOX, polyhedra=True).vertices) == 0
+    for call, message in [
+        (found.to_shapely, "of planes"),
+        (found.to_geopandas, "of planes"),
+        (lambda: found.polygon(0), "of planes"),
+        (lambda: found.polyhedron(0), "polyhedra=True"),
+        (lambda: vorocl.exact_cells(places[:, :2], BOUNDS, polyhedra=True), "of volumes"),
+        (lambda: vorocl.exact_cells(places, BOUNDS), r"\(N, 2\)"),
+        (lambda: vorocl.exact_cells(places, BOX, periodic=(True, True)), "three booleans"),
+        (lambda: vorocl.exact_cells(places, BOX, periodic=(True,) * 3, tilt=1), "volume"),
+        (lambda: vorocl.exact_cells(places, 7), "bounds"),
+    ]:
+        with pytest.raises(vorocl.BadArgument, match=message):
+            call()
+    with pytest.raises(vorocl.BadPoint):
+        vorocl.exact_cells(places + (0, 0, 1), BOX)

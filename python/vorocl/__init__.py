@@ -1,7 +1,7 @@
 """VoroCL: raster Voronoi diagrams of seeds that stand still or move, in OpenCL.
 
 `diagram` gives every pixel of a grid the row of its nearest point. `distances`, `cells`, `areas`, `adjacency`, `vertices`
-and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons; `from_mask`,
+and `relax` measure the diagram of points or change it; `exact_cells` cuts cells as polygons or polyhedra; `from_mask`,
 `expand_labels` and `distance_transform_edt` take images, also of volumes; `similarity` and `errors` compare labels.
 A `Grid` says which stretch of the points' plane a diagram shows, and which axes repeat.
 `Seeds`, `Diagram` and `Simulation` stay on a `Device`, for points that move and for programs that use OpenCL too.
@@ -24,7 +24,7 @@ from ._errors import (
     HostMemoryError,
     KernelBuildError,
 )
-from ._exact_cells import EXACT_CELL, EXACT_PAIR, ExactCells, exact_cells
+from ._exact_cells import EXACT_CELL, EXACT_FACE, EXACT_PAIR, EXACT_VOLUME_CELL, ExactCells, exact_cells
 from ._functions import (
     NO_LABEL,
     Relaxation,
@@ -59,7 +59,9 @@ __all__ = [
     "Diagram",
     "DistanceErrors",
     "EXACT_CELL",
+    "EXACT_FACE",
     "EXACT_PAIR",
+    "EXACT_VOLUME_CELL",
     "Error",
     "ExactCells",
     "FileError",

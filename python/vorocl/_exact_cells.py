@@ -1,15 +1,15 @@
-"""Cells as polygons, without pixels."""
+"""Cells as polygons, and in volumes as polyhedra, without pixels."""
 
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, Optional
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
-from ._arguments import Outside, shown, to_outside, to_points
+from ._arguments import Outside, shown, to_flag, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._grid import Bounds, Grid, Periodic
@@ -42,36 +42,98 @@ EXACT_PAIR = np.dtype(
 """One row of ``ExactCells.pairs``."""
 
 
+EXACT_VOLUME_CELL = np.dtype(
+    [
+        ("volume", np.float64),
+        ("centroid_x", np.float64),
+        ("centroid_y", np.float64),
+        ("centroid_z", np.float64),
+        ("surface", np.float64),
+        ("neighbours", np.uint32),
+        ("touches_border", np.bool_),
+        ("certified", np.bool_),
+    ],
+    align=True,
+)
+"""One row of ``ExactCells.cells`` of a volume."""
+
+EXACT_FACE = np.dtype(
+    [
+        ("a", np.uint32),
+        ("b", np.uint32),
+        ("area", np.float64),
+        ("image_x", np.int32),
+        ("image_y", np.int32),
+        ("image_z", np.int32),
+    ],
+    align=True,
+)
+"""One row of ``ExactCells.pairs`` of a volume."""
+
+
 class ExactCells:
-    """The cells of points as polygons, in the units of the points: what `exact_cells` returns.
+    """The cells of points as polygons, or as polyhedra, in the units of the points: what `exact_cells` returns.
 
     Attributes
     ----------
     points : ndarray
-        Shape (N, 2): the points that were given.
+        Shape (N, 2), of a volume (N, 3): the points that were given.
     cells : ndarray
-        Structured, one row per point: ``area``, ``centroid_x``, ``centroid_y``, ``perimeter`` (with the sides of the
-        rectangle), ``neighbours`` (edges that it shares with cells), ``touches_border``, ``certified`` (all decisions
-        were certain). ``pandas.DataFrame(cells)`` makes a table of it. The cell of an absent point, or of one that is
-        not the first at its place, is empty: its area is 0, its centroid NaN.
+        Structured, one row per point. Of a plane ``area``, ``centroid_x``, ``centroid_y``, ``perimeter`` (with the sides
+        of the rectangle); of a volume ``volume``, ``centroid_x``, ``centroid_y``, ``centroid_z``, ``surface``. Then
+        ``neighbours`` (edges, or faces, that it shares with cells: the coordination number), ``touches_border``,
+        ``certified`` (all decisions were certain). ``pandas.DataFrame(cells)`` makes a table of it. The cell of an absent
+        point, or of one that is not the first at its place, is empty: its area is 0, its centroid NaN.
     pairs : ndarray
-        Structured, one row per edge between two cells, sorted: ``a``, ``b`` (rows of the points, a <= b), ``length``,
-        ``midpoint_x``, ``midpoint_y``. Across the ends of periods two cells may share several edges, and a cell may be
-        its own neighbour.
+        Structured, one row per edge, or face, between two cells, sorted: ``a``, ``b`` (rows of the points, a <= b), and of
+        a plane ``length``, ``midpoint_x``, ``midpoint_y``; of a volume ``area``, and ``image_x``, ``image_y``,
+        ``image_z``: the face is normal to ``points[b] + image * periods - points[a]``. Across the ends of periods two
+        cells may share several edges, and a cell may be its own neighbour.
     offsets, vertices, neighbours, lengths : ndarray
-        The polygons: that of point i has the edges from ``offsets[i]`` up to ``offsets[i + 1]``, counter-clockwise where
-        y points up, from the lowest vertex on. Each begins at its row of `vertices`, has a length, and the cell
-        `neighbours` behind it: ``NO_LABEL`` is a side of the rectangle.
+        Of a plane the polygons: that of point i has the edges from ``offsets[i]`` up to ``offsets[i + 1]``,
+        counter-clockwise where y points up, from the lowest vertex on. Each begins at its row of `vertices`, has a length,
+        and the cell `neighbours` behind it: ``NO_LABEL`` is a side of the rectangle.
+    offsets, neighbours, areas : ndarray
+        Of a volume: the faces of point i are those from ``offsets[i]`` up to ``offsets[i + 1]``. Each has an area, and the
+        cell `neighbours` behind it.
+    vertex_offsets, vertices, corner_offsets, corners : ndarray
+        Of a volume, with ``polyhedra=True``: the vertices of point i are the rows of `vertices` from ``vertex_offsets[i]``
+        up to ``vertex_offsets[i + 1]``. Face j has the corners from ``corner_offsets[j]`` up to ``corner_offsets[j + 1]``,
+        rows of `vertices`, counter-clockwise as seen from outside.
     """
 
-    def __init__(self, points: NDArray[np.float64], cut: _vorocl.ExactCells) -> None:
+    def __init__(self, points: NDArray[np.float64], cut: _vorocl.ExactCells, with_polyhedra: bool) -> None:
         self.points = points
-        self.cells: NDArray[Any] = cut.cells().view(EXACT_CELL)[:, 0]
-        self.pairs: NDArray[Any] = cut.pairs().view(EXACT_PAIR)[:, 0]
-        self.offsets: NDArray[np.uint32] = cut.offsets()[:, 0]
-        self.vertices: NDArray[np.float64] = np.ascontiguousarray(cut.vertices()[:, :2])
-        self.neighbours: NDArray[np.uint32] = cut.neighbours()[:, 0]
-        self.lengths: NDArray[np.float64] = cut.lengths()[:, 0]
+        self.cells: NDArray[Any]
+        self.pairs: NDArray[Any]
+        self.offsets: NDArray[np.uint32]
+        self.neighbours: NDArray[np.uint32]
+        if self._is_volume:
+            self.cells = cut.volume_cells().view(EXACT_VOLUME_CELL)[:, 0]
+            self.pairs = cut.faces().view(EXACT_FACE)[:, 0]
+            self.offsets = cut.face_offsets()[:, 0]
+            self.neighbours = cut.face_neighbours()[:, 0]
+            self.areas: NDArray[np.float64] = cut.face_areas()[:, 0]
+        else:
+            self.cells = cut.cells().view(EXACT_CELL)[:, 0]
+            self.pairs = cut.pairs().view(EXACT_PAIR)[:, 0]
+            self.offsets = cut.offsets()[:, 0]
+            self.vertices: NDArray[np.float64] = np.ascontiguousarray(cut.vertices()[:, :2])
+            self.neighbours = cut.neighbours()[:, 0]
+            self.lengths: NDArray[np.float64] = cut.lengths()[:, 0]
+        if with_polyhedra:
+            self.vertices = cut.polyhedron_vertices()
+            self.vertex_offsets: NDArray[np.int64] = cut.vertex_offsets()[:, 0].astype(np.int64)
+            self.corner_offsets: NDArray[np.int64] = cut.corner_offsets()[:, 0].astype(np.int64)
+            self.corners: NDArray[np.int64] = cut.corners()[:, 0].astype(np.int64)
+
+    @property
+    def _is_volume(self) -> bool:
+        return bool(self.points.shape[1] == 3)
+
+    def _refuse_volume(self, what: str) -> None:
+        if self._is_volume:
+            raise BadArgument(f"{what} are of planes; these are the cells of a volume")
 
     def __len__(self) -> int:
         return len(self.cells)
@@ -80,8 +142,31 @@ class ExactCells:
         return f"<vorocl.ExactCells of {len(self)} points>"
 
     def polygon(self, row: int) -> NDArray[np.float64]:
-        """Return the vertices of one cell, shape (K, 2): those of an empty cell are none."""
+        """Return the vertices of one cell of a plane, shape (K, 2): those of an empty cell are none."""
+        self._refuse_volume("polygons")
         return self.vertices[self.offsets[row] : self.offsets[row + 1]]
+
+    def polyhedron(self, row: int) -> Tuple[NDArray[np.float64], List[NDArray[np.int64]]]:
+        """Return the vertices of one cell of a volume, shape (K, 3), and the corners of each face, rows of these.
+
+        Raises
+        ------
+        BadArgument
+            If the cells were cut without ``polyhedra=True``.
+
+        Examples
+        --------
+        >>> import vorocl
+        >>> found = vorocl.exact_cells([(1, 1, 1), (3, 1, 1)], (0, 0, 0, 4, 2, 2), polyhedra=True)
+        >>> vertices, faces = found.polyhedron(0)
+        >>> vertices.max(axis=0), len(faces)
+        (array([2., 2., 2.]), 6)
+        """
+        if not hasattr(self, "corners"):
+            raise BadArgument("these cells have no polyhedra: cut a volume with polyhedra=True")
+        first, end = self.vertex_offsets[row], self.vertex_offsets[row + 1]
+        begins = self.corner_offsets[self.offsets[row] : int(self.offsets[row + 1]) + 1]
+        return self.vertices[first:end], [self.corners[begin:behind] - first for begin, behind in zip(begins, begins[1:])]
 
     def to_shapely(self) -> NDArray[Any]:
         """Return the polygons of Shapely, one per point, by one call of it; empty ones of empty cells.
@@ -93,6 +178,7 @@ class ExactCells:
         >>> [polygon.area for polygon in polygons]
         [4.0, 4.0]
         """
+        self._refuse_volume("polygons of Shapely")
         shapely: Any = import_module("shapely")
         begins, ends = self.offsets[:-1].astype(np.int64), self.offsets[1:].astype(np.int64)
         full = np.flatnonzero(ends > begins)
@@ -133,6 +219,7 @@ class ExactCells:
         spring 4.0
         >>> cells.to_file("cells.gpkg")  # doctest: +SKIP
         """
+        self._refuse_volume("tables of GeoPandas")
         geopandas: Any = import_module("geopandas")
         pandas: Any = import_module("pandas")
         fields, polygons = pandas.DataFrame(self.cells), self.to_shapely()
@@ -152,11 +239,11 @@ class ExactCells:
         return geopandas.GeoDataFrame(data.assign(**columns), geometry=polygons, crs=crs)
 
     def to_pandas(self) -> Any:
-        """Return a DataFrame of pandas: ``x`` and ``y`` of the points, and the fields of `cells`."""
+        """Return a DataFrame of pandas: ``x``, ``y`` and of a volume ``z`` of the points, and the fields of `cells`."""
         pandas: Any = import_module("pandas")
         frame = pandas.DataFrame(self.cells)
-        frame.insert(0, "x", self.points[:, 0])
-        frame.insert(1, "y", self.points[:, 1])
+        for axis, name in enumerate("xyz"[: self.points.shape[1]]):
+            frame.insert(axis, name, self.points[:, axis])
         return frame
 
 
@@ -168,28 +255,33 @@ def exact_cells(
     periodic: Periodic = (False, False),
     tilt: float = 0.0,
     outside: Outside = "count",
+    polyhedra: bool = False,
     device: Optional[Device] = None,
 ) -> ExactCells:
-    """Cut a rectangle into the Euclidean Voronoi cells of points, as polygons and without pixels.
+    """Cut a rectangle, or a box, into the Euclidean Voronoi cells of points, as polygons or polyhedra, without pixels.
 
-    Points, and the rectangle, are rounded to a power of two that is at most 2**-29 of the longer side; whole numbers,
-    halves and so on stay as they are. Of these points the cells are exact: neighbours are decided in whole numbers, and
-    cells that touch in a point are none. Vertices are right to about 2**-50 of their distance from the point.
+    Points, and the rectangle, are rounded to a power of two that is at most 2**-29 of the longer side, in a volume 2**-39
+    of the longest; whole numbers, halves and so on stay as they are. Of these points the cells are exact: neighbours are
+    decided in whole numbers, and cells that touch in a point (in a volume in an edge) are none. Vertices are right to about
+    2**-50 of their distance from the point; in a volume where planes are almost parallel to 2**-36.
 
     Parameters
     ----------
     points : array_like
-        Shape (N, 2), rows (x, y), in the units of `bounds`. A row with a NaN is absent, and so is a row that is masked.
-    bounds : (float, float, float, float)
-        (x0, y0, x1, y1), the rectangle.
+        Shape (N, 2), rows (x, y), in the units of `bounds`, or of a volume (N, 3), rows (x, y, z). A row with a NaN is
+        absent, and so is a row that is masked.
+    bounds : sequence of float
+        (x0, y0, x1, y1), the rectangle, or of a volume (x0, y0, z0, x1, y1, z1), the box.
     periodic : (bool, bool), optional
         Which axes, x and y, are periodic: the rectangle is the period. Cells are whole across its ends, where they reach
-        beyond it.
+        beyond it. Of a volume three: x, y and z.
     <tilt>
-        Points are rounded to 2**-28 of the longer side then.
+        Points are rounded to 2**-28 of the longer side then. Volumes have no tilt.
     outside : {"count", "absent", "refuse"}, optional
-        What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them. "absent":
-        they have no cell. "refuse": they are an error.
+        What becomes of points outside the bounds. "count": they have what of the rectangle is nearest to them; in a volume
+        they are refused. "absent": they have no cell. "refuse": they are an error.
+    polyhedra : bool, optional
+        Of a volume: whether vertices and faces are made too. Cells are cut twice then.
     <device>
 
     Returns
@@ -210,10 +302,28 @@ def exact_cells(
     array([4., 4., 4., 4.])
     >>> found.pairs[["a", "b", "length"]].tolist()
     [(0, 1, 2.0), (0, 2, 2.0), (1, 3, 2.0), (2, 3, 2.0)]
+
+    Two points in a box, each of which meets the other through two faces where x is periodic:
+
+    >>> found = vorocl.exact_cells([(1, 1, 1), (3, 1, 1)], (0, 0, 0, 4, 2, 2), periodic=(True, False, False))
+    >>> found.cells[["volume", "surface", "neighbours"]].tolist()
+    [(8.0, 24.0, 2), (8.0, 24.0, 2)]
+    >>> found.pairs.tolist()
+    [(0, 1, 4.0, -1, 0, 0), (0, 1, 4.0, 0, 0, 0)]
     """
     if bounds is None:
-        raise BadArgument(f"bounds must be four numbers (x0, y0, x1, y1); these are {shown(bounds)}")
-    grid = Grid((1, 1), bounds, periodic, tilt)._of(outside)
-    array = to_points(points)
+        raise BadArgument(
+            "bounds must be four numbers (x0, y0, x1, y1), or six of a volume (x0, y0, z0, x1, y1, z1); "
+            f"these are {shown(bounds)}"
+        )
+    try:
+        dimensions = 3 if len(bounds) == 6 else 2
+    except TypeError:
+        dimensions = 2
+    with_polyhedra = to_flag(polyhedra, "polyhedra")
+    if with_polyhedra and dimensions == 2:
+        raise BadArgument("polyhedra are of volumes: give points (x, y, z), and six bounds")
+    grid = Grid((2, 1, 1) if dimensions == 3 else (1, 1), bounds, periodic, tilt)._of(outside)
+    array = to_points(points, dimensions)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    return ExactCells(array, _vorocl.exact_cells(seeds))
+    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra), with_polyhedra)

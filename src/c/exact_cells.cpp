@@ -1,4 +1,4 @@
-// The C functions that cut cells as polygons.
+// The C functions that cut cells as polygons and polyhedra.
 #include <algorithm>
 
 #include "calls.hpp"
@@ -7,6 +7,11 @@ using namespace vorocl;
 
 struct vorocl_exact_cells {
   ExactCellsResult result;
+};
+
+struct vorocl_exact_polyhedra {
+  ExactPolyhedra polyhedra;
+  std::vector<vorocl_point> points;
 };
 
 namespace vorocl {
@@ -88,3 +93,41 @@ vorocl_status vorocl_exact_cells_read_polygons(const vorocl_exact_cells* cells, 
     if (lengths != nullptr) std::copy(polygons.lengths.begin(), polygons.lengths.end(), lengths);
   });
 }
+
+vorocl_status vorocl_exact_cells_read_faces(const vorocl_exact_cells* cells, vorocl_exact_face* faces,
+                                            size_t room, size_t* count) {
+  return guarded([&] {
+    given(count, "count");
+    if (room > 0) given(faces, "faces");
+    const std::vector<ExactFace> found = of(cells).read_faces();
+    for (std::size_t i = 0; i < std::min(room, found.size()); ++i) {
+      const ExactFace& face = found[i];
+      faces[i] = {face.a, face.b, face.area, {face.image[0], face.image[1], face.image[2]}};
+    }
+    *count = found.size();
+  });
+}
+
+vorocl_status vorocl_exact_cells_polyhedra(const vorocl_exact_cells* cells,
+                                           vorocl_exact_polyhedra** polyhedra) {
+  return make_object(polyhedra, "polyhedra", [&] {
+    vorocl_exact_polyhedra object = {of(cells).read_polyhedra(), {}};
+    for (const Point& vertex : object.polyhedra.vertices) object.points.push_back(to_c(vertex));
+    object.polyhedra.vertices = {};
+    return object;
+  });
+}
+
+vorocl_status vorocl_exact_polyhedra_arrays(const vorocl_exact_polyhedra* polyhedra,
+                                            vorocl_polyhedra_arrays* arrays) {
+  return answer(arrays, "arrays", [&] {
+    const vorocl_exact_polyhedra& object = given(polyhedra, "polyhedra");
+    const ExactPolyhedra& all = object.polyhedra;
+    return vorocl_polyhedra_arrays{
+        all.offsets.size() - 1, all.neighbours.size(),     all.corners.size(),  object.points.size(),
+        all.offsets.data(),     all.neighbours.data(),     all.areas.data(),    all.corner_offsets.data(),
+        all.corners.data(),     all.vertex_offsets.data(), object.points.data()};
+  });
+}
+
+void vorocl_exact_polyhedra_free(vorocl_exact_polyhedra* polyhedra) { delete polyhedra; }

@@ -53,4 +53,35 @@ inline std::uint64_t hilbert_order(std::uint32_t x, std::uint32_t y) {
   return order;
 }
 
+constexpr int hilbert_bits = 21;  // of each coordinate in space
+
+/// The place of a position in space, by Skilling's transposition ("Programming the Hilbert curve", 2004).
+/// Coordinates beyond the bits count as the last one.
+inline std::uint64_t hilbert_order(std::array<std::uint32_t, 3> at) {
+  constexpr std::uint32_t top = 1u << (hilbert_bits - 1);
+  for (std::uint32_t& coordinate : at) coordinate = coordinate < 2 * top ? coordinate : 2 * top - 1;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) {
+    const std::uint32_t lower = bit - 1;
+    for (std::uint32_t& coordinate : at) {
+      const std::uint32_t is_set = (coordinate & bit) != 0 ? ~0u : 0u;
+      const std::uint32_t swapped = (at[0] ^ coordinate) & lower & ~is_set;
+      at[0] ^= (lower & is_set) | swapped;
+      coordinate ^= swapped;
+    }
+  }
+  at[1] ^= at[0];
+  at[2] ^= at[1];
+  std::uint32_t flipped = 0;
+  for (std::uint32_t bit = top; bit > 1; bit >>= 1) flipped ^= (at[2] & bit) != 0 ? bit - 1 : 0;
+  const auto spread = [flipped](std::uint32_t coordinate) {  // to each third bit
+    std::uint64_t bits = coordinate ^ flipped;
+    bits = (bits | bits << 32) & 0x001f00000000ffffu;
+    bits = (bits | bits << 16) & 0x001f0000ff0000ffu;
+    bits = (bits | bits << 8) & 0x100f00f00f00f00fu;
+    bits = (bits | bits << 4) & 0x10c30c30c30c30c3u;
+    return (bits | bits << 2) & 0x1249249249249249u;
+  };
+  return spread(at[0]) << 3 | spread(at[1]) << 2 | spread(at[2]) << 1;  // from bit 63 on, as in the plane
+}
+
 }  // namespace vorocl

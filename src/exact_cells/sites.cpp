@@ -17,10 +17,9 @@ namespace vorocl {
 
 namespace {
 
-// The longer side has at most so many steps (kernels/exact_cells/polygon.cl says why).
-constexpr int step_bits = 30, step_bits_if_tilted = 29;
+// The longest side has at most so many steps (kernels/exact_cells/polygon.cl and volumes/sides.cl say why).
+constexpr int step_bits = 30, step_bits_if_tilted = 29, step_bits_of_volume = 40;
 constexpr std::size_t fan = FAN;
-constexpr std::size_t sides = 4;  // of a box
 
 /// A stretch of an axis in the units of the data.
 struct Stretch {
@@ -40,10 +39,10 @@ Stretch stretch_of(const Axis& axis, const std::vector<std::optional<Point>>& po
   return stretch;
 }
 
-/// A step is the least power of two of which the longer side has at most 2^bits, and that has an inverse.
-int exponent_of_step(double longer_side, int bits) {
+/// A step is the least power of two of which the longest side has at most 2^bits, and that has an inverse.
+int exponent_of_step(double longest_side, int bits) {
   int exponent = 0;
-  const bool is_power = std::frexp(longer_side, &exponent) == 0.5;
+  const bool is_power = std::frexp(longest_side, &exponent) == 0.5;
   return std::max(exponent - (is_power ? 1 : 0) - bits, std::numeric_limits<double>::min_exponent);
 }
 
@@ -61,30 +60,37 @@ cl_int4 lattice_of(const cl_int4& periods) {
 class Steps {
  public:
   Steps(const Axis& axis, double origin, int exponent)
-      : axis_(axis), origin_(origin), per_unit_(std::ldexp(1.0, -exponent)) {}
+      : axis_(axis), origin_(origin), exponent_(exponent), per_unit_(std::ldexp(1.0, -exponent)) {}
 
-  cl_int from() const { return at(axis_.from()); }
-  cl_int to() const { return at(axis_.to()); }
-  cl_int period() const { return axis_.is_periodic() ? to() - from() : 0; }
-  cl_int length(double extent) const { return static_cast<cl_int>(std::nearbyint(extent * per_unit_)); }
+  std::int64_t from() const { return at(axis_.from()); }
+  std::int64_t to() const { return at(axis_.to()); }
+  std::int64_t period() const { return axis_.is_periodic() ? to() - from() : 0; }
+  std::int64_t length(double extent) const { return std::llrint(extent * per_unit_); }
 
   /// The step that a coordinate is rounded to.
-  cl_int operator()(double coordinate) const {
+  std::int64_t operator()(double coordinate) const {
     if (!axis_.is_periodic()) return at(coordinate);
     const double period = axis_.to() - axis_.from();
     double offset = std::fmod(coordinate - axis_.from(), period);
     if (offset < 0) offset += period;
-    const cl_int step = at(axis_.from() + offset);
+    const std::int64_t step = at(axis_.from() + offset);
     return step >= to() ? from() : step;
   }
 
- private:
-  cl_int at(double coordinate) const {
-    return static_cast<cl_int>(std::nearbyint((coordinate - origin_) * per_unit_));
+  /// How many periods a coordinate lies beyond the step that it is rounded to.
+  std::int64_t periods_beyond(double coordinate) const {
+    if (!axis_.is_periodic()) return 0;
+    const double place =
+        axis_.from() + std::ldexp(static_cast<double>((*this)(coordinate)-from()), exponent_);
+    return std::llrint((coordinate - place) / (axis_.to() - axis_.from()));
   }
+
+ private:
+  std::int64_t at(double coordinate) const { return std::llrint((coordinate - origin_) * per_unit_); }
 
   Axis axis_;
   double origin_;
+  int exponent_;
   double per_unit_;  // a power of two, so that products are exact
 };
 
@@ -94,9 +100,9 @@ struct OnCurve {
   cl_uint id;
 };
 
-/// Sorts by place; points at one place come in the order of their ids. By the upper bits first, in which few
-/// points are the same.
-void sort(std::vector<OnCurve>& places) {
+/// Sorts by place, by the upper bits first, in which few points are the same, and then by `is_before`.
+template <typename IsBefore>
+void sort(std::vector<OnCurve>& places, IsBefore is_before) {
   constexpr int digit_bits = 11, first_bit = 31, all_bits = 64;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
   std::vector<OnCurve> sorted(places.size());
@@ -117,99 +123,146 @@ void sort(std::vector<OnCurve>& places) {
     const std::uint64_t upper = begin->order >> first_bit;
     auto end = begin + 1;
     while (end != places.end() && end->order >> first_bit == upper) ++end;
-    if (end - begin > 1) {
-      std::sort(begin, end, [](const OnCurve& p, const OnCurve& q) {
-        return std::tie(p.order, p.id) < std::tie(q.order, q.id);
-      });
-    }
+    if (end - begin > 1) std::sort(begin, end, is_before);
     begin = end;
   }
 }
 
-struct Box {
-  cl_int left = std::numeric_limits<cl_int>::max(), right = std::numeric_limits<cl_int>::min();
-  cl_int lower = left, upper = right;
-};
-
-/// Makes boxes around each eight sites, around each eight boxes, and so on.
-void make_tree(Sites& sites) {
-  std::vector<Box> boxes((sites.ids.size() + fan - 1) / fan);
-  for (std::size_t i = 0; i < sites.ids.size(); ++i) {
-    Box& box = boxes[i / fan];
-    const cl_int* const leaf = &sites.places[i / fan * 2 * fan];
-    const cl_int x = leaf[i % fan], y = leaf[fan + i % fan];
-    box = {std::min(box.left, x), std::max(box.right, x), std::min(box.lower, y), std::max(box.upper, y)};
+/// Makes sites of places, by id, of which the first one at each place counts, and boxes around each eight
+/// sites, around each eight boxes, and so on. `far` is where sites and boxes are that are not there.
+template <std::size_t dimensions, typename Number>
+void make_tree(SiteTree<Number>& tree, std::vector<OnCurve>&& order,
+               const std::vector<std::array<Number, dimensions>>& places, Number far) {
+  sort(order, [&places](const OnCurve& p, const OnCurve& q) {
+    return std::tie(p.order, places[p.id], p.id) < std::tie(q.order, places[q.id], q.id);
+  });
+  const auto is_same = [&places](const OnCurve& p, const OnCurve& q) { return places[p.id] == places[q.id]; };
+  order.erase(std::unique(order.begin(), order.end(), is_same), order.end());
+  const auto groups_of = [](std::size_t entries) { return (entries + fan - 1) / fan; };
+  struct Box {
+    std::array<Number, dimensions> lower, upper;
+  };
+  Box nothing;
+  nothing.lower.fill(std::numeric_limits<Number>::max());
+  nothing.upper.fill(std::numeric_limits<Number>::lowest());
+  const auto add = [](Box& to, const Box& box) {
+    for (std::size_t axis = 0; axis < dimensions; ++axis) {
+      to.lower[axis] = std::min(to.lower[axis], box.lower[axis]);
+      to.upper[axis] = std::max(to.upper[axis], box.upper[axis]);
+    }
+  };
+  std::vector<Box> boxes(groups_of(order.size()), nothing);
+  tree.ids.reserve(order.size());
+  tree.places.resize(boxes.size() * dimensions * fan, far);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::array<Number, dimensions>& place = places[order[i].id];
+    tree.ids.push_back(order[i].id);
+    for (std::size_t axis = 0; axis < dimensions; ++axis)
+      tree.places[(i / fan * dimensions + axis) * fan + i % fan] = place[axis];
+    add(boxes[i / fan], {place, place});
   }
-  sites.levels = {0};
+  tree.levels = {0};
   for (std::size_t groups = 0, of_level = 2; of_level > 1; groups += of_level) {
-    sites.levels.push_back(static_cast<cl_uint>(groups));
-    of_level = (boxes.size() + fan - 1) / fan;
-    sites.boxes.resize((groups + of_level) * sides * fan);
-    std::vector<Box> above(of_level);
+    tree.levels.push_back(static_cast<cl_uint>(groups));
+    of_level = groups_of(boxes.size());
+    tree.boxes.resize((groups + of_level) * 2 * dimensions * fan, far);
+    std::vector<Box> above(of_level, nothing);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      const Box& box = boxes[i];
-      cl_int* const place = &sites.boxes[(groups + i / fan) * sides * fan + i % fan];
-      place[0] = box.left;
-      place[fan] = box.right;
-      place[2 * fan] = box.lower;
-      place[3 * fan] = box.upper;
-      Box& whole = above[i / fan];
-      whole = {std::min(whole.left, box.left), std::max(whole.right, box.right),
-               std::min(whole.lower, box.lower), std::max(whole.upper, box.upper)};
+      for (std::size_t axis = 0; axis < dimensions; ++axis) {
+        Number* const at = &tree.boxes[((groups + i / fan) * dimensions + axis) * 2 * fan + i % fan];
+        at[0] = boxes[i].lower[axis];
+        at[fan] = boxes[i].upper[axis];
+      }
+      add(above[i / fan], boxes[i]);
     }
     boxes.swap(above);
   }
 }
 
+/// For a box with less than a step along an axis.
+[[noreturn]] void refuse_flat(const Grid& grid, double step) {
+  std::ostringstream text;
+  const bool is_volume = grid.is_volume();
+  text << "exact cells need a " << (is_volume ? "box" : "rectangle") << " with an extent; this one is "
+       << grid.x().to() - grid.x().from() << " x " << grid.y().to() - grid.y().from();
+  if (is_volume) text << " x " << grid.z().to() - grid.z().from();
+  text << ", and positions are rounded to " << step;
+  throw Error(text.str());
+}
+
 }  // namespace
 
-Sites sites_of(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+PlaneSites sites_of_plane(const Grid& grid, const std::vector<std::optional<Point>>& points) {
   const double tilt = grid.tilt();
   const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y);
   const int exponent =
       exponent_of_step(std::max(x.length(), y.length()), tilt == 0 ? step_bits : step_bits_if_tilted);
   const Steps steps_x(grid.x(), x.from, exponent), steps_y(grid.y(), y.from, exponent);
-  Sites sites;
-  sites.rectangle = {{steps_x.from(), steps_y.from(), steps_x.to(), steps_y.to()}};
-  sites.periods = {{steps_x.period(), steps_y.period(), steps_x.length(tilt), 0}};
+  const auto number = [](std::int64_t steps) { return static_cast<cl_int>(steps); };
+  PlaneSites sites;
+  sites.rectangle = {
+      {number(steps_x.from()), number(steps_y.from()), number(steps_x.to()), number(steps_y.to())}};
+  sites.periods = {{number(steps_x.period()), number(steps_y.period()), number(steps_x.length(tilt)), 0}};
   sites.origin = {x.from, y.from};
   sites.step = std::ldexp(1.0, exponent);
-  if (steps_x.from() >= steps_x.to() || steps_y.from() >= steps_y.to()) {
-    std::ostringstream text;
-    text << "exact cells need a rectangle with an extent; this one is " << grid.x().to() - grid.x().from()
-         << " x " << grid.y().to() - grid.y().from() << ", and positions are rounded to " << sites.step;
-    throw Error(text.str());
-  }
+  if (steps_x.from() >= steps_x.to() || steps_y.from() >= steps_y.to()) refuse_flat(grid, sites.step);
   sites.lattice = lattice_of(sites.periods);
-  std::vector<cl_int2> positions(points.size());
-  std::vector<OnCurve> places;
-  places.reserve(points.size());
+  std::vector<std::array<cl_int, 2>> places(points.size());
+  std::vector<OnCurve> order;
+  order.reserve(points.size());
   for (std::size_t id = 0; id < points.size(); ++id) {
     if (!points[id]) continue;
     Point point = *points[id];
-    const cl_int step_y = steps_y(point.y);
+    const std::int64_t step_y = steps_y(point.y);
     if (tilt != 0) {
-      const double brought_up = point.y - (y.from + step_y * sites.step);
+      const double brought_up = point.y - (y.from + static_cast<double>(step_y) * sites.step);
       point.x -= std::nearbyint(brought_up / y.length()) * tilt;
     }
-    const cl_int step_x = steps_x(point.x);
-    positions[id] = {{step_x, step_y}};
-    places.push_back({hilbert_order(static_cast<std::uint32_t>(step_x), static_cast<std::uint32_t>(step_y)),
-                      static_cast<cl_uint>(id)});
+    const std::int64_t step_x = steps_x(point.x);
+    places[id] = {number(step_x), number(step_y)};
+    order.push_back({hilbert_order(static_cast<std::uint32_t>(step_x), static_cast<std::uint32_t>(step_y)),
+                     static_cast<cl_uint>(id)});
   }
-  sort(places);
-  const auto is_same = [](const OnCurve& a, const OnCurve& b) { return a.order == b.order; };
-  places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
-  sites.ids.reserve(places.size());
-  sites.places.resize((places.size() + fan - 1) / fan * 2 * fan);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    sites.ids.push_back(places[i].id);
-    cl_int* const leaf = &sites.places[i / fan * 2 * fan];
-    const cl_int2& position = positions[places[i].id];
-    leaf[i % fan] = position.s[0];
-    leaf[fan + i % fan] = position.s[1];
+  make_tree<2>(sites, std::move(order), places, 0);
+  return sites;
+}
+
+VolumeSites sites_of_volume(const Grid& grid, const std::vector<std::optional<Point>>& points) {
+  const Stretch x = stretch_of(grid.x(), points, &Point::x), y = stretch_of(grid.y(), points, &Point::y),
+                z = stretch_of(grid.z(), points, &Point::z);
+  const int exponent = exponent_of_step(std::max({x.length(), y.length(), z.length()}), step_bits_of_volume);
+  const std::array<Steps, 3> steps = {Steps(grid.x(), x.from, exponent), Steps(grid.y(), y.from, exponent),
+                                      Steps(grid.z(), z.from, exponent)};
+  VolumeSites sites;
+  sites.origin = {x.from, y.from, z.from};
+  sites.step = std::ldexp(1.0, exponent);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    sites.lower.s[axis] = static_cast<double>(steps[axis].from());
+    sites.upper.s[axis] = static_cast<double>(steps[axis].to());
+    sites.periods.s[axis] = static_cast<double>(steps[axis].period());
+    if (steps[axis].from() >= steps[axis].to()) refuse_flat(grid, sites.step);
   }
-  make_tree(sites);
+  std::vector<std::array<double, 3>> places(points.size());
+  std::vector<OnCurve> order;
+  order.reserve(points.size());
+  for (std::size_t id = 0; id < points.size(); ++id) {
+    if (!points[id]) continue;
+    const std::array<double, 3> point = {points[id]->x, points[id]->y, points[id]->z};
+    std::array<std::uint32_t, 3> place;
+    PeriodCounts beyond;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t step = steps[axis](point[axis]);
+      places[id][axis] = static_cast<double>(step);
+      place[axis] = static_cast<std::uint32_t>(step >> (step_bits_of_volume - hilbert_bits));
+      beyond[axis] = steps[axis].periods_beyond(point[axis]);
+    }
+    order.push_back({hilbert_order(place), static_cast<cl_uint>(id)});
+    if (beyond == PeriodCounts{}) continue;
+    sites.beyond.resize(points.size());
+    sites.beyond[id] = beyond;
+  }
+  constexpr double far = 1e17;  // no box is so long
+  make_tree<3>(sites, std::move(order), places, far);
   return sites;
 }
 

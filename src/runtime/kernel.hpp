@@ -82,7 +82,7 @@ class Kernel {
   /// A number as it was set. (A buffer would have to be held as long, so that no other one can have its
   /// address: the caller's too, and a diagram's that is gone.)
   struct Number {
-    std::array<unsigned char, 16> bytes = {};
+    std::array<unsigned char, 32> bytes = {};
     std::size_t size = 0;  // 0: not set yet
   };
 

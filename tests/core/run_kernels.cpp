@@ -362,6 +362,19 @@ void cut_exact_cells(const Device& device) {
     const ExactCellsCheck check = cells.check();
     if (check.not_mutual > 0 || check.uncertified > 0) throw Error("exact cells are wrong");
   }
+  std::vector<Point> ball = {{50, 50, 50}};
+  for (int i = 0; i < 60; ++i) {
+    const double z = (2 * i + 1) / 60.0 - 1, r = std::sqrt(1 - z * z);
+    ball.push_back({50 + 40 * r * std::cos(2.4 * i), 50 + 40 * r * std::sin(2.4 * i), 50 + 40 * z});
+  }
+  for (const bool periodic : {false, true}) {
+    const Axis side = periodic ? Axis(100).periodic() : Axis(100);
+    ExactCellsResult cells;
+    exact_cells(Seeds(device, Grid(side, side, side), ball, to_centres), cells);
+    const ExactCellsCheck check = cells.check();
+    if (check.not_mutual > 0 || check.uncertified > 0) throw Error("exact cells of volumes are wrong");
+    if (cells.read_polyhedra().offsets.at(1) != 60) throw Error("the faces of polyhedra are wrong");
+  }
 }
 
 }  // namespace

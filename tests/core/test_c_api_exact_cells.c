@@ -1,5 +1,5 @@
-/* The C functions that cut cells as polygons, from C: against sums over the polygons, and the nearest of all
- * seeds. */
+/* The C functions that cut cells as polygons and polyhedra, from C: against sums over the polygons, and the
+ * nearest of all seeds. */
 #include "test_c_api.h"
 
 enum { most_edges = 6 * seed_count };
@@ -77,6 +77,52 @@ static void test_cells(const vorocl_device* device, const vorocl_seeds* seeds) {
   vorocl_exact_cells_free(all);
 }
 
+/* Two points in a box of 4 x 2 x 2, of which x is periodic: two faces between them. */
+static void test_volume(const vorocl_device* device) {
+  const vorocl_grid box = vorocl_grid_of_voxels(4, 2, 2, VOROCL_PERIODIC_X);
+  const vorocl_point two[2] = {{1, 1, 1}, {3, 1, 1}};
+  vorocl_seeds* seeds = NULL;
+  vorocl_exact_cells* all = NULL;
+  vorocl_exact_cell cells[2];
+  vorocl_exact_face faces[2];
+  vorocl_exact_polyhedra* polyhedra = NULL;
+  vorocl_polyhedra_arrays arrays;
+  size_t count = 7, edges = 7;
+  OK(vorocl_seeds_from_points(device, box, two, NULL, 2, VOROCL_OUTSIDE_IS_REFUSED, VOROCL_SNAP_NONE,
+                              &seeds));
+  OK(vorocl_exact_cells_create(&all));
+  OK(vorocl_exact_cells_read_faces(all, NULL, 0, &count));
+  CHECK(count == 0);
+  OK(vorocl_exact_cells_cut(all, seeds));
+  OK(vorocl_exact_cells_read(all, cells, 2));
+  CHECK(cells[0].area == 8 && cells[0].perimeter == 24 && cells[0].neighbours == 2 &&
+        cells[0].certified == 1);
+  CHECK(cells[1].centroid.x == 3 && cells[1].centroid.y == 1 && cells[1].centroid.z == 1);
+  OK(vorocl_exact_cells_edges(all, &edges));
+  CHECK(edges == 12);
+  OK(vorocl_exact_cells_read_faces(all, faces, 1, &count));
+  CHECK(count == 2 && faces[0].a == 0 && faces[0].b == 1 && faces[0].area == 4 && faces[0].image[0] == -1);
+  OK(vorocl_exact_cells_read_faces(all, faces, 2, &count));
+  CHECK(faces[1].image[0] == 0 && faces[1].image[1] == 0 && faces[1].image[2] == 0);
+  FAILS(vorocl_exact_cells_read_polygons(all, NULL, 2, NULL, NULL, NULL, 12), VOROCL_BAD_ARGUMENT,
+        "those of a volume");
+  FAILS(vorocl_exact_cells_read_faces(all, NULL, 1, &count), VOROCL_NULL_ARGUMENT, "faces is NULL");
+  FAILS(vorocl_exact_cells_polyhedra(all, NULL), VOROCL_NULL_ARGUMENT, "polyhedra is NULL");
+  FAILS(vorocl_exact_polyhedra_arrays(NULL, &arrays), VOROCL_NULL_ARGUMENT, "polyhedra is NULL");
+  OK(vorocl_exact_cells_polyhedra(all, &polyhedra));
+  OK(vorocl_exact_polyhedra_arrays(polyhedra, &arrays));
+  CHECK(arrays.cells == 2 && arrays.faces == 12 && arrays.corners == 48 && arrays.vertices == 16);
+  CHECK(arrays.offsets[1] == 6 && arrays.vertex_offsets[2] == 16 && arrays.corner_offsets[12] == 48);
+  for (size_t i = 0; i < arrays.corners; ++i) {
+    const vorocl_point at = arrays.points[arrays.corner_vertices[i]];
+    CHECK(fmod(at.x, 2) == 0 && (at.y == 0 || at.y == 2) && (at.z == 0 || at.z == 2));
+  }
+  vorocl_exact_polyhedra_free(polyhedra);
+  vorocl_exact_polyhedra_free(NULL);
+  vorocl_exact_cells_free(all);
+  vorocl_seeds_free(seeds);
+}
+
 static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds) {
   vorocl_exact_cells* all = NULL;
   vorocl_exact_cell cells[seed_count];
@@ -99,6 +145,7 @@ static void test_failures(const vorocl_device* device, const vorocl_seeds* seeds
   FAILS(vorocl_exact_cells_read(all, NULL, seed_count), VOROCL_NULL_ARGUMENT, "cells is NULL");
   FAILS(vorocl_exact_cells_read_polygons(all, NULL, seed_count, NULL, NULL, NULL, 1), VOROCL_BAD_ARGUMENT,
         "edges");
+  FAILS(vorocl_exact_cells_read_faces(all, NULL, 0, &count), VOROCL_BAD_ARGUMENT, "those of a plane");
   OK(vorocl_seeds_from_points(device, flat, points, NULL, 1, VOROCL_OUTSIDE_COUNTS, VOROCL_SNAP_TO_PIXELS,
                               &of_flat));
   FAILS(vorocl_exact_cells_cut(all, of_flat), VOROCL_BAD_ARGUMENT, "extent");
@@ -116,6 +163,7 @@ int main(void) {
   if (device == NULL) return EXIT_FAILURE;
   seeds = make_seeds(device);
   test_cells(device, seeds);
+  test_volume(device);
   test_failures(device, seeds);
   vorocl_seeds_free(seeds);
   vorocl_device_free(device);

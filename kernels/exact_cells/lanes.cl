@@ -1,0 +1,50 @@
+// Eight boxes, sites or vertices at once: bits for those that hold, and the order of those that may cut. The
+// tree of sites that planes and volumes share.
+
+#ifndef VOROCL_EXACT_CELLS_LANES
+#define VOROCL_EXACT_CELLS_LANES
+
+#include "exact_cells/sizes.cl"
+
+#define FAN_BITS 3
+#define MOST_LEVELS 10       // of boxes, for 2^30 sites
+#define NO_CELL 0xffffffffu  // behind a side of the box
+
+// A bit for each lane that holds, and back.
+#define LANE_BITS ((int8)(1, 2, 4, 8, 16, 32, 64, 128))
+static inline int8 lanes_of(int bits) { return (bits & LANE_BITS) != 0; }
+static inline int bits_of_ints(int8 lanes) {
+  const int8 bits = lanes & LANE_BITS;
+  const int4 of_four = bits.lo | bits.hi;
+  const int2 of_two = of_four.lo | of_four.hi;
+  return of_two.s0 | of_two.s1;
+}
+
+static inline int lowest_bit(int bits) { return 31 - (int)clz(bits & -bits); }
+
+#define FAR 0xffffffffu  // of those that cut nothing
+
+// The nearest of eight come first: numbers that grow with a squared distance, and end with which one it is.
+static inline uint8 order_of(float8 distances, int8 may_cut) {
+  const uint8 order = (as_uint8(distances) & ~(uint)(FAN - 1)) | (uint8)(0, 1, 2, 3, 4, 5, 6, 7);
+  return order | ~as_uint8(may_cut);
+}
+
+static inline uint least_of(uint8 numbers) {
+  const uint4 of_four = min(numbers.lo, numbers.hi);
+  const uint2 of_two = min(of_four.lo, of_four.hi);
+  return min(of_two.s0, of_two.s1);
+}
+
+static inline uint8 without(uint8 numbers, uint one) { return numbers | as_uint8(numbers == one); }
+
+// Those of eight of which there are so many.
+static inline int8 first_of(uint many) { return (int8)(0, 1, 2, 3, 4, 5, 6, 7) < (int)min(many, (uint)FAN); }
+
+// Those of a group that are there: its last ones may not be.
+static inline int8 are_there(uint count, int level, uint group) {
+  const uint nodes = (count + (1u << (FAN_BITS * level)) - 1) >> (FAN_BITS * level);
+  return first_of(nodes - group * FAN);
+}
+
+#endif

@@ -1,0 +1,89 @@
+// What a polyhedron holds, in private memory or, as LARGE_CELLS, in global memory.
+
+#ifndef VOROCL_EXACT_CELLS_CELL
+#define VOROCL_EXACT_CELLS_CELL
+
+#include "exact_cells/lanes.cl"
+#include "exact_cells/wide.cl"
+
+// Where polyhedra lie: private for the many, global for those with more vertices than that has room for.
+// Functions that say ROOM have a `cell`.
+#ifdef LARGE_CELLS
+#define CELL_SPACE global
+#define DECLARED_LIST(type, name, length) global type* name;
+#define ROOM cell->room  // for vertices, a multiple of 64
+#define MOST_PLANES cell->room
+typedef int index_t;
+typedef int4 indices_t;
+#else
+#define CELL_SPACE private
+#define DECLARED_LIST(type, name, length) type name[length];
+#define ROOM 64
+#define MOST_PLANES 250  // that ever cut a cell: those without a vertex are forgotten when it is full
+typedef uchar index_t;
+typedef uchar4 indices_t;
+#endif
+#define WORDS (ROOM / 64)
+#define ONE_WORD (sizeof(index_t) == 1)  // as the compiler knows
+
+// The lists of a cell, CELL_BYTES of sizes.cl in all: planes (n and c), with the site behind each and its
+// image; the planes p0, p1, p2 of each vertex, and the vertices at the other ends of the edges between p0 and
+// p1, p1 and p2, p2 and p0; the vertices, in half steps, and how wrong they may be. Then scratch: of the ring
+// that is cut, its edges between planes, the vertices they go to and the places of the new ones; the new
+// vertices whose first, and second, plane this is; and what measure.cl finds of planes and edges.
+#define CELL_LISTS(LIST)                   \
+  LIST(double4, planes, MOST_PLANES)       \
+  LIST(indices_t, triples, ROOM)           \
+  LIST(indices_t, neighbours, ROOM)        \
+  LIST(indices_t, edges, 3 * ROOM / 2 + 4) \
+  LIST(double, x, ROOM)                    \
+  LIST(double, y, ROOM)                    \
+  LIST(double, z, ROOM)                    \
+  LIST(double, error, ROOM)                \
+  LIST(double, scales, MOST_PLANES)        \
+  LIST(double, sums, MOST_PLANES)          \
+  LIST(ulong, alive, WORDS)                \
+  LIST(ulong, gone, WORDS)                 \
+  LIST(ulong, unsure, WORDS)               \
+  LIST(uint, sites, MOST_PLANES)           \
+  LIST(index_t, images, MOST_PLANES)       \
+  LIST(index_t, ring_p, ROOM + 16)         \
+  LIST(index_t, ring_q, ROOM + 16)         \
+  LIST(index_t, stays, ROOM + 16)          \
+  LIST(index_t, slots, ROOM + 16)          \
+  LIST(index_t, at, MOST_PLANES)           \
+  LIST(index_t, before, MOST_PLANES)       \
+  LIST(index_t, corners, MOST_PLANES)
+
+typedef struct {
+  CELL_LISTS(DECLARED_LIST)
+  int room;
+  int top, count;  // vertices lie before top; planes
+  uint site;       // whose cell this is
+  bool is_full, is_broken, is_doubtful;
+} __attribute__((aligned(64))) cell_t;
+
+#ifdef LARGE_CELLS
+static inline void place_cell(cell_t* cell, global uchar* memory, int room) {
+  cell->room = room;
+#define PLACED_LIST(type, name, length) \
+  cell->name = (global type*)memory;    \
+  memory += (size_t)(length) * sizeof(type);
+  CELL_LISTS(PLACED_LIST)
+}
+#endif
+
+static inline int lowest_of(ulong word) { return (int)popcount(~word & (word - 1)); }
+static inline ulong or_of(ulong8 a) {
+  const ulong4 b = a.lo | a.hi;
+  const ulong2 c = b.lo | b.hi;
+  return c.s0 | c.s1;
+}
+static inline double greatest_of(double8 a) {
+  const double4 b = fmax(a.lo, a.hi);
+  const double2 c = fmax(b.lo, b.hi);
+  return fmax(c.s0, c.s1);
+}
+static inline double norm_of(double3 n) { return fabs(n.x) + fabs(n.y) + fabs(n.z); }
+
+#endif

@@ -1,0 +1,330 @@
+// Which sites a cell of a volume is cut by: those of the leaves around its own, in the order of their
+// distances, then, if it reaches farther, those of the whole tree (see lanes.cl and
+// src/exact_cells/sites.hpp).
+
+#ifndef VOROCL_EXACT_CELLS_VOLUME_SEARCH
+#define VOROCL_EXACT_CELLS_VOLUME_SEARCH
+
+#include "exact_cells/volumes/polyhedron.cl"
+
+// Which sites there are: in the kernels' arguments, and as what functions take.
+#define SITE_PARAMETERS                                                                                   \
+  uint count, global const double *sites, global const double *boxes, global const uint *levels, int top, \
+      double4 lower, double4 upper, double4 periods
+#define SITE_ARGUMENTS \
+  { count, sites, boxes, levels, top, lower, upper, periods }
+
+typedef struct {
+  uint count;                  // of sites
+  global const double* sites;  // per leaf eight x, eight y and eight z, in steps; far away behind the last site
+  global const double* boxes;  // per group eight lower and eight upper x, y, z; far away behind the last one
+  global const uint* levels;   // by level: its first group. Those of level 1 are boxes around leaves.
+  int top;                     // the last level
+  double4 lower, upper;        // of the box
+  double4 periods;             // 0 along an axis without
+} tree_t;
+
+static inline double3 site_at(const tree_t* tree, uint site) {
+  global const double* const at = tree->sites + (size_t)(site >> FAN_BITS) * (3 * FAN) + (site & (FAN - 1));
+  return (double3)(at[0], at[FAN], at[2 * FAN]);
+}
+
+// --- images ---
+
+// An image is i, j and k periods away along x, y and z, each from -1 to 1: one a period nearer is nearer to
+// the whole cell. They are counted as 9 k + 3 j + i + ITSELF.
+#define ITSELF 13
+#define IMAGES 27
+
+static inline double3 shift_of(const tree_t* tree, int image) {
+  return tree->periods.xyz * (double3)(image % 3 - 1, image / 3 % 3 - 1, image / 9 - 1);
+}
+
+// The images of the box, itself first; those across sides of it are none.
+static inline bool has_image(const tree_t* tree, int image) {
+  return (image % 3 == 1 || tree->periods.x > 0) && (image / 3 % 3 == 1 || tree->periods.y > 0) &&
+         (image / 9 == 1 || tree->periods.z > 0);
+}
+
+// Whether cells begin with this image of their own site, or it is the site itself.
+static inline bool begins(uint site, uint other, int image) {
+  const int way = image < ITSELF ? ITSELF - image : image - ITSELF;
+  return other == site && (way == 0 || way == 1 || way == 3 || way == 9);
+}
+
+// A cell begins as the box, or where an axis is periodic within the planes towards its own images.
+static inline void begin_cell(cell_t* cell, const tree_t* tree, double3 at, uint site) {
+  const double3 below = 2 * (tree->lower.xyz - at), above = 2 * (tree->upper.xyz - at);
+  const double periods[3] = {tree->periods.x, tree->periods.y, tree->periods.z};
+  double low[3] = {below.x, below.y, below.z}, high[3] = {above.x, above.y, above.z};
+  for (int axis = 0, way = 1; axis < 3; ++axis, way *= 3) {
+    const bool is_periodic = periods[axis] > 0;
+    if (is_periodic) low[axis] = -periods[axis];
+    if (is_periodic) high[axis] = periods[axis];
+    for (int end = 0; end < 2; ++end) {
+      const int plane = 2 * axis + end;
+      const double length = (is_periodic ? periods[axis] : 1) * (end == 0 ? -1 : 1);
+      cell->planes[plane] = (double4)(axis == 0 ? length : 0, axis == 1 ? length : 0, axis == 2 ? length : 0,
+                                      length * (end == 0 ? low[axis] : high[axis]));
+      cell->sites[plane] = is_periodic ? site : NO_CELL;
+      cell->images[plane] = (index_t)(is_periodic ? ITSELF + (end == 0 ? -way : way) : ITSELF);
+    }
+  }
+  begin_box(cell, site, low, high);
+}
+
+// --- boxes and sites, eight at a time ---
+
+typedef struct {
+  float8 x0, x1, y0, y1, z0, z1;  // as seen from a place
+} boxes_t;
+
+static inline boxes_t boxes_of_group(const tree_t* tree, int level, uint group, double3 from) {
+  const size_t at = 6 * (size_t)(tree->levels[level] + group);
+  const boxes_t boxes = {
+      convert_float8(vload8(at, tree->boxes) - from.x),     convert_float8(vload8(at + 1, tree->boxes) - from.x),
+      convert_float8(vload8(at + 2, tree->boxes) - from.y), convert_float8(vload8(at + 3, tree->boxes) - from.y),
+      convert_float8(vload8(at + 4, tree->boxes) - from.z), convert_float8(vload8(at + 5, tree->boxes) - from.z)};
+  return boxes;
+}
+
+// The squared distances of boxes from another one.
+static inline float8 distances_of(boxes_t boxes, float3 low, float3 high) {
+  const float8 x = fmax(fmax(boxes.x0 - high.x, low.x - boxes.x1), 0.0f);
+  const float8 y = fmax(fmax(boxes.y0 - high.y, low.y - boxes.y1), 0.0f);
+  const float8 z = fmax(fmax(boxes.z0 - high.z, low.z - boxes.z1), 0.0f);
+  return x * x + y * y + z * z;
+}
+
+// Which of eight boxes, as seen from the site, may hold sites that cut, the nearest first.
+static inline uint8 order_of_boxes(const cell_t* cell, boxes_t boxes, float end) {
+  const float8 distances = distances_of(boxes, (float3)(0), (float3)(0));
+  const int8 is_near = distances < end;
+  if (bits_of_ints(is_near) == 0) return FAR;
+  int8 may_cut = 0;
+  for (int k = 0; k < cell->top; ++k) {
+    const float3 v = 0.5f * convert_float3((double3)(cell->x[k], cell->y[k], cell->z[k]));
+    may_cut |= distances_of(boxes, v, v) <= (v.x * v.x + v.y * v.y + v.z * v.z) * 1.00001f;
+  }
+  return order_of(distances, may_cut & is_near);
+}
+
+// --- what the cells of a leaf share ---
+
+#define MOST_NEAR 112  // of uniform points there are some 76
+#define SPACINGS 2.5f  // how far they reach
+#define BUCKETS 64     // of distances
+
+// The leaves, and images of them, within a distance of a leaf's box, and their sites, as seen from the leaf's
+// first one.
+typedef struct {
+  float x[MOST_NEAR * FAN], y[MOST_NEAR * FAN], z[MOST_NEAR * FAN];
+  double exact_x[MOST_NEAR * FAN], exact_y[MOST_NEAR * FAN], exact_z[MOST_NEAR * FAN];
+  uint leaves[MOST_NEAR];
+  uchar images[MOST_NEAR];
+  double3 base;      // the leaf's first site
+  float3 low, high;  // its box
+  int count;         // of leaves
+  float distance;    // 0: there are too many
+} __attribute__((aligned(64))) near_t;
+
+static inline void add_leaf(near_t* near, const tree_t* tree, uint leaf, int image, double3 from) {
+  const int k = near->count++;
+  const size_t at = 3 * (size_t)leaf;
+  const double8 x = vload8(at, tree->sites) - from.x, y = vload8(at + 1, tree->sites) - from.y,
+                z = vload8(at + 2, tree->sites) - from.z;
+  near->leaves[k] = leaf;
+  near->images[k] = (uchar)image;
+  vstore8(x, (size_t)k, near->exact_x);
+  vstore8(y, (size_t)k, near->exact_y);
+  vstore8(z, (size_t)k, near->exact_z);
+  vstore8(convert_float8(x), (size_t)k, near->x);
+  vstore8(convert_float8(y), (size_t)k, near->y);
+  vstore8(convert_float8(z), (size_t)k, near->z);
+}
+
+// False if there are too many.
+static inline bool list_near(near_t* near, const tree_t* tree, float distance) {
+  near->count = 0;
+  near->distance = distance;
+  for (int i = 0; i < IMAGES; ++i) {
+    const int image = (i + ITSELF) % IMAGES;
+    if (!has_image(tree, image)) continue;
+    const double3 from = near->base - shift_of(tree, image);
+    int within[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
+    uint firsts[MOST_LEVELS + 1];
+    uint group = 0;
+    for (int level = tree->top, is_new = 1; level <= tree->top;) {
+      if (is_new != 0) {
+        firsts[level] = group * FAN;
+        within[level] = bits_of_ints(distances_of(boxes_of_group(tree, level, group, from), near->low, near->high) <=
+                                     distance * distance);
+      }
+      is_new = within[level] != 0 && level > 1;
+      if (within[level] == 0) {
+        ++level;
+        continue;
+      }
+      group = firsts[level] + (uint)lowest_bit(within[level]);
+      within[level] &= within[level] - 1;
+      if (is_new != 0) {
+        --level;
+      } else {
+        if (near->count == MOST_NEAR) return false;
+        add_leaf(near, tree, group, image, from);
+      }
+    }
+  }
+  return true;
+}
+
+static inline void find_near(near_t* near, const tree_t* tree, uint leaf) {
+  near->base = site_at(tree, leaf * FAN);
+  const uint first = leaf & ~(uint)(FAN - 1);
+  float3 low = INFINITY, high = -INFINITY;  // of the 64 sites around: they say how dense sites are here
+  const uint leaves = min((tree->count + FAN - 1) / FAN - first, (uint)FAN);
+  global const double* const boxes = tree->boxes + 6 * FAN * (size_t)(tree->levels[1] + (leaf >> FAN_BITS));
+  for (uint k = 0; k < leaves; ++k) {
+    const float3 of_low = convert_float3((double3)(boxes[k], boxes[k + 2 * FAN], boxes[k + 4 * FAN]) - near->base);
+    const float3 of_high =
+        convert_float3((double3)(boxes[k + FAN], boxes[k + 3 * FAN], boxes[k + 5 * FAN]) - near->base);
+    if (first + k == leaf) near->low = of_low;
+    if (first + k == leaf) near->high = of_high;
+    low = fmin(low, of_low);
+    high = fmax(high, of_high);
+  }
+  const float3 extent = high - low, size = near->high - near->low;
+  const float spacing = cbrt(extent.x) * cbrt(extent.y) * cbrt(extent.z) / cbrt(convert_float(leaves * FAN));
+  float distance = SPACINGS * fmax(spacing, 0.15f * (size.x + size.y + size.z));
+  for (int tries = 0; tries < 6; ++tries, distance *= 0.75f) {
+    if (list_near(near, tree, distance)) return;
+  }
+  near->count = 0;
+  near->distance = 0;
+}
+
+// Cuts a cell by one of the sites of the list.
+static inline bool cut_by_listed(cell_t* cell, const near_t* near, int k, double3 from, uint site) {
+  const uint other = near->leaves[k >> FAN_BITS] * FAN + (uint)(k & (FAN - 1));
+  const int image = near->images[k >> FAN_BITS];
+  if (begins(site, other, image)) return false;
+  const double3 n = (double3)(near->exact_x[k], near->exact_y[k], near->exact_z[k]) - from;
+  return cut(cell, n, n.x * n.x + n.y * n.y + n.z * n.z, other, image);
+}
+
+// Cuts a cell by the sites of the list: by those nearer than is covered about in the order of their
+// distances, then, if it reaches farther, by the others. Returns behind which squared distance nothing can
+// cut.
+static inline float cut_by_near(cell_t* cell, const near_t* near, double3 at, uint site, float covered) {
+  const double3 exact_from = at - near->base;
+  const float3 from = convert_float3(exact_from);
+  const float scale = BUCKETS / (covered * covered);
+  int buckets[MOST_NEAR * FAN];  // the last one, BUCKETS, has what is not covered
+  ushort list[MOST_NEAR * FAN], order[MOST_NEAR * FAN], ends[BUCKETS];
+  for (int b = 0; b < BUCKETS; ++b) ends[b] = 0;
+  const int sites = near->count * FAN;
+  for (int k = 0; k < sites; k += 8) {
+    const float8 x = vload8(0, near->x + k) - from.x, y = vload8(0, near->y + k) - from.y,
+                 z = vload8(0, near->z + k) - from.z;
+    const float8 d = (x * x + y * y + z * z) * scale;
+    vstore8(convert_int8(fmin(d, (float8)(BUCKETS))), 0, buckets + k);
+  }
+  int found = 0;
+  for (int k = 0; k < sites; ++k) {
+    list[found] = (ushort)k;
+    found += buckets[k] < BUCKETS;
+  }
+  for (int i = 0; i < found; ++i) ++ends[buckets[list[i]]];
+  ushort sum = 0;
+  for (int b = 0; b < BUCKETS; ++b) {
+    const ushort many = ends[b];
+    ends[b] = sum;
+    sum = (ushort)(sum + many);
+  }
+  for (int i = 0; i < found; ++i) order[ends[buckets[list[i]]]++] = list[i];
+  float end = INFINITY;
+  for (int i = 0, since = 0; i < found && convert_float(buckets[order[i]]) <= end * scale; ++i) {
+    since += cut_by_listed(cell, near, order[i], exact_from, site);
+    if (since < 3 && (i & 15) != 15) continue;
+    end = end_of(cell);
+    since = 0;
+  }
+  end = end_of(cell);
+  if (end < covered * covered) return end;
+  for (int k = 0; k < sites; ++k) {
+    const float x = near->x[k] - from.x, y = near->y[k] - from.y, z = near->z[k] - from.z;
+    if (buckets[k] == BUCKETS && x * x + y * y + z * z < end && cut_by_listed(cell, near, k, exact_from, site))
+      end = end_of(cell);
+  }
+  return end;
+}
+
+// --- farther away ---
+
+static inline bool is_listed(const near_t* near, uint leaf, int image) {
+  for (int k = 0; k < near->count; ++k) {
+    if (near->leaves[k] == leaf && near->images[k] == image) return true;
+  }
+  return false;
+}
+
+// Cuts a cell by the sites of a leaf, the nearest first.
+static inline float cut_by_leaf(cell_t* cell, const tree_t* tree, uint leaf, double3 from, uint site, int image,
+                                float end) {
+  const size_t at = 3 * (size_t)leaf;
+  const float8 x = convert_float8(vload8(at, tree->sites) - from.x),
+               y = convert_float8(vload8(at + 1, tree->sites) - from.y),
+               z = convert_float8(vload8(at + 2, tree->sites) - from.z);
+  const boxes_t points = {x, x, y, y, z, z};
+  uint8 order = order_of_boxes(cell, points, end);
+  for (uint next = least_of(order); next < as_uint(end); next = least_of(order)) {
+    order = without(order, next);
+    const uint other = leaf * FAN + (next & (FAN - 1));
+    if (other >= tree->count || begins(site, other, image)) continue;
+    const double3 n = site_at(tree, other) - from;
+    if (cut(cell, n, n.x * n.x + n.y * n.y + n.z * n.z, other, image)) end = end_of(cell);
+  }
+  return end;
+}
+
+// Cuts a cell by all sites that are not in the list, the nearest box first.
+static inline void cut_by_tree(cell_t* cell, const tree_t* tree, const near_t* near, double3 at, uint site, float end) {
+  for (int i = 0; i < IMAGES; ++i) {
+    const int image = (i + ITSELF) % IMAGES;
+    if (!has_image(tree, image)) continue;
+    const double3 from = at - shift_of(tree, image);
+    uint8 orders[MOST_LEVELS + 1];  // by level: the boxes that are still to be looked into
+    uint firsts[MOST_LEVELS + 1];
+    int level = tree->top;
+    firsts[level] = 0;
+    orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, 0, from), end);
+    while (level <= tree->top) {
+      const uint next = least_of(orders[level]);
+      if (next >= as_uint(end)) {
+        ++level;
+        continue;
+      }
+      orders[level] = without(orders[level], next);
+      const uint node = firsts[level] + (next & (FAN - 1));
+      if (level > 1) {
+        --level;
+        firsts[level] = node * FAN;
+        orders[level] = order_of_boxes(cell, boxes_of_group(tree, level, node, from), end);
+      } else if (!is_listed(near, node, image)) {
+        end = cut_by_leaf(cell, tree, node, from, site, image, end);
+      }
+    }
+  }
+}
+
+static inline void cut_by_all(cell_t* cell, const tree_t* tree, const near_t* near, uint site) {
+  const double3 at = site_at(tree, site);
+  begin_cell(cell, tree, at, site);
+  const float3 from = convert_float3(at - near->base);
+  const float3 inside = fmin(from - near->low, near->high - from);  // how deep in the leaf's box
+  const float covered = 0.9999f * (near->distance + fmax(fmin(fmin(inside.x, inside.y), inside.z), 0.0f));
+  const float end = near->count > 0 ? cut_by_near(cell, near, at, site, covered) : end_of(cell);
+  if (end >= covered * covered) cut_by_tree(cell, tree, near, at, site, end);
+}
+
+#endif

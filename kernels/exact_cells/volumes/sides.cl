@@ -1,0 +1,235 @@
+// What doubles do not decide: the sign of a determinant in whole numbers, and where that is 0, of the same
+// determinant of sites whose weights differ by infinitely little (the first site's is the greatest). So all
+// vertices have three planes, all cells agree, and being a neighbour is mutual, in lattices too.
+//
+// How large the numbers are: with positions of b = 40 bits, n has b + 1 bits and a sign, a determinant of
+// three is less than 2^(3 b + 3), c less than 2^(2 b + 2), their product less than 2^(5 b + 5) = 2^205, and a
+// sum of four less than 2^207. So determinants and c take 128 bits, and sums 256.
+
+#ifndef VOROCL_EXACT_CELLS_SIDES
+#define VOROCL_EXACT_CELLS_SIDES
+
+#include "exact_cells/volumes/cell.cl"
+
+static inline wide_t negative(wide_t a) {
+  const wide_t wide = {0 - a.low, (long)(~(ulong)a.high + (a.low == 0 ? 1u : 0u))};
+  return wide;
+}
+
+static inline wide_t times(wide_t a, long b) {
+  const ulong low = (ulong)b, high = b < 0 ? ~0UL : 0;
+  const wide_t wide = {a.low * low, (long)(upper_half(a.low, low) + a.low * high + (ulong)a.high * low)};
+  return wide;
+}
+
+typedef struct {
+  long x, y, z;
+} way_t;
+
+static inline way_t way_of(double4 plane) {
+  const way_t way = {(long)plane.x, (long)plane.y, (long)plane.z};
+  return way;
+}
+
+static inline wide_t minor_of(long a, long b, long c, long d) { return sum(product(a, d), negative(product(b, c))); }
+
+// Numbers of 256 bits that are not negative, the lowest 64 first.
+typedef struct {
+  ulong s[4];
+} wider_t;
+
+static inline void add_product(wider_t* to, wide_t p, wide_t q) {
+  const ulong p_high = (ulong)p.high, q_high = (ulong)q.high;
+  ulong r[4] = {p.low * q.low, upper_half(p.low, q.low), p_high * q_high, upper_half(p_high, q_high)};
+  for (int side = 0; side < 2; ++side) {
+    const ulong s = side != 0 ? p.low : p_high, t = side != 0 ? q_high : q.low, low = s * t;
+    r[1] += low;
+    const ulong with = upper_half(s, t) + (r[1] < low ? 1u : 0u);  // at most 2^64 - 1
+    r[2] += with;
+    r[3] += r[2] < with ? 1u : 0u;
+  }
+  ulong carry = 0;
+  for (int i = 0; i < 4; ++i) {
+    const ulong with = r[i] + carry;
+    carry = with < carry ? 1u : 0u;
+    to->s[i] += with;
+    carry += to->s[i] < with ? 1u : 0u;
+  }
+}
+
+// A sum of some products, as what is positive of it less what is negative.
+static inline void sum_products(const wide_t* a, const wide_t* b, int count, wider_t* more, wider_t* less) {
+  const wider_t zero = {{0, 0, 0, 0}};
+  *more = *less = zero;
+  for (int k = 0; k < count; ++k) {
+    const bool is_below = a[k].high < 0, is_other_below = b[k].high < 0;
+    add_product(is_below != is_other_below ? less : more, is_below ? negative(a[k]) : a[k],
+                is_other_below ? negative(b[k]) : b[k]);
+  }
+}
+
+static inline int sign_of_difference(const wider_t* more, const wider_t* less) {
+  for (int i = 3; i >= 0; --i) {
+    if (more->s[i] != less->s[i]) return more->s[i] > less->s[i] ? 1 : -1;
+  }
+  return 0;
+}
+
+static inline int sign_of_sum(const wide_t* a, const wide_t* b) {
+  wider_t more, less;
+  sum_products(a, b, 4, &more, &less);
+  return sign_of_difference(&more, &less);
+}
+
+// A sum of three products, right but for 2^-51 of itself.
+static inline double sum_of_products(const wide_t* a, const wide_t* b) {
+  wider_t more, less;
+  sum_products(a, b, 3, &more, &less);
+  const bool is_negative = sign_of_difference(&more, &less) < 0;
+  const wider_t* const from = is_negative ? &less : &more;
+  const wider_t* const take = is_negative ? &more : &less;
+  double total = 0, unit = 1;
+  ulong borrow = 0;
+  for (int i = 0; i < 4; ++i, unit *= 0x1p64) {
+    const ulong with = take->s[i] + borrow, here = from->s[i] - with;
+    borrow = (with < borrow ? 1u : 0u) | (from->s[i] < with ? 1u : 0u);
+    total += convert_double(here) * unit;
+  }
+  return is_negative ? -total : total;
+}
+
+// The c of a plane.
+static inline wide_t constant_of(way_t n, double c, uint site) {
+  if (site == NO_CELL) return product((long)c, 1);
+  return sum(sum(product(n.x, n.x), product(n.y, n.y)), product(n.z, n.z));
+}
+
+// Of four planes in whole numbers: for each the determinant of the three others, with a sign, and the sign of
+// the sum of these times c. `sites` are behind them.
+static inline int wide_side(const way_t* n, const double* c, const uint* sites, wide_t* determinants) {
+  wide_t constants[4];
+  for (int k = 0; k < 4; ++k) constants[k] = constant_of(n[k], c[k], sites[k]);
+  for (int k = 0; k < 3; ++k) {
+    const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
+    const wide_t x = minor_of(q.y, q.z, r.y, r.z), y = minor_of(q.z, q.x, r.z, r.x), z = minor_of(q.x, q.y, r.x, r.y);
+    determinants[k] = sum(sum(times(x, n[3].x), times(y, n[3].y)), times(z, n[3].z));
+    if (k == 0) determinants[3] = negative(sum(sum(times(x, n[0].x), times(y, n[0].y)), times(z, n[0].z)));
+  }
+  return sign_of_sum(constants, determinants);
+}
+
+// As wide_side(), of numbers of 11 bits but for a common power of two, as those of lattices are: then all
+// takes 62 bits. False if they are longer. (All bisectors, and all c, may be divided by one power of two: no
+// sign changes.)
+static inline bool narrow_side(way_t* n, const double* c, const uint* sites, wide_t* determinants, int* side) {
+  ulong bits = 0;
+  for (int k = 0; k < 4; ++k) {
+    if (sites[k] != NO_CELL)
+      bits |= abs(n[k].x) | abs(n[k].y) | abs(n[k].z);
+    else
+      bits |= (ulong)fabs(c[k]);
+  }
+  const int shift = lowest_of(bits);
+  if (bits >> shift >= 1UL << 11) return false;
+  long constants[4], found[4], total = 0;
+  for (int k = 0; k < 4; ++k) {
+    if (sites[k] == NO_CELL) {
+      constants[k] = (long)c[k] >> shift;
+      continue;
+    }
+    const way_t way = {n[k].x >> shift, n[k].y >> shift, n[k].z >> shift};
+    n[k] = way;
+    constants[k] = way.x * way.x + way.y * way.y + way.z * way.z;
+  }
+  for (int k = 0; k < 3; ++k) {
+    const way_t q = n[k == 2 ? 0 : k + 1], r = n[k == 0 ? 2 : k - 1];
+    const long x = q.y * r.z - q.z * r.y, y = q.z * r.x - q.x * r.z, z = q.x * r.y - q.y * r.x;
+    found[k] = x * n[3].x + y * n[3].y + z * n[3].z;
+    if (k == 0) found[3] = -(x * n[0].x + y * n[0].y + z * n[0].z);
+  }
+  for (int k = 0; k < 4; ++k) {
+    total += found[k] * constants[k];
+    determinants[k] = product(found[k], 1);
+  }
+  *side = (total > 0) - (total < 0);
+  return true;
+}
+
+// On which side of a plane a vertex is: 1 is beyond it. 0 only if `is_plain`, or if no weights make a
+// difference.
+static inline int side_of(const cell_t* cell, int v, double4 plane, uint site, bool is_plain) {
+  const indices_t t = cell->triples[v];
+  const index_t of[3] = {t.s0, t.s1, t.s2};
+  way_t n[4];
+  uint sites[4];
+  double c[4];
+  for (int k = 0; k < 4; ++k) {
+    const double4 p = k < 3 ? cell->planes[of[k]] : plane;
+    n[k] = way_of(p);
+    c[k] = p.w;
+    sites[k] = k < 3 ? cell->sites[of[k]] : site;
+  }
+  wide_t determinants[4];
+  int side;
+  if (!narrow_side(n, c, sites, determinants, &side)) side = wide_side(n, c, sites, determinants);
+  if (side != 0 || is_plain) return side;
+  // The weights of sites, the first one first.
+  for (uint from = 0;;) {
+    uint next = NO_CELL;
+    for (int k = 0; k < 4; ++k) {
+      if (sites[k] == NO_CELL || sites[k] == cell->site) continue;
+      if (sites[k] >= from) next = min(next, sites[k]);
+      if (cell->site >= from) next = min(next, cell->site);
+    }
+    if (next == NO_CELL) break;
+    wide_t share = {0, 0};
+    for (int k = 0; k < 4; ++k) {
+      if (sites[k] == NO_CELL || sites[k] == cell->site) continue;
+      if (next == cell->site)
+        share = sum(share, determinants[k]);
+      else if (sites[k] == next)
+        share = sum(share, negative(determinants[k]));
+    }
+    const int sign = sign_of(share);
+    if (sign != 0) return sign;
+    from = next + 1;
+  }
+  // Only images of the same sites: lengths are measured no longer the same along all directions.
+  for (int form = 0; form < 6; ++form) {
+    wide_t forms[4];
+    for (int k = 0; k < 4; ++k) {
+      const long of_way[3] = {n[k].x, n[k].y, n[k].z};
+      const int first = form % 3, second = form < 3 ? (form + 1) % 3 : first;
+      forms[k] = product(sites[k] == NO_CELL ? 0 : of_way[first], of_way[second]);
+    }
+    const int sign = sign_of_sum(forms, determinants);
+    if (sign != 0) return sign;
+  }
+  return 0;
+}
+
+// A vertex from whole numbers, where doubles are too rough: where its planes are almost the same.
+static inline void place_exactly(cell_t* cell, int v) {
+  const indices_t t = cell->triples[v];
+  const index_t of[3] = {t.s0, t.s1, t.s2};
+  way_t n[3];
+  wide_t c[3], x[3], y[3], z[3];
+  for (int k = 0; k < 3; ++k) {
+    const double4 plane = cell->planes[of[k]];
+    n[k] = way_of(plane);
+    c[k] = constant_of(n[k], plane.w, cell->sites[of[k]]);
+  }
+  for (int k = 0; k < 3; ++k) {
+    const way_t p = n[k == 2 ? 0 : k + 1], q = n[k == 0 ? 2 : k - 1];
+    x[k] = minor_of(p.y, p.z, q.y, q.z);
+    y[k] = minor_of(p.z, p.x, q.z, q.x);
+    z[k] = minor_of(p.x, p.y, q.x, q.y);
+  }
+  const double d = to_double(sum(sum(times(x[0], n[0].x), times(y[0], n[0].y)), times(z[0], n[0].z)));
+  cell->x[v] = sum_of_products(c, x) / d;
+  cell->y[v] = sum_of_products(c, y) / d;
+  cell->z[v] = sum_of_products(c, z) / d;
+  cell->error[v] = 0x1p-49 * (fabs(cell->x[v]) + fabs(cell->y[v]) + fabs(cell->z[v]));
+}
+
+#endif
