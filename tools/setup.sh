@@ -30,7 +30,7 @@ for group in "$@"; do
   case $group in
   build)
     packages+=(g++ cmake ninja-build ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd
-      libopencv-dev libavcodec-dev libavformat-dev libswscale-dev libtiff-dev zlib1g-dev libgeotiff-dev libcli11-dev
+      libopencv-dev libavcodec-dev libavformat-dev libswscale-dev libtiff-dev zlib1g-dev libarchive-dev libgeotiff-dev libcli11-dev
       libfmt-dev nlohmann-json3-dev libnanoflann-dev
       python3-dev python3-venv)
     ;;

@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(bad_dumps_are_refused_with_their_line) {
       {"", {":1: ", "empty", "give a LAMMPS text dump"}},
       {" \n\n", {":2: ", "empty"}},
       {"x,y\n1,2\n", {":1: ", "neither a LAMMPS text dump", "nor an XYZ"}},
-      {"\x1f\x8b\x08\n", {":1: ", "gzip"}},
+      {"\x1f\x8b\x08\n", {":1: ", "packed"}},
       {std::string(3 << 20, 'x'), {":1: ", "longer than a mebibyte"}},
       {"ITEM: TIMESTEP\n0\nITEM: NUMBER OF ENTRIES\n3\n",
        {":3: ", "NUMBER OF ENTRIES", "style atom or custom"}},

@@ -1,11 +1,14 @@
 #include "formats/trajectory/line_reader.hpp"
 
+#include <archive.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 #include "formats/files.hpp"
@@ -17,6 +20,11 @@ namespace {
 
 constexpr std::size_t block_bytes = 1 << 20;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+constexpr std::array<std::string_view, 3> starts_of_packed = {
+    "BZh",
+    "\375"
+    "7zX",
+    "(\265/\375"};  // which libarchive knows for sure
 
 template <typename T>
 T number_in(const LineReader& lines, std::string_view field, std::string_view what) {
@@ -30,17 +38,53 @@ T number_in(const LineReader& lines, std::string_view field, std::string_view wh
 
 }  // namespace
 
+struct LineReader::Packed {
+  /// What libarchive asks for.
+  static la_ssize_t read(archive*, void* data, const void** bytes) {
+    auto& packed = *static_cast<Packed*>(data);
+    *bytes = packed.block.data();
+    return gzread(packed.file, packed.block.data(), static_cast<unsigned>(packed.block.size()));
+  }
+
+  gzFile_s* file;
+  std::array<char, 1 << 16> block;
+};
+
 LineReader::LineReader(const std::string& path) : path_(path), buffer_(block_bytes) {
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) file_.reset(gzopen(path.c_str(), "rb"));
-  if (file_) return;
-  open_to_read(path);  // for its reasons
-  throw Error("cannot read " + path);
+  if (!file_) {
+    open_to_read(path);  // for its reasons
+    throw Error("cannot read " + path);
+  }
+  std::string start;
+  for (int byte = 0; start.size() < 4 && (byte = gzgetc(file_.get())) != -1;)
+    start += static_cast<char>(byte);
+  for (auto byte = start.rbegin(); byte != start.rend(); ++byte)
+    gzungetc(static_cast<unsigned char>(*byte), file_.get());
+  if (std::none_of(starts_of_packed.begin(), starts_of_packed.end(),
+                   [&](std::string_view magic) { return start.rfind(magic, 0) == 0; })) {
+    return;
+  }
+  packed_ = std::make_shared<Packed>(Packed{file_.get(), {}});
+  unpacker_.reset(archive_read_new());
+  archive* const unpacker = unpacker_.get();
+  archive_entry* whole = nullptr;
+  if (unpacker == nullptr) throw std::bad_alloc();
+  archive_read_support_filter_bzip2(unpacker);
+  archive_read_support_filter_xz(unpacker);
+  archive_read_support_filter_zstd(unpacker);
+  archive_read_support_format_raw(unpacker);
+  if (archive_read_open(unpacker, packed_.get(), nullptr, Packed::read, nullptr) != ARCHIVE_OK ||
+      archive_read_next_header(unpacker, &whole) != ARCHIVE_OK) {
+    throw damaged();
+  }
 }
 
 void LineReader::Close::operator()(gzFile_s* file) const { gzclose(file); }
+void LineReader::Close::operator()(archive* unpacker) const { archive_read_free(unpacker); }
 
-bool LineReader::is_compressed() const { return gzdirect(file_.get()) == 0; }
+bool LineReader::is_compressed() const { return unpacker_ || gzdirect(file_.get()) == 0; }
 
 bool LineReader::next() {
   if (repeat_) {
@@ -85,14 +129,16 @@ void LineReader::read_block() {
   end_ -= begin_;
   begin_ = 0;
   const auto room = static_cast<unsigned>(buffer_.size() - end_);
-  const int read = gzread(file_.get(), buffer_.data() + end_, room);
-  const auto count = static_cast<std::size_t>(std::max(read, 0));
+  char* const to = buffer_.data() + end_;
+  const la_ssize_t read =
+      unpacker_ ? archive_read_data(unpacker_.get(), to, room) : gzread(file_.get(), to, room);
+  const auto count = static_cast<std::size_t>(std::max<la_ssize_t>(read, 0));
   end_ += count;
   bytes_read_ += count;
   int code = Z_OK;
   gzerror(file_.get(), &code);
   if (code == Z_ERRNO) throw error_at(number_ + 1, "reading failed; is the disk or the connection in order?");
-  if (code != Z_OK) throw error_at(number_ + 1, "what gzip packed is damaged, or cut off");
+  if (code != Z_OK || read < 0) throw damaged();
   at_end_ = count < room;
 }
 
@@ -121,6 +167,10 @@ std::optional<std::uintmax_t> LineReader::bytes_left() const {
 Error LineReader::error(const std::string& what) const {
   const char* const hint = broken_off_ ? " (the file ends in this line: it seems cut off)" : "";
   return error_at(std::max<std::size_t>(number_, 1), what + hint);
+}
+
+Error LineReader::damaged() const {
+  return error_at(number_ + 1, "what is packed in it is damaged, or cut off");
 }
 
 Error LineReader::error_at(std::size_t number, const std::string& what) const {

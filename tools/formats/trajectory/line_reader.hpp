@@ -11,11 +11,13 @@
 
 #include "vorocl/error.hpp"
 
+struct archive;   // libarchive's
 struct gzFile_s;  // zlib's
 
 namespace vorocl::command {
 
-/// Reads large blocks and hands out views into them. Works on pipes too, and reads what gzip has packed.
+/// Reads large blocks and hands out views into them. Works on pipes too, and reads what
+/// gzip, bzip2, xz and zstd have packed.
 class LineReader {
  public:
   /// Throws Error if the file cannot be read.
@@ -52,15 +54,20 @@ class LineReader {
   Error error_at(std::size_t number, const std::string& what) const;
 
  private:
+  Error damaged() const;
   void read_block();
   void set_line(std::size_t length);
 
+  struct Packed;
   struct Close {
     void operator()(gzFile_s* file) const;
+    void operator()(archive* unpacker) const;
   };
 
   std::string path_;
-  std::unique_ptr<gzFile_s, Close> file_;
+  std::unique_ptr<gzFile_s, Close> file_;  // undoes what gzip did
+  std::shared_ptr<Packed> packed_;         // which the next one reads; null, as that: nothing else is packed
+  std::unique_ptr<archive, Close> unpacker_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0;  // of what is not handed out yet
   std::size_t end_ = 0;

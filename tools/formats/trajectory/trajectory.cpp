@@ -14,15 +14,6 @@ bool starts_with(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
 }
 
-/// The program that unpacks a file which starts so; null: none.
-const char* unpacker(std::string_view line) {
-  for (const auto& [program, start] :
-       {std::pair("zstd", "(\265/\375"), std::pair("xz", "\3757zXZ"), std::pair("bzip2", "BZh")}) {
-    if (starts_with(line, start)) return program;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const std::string& value_column,
@@ -32,11 +23,6 @@ std::unique_ptr<TrajectoryReader> open_trajectory(const std::string& path, const
     throw lines.error("the file is empty; give a LAMMPS text dump or an XYZ file");
   }
   const std::string_view first = trimmed(lines.line());
-  if (const char* const program = unpacker(first)) {
-    throw lines.error_at(
-        1, std::string("the file is compressed, and only gzip's are read as they are; unpack it by ") +
-               program + " -d, or give --trajectory <(" + program + " -dc " + path + ")");
-  }
   lines.unread();
   if (starts_with(first, "ITEM:"))
     return std::make_unique<LammpsDump>(std::move(lines), value_column, wanted);
