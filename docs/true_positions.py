@@ -31,7 +31,7 @@ def sets():
     yield "5,000 cities on 1800 x 900", cities * 5, (900, 1800)
 
 
-print("| points | wrong, snapped | farther by | without a pixel | wrong, themselves | farther by | without a pixel |")
+print("| points | wrong, snapped | farther by | without a pixel | wrong, not snapped | farther by | without a pixel |")
 print("| --- | --- | --- | --- | --- | --- | --- |")
 for name, points, shape in sets():
     cells = [f"{share:.2f} % | {excess:.4f} px | {empty:,}" for share, excess, empty in (judged(points, shape, s) for s in (True, False))]
@@ -70,7 +70,7 @@ def least_milliseconds(points, rounds=11):
     return least
 
 
-print("\n| ms | themselves | snapped | JFA | themselves / snapped |")
+print("\n| ms | not snapped | snapped | JFA | not snapped / snapped |")
 print("| --- | --- | --- | --- | --- |")
 for name, points in timed_sets():
     themselves, snapped, flooded = least_milliseconds(points)

@@ -12,7 +12,7 @@ namespace vorocl {
 
 namespace {
 
-/// Throws Error for options of djfa alone, of which the others cannot make anything.
+/// Throws Error for options that djfa alone has a use for.
 void refuse_mixed(const MethodOptions& options) {
   if (options.neighbourhood == NeighbourhoodMix::mixed) {
     throw Error("a mixed neighbourhood is for dynamic jump flooding (djfa) alone");

@@ -33,8 +33,8 @@ constexpr Specialisation specialisations[] = {
     {Metric::euclidean, Axes::x},    {Metric::manhattan, Axes::xy}, {Metric::manhattan, Axes::x},
 };
 
-/// Grids and their seeds. PoCL compiles kernels anew for 2^16 work-items and more, of which a kernel may have
-/// one for each seed or for some pixels.
+/// Grids and their seeds. PoCL compiles kernels anew for 2^16 work-items and more. A kernel may have one for
+/// each seed, or for some pixels.
 struct Scale {
   int width, height;
   std::size_t seeds;

@@ -69,13 +69,13 @@ class VOROCL_API AdjacencyResult {
 /// first row of a tilted grid follows the last one, pixels lie between pixels: one there is taken to share an
 /// edge with the one that it has more in common with. In a volume the same is said of voxels and their faces.
 ///
-/// On an exact Euclidean diagram these are the edges of the Delaunay triangulation, but for cells that touch
-/// along less than a few pixels. Cost: a walk along the cells' borders, which inserts each border into a
-/// short list of its cell or a hash table on the device, and sorting the pairs; about 200 bytes of device
-/// memory per seed, in a volume 300; twice that where cells are large. Enqueues and returns. Where cells in
-/// many pieces have more neighbours than the table holds, reading the result finds them again in a larger
-/// one; it throws Error if the diagram has been filled or written since. Throws Error if the diagram knows no
-/// seeds (see Diagram::write()) or the device has too little memory.
+/// On an exact Euclidean diagram these are the edges of the Delaunay triangulation. Cells that touch along
+/// less than a few pixels may be missing. Cost: a walk along the cells' borders, which inserts each border
+/// into a short list of its cell or a hash table on the device, and sorting the pairs; about 200 bytes of
+/// device memory per seed, in a volume 300; twice that where cells are large. Enqueues and returns. Where
+/// cells in many pieces have more neighbours than the table holds, reading the result finds them again in a
+/// larger one; it throws Error if the diagram has been filled or written since. Throws Error if the diagram
+/// knows no seeds (see Diagram::write()) or the device has too little memory.
 VOROCL_API Report adjacency(const Diagram& diagram, AdjacencyResult& result);
 
 /// What vertices() found, on the device; as AdjacencyResult.

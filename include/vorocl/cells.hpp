@@ -17,9 +17,10 @@ struct CellSumsState;
 struct CellShapesState;
 struct CellStatisticsState;
 
-/// What cell_sums() knows of a cell: exact integers, the same on every device. Along an axis of which the
-/// diagram's window shows one whole period (Window::periodic()) each pixel counts where it lies the shorter
-/// way round from the seed (half a period away: behind it), which may be outside the window. Along other axes
+/// What cell_sums() knows of a cell: exact integers, the same on every device. Where the
+/// diagram's window shows one whole period of an axis (Window::periodic()), each pixel counts where it lies
+/// the shorter way round from the seed. That place may be outside the window; half a period away it is behind
+/// the seed. Along other axes
 /// it counts where the window shows it. Labels that name absent seeds count nowhere.
 ///
 /// In a tilted grid a pixel lies the shortest of all ways from the seed, in the diagram's metric, and perhaps

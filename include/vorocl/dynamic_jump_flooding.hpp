@@ -32,7 +32,7 @@ struct DynamicJumpFloodingOptions {
 /// Fills the diagram with the help of the labels that it holds. A diagram that counts as never filled gets a
 /// JFA.
 ///
-/// Reach::measured: JFA's waves, of which the first ones are left out. One row in eight of the labels shows
+/// Reach::measured: JFA's waves without the first ones. One row in eight of the labels shows
 /// how far they are from where their seeds are now, and no pixel is farther from its nearest seed. The waves
 /// begin with the least step whose plan covers that distance. If the paper's plan for so many seeds that
 /// stand still has a wave more, one of step 1 follows. So for any seeds and any motion it is as close to the

@@ -100,8 +100,8 @@ class VOROCL_API Axis {
     return is_position(coordinate) ? floor_of(coordinate) : mapped_pixel(coordinate);
   }
 
-  /// The position of a coordinate in pixels, of which pixel() is the floor but for what rounding does at a
-  /// pixel's ends: the middle of the axis if its ends are equal. NaN or infinite if the coordinate is.
+  /// The position of a coordinate in pixels. Its floor is pixel(), except where rounding moves it across a
+  /// pixel's end. The middle of the axis if its ends are equal. NaN or infinite if the coordinate is.
   double position(double coordinate) const {
     return is_position(coordinate) ? coordinate : mapped_position(coordinate);
   }

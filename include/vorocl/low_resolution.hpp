@@ -16,9 +16,9 @@ namespace vorocl {
 ///
 /// Approximate: where seeds are spread evenly no more pixels are wrong than by JFA, in the mean. Where cells
 /// are thin and long, as inside a ring of seeds, many more (docs/evaluation.md). The metric is Euclidean: by
-/// the Manhattan one, of which JFA has hardly a wrong pixel, up to one in some thousand was. Cost: some six
-/// passes over the pixels, whatever the size; 15 bytes of device memory per pixel, the labels included. The
-/// report counts no waves. Throws as jump_flooding().
+/// the Manhattan one up to one pixel in some thousand was wrong, and JFA has hardly a wrong one. Cost: some
+/// six passes over the pixels, whatever the size; 15 bytes of device memory per pixel, the labels included.
+/// The report counts no waves. Throws as jump_flooding().
 VOROCL_API Report low_resolution(const Seeds& seeds, Diagram& diagram);
 
 }  // namespace vorocl

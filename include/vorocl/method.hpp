@@ -40,8 +40,8 @@ struct Method {
   /// Fills the diagram.
   Report (*run)(const Seeds& seeds, Diagram& diagram, const MethodOptions& options);
 
-  /// The waves that it runs from seeds alone, of which its report has said the number; null if it has none.
-  /// Throws Error if that number is negative.
+  /// The waves that it runs from seeds alone; null if it has none. `waves` is the number that its report has
+  /// said. Throws Error if that is negative.
   Plan (*plan)(const Window& window, int waves, const MethodOptions& options);
 };
 

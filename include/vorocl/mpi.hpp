@@ -16,8 +16,8 @@ namespace vorocl {
 
 struct SharedSeedsState;
 
-/// The seeds of a plane, of which each process (rank) of a communicator holds as many: they are sorted along
-/// a Z-curve and cut into equal parts, however they are clustered. Of every 512 seeds all ranks know a box.
+/// The seeds of a plane, in equal parts on the processes (ranks) of a communicator: they are sorted along a
+/// Z-curve and cut, however they are clustered. All ranks know the box of every 512 seeds.
 /// A tile's seeds are found by the boxes, and those of other ranks are fetched from their memory, without
 /// their help (MPI_Get). Memory per rank: 16 bytes for each of its seeds, 32 while they are shared out; 0.1
 /// bytes for each seed of the plane; 64 MiB for seeds that were fetched; and what PlaneSeeds need for those

@@ -1,4 +1,4 @@
-// The OpenCL C++ bindings, of which the library's headers use the handles alone (cl::Buffer, cl::Event, ...).
+// The OpenCL C++ bindings. The library's headers use their handles alone (cl::Buffer, cl::Event, ...).
 #pragma once
 
 // The bindings print a note in every translation unit that does not say which version of OpenCL it wants.

@@ -40,8 +40,8 @@ class VOROCL_API Points {
   Points(const double* x, const double* y, std::size_t count, std::ptrdiff_t stride = sizeof(double));
   Points(const float* x, const float* y, std::size_t count, std::ptrdiff_t stride = sizeof(float));
 
-  /// The same points, of which those are absent whose byte is 0; the others count as present. `present` has
-  /// size() bytes.
+  /// The same points. A point whose byte is 0 is absent, and the others are present. `present` has size()
+  /// bytes.
   Points marked(const std::uint8_t* present) const;
 
   std::size_t size() const { return size_; }

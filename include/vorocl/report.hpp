@@ -36,9 +36,8 @@ class VOROCL_API Report {
   const cl::Event& event() const { return last_; }
 
   /// The device's time from the start of the diagram's first command to the end of its last one, with the
-  /// gaps between them, but for those in which the driver compiles a kernel that is launched for the first
-  /// time. Waits for it. 0 if the queue does not profile. Throws Error if the device failed, and in a forked
-  /// child.
+  /// gaps between them. A gap in which the driver compiles a kernel for its first launch is left out. Waits
+  /// for it. 0 if the queue does not profile. Throws Error if the device failed, and in a forked child.
   double milliseconds() const;
 
   /// The host's time to enqueue the diagram, without waiting for room in a full queue (see Device). Where an

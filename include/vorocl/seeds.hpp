@@ -80,7 +80,7 @@ class VOROCL_API Seeds {
   /// From the caller's buffers, which are read when the device comes to it. Throws Error if a buffer is too
   /// small, of another context or not readable by kernels, or the points' buffer is null.
   ///
-  /// On a grid of which a diagram shows all, a kernel places the points. The call returns at once, and the
+  /// On a grid that one diagram can show whole, a kernel places the points. The call returns at once, and the
   /// BadPoint that names a bad one comes at the wait of every diagram and result that is made from this
   /// frame. But where points may lie outside and count, the call waits to know whether one does, and throws
   /// BadPoint itself.

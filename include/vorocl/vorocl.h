@@ -411,7 +411,7 @@ enum { VOROCL_REACH_MEASURED = 0, VOROCL_REACH_PAPER = 1, VOROCL_REACH_AUTHORS =
 #define VOROCL_DISPLACEMENT_OF_SEEDS (-1.0)
 
 /// As vorocl::MethodOptions: the options of all methods. A method ignores those that it has no use for; mixed
-/// neighbourhoods are refused but for dynamic jump flooding.
+/// neighbourhoods are refused by all but dynamic jump flooding.
 typedef struct vorocl_method_options {
   vorocl_metric metric;
   vorocl_neighbourhood neighbourhood;

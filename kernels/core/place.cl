@@ -40,7 +40,7 @@ static inline flags is_near(axis_t axis, double_v pixel) {
   return pixel >= axis.count - TOO_FAR && pixel < TOO_FAR;
 }
 
-// A vector of points, of which some count: their places, and the others'.
+// A vector of points, some of which count.
 typedef struct {
   double_v x, y, z;
 } points_t;

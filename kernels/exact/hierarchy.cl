@@ -101,7 +101,7 @@ static inline uint image_of_seed(const SeedIndex* index, uint seed, uint bin) {
 #endif
 }
 
-// The bins of a level, along an axis, of which an image may matter to a box: they have pixels of the grid, and none is
+// The bins of a level, along an axis, whose images may matter to a box: they have pixels of the grid, and none is
 // farther than half a period. The image is `shift` pixels away from where the frame has the bins.
 typedef struct {
   int first, last;
@@ -200,7 +200,7 @@ static inline void collect_bin(BoxSearch* search, const SeedIndex* index, int x,
   const int first = search->count;
   search->count = add_seeds(index, x, x, y, search->seeds, search->count);
 #ifdef VOROCL_PERIODIC
-  // Of the seeds of the frame only those of the grid, of which this image may matter.
+  // Only seeds of the grid whose image may matter here.
   const Box box = search->box;
   int kept = first;
   for (int i = first; i < search->count; ++i) {

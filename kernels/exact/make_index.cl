@@ -135,7 +135,7 @@ kernel void list_seeds(global const uint* restrict positions, global const uint*
 #endif
 }
 
-// ... of which one with a lower id takes the seed's place.
+// ... and the seed with the lowest id takes the place.
 kernel void keep_lowest_ids(global const uint* restrict positions, global const uint* restrict duplicates,
                             global const uint* restrict bits, global const uint* restrict word_starts,
                             global uint* restrict ids, int counters, int width, int height) {

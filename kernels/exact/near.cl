@@ -7,7 +7,7 @@
 #include "exact/collect.cl"
 #include "exact/keys.cl"
 
-// The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away, of which candidates are left in the end.
+// The seeds of a bin or a pair of bins and of the bins up to MOST_AWAY away. In the end the candidates are left.
 // The bins of a row, one beside the other, are added at once.
 #define MOST_NEAR MOST_CANDIDATES
 typedef struct {

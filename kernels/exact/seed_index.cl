@@ -99,7 +99,7 @@ static inline int_v in_period(int_v at, int period) {
   return at - period * CONVERT_INT_V_DOWN((CONVERT_FLOAT_V(at) + 0.5f) / (float)period);
 }
 
-// The position in the frame of the seed of which an image may be given. The tie rule is one of these positions.
+// The position of a seed in the frame, from that of the seed or of its image. The tie rule compares these positions.
 static inline uint_v seed_of_image(const SeedIndex* index, uint_v image) {
 #ifdef VOROCL_PERIODIC
   int_v x = AS_INT_V(image & 0xffffu) - index->x0, y = AS_INT_V(image >> 16) - index->y0;

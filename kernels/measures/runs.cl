@@ -11,8 +11,8 @@
 #include "core/periods.cl"
 #include "core/vector.cl"
 
-// How many slices a grid has, of which kernels take the size as (width, height, depth, 0): a plane's number is known
-// when they are built.
+// How many slices a grid has. Kernels take its size as (width, height, depth, 0), and a plane's one slice is known when
+// they are built.
 #if VOROCL_DIMENSIONS == 3
 #define DEPTH(size) ((size).z)
 #else

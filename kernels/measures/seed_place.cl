@@ -3,10 +3,10 @@
 // positions in the plane (core/plane.cl), some of them outside the pixels; with VOROCL_FRACTIONS besides, these are in
 // fractions of a pixel (core/plane.cl).
 //
-// THE RULE OF PLACE. Along an axis of which the window shows one whole period (PERIODIC_X and its like) a pixel lies
-// the shorter way round from its seed, half a period away behind it: perhaps outside the window. Along other axes it
-// lies where the window shows it. Distances go the shorter way round along every axis that has a period, shown whole
-// or not.
+// THE RULE OF PLACE. Where the window shows one whole period of an axis (PERIODIC_X and its like), a pixel lies the
+// shorter way round from its seed, perhaps outside the window; half a period away it is behind the seed. Along other
+// axes it lies where the window shows it. Distances go the shorter way round along every axis that has a period, shown
+// whole or not.
 //
 // TILTED GRIDS, whose seeds have fractions. What is one period of y further down lies `shift` units further along x: a
 // pixel lies the shortest of all ways from its seed. Of equally short ones it is that to the nearest row of images, and

@@ -14,7 +14,7 @@ typedef int4 box_t;
 #endif
 #define LAST_SIDES (SIDES / 2)
 
-// Adds pixels of a row to a box, of which no other work-item knows; in halves, for the sake of a GPU's registers.
+// Adds pixels of a row to a box that no other work-item uses; in halves, for the sake of a GPU's registers.
 static inline void add_to_box(global box_t* box, int left, int right, int y, int z) {
 #if VOROCL_DIMENSIONS == 3
   global int4* const sides = (global int4*)box;

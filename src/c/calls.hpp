@@ -80,7 +80,7 @@ inline const Diagram& of(const vorocl_diagram* diagram) { return given(diagram, 
 /// The caller's buffer as the C++ functions take it. NULL is a null buffer.
 inline cl::Buffer retained(cl_mem buffer) { return cl::Buffer(buffer, true); }
 
-/// For a function that gives several things, of which the caller may not want all.
+/// For a function that gives several things. The caller may not want all.
 template <typename T, typename Value>
 void store(T* where, const Value& value) {
   if (where != nullptr) *where = value;

@@ -103,8 +103,8 @@ class BoxTree {
     });
   }
 
-  /// Gives a function ranges of items: those of boxes of which another function says, from the box and its
-  /// distance, that they count; the nearest ones first.
+  /// Calls `use` with ranges of items, the nearest boxes first. `counts` is asked of a box and its distance
+  /// whether its items count.
   template <typename Distance, typename Counts, typename Use>
   void visit_nearest_first(Distance distance, Counts counts, Use use) const {
     if (!levels_.empty()) visit_nearest_first(levels_.size() - 1, 0, distance, counts, use);

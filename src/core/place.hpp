@@ -43,7 +43,7 @@ constexpr std::int64_t pixel_of(std::int64_t at) {
   return (at >= 0 ? at : at - (fractions_of_pixel - 1)) / fractions_of_pixel;
 }
 
-/// The shorter way round a period, of which 0 is none; of two halves of it the positive one.
+/// The shorter way round a period; a period of 0 is none. Of two ways of half a period the positive one.
 constexpr std::int64_t shorter_way(std::int64_t way, std::int64_t period) {
   if (period == 0) return way;
   way %= period;

@@ -16,10 +16,10 @@ namespace vorocl {
 /// from the window's first pixel. In a tilted grid those of snapped seeds are points too, at the centres of
 /// their pixels, for images do not lie in the middle of pixels.
 struct PointPlacement {
-  PixelGrid grid;    // the window's pixels; its axes are periodic where the kernels themselves go round
-  cl::Buffer seeds;  // int2 by id, and one more that is absent: where a seed lies itself or, in long periods,
-                     // its image if only that is near; absent too is what owns no pixel here and lies far
-  cl::Buffer order;  // int2 by id: what orders seeds as they lie in the grid themselves
+  PixelGrid grid;     // the window's pixels; its axes are periodic where the kernels themselves go round
+  cl::Buffer seeds;   // int2 by id, and one more that is absent: where a seed lies or, in long periods, its
+                      // image if only that is near. A seed that is far and owns no pixel here is absent too
+  cl::Buffer order;   // int2 by id: what orders seeds as they lie in the grid themselves
   cl::Buffer places;  // int2: those seeds and images that may own a pixel
   cl::Buffer ids;     // of their seeds; null: they are the seeds
   cl_uint count = 0;  // of places

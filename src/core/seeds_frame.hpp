@@ -111,8 +111,8 @@ struct SeedsFrame {
   /// Throws BadPoint if there was one. May wait for the device.
   void check() const;
 
-  /// Where the seeds lie in a window of the grid, of which these pixels are shown. Made at the first
-  /// question, of places() where the window is not the whole grid.
+  /// Where the seeds lie in a window of the grid that shows these pixels. Made at the first question, from
+  /// places() where the window is not the whole grid.
   std::shared_ptr<const Placement> place_in(const Window& window, const PixelGrid& shown) const;
 
   /// The same where `are_points`.
@@ -138,7 +138,7 @@ struct SeedsFrame {
 
 std::shared_ptr<Placements> no_placements();
 
-/// The places of points on the host, of which those that count have been checked; added to a list.
+/// Adds the places of points on the host to a list. Those that count have been checked.
 void add_places(const Grid& grid, const GivenPoints& points, std::size_t count, Snap snap,
                 std::vector<Place>& places);
 

@@ -115,7 +115,7 @@ struct SeedsState {
   void list_places(SeedsFrame& next, std::shared_ptr<const std::vector<Place>> places);
   void upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&& packed);
 
-  /// Enqueues that a kernel places the seeds of the next frame, all of which lie in its grid.
+  /// Enqueues a kernel that places the seeds of the next frame. All lie in its grid.
   void place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
                        const cl::Buffer& found);
 

@@ -30,7 +30,7 @@ struct Periods {
   std::int64_t x, y;
 };
 
-/// Two vectors of a lattice that span it, of which no sum is shorter, by Gauss's reduction of two that do.
+/// Gauss's reduction of a lattice: two vectors that span it, such that no sum of them is shorter.
 inline std::pair<Place, Place> reduced(Place u, Place v) {
   const auto dot = [](const Place& a, const Place& b) { return Int128{a.x} * b.x + Int128{a.y} * b.y; };
   if (dot(v, v) < dot(u, u)) std::swap(u, v);
@@ -43,10 +43,10 @@ inline std::pair<Place, Place> reduced(Place u, Place v) {
   }
 }
 
-/// Where the images of a seed lie: in rows a period of y apart, each of which is shifted along x to the row
+/// Where the images of a seed lie: in rows a period of y apart. Each row is shifted along x from the one
 /// before.
 struct Images {
-  /// Those of a grid, in units of which a pixel has so many; with a tilt, 1/4096 of a pixel.
+  /// Those of a grid, with so many units in a pixel; with a tilt, 4096.
   explicit Images(const Grid& grid, std::int64_t units_of_pixel = 1)
       : x(units_of_pixel * Periods(grid).x),
         y(units_of_pixel * Periods(grid).y),
@@ -83,7 +83,7 @@ inline Region home_region(const Window& window) {
   return region;
 }
 
-/// The pixels of a window that get labels: all along an axis of which it shows no more than a period.
+/// The pixels of a window that get labels: all of them where it shows no more than a period of an axis.
 inline Region labelled_region(const Window& window, const Region& home) {
   Region region = home;
   const Periods periods(window.grid());

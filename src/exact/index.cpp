@@ -23,7 +23,7 @@ int frame_side(int side, bool periodic, Shape shape) {
   return side + 2 * (shape == Shape::group ? MARGIN_OF_GROUPS(side) : MARGIN_OF_VECTORS);
 }
 
-/// The most seeds that the index lists: each with all its images, of which a pixel has one.
+/// The most seeds that the index lists: each with all its images, at most one in a pixel.
 std::size_t most_listed(const PixelGrid& grid, const IndexFrame& frame, std::size_t seeds) {
   const auto pixels = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height);
   const auto images = [](int of_frame, int side) {

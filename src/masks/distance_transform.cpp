@@ -36,7 +36,7 @@ struct DistanceTransformState {
 
 namespace {
 
-/// The sizes of a grid's pixels, of which some count several times.
+/// The sizes of a grid's pixels, times the spacing of each axis.
 PixelSize spaced(const Grid& grid, const PixelSize& size) {
   return {size.x * grid.x().spacing(), size.y * grid.y().spacing(),
           grid.depth() > 1 ? size.z * grid.z().spacing() : size.x * grid.x().spacing()};

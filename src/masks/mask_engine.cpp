@@ -130,7 +130,7 @@ cl::Buffer MaskEngine::images_of(const NearestTargets& targets, int carried, boo
   images.length_z = bits_of(size_.z);
   images.is_unit = size_.x == 1 && size_.y == 1 && (size_.z == 1 || shape_.depth == 1);
   images.limits_lengths = !images.is_unit && std::isfinite(targets.farthest) && has_doubles(device_);
-  // What is as far but for rounding is no farther.
+  // A distance that differs by rounding alone is not farther.
   constexpr double within = 4 * std::numeric_limits<double>::epsilon();
   images.longest_length = bits_of(targets.farthest * (1 + within));
   images.farthest =

@@ -39,9 +39,9 @@ struct MeasuredDiagram {
     return outer() ? outer()->periods : cl_int4{};
   }
 
-  /// How many pixels further along x the first row follows the last one, where the window is periodic in y: 0
-  /// but for tilted grids. The pixels of the one lie between those of the other: an edge is of those that
-  /// share more of it.
+  /// How many pixels further along x the first row follows the last one, where the window is periodic in y.
+  /// It is 0 unless the grid is tilted. Pixels of one row lie between those of the other, and the two that
+  /// share most of an edge have it.
   int shift() const;
 
   /// The unit of distances: so many are a pixel.

@@ -28,7 +28,7 @@ struct Internal {
             snapped};
   }
 
-  /// Seeds of which there are none yet, and which are not snapped: see SeedsState::place().
+  /// No seeds yet. Those that they are moved to are not snapped: see SeedsState::place().
   static Seeds no_seeds(const Device& device, const Grid& grid);
 
   /// Whether an axis has no scale, for its unit is the pixel.

@@ -1,5 +1,5 @@
-// The worked example of docs/extending.md, "Adding a metric": Chebyshev's, the greater offset along an axis, in
-// flooding.
+// The worked example of docs/extending.md, "Adding a metric": Chebyshev's, the greater offset along an axis,
+// in flooding.
 #define BOOST_TEST_MODULE another_metric
 #include <algorithm>
 #include <array>

@@ -74,8 +74,8 @@ static inline void improve_dominators(local PatchDominators* dominators, local c
 // The part of the distance from a pixel to an interval of pixels that lies along one axis.
 static inline int along_to(int from, int first, int last) { return ALONG(max(max(first - from, from - last), 0)); }
 
-// Whether one of the first `count` dominators dominates all seeds in a box, of which the first pixel stands for them in
-// the tie rule: a bin, a row of it or a single seed. Where there are images, whose seeds' order is another one, it is
+// Whether one of the first `count` dominators dominates all seeds in a box: a bin, a row of it or a single seed. In the
+// tie rule the box's first pixel stands for them. Where there are images, whose seeds' order is another one, it is
 // left open who wins a tie. A distance of seeds is at most 0x7fffffff, so differences fit in an int.
 static inline bool is_dominated(local const PatchDominators* dominators, int count, Box patch, Box seeds) {
   const int to_left = along_to(patch.left, seeds.left, seeds.right);
@@ -123,7 +123,7 @@ typedef struct {
   int4 term[MOST_RANKED];
   uint value[MOST_RANKED];
 #ifdef VOROCL_PERIODIC
-  uint seed[MOST_RANKED];  // of which a candidate is an image, in the list's order
+  uint seed[MOST_RANKED];  // whose image a candidate is, in the list's order
 #endif
 } Ranked;
 
@@ -163,7 +163,7 @@ static inline int8 keys_of(int4 term, int column, int row, uint rank_bits) {
 }
 #endif
 
-// The position in the frame of the seed of which an image may be given, as seed_of_image(), for one image.
+// The position of a seed in the frame, from that of the seed or of its image: seed_of_image() for one image.
 static inline int in_grid(int at, int size, int periodic) {
 #ifdef VOROCL_SHORT_PERIOD
   const int rest = at % size;

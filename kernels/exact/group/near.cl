@@ -27,7 +27,7 @@ static inline Box bins_around(const SeedIndex* index, Box pixels, int reach, int
 // from the top of the pyramid down, of a level those within the distance known.
 typedef struct {
   uint least, seed;
-  uint finer;  // the last level of which a bin that was looked at has more seeds than its representative
+  uint finer;  // the last level where a bin that was looked at has more seeds than its representative
 } Descent;
 
 static inline uint find_seed_near(local Descent* descent, const SeedIndex* index, global const uint* pyramid, int top,
