@@ -641,8 +641,7 @@ def errors(
         Integers, shape (H, W) or (D, H, W): rows of `points`.
     <points>
     grid : Grid, optional
-        That of the labels. Without it, the one of their shape, and `bounds`, `periodic`, `tilt` and `y_up` are keywords
-        here, too.
+        That of the labels. Without it, the one of their shape, and what else a `Grid` says are keywords here, too.
     <metric, outside, truth, device>
 
     Returns
