@@ -11,16 +11,16 @@
 
 namespace vorocl::python {
 
-namespace {
-
-using Turn = std::lock_guard<std::mutex>;
-using Turns = std::scoped_lock<std::mutex, std::mutex>;
-
 Metric metric_of(const std::string& name) {
   if (name == "euclidean") return Metric::euclidean;
   if (name == "manhattan") return Metric::manhattan;
   throw Error("there is no metric \"" + name + "\"; there are euclidean, manhattan");
 }
+
+namespace {
+
+using Turn = std::lock_guard<std::mutex>;
+using Turns = std::scoped_lock<std::mutex, std::mutex>;
 
 MethodOptions options_with(const std::string& metric) {
   MethodOptions options;

@@ -64,7 +64,7 @@ class Grid:
         checked = {
             "shape": shape,
             "bounds": _to_bounds(self.bounds, len(shape)),
-            "periodic": _to_periodic(self.periodic, len(shape)),
+            "periodic": to_periodic(self.periodic, len(shape)),
             "tilt": to_number(self.tilt, "tilt"),
             "y_up": to_flag(self.y_up, "y_up"),
             "spacing": _to_spacing(self.spacing, len(shape)),
@@ -141,7 +141,7 @@ def _to_shape(shape: Shape) -> Shape:
     return checked
 
 
-def _to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
+def to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
     try:
         axes = tuple(to_bool(axis) for axis in periodic)
     except (TypeError, ValueError):
