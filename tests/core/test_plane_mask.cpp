@@ -90,7 +90,8 @@ BOOST_AUTO_TEST_CASE(distances_are_to_the_nearest_pixels) {
     std::size_t wrong = 0, seen = 0;
     const auto use = [&](const TileLabels& tile) {
       for (std::int64_t at = 0; at < tile.tile.width() * tile.tile.height(); ++at, ++seen) {
-        const std::int64_t x = tile.tile.x() + at % tile.tile.width(), y = tile.tile.y() + at / tile.tile.width();
+        const std::int64_t x = tile.tile.x() + at % tile.tile.width(),
+                           y = tile.tile.y() + at / tile.tile.width();
         double least = std::numeric_limits<double>::infinity();
         for (const Pixel& seed : seeds) {
           std::int64_t dx = std::abs(seed.x - x), dy = std::abs(seed.y - y);
@@ -98,8 +99,9 @@ BOOST_AUTO_TEST_CASE(distances_are_to_the_nearest_pixels) {
             dx = std::min(dx, grid.width() - dx);
             dy = std::min(dy, grid.height() - dy);
           }
-          const double away = metric == Metric::manhattan ? static_cast<double>(dx + dy)
-                                                          : std::hypot(static_cast<double>(dx), static_cast<double>(dy));
+          const double away = metric == Metric::manhattan
+                                  ? static_cast<double>(dx + dy)
+                                  : std::hypot(static_cast<double>(dx), static_cast<double>(dy));
           least = std::min(least, away);
         }
         const auto found = static_cast<double>(tile.distances[at]);
