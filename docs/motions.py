@@ -136,6 +136,49 @@ def motions():
             at = np.floor(seeds * [0.3 + 0.5 * abs(frame - 50) / 50, 1])
             yield np.concatenate([at, [[SIDE - 1, 20]]])
 
+    def thinned(rng, walls):
+        """One of three neighbouring pixels of walls, drawn anew in each frame, and nothing else."""
+        threes = walls[:len(walls) // 3 * 3].reshape(-1, 3, 2)
+        threes = threes[np.ptp(threes, axis=1).max(1) < 4]  # not of two walls
+        for _ in range(FRAMES + 1):
+            yield np.floor(threes[np.arange(len(threes)), rng.integers(0, 3, len(threes))])
+
+    def walls_at(heights, slope=0):
+        x = np.arange(SIDE)
+        walls = np.concatenate([np.stack([x, y + slope * x], 1) for y in heights])
+        return walls[(walls[:, 1] >= 0) & (walls[:, 1] < SIDE)]
+
+    def honeycomb(inner):
+        """The walls of hexagons that circles of that radius fill."""
+        corners = inner * 2 / np.sqrt(3) * np.stack([np.cos(np.arange(7) * np.pi / 3), np.sin(np.arange(7) * np.pi / 3)], 1)
+        along = np.linspace(0, 1, int(inner), endpoint=False)[:, None]
+        hexagon = np.concatenate([a + along * (b - a) for a, b in zip(corners, corners[1:])])
+        centres = [(i * inner * np.sqrt(3), (2 * j + i % 2) * inner) for i in range(-1, 12) for j in range(-1, 11)]
+        walls = np.floor(np.concatenate([hexagon + centre for centre in centres]))
+        return walls[np.all((walls >= 0) & (walls < SIDE), axis=1)]
+
+    def shapes(rng, centres, curve, inside):
+        """Seeds walk outside closed curves, and absent within them; the seeds of the curves are as a function of the frame has
+        them, around the centres."""
+        for frame, at in enumerate(walk(rng, even(rng, 10000), 1)):
+            hidden = np.any([inside(at - centre, frame) for centre in centres], axis=0)
+            rims = np.concatenate([np.floor(curve(rng, frame) + centre) for centre in centres])
+            yield np.concatenate([np.where(hidden[:, None], np.nan, at), np.clip(rims, 0, SIDE - 1)])
+
+    def polar(radius, seeds):
+        """A rim whose radius depends on the direction and the frame."""
+        turns = np.arange(seeds) * 2 * np.pi / seeds
+        return (lambda rng, frame: radius(turns, frame)[:, None] * np.stack([np.cos(turns), np.sin(turns)], 1),
+                lambda way, frame: np.hypot(*way.T) < radius(np.arctan2(way[:, 1], way[:, 0]), frame))
+
+    def diamond(rng, _):
+        x = np.repeat(np.arange(-58, 59, 2), 2) + rng.integers(-1, 2, 118)
+        return np.stack([x, (59 - np.abs(x)) * np.tile([-1, 1], 59)], 1)
+
+    def ellipse(turn, frame):
+        turn = turn - 0.02 * frame
+        return 26 * 240 / np.hypot(26 * np.cos(turn), 240 * np.sin(turn))
+
     square = np.concatenate([np.stack([np.linspace(-60, 60, 150), np.full(150, 61 * sign)], 1)[:, ::way]
                              for sign in (-1, 1) for way in (-1, 1)])
     arms = np.linspace(5, 480, 3000)
@@ -221,6 +264,43 @@ def motions():
          lambda rng: voids(rng, [(0, 0)], 110, 1000, 1, turn=3, wraps=True), periodic),
         ("3,000 seeds spread evenly, step 40", lambda rng: walk(rng, even(rng, 3000), 40)),
         ("100 seeds spread evenly, step 25", lambda rng: walk(rng, even(rng, 100), 25)),
+        # Invented to break the rule of the waves: rims at distances that the least plan just reaches, where JFA's other waves give
+        # labels more ways, on periodic grids around the world too.
+        ("36 voids of radius 26 with 170, spinning", lambda rng: voids(rng, grid(6), 26, 170, 1, turn=3)),
+        ("16 voids of radius 58 with 370, spinning", lambda rng: voids(rng, grid(4), 58, 370, 1, turn=3)),
+        ("4 voids of radius 122 with 770, spinning", lambda rng: voids(rng, grid(2), 122, 770, 1, turn=3)),
+        ("a void of radius 250 with 1,570, spinning", lambda rng: voids(rng, grid(1), 250, 1570, 1, turn=3)),
+        ("16 voids of radius 58 with 90, spinning", lambda rng: voids(rng, grid(4), 58, 90, 1, turn=3)),
+        ("36 voids of radius 26 with 170, spinning, periodic",
+         lambda rng: voids(rng, grid(6), 26, 170, 1, turn=3, wraps=True), periodic),
+        ("a void of radius 26 with 170 on 130 x 130, spinning, periodic",
+         lambda rng: voids(rng, [(65, 65)], 26, 170, 1, turn=3, side=130, wraps=True), ["--side", "130", "--periodic"]),
+        ("a void of radius 58 with 370 on 260 x 260, spinning, periodic",
+         lambda rng: voids(rng, [(130, 130)], 58, 370, 1, turn=3, side=260, wraps=True), ["--side", "260", "--periodic"]),
+        ("a void of radius 122 with 770 on 515 x 515, spinning, periodic",
+         lambda rng: voids(rng, [(257, 257)], 122, 770, 1, turn=3, side=515, wraps=True), ["--side", "515", "--periodic"]),
+        ("lines 54 apart, one of three of their pixels, drawn anew in each frame", lambda rng: thinned(rng, walls_at(range(27, SIDE, 54)))),
+        ("lines 118 apart, the same", lambda rng: thinned(rng, walls_at(range(59, SIDE, 118)))),
+        ("lines of slope 1/3, 124 apart along y, the same", lambda rng: thinned(rng, walls_at(range(-300, SIDE, 124), 1 / 3))),
+        ("a honeycomb of walls around circles of radius 59, the same", lambda rng: thinned(rng, honeycomb(59))),
+        ("4 voids of radius 118 with 740 and a seed in the middle of each, spinning",
+         lambda rng: (np.concatenate([at, np.floor(grid(2))]) for at in voids(rng, grid(2), 118, 740, 1, turn=3))),
+        ("16 diamonds of radius 59 with 118 that jump by a pixel, Manhattan",
+         lambda rng: shapes(rng, grid(4), diamond, lambda way, _: np.abs(way).sum(1) < 59), ["--metric", "manhattan"]),
+        ("1,700 seeds spread evenly, step 5", lambda rng: walk(rng, even(rng, 1700), 5)),
+        ("8,000 seeds spread evenly that drift, periodic",
+         lambda rng: voids(rng, [], 0, 0, 2, even(rng, 8000), drift=3, wraps=True), periodic),
+        ("16 flowers of radius 53 to 63 with 400, turning", lambda rng: shapes(
+            rng, grid(4), *polar(lambda turn, f: 58 + 5 * np.sin(7 * turn + 0.1 * f), 400))),
+        ("4 ellipses of 26 by 240 with 800, turning", lambda rng: shapes(rng, grid(2), *polar(ellipse, 800))),
+        ("16 voids of radius 50 to 66 with 300 that breathe", lambda rng: voids(
+            rng, grid(4), lambda f: 58 + 8 * np.sin(0.3 * f), 300, 1, turn=0)),
+        ("a void of radius 60 with 200 on 150 x 150, spinning, periodic",
+         lambda rng: voids(rng, [(75, 75)], 60, 200, 1, turn=3, side=150, wraps=True), ["--side", "150", "--periodic"]),
+        ("a void of radius 46 with 70, and 18 seeds outside, on 150 x 150, spinning, periodic", lambda rng: voids(
+            rng, [(75, 75)], 46, 70, 1, even(rng, 18, 150), turn=3, side=150, wraps=True), ["--side", "150", "--periodic"]),
+        ("a void of radius 46 with 60, and 6 seeds outside, on 130 x 130, spinning, periodic", lambda rng: voids(
+            rng, [(65, 65)], 46, 60, 1, even(rng, 6, 130), turn=3, side=130, wraps=True), ["--side", "130", "--periodic"]),
     ]
     for number, (name, make, *options) in enumerate(rows, 1):
         yield name, number, make(np.random.default_rng(number)), options[0] if options else []

@@ -35,10 +35,10 @@ struct DynamicJumpFloodingOptions {
 /// Reach::measured: JFA's waves without the first ones. One row in eight of the labels shows
 /// how far they are from where their seeds are now, and no pixel is farther from its nearest seed. The waves
 /// begin with the least step whose plan covers that distance. If the paper's plan for so many seeds that
-/// stand still has a wave more, one of step 1 follows. So for any seeds and any motion it is as close to the
-/// exact diagram as JFA (docs/moving_seeds.md). Cost: at most JFA's waves, and the extra ones. Waits, once
-/// the labels are measured: each frame is enqueued when the device has come to it. `max_displacement` does
-/// not matter, nor do von Neumann waves of a mixed plan.
+/// stand still has a wave more, or on a periodic grid JFA's, one of step 1 follows. So for any seeds and any
+/// motion it is as close to the exact diagram as JFA (docs/moving_seeds.md). Cost: at most JFA's waves, and
+/// the extra ones. Waits, once the labels are measured: each frame is enqueued when the device has come to
+/// it. `max_displacement` does not matter, nor do von Neumann waves of a mixed plan.
 ///
 /// Reach::paper: the paper's Algorithm 1, with waves that gather, and with seeds that are stamped at their
 /// new pixels, which that algorithm does not say. Each label's seed is looked up at its new position, and

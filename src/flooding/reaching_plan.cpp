@@ -33,11 +33,14 @@ Plan reaching_plan(const Window& window, std::size_t seeds, const LabelDistances
   const Neighbourhood neighbourhood = von_neumann ? Neighbourhood::von_neumann : Neighbourhood::moore;
   const int rows_between = distances.row_interval / 2;
   const double needed = farthest(distances, window, metric) + rows_between;
-  Plan plan = jump_flooding_plan(window, JumpFloodingVariant::jfa, neighbourhood);
+  const Plan full = jump_flooding_plan(window, JumpFloodingVariant::jfa, neighbourhood);
+  Plan plan = full;
   // Without its first wave, JFA's plan still reaches the sum of the other steps.
   while (plan.size() > 1 && reach_of(plan) - plan.front().step >= needed) plan.erase(plan.begin());
-  const int spare = plan.size() < dynamic_jump_flooding_plan(window, seeds, 0).size() ? 1 : 0;
-  if (!plan.empty()) append_extra_waves(plan, std::max(options.extra_waves, spare), neighbourhood);
+  // Around a period JFA's longer waves come back, and carry labels by more ways.
+  const bool lacks_ways = window.periodic() != Axes::none && plan.size() < full.size();
+  const bool spare = lacks_ways || plan.size() < dynamic_jump_flooding_plan(window, seeds, 0).size();
+  if (!plan.empty()) append_extra_waves(plan, std::max(options.extra_waves, spare ? 1 : 0), neighbourhood);
   return plan;
 }
 

@@ -23,8 +23,8 @@ struct LabelDistances {
 
 /// The waves of dynamic jump flooding whose reach follows from the last labels: JFA's, from the least step
 /// whose plan covers the greatest distance, and the extra waves. If none was asked for, one of step 1 follows
-/// where the paper's plan for so many seeds that stand still has a wave more. docs/moving_seeds.md gives the
-/// reasons.
+/// where the paper's plan for so many seeds that stand still has a wave more, and on periodic grids where
+/// JFA's has. docs/moving_seeds.md gives the reasons.
 Plan reaching_plan(const Window& window, std::size_t seeds, const LabelDistances& distances, Metric metric,
                    const DynamicPlanOptions& options = {});
 

@@ -34,7 +34,7 @@ Plan plan_of(const std::string& method, const Grid& grid) {
 
 /// JFA's plan from the least step that reaches as far as the pixels of a row of every eight are from where
 /// their labels' seeds are now, or 2 L, and 4 rows more; and a wave of step 1 if the paper's plan has a wave
-/// more than that.
+/// more than that, or JFA's has on a periodic grid.
 Plan measured_plan(const Grid& grid, const std::vector<Pixel>& seeds, const Labels& labels, Metric metric) {
   const double length_squared = static_cast<double>(grid.pixels()) / static_cast<double>(seeds.size());
   const bool squared = metric == Metric::euclidean;
@@ -48,9 +48,11 @@ Plan measured_plan(const Grid& grid, const std::vector<Pixel>& seeds, const Labe
       greatest = std::max(greatest, squared ? std::sqrt(to_seed) : to_seed);
     }
   }
-  Plan plan = plan_of("jfa", grid);
+  const Plan full = plan_of("jfa", grid);
+  Plan plan = full;
   while (plan.size() > 1 && plan.front().step - 1 >= greatest + 4) plan.erase(plan.begin());
-  if (plan.size() < dynamic_jump_flooding_plan(grid, seeds.size(), 0).size())
+  if (plan.size() < dynamic_jump_flooding_plan(grid, seeds.size(), 0).size() ||
+      (grid.periodic() != Axes::none && plan.size() < full.size()))
     plan.push_back({1, Neighbourhood::moore});
   return plan;
 }

@@ -113,6 +113,18 @@ BOOST_AUTO_TEST_CASE(a_wave_that_the_paper_s_plan_has_more_mends) {
   BOOST_TEST(plan(64) == "64 32 16 8 4 2 1");
 }
 
+// There JFA's longer waves come back around the period, and mend what others leave.
+BOOST_AUTO_TEST_CASE(a_wave_mends_on_periodic_grids_what_fewer_ways_leave) {
+  for (const Axes axes : {Axes::x, Axes::y, Axes::xy}) {
+    const Grid grid(1000, 700, axes);
+    const auto plan = [&](double greatest) { return reaching(grid, 7000, {greatest}); };
+    BOOST_TEST(plan(31) == "16 8 4 2 1 1");
+    BOOST_TEST(plan(31.5) == "32 16 8 4 2 1 1");
+    BOOST_TEST(plan(511) == "256 128 64 32 16 8 4 2 1 1");
+    BOOST_TEST(plan(511.5) == to_string(jump_flooding_plan(grid)));
+  }
+}
+
 BOOST_AUTO_TEST_CASE(extra_waves_that_are_asked_for_follow_instead) {
   const Grid grid(1000, 700);
   const auto plan = [&](double greatest, NeighbourhoodMix mix, int extra_waves) {

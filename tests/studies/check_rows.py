@@ -85,7 +85,7 @@ for row in table(os.path.join(pages, "resolution.csv")):
 motions = os.path.join(source, "docs", "motions")
 with tempfile.TemporaryDirectory() as folder:
     again = os.path.join(folder, "motions.csv")
-    subprocess.run([sys.executable, motions + ".py", command, again, *([] if all_rows else ["7", "54"])], check=True)
+    subprocess.run([sys.executable, motions + ".py", command, again, *([] if all_rows else ["7", "54", "61", "77"])], check=True)
     published = {(row["rng_seed"], row["method"]): row for row in table(motions + ".csv")}
     for row in table(again):
         if row != published[row["rng_seed"], row["method"]]:

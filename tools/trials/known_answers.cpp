@@ -79,7 +79,7 @@ const std::vector<KnownAnswer>& known_answers() {
       {"1+jfa", manhattan, none, plain, 0xb0930d64a2657292},
       {"1+jfa", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
       {"djfa", euclidean, none, plain, 0x72c2e55b8e6085c9},
-      {"djfa", euclidean, xy, plain, 0x209a7f42dc1964dd},
+      {"djfa", euclidean, xy, plain, 0xc758a8ac434e6e6c},
       {"djfa", manhattan, none, plain, 0xb0930d64a2657292},
       {"djfa", manhattan, xy, plain, 0x9e1f6a0c8cdce5da},
       {"low-resolution", euclidean, none, plain, 0x3108721ca3f0548f},
