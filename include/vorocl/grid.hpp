@@ -55,7 +55,7 @@ constexpr Axes axes_of(bool x, bool y, bool z = false) {
 class VOROCL_API Axis {
  public:
   static constexpr std::int64_t max_pixels = 2147483647;  ///< past it a squared distance leaves 63 bits
-  static constexpr int max_spacing = 16;                  ///< the most units that spaced() takes
+  static constexpr int max_spacing = 64;                  ///< the most units that spaced() takes
 
   /// An axis whose unit is the pixel: it covers [0, pixels). Throws Error unless `pixels` is in
   /// [1, max_pixels].

@@ -112,7 +112,7 @@ typedef struct vorocl_axis {
   int reversed;     ///< 1 if its first pixel is at `to`, else 0
   int closed;       ///< 1 if the coordinate `to` falls in the last pixel and not behind it, else 0
 
-  /// As how many units distances count a pixel: 1 to 16 (vorocl::Axis::spaced()), or 0, as an initialiser
+  /// As how many units distances count a pixel: 1 to 64 (vorocl::Axis::spaced()), or 0, as an initialiser
   /// leaves it, which is 1. Where it is more for an axis, all distances are in these units.
   int spacing;
 } vorocl_axis;

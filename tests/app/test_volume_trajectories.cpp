@@ -168,9 +168,18 @@ BOOST_AUTO_TEST_CASE(xyz_and_points_make_volumes) {
   succeeds(folder, "render --points numbers.csv --columns 1,2,0 " + size + bounds + "--periodic y");
   BOOST_TEST((content_of(folder / "a.npy") == labels));
   const Space tight = {{1.25, 2, -0.75}, {9.75, 19.5, 4.75}, {false, false, false}};
-  BOOST_TEST(run(folder, "render --points p.csv " + size).error.find("different scales") !=
+  BOOST_TEST(run(folder, "render --points p.csv " + size).error.find("as 34 : 35 : 37 in the data") !=
              std::string::npos);
-  BOOST_TEST((content_of(folder / "a.npy") == labels_of(tight, numbered)));
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(tight, numbered, cubes, {34, 35, 37})));
+  // A microscope's voxels of 0.065 x 0.065 x 0.2; and one with sides too far apart.
+  const std::string of_bounds = "render --points p.csv --size 20x40x12 --labels a.npy --bounds=0,0,-1,";
+  const Space deep = {{0, 0, -1}, {13, 26, 23}, {false, false, false}},
+              deeper = {{0, 0, -1}, {13, 26, 599}, deep.periodic};
+  BOOST_TEST(run(folder, of_bounds + "13,26,23").error.find("as 13 : 13 : 40 in the data") !=
+             std::string::npos);
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(deep, numbered, cubes, {13, 13, 40})));
+  BOOST_TEST(run(folder, of_bounds + "13,26,599").error.find("different scales") != std::string::npos);
+  BOOST_TEST((content_of(folder / "a.npy") == labels_of(deeper, numbered)));
 }
 
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "app/sources/bounds.hpp"
 #include "app/sources/seed_input.hpp"
@@ -109,6 +109,7 @@ double spread_of_units(const Grid& grid) {
 }
 
 constexpr double exact = 1.001, rounded = 1.01;  // as the number of voxels of a side is, which are whole
+constexpr int few = 16;  // units of a side: of frames no more, for each new spacing needs programs of its own
 
 bool has_scale(const Grid& grid) { return spread_of_units(grid) <= rounded; }
 
@@ -116,31 +117,26 @@ bool is_short_enough(const Axis& axis) {
   return axis.pixels() * axis.spacing() <= Window::max_side_of_volume / (axis.is_periodic() ? 2 : 1);
 }
 
-/// All spacings that are no multiples of others, the least numbers first.
-std::vector<std::array<int, 3>> all_spacings() {
-  std::vector<std::array<int, 3>> spacings;
-  for (int x = 1; x <= Axis::max_spacing; ++x) {
-    for (int y = 1; y <= Axis::max_spacing; ++y) {
-      for (int z = 1; z <= Axis::max_spacing; ++z) {
-        if (std::gcd(std::gcd(x, y), z) == 1) spacings.push_back({x, y, z});
+/// The least spacing, up to `most`, that gives distances a scale and that a volume can have; none counts
+/// voxels as cubes.
+std::array<int, 3> spacing_of(const Grid& grid, int most = few) {
+  const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
+  std::array<double, 3> sides = {};
+  for (std::size_t i = 0; i < 3; ++i) sides[i] = AxisScale{*axes[i]}.side_of_pixel();
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const double side : sides) shortest = side > 0 ? std::min(shortest, side) : shortest;
+  for (const auto& [limit, spread] :
+       {std::pair(few, exact), {few, rounded}, {most, exact}, {most, rounded}}) {
+    for (int units = 1; units <= limit; ++units) {  // of the shortest side
+      std::array<int, 3> spacing = {1, 1, 1};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double length = units * (sides[i] / shortest);
+        if (length >= 1) spacing[i] = static_cast<int>(std::lround(std::min(length, limit + 1.0)));
       }
-    }
-  }
-  std::stable_sort(spacings.begin(), spacings.end(), [](const auto& a, const auto& b) {
-    return *std::max_element(a.begin(), a.end()) < *std::max_element(b.begin(), b.end());
-  });
-  return spacings;
-}
-
-/// The least spacing that gives distances a scale and that a volume can have; none counts voxels as cubes.
-std::array<int, 3> spacing_of(const Grid& grid) {
-  static const std::vector<std::array<int, 3>> spacings = all_spacings();
-  for (const double spread : {exact, rounded}) {
-    for (const std::array<int, 3>& spacing : spacings) {
+      if (*std::max_element(spacing.begin(), spacing.end()) > limit) break;
       const Grid spaced = with_spacing(grid, spacing);
-      const bool fits =
-          is_short_enough(spaced.x()) && is_short_enough(spaced.y()) && is_short_enough(spaced.z());
-      if (fits && spread_of_units(spaced) <= spread) return spacing;
+      if (!is_short_enough(spaced.x()) || !is_short_enough(spaced.y()) || !is_short_enough(spaced.z())) break;
+      if (spread_of_units(spaced) <= spread) return spacing;
     }
   }
   return {1, 1, 1};
@@ -152,9 +148,9 @@ bool warn_of_voxels(const Grid& grid, const std::string& where) {
   if (has_scale(grid)) return false;
   print_warning(fmt::format(
       "{}the axes get different scales on {} voxels, so the cells are not Voronoi cells in data units; a "
-      "--size like the bounds makes voxels cubes, and others whose sides are as whole numbers up to {} do as "
+      "--size like the bounds makes voxels cubes, and others whose sides are as small whole numbers do as "
       "well",
-      where, to_string(VolumeSize{grid.width(), grid.height(), grid.depth()}), Axis::max_spacing));
+      where, to_string(VolumeSize{grid.width(), grid.height(), grid.depth()})));
   return true;
 }
 
@@ -203,7 +199,8 @@ Input input_from_points(const SeedOptions& options) {
     const std::optional<VolumeSides> given = given_sides(options);
     VolumeSides sides = given ? *given : bounding_sides(points);
     take_periodic_axes(options, sides);
-    const Grid unspaced = grid_of(options, sides), grid = with_spacing(unspaced, spacing_of(unspaced));
+    const Grid unspaced = grid_of(options, sides),
+               grid = with_spacing(unspaced, spacing_of(unspaced, Axis::max_spacing));
     check_inside(points, read.ids, grid);
     warn_of_voxels(grid, "");
     note_scales(grid);
