@@ -8,7 +8,6 @@
 #include "runtime/process.hpp"
 #include "tiles/plane_cells.hpp"
 #include "vorocl/exact_diagram.hpp"
-#include "vorocl/fields.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
@@ -32,32 +31,29 @@ struct TileMaker {
   Diagram diagram;
 };
 
-/// Pixels of a tile on the device that the host may read, while the object lives.
-template <typename T>
-class Mapped {
+/// Labels on the device that the host may read, while the object lives.
+class MappedLabels {
  public:
-  /// Enqueues that they are mapped. Of a null buffer there are none.
-  Mapped(const Device& device, const cl::Buffer& buffer, std::size_t count)
+  /// Enqueues that they are mapped.
+  MappedLabels(const Device& device, const cl::Buffer& buffer, std::size_t count)
       : queue_(device.queue()), buffer_(buffer) {
-    if (buffer() == nullptr) return;
     cl_int status = CL_SUCCESS;
-    pixels_ = clEnqueueMapBuffer(queue_(), buffer(), CL_FALSE, CL_MAP_READ, 0, count * sizeof(T), 0, nullptr,
-                                 &mapped_(), &status);
-    check(status, "mapping the pixels of a tile");
+    labels_ = clEnqueueMapBuffer(queue_(), buffer(), CL_FALSE, CL_MAP_READ, 0, count * sizeof(cl_uint), 0,
+                                 nullptr, &mapped_(), &status);
+    check(status, "mapping the labels of a tile");
   }
-  ~Mapped() {
+  ~MappedLabels() {
     // If this fails, so does the next command that uses the buffer, which says so.
-    if (pixels_ != nullptr && process_number() == process_)
-      clEnqueueUnmapMemObject(queue_(), buffer_(), pixels_, 0, nullptr, nullptr);
+    if (process_number() == process_)
+      clEnqueueUnmapMemObject(queue_(), buffer_(), labels_, 0, nullptr, nullptr);
   }
-  Mapped(const Mapped&) = delete;
-  Mapped& operator=(const Mapped&) = delete;
+  MappedLabels(const MappedLabels&) = delete;
+  MappedLabels& operator=(const MappedLabels&) = delete;
 
   /// Waits for them.
-  const T* wait() const {
-    if (pixels_ == nullptr) return nullptr;
-    check(clWaitForEvents(1, &mapped_()), "waiting for the pixels of a tile");
-    return static_cast<const T*>(pixels_);
+  const std::uint32_t* wait() const {
+    check(clWaitForEvents(1, &mapped_()), "waiting for the labels of a tile");
+    return static_cast<const std::uint32_t*>(labels_);
   }
 
  private:
@@ -65,18 +61,18 @@ class Mapped {
   cl::Buffer buffer_;
   std::int64_t process_ = process_number();  // a forked child leaves them mapped
   cl::Event mapped_;
-  void* pixels_ = nullptr;
+  void* labels_ = nullptr;
 };
 
-/// A tile whose labels are enqueued, and what else is asked for.
+/// A tile whose labels are enqueued, and whose cells, if they are asked for, are measured.
 struct MadeTile {
   std::uint64_t number;
   Window tile;
-  cl::Buffer labels, distances;
+  cl::Buffer labels;
   TileMeasures measures;
 };
 
-/// Makes one tile after the other. What they have goes to two buffers in turn.
+/// Makes one tile after the other. Their labels go to two buffers in turn.
 class TileEngine {
  public:
   TileEngine(const Device& device, const SeedSource& seeds, const Tiling& tiling, const TileOptions& options)
@@ -97,18 +93,12 @@ class TileEngine {
     place(maker->seeds);
     upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
-    MadeTile made = {number, tile, name_labels(maker->diagram), {}, {}};
-    if (options_.distances) {
-      Field<float>& field = distances_[next_];
-      distance_field(maker->diagram, field);
-      made.distances = field.values();
-    }
+    MadeTile made = {number, tile, name_labels(maker->diagram), {}};
     if (options_.cells) made.measures = measure(*maker);
-    next_ = 1 - next_;
     return made;
   }
 
-  const Device& device() const { return device_; }
+  MappedLabels map(const MadeTile& made) const { return {device_, made.labels, made.tile.pixels()}; }
 
   void add_measures(const MadeTile& made, const std::uint32_t* labels) const {
     if (options_.cells) {
@@ -140,6 +130,7 @@ class TileEngine {
 
   cl::Buffer name_labels(const Diagram& diagram) {
     cl::Buffer& named = named_[next_];
+    next_ = 1 - next_;
     if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
     const PixelGrid& grid = Internal::state(diagram).grid;
     kernels_.get(device_, "core/tiles.cl", "name_labels", grid)
@@ -166,7 +157,6 @@ class TileEngine {
   Upload<cl_uint> upload_;
   cl::Buffer labels_;  // as the engine makes them
   cl::Buffer named_[2];
-  Field<float> distances_[2];
   int next_ = 0;
   CellSumsResult sums_;
   CellShapesResult shapes_;
@@ -191,24 +181,20 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   struct Waiting {
-    Waiting(MadeTile&& tile, const Device& by)
-        : made(std::move(tile)),
-          labels(by, made.labels, made.tile.pixels()),
-          distances(by, made.distances, made.tile.pixels()) {}
+    Waiting(MadeTile&& tile, const TileEngine& made_by) : made(std::move(tile)), labels(made_by.map(made)) {}
 
     MadeTile made;
-    Mapped<std::uint32_t> labels;
-    Mapped<float> distances;
+    MappedLabels labels;
   };
   std::unique_ptr<Waiting> waiting;
   const auto hand_over = [&] {
     if (!waiting) return;
     const std::uint32_t* const labels = waiting->labels.wait();
     engine.add_measures(waiting->made, labels);
-    use({waiting->made.number, waiting->made.tile, labels, waiting->distances.wait()});
+    use({waiting->made.number, waiting->made.tile, labels});
   };
   while (const std::optional<std::uint64_t> number = next()) {
-    auto made = std::make_unique<Waiting>(engine.enqueue(*number), engine.device());
+    auto made = std::make_unique<Waiting>(engine.enqueue(*number), engine);
     check(clFlush(device.queue()()), "starting the commands of a tile");
     hand_over();
     waiting = std::move(made);

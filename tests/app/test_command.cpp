@@ -197,6 +197,30 @@ BOOST_AUTO_TEST_CASE(diagrams_are_exact_unless_a_method_is_named) {
   BOOST_TEST(labels_of(folder, "s1.npy") == labels_of(folder, "a.npy"));
 }
 
+/// Pixels of 0.65, of which seven are 4.55 and no more, however that is rounded.
+BOOST_AUTO_TEST_CASE(pixels_beyond_the_greatest_distance_have_no_label) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "0.325,0.325\n12.675,12.675\n");
+  const std::string render = "render --points p.csv --size 20x20 --bounds 0,0,13,13 --max-distance 4.55 ";
+  succeeds(folder, render + "--labels a.npy --enlarge 2 -o a.png");
+  const auto labels = labels_of(folder, "a.npy");
+  const cv::Mat picture = cv::imread(folder / "a.png");
+  for (int i = 0; i < 400; ++i) {
+    const int x = i % 20, y = i / 20, to_first = x * x + y * y,
+              to_last = (19 - x) * (19 - x) + (19 - y) * (19 - y);
+    const std::uint32_t label = to_first <= 49 ? 0 : to_last <= 49 ? 1 : no_label;
+    BOOST_TEST_REQUIRE(labels[static_cast<std::size_t>(i)] == label, "pixel " << x << ", " << y);
+    if (x == y && label == no_label)
+      BOOST_TEST((picture.at<cv::Vec3b>(2 * y + 1, 2 * x + 1) == cv::Vec3b(0, 0, 0)));
+  }
+  succeeds(folder, render + "--units px --labels b.npy");  // beyond no pixel of the first seven
+  BOOST_TEST(labels_of(folder, "b.npy")[4] == 0u);
+  BOOST_TEST(labels_of(folder, "b.npy")[5] == no_label);
+  refuses(folder, render + "--method jfa --waves w%d.png", usage, {"--max-distance", "--waves"});
+  refuses(folder, "render --points p.csv --size 9x9 --max-distance -1 --labels a.npy", usage,
+          {"--max-distance"});
+}
+
 BOOST_AUTO_TEST_CASE(different_scales_of_the_axes_are_warned_of) {
   const TemporaryFolder folder;
   folder.file("p.csv", "0,0\n4,2\n");

@@ -16,6 +16,7 @@
 #include "app/terminal/selected_device.hpp"
 #include "formats/images/pictures.hpp"
 #include "formats/numbered_files.hpp"
+#include "formats/values.hpp"
 #include "vorocl/jump_flooding.hpp"
 
 namespace vorocl::command {
@@ -30,6 +31,7 @@ struct RenderOptions {
   std::string picture_path;
   std::string waves_pattern;
   FileRequest labels = {labels_kind(), ""};
+  std::optional<double> max_distance;
   PictureOptions picture;
   bool json = false;
 
@@ -89,7 +91,7 @@ void print_result(const RenderOptions& options, const Seeds& seeds, const Report
   }
   print_diagram(options.method, seeds, view, report);
   print_empty_cells(count.empty, count.cells, seeds.alive(), name_of_pixel(view));
-  if (options.is_volume()) print_unlabelled(unlabelled, seeds.alive());
+  if (options.is_volume() && !options.max_distance) print_unlabelled(unlabelled, seeds.alive());
   print_written(requested_files(options));
 }
 
@@ -121,6 +123,7 @@ void run(const RenderOptions& options) {
   Diagram diagram = buffers.diagram_to_read(device, input.view.window);
   const Report report = options.method.run(seeds, diagram, options.method_options);
   Measures measures(seeds, diagram, input.ids, input.view, buffers);
+  if (options.max_distance) measures.leave_out_beyond(*options.max_distance);
   if (outputs.labels) options.labels.kind.write(*outputs.labels, measures);
   if (options.draws()) {
     Painter painter(options.picture, outputs.waves != nullptr);
@@ -134,6 +137,12 @@ void run(const RenderOptions& options) {
     }
   }
   print_result(options, seeds, report, measures);
+}
+
+std::optional<double> parse_distance(const std::string& text) {
+  const auto distance = parse_number<double>(text);
+  if (!distance || !(*distance >= 0)) throw Error("\"" + text + "\" is no distance of 0 or more");
+  return distance;
 }
 
 /// Throws UsageError for options that volumes do not have, and asks for the files that they do.
@@ -169,6 +178,11 @@ void add_render(CommandLine& line) {
   add_file_option(command, options->labels);
   add_crs_option(command, options->seeds.crs, "labels as .tif say").needs("--points");
   command
+      .add_parsed(
+          "--max-distance", options->max_distance, parse_distance,
+          "Leave pixels without a label that are farther than D from their seed, in the unit of distances")
+      .value_name("D");
+  command
       .add("--waves", options->waves_pattern,
            "Pictures to write of the diagram before the first wave and after every wave, such as "
            "waves/%02d.png; for djfa, the waves of the JFA that makes frame 0")
@@ -181,6 +195,9 @@ void add_render(CommandLine& line) {
     check_method_options(command, {options->method}, options->method_options);
     if (options->picture.stamp && options->waves_pattern.empty() && options->seeds.trajectory.empty()) {
       throw UsageError("--stamp needs frames: give --trajectory, or --waves");
+    }
+    if (options->max_distance && !options->waves_pattern.empty()) {
+      throw UsageError("--max-distance is for whole diagrams, without --waves");
     }
     check_crs(options->seeds.crs, {options->labels.path});
     options->is_volume() ? prepare_volume(command, *options) : prepare_plane(*options);

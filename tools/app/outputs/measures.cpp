@@ -181,6 +181,15 @@ CellCount Measures::cell_count() {
   return {seeds_->alive(), seeds_->alive() - count};
 }
 
+void Measures::leave_out_beyond(double distance) {
+  const std::vector<float>& distances = this->distances();  // before the labels change, which it may share
+  const double most = distance * (1 + 1e-6);                // a float's rounding leaves out no pixel
+  labels();
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    if (view_.units.length(static_cast<double>(distances[i])) > most) images_.labels[i] = no_label;
+  }
+}
+
 const std::vector<std::uint32_t>& Measures::labels_by_id() {
   if (ids_.empty()) return labels();
   if (!has_ids_) {

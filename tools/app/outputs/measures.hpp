@@ -109,6 +109,10 @@ class Measures {
 
   // Made of these on the host.
 
+  /// From here on pixels farther than this from the seed of their label, in the unit of distances, have no
+  /// label. Of these labels the device's measures know nothing.
+  void leave_out_beyond(double distance);
+
   /// The labels as files have them, and these in the picture.
   const std::vector<std::uint32_t>& labels_by_id();
   const std::vector<std::uint32_t>& labels_in_picture();
