@@ -161,6 +161,7 @@ struct TileLabels {
   std::uint64_t number = 0;  ///< in its Tiling
   Window tile;
   const std::uint32_t* labels = nullptr;  ///< on the host, until the function that is given them returns
+  const float* distances = nullptr;       ///< likewise, if they are wanted: see distance_field()
 };
 
 struct PlaneCellsState;
@@ -215,6 +216,7 @@ class VOROCL_API PlaneCells {
 struct TileOptions {
   Metric metric = Metric::euclidean;
   PlaneCells* cells = nullptr;  ///< where cells are summed too; none: nowhere
+  bool distances = false;       ///< whether tiles have them
 };
 
 /// The number of the next tile to make; none at the end. It is asked from the thread that called.
@@ -226,8 +228,8 @@ using NextTile = std::function<std::optional<std::uint64_t>()>;
 ///
 /// How: a host finds the seeds that may own a pixel of the tile (SeedSource), and an exact diagram is
 /// made of a window of the plane. Memory: 20 bytes of the device's per pixel of a tile, 14 where tiles have
-/// one size, and what its seeds need (Seeds), and nothing that grows with the plane. Throws Error as Diagram
-/// and exact_diagram().
+/// one size, 8 more with distances, and what its seeds need (Seeds), and nothing that grows with the plane.
+/// Throws Error as Diagram and exact_diagram().
 VOROCL_API void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& tiling,
                             const std::function<void(const TileLabels&)>& use,
                             const TileOptions& options = {});

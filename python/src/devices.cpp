@@ -13,14 +13,15 @@ Device adopt(std::uintptr_t context, std::uintptr_t queue) {
 }
 
 /// A grid of at most as many pixels as a diagram has: here a diagram shows all of it. `bounds` are (x0, y0,
-/// x1, y1), of a volume (x0, y0, z0, x1, y1, z1).
+/// x1, y1), of a volume (x0, y0, z0, x1, y1, z1); `spacing` is along x, y and z.
 Grid make_grid(std::int64_t width, std::int64_t height, std::int64_t depth, bool periodic_x, bool periodic_y,
-               bool periodic_z, double tilt, const std::optional<std::vector<double>>& bounds, bool y_up,
-               bool closed) {
+               bool periodic_z, const std::vector<int>& spacing, double tilt,
+               const std::optional<std::vector<double>>& bounds, bool y_up, bool closed) {
   const std::size_t bounded = bounds ? bounds->size() / 2 : 0;
   const auto axis = [&](std::size_t i, std::int64_t pixels, bool periodic) {
     Axis made = i < bounded ? Axis(pixels, bounds->at(i), bounds->at(bounded + i)) : Axis(pixels);
     if (closed) made = made.closed();
+    made = made.spaced(spacing.at(i));
     return periodic ? made.periodic() : made;
   };
   const Axis y = axis(1, height, periodic_y);
@@ -81,15 +82,8 @@ void bind_devices(nb::module_& module) {
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),
-           nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("tilt"), nb::arg("bounds").none(),
-           nb::arg("y_up"), nb::arg("closed"))
-      .def_prop_ro("width", &Grid::width)
-      .def_prop_ro("height", &Grid::height)
-      .def_prop_ro("depth", &Grid::depth)
-      .def_prop_ro("periodic_x", [](const Grid& grid) { return grid.x().is_periodic(); })
-      .def_prop_ro("periodic_y", [](const Grid& grid) { return grid.y().is_periodic(); })
-      .def_prop_ro("periodic_z", [](const Grid& grid) { return grid.z().is_periodic(); })
-      .def_prop_ro("tilt", &Grid::tilt);
+           nb::arg("periodic_y"), nb::arg("periodic_z"), nb::arg("spacing"), nb::arg("tilt"),
+           nb::arg("bounds").none(), nb::arg("y_up"), nb::arg("closed"));
 
   nb::class_<Report>(module, "Report")
       .def_prop_ro("waves", &Report::waves)

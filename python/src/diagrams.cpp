@@ -11,16 +11,16 @@
 
 namespace vorocl::python {
 
-namespace {
-
-using Turn = std::lock_guard<std::mutex>;
-using Turns = std::scoped_lock<std::mutex, std::mutex>;
-
 Metric metric_of(const std::string& name) {
   if (name == "euclidean") return Metric::euclidean;
   if (name == "manhattan") return Metric::manhattan;
   throw Error("there is no metric \"" + name + "\"; there are euclidean, manhattan");
 }
+
+namespace {
+
+using Turn = std::lock_guard<std::mutex>;
+using Turns = std::scoped_lock<std::mutex, std::mutex>;
 
 MethodOptions options_with(const std::string& metric) {
   MethodOptions options;
@@ -270,8 +270,8 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
   const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
   const Seeds& named = seeds_of(diagram);
-  if (named.grid().is_volume() && snap == Snap::none)
-    throw Error("volumes know whole voxels alone: the truth is \"snapped\"");
+  if ((named.grid().is_volume() || named.grid().is_spaced()) && snap == Snap::none)
+    throw Error("volumes and spaced grids know whole voxels alone: the truth is \"snapped\"");
   const Seeds seeds(named.device(), named.grid(), named.read(), {Outside::count, snap});
   const Metric metric = diagram.diagram.metric();
   const Device& device = diagram.diagram.device();

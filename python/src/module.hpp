@@ -82,6 +82,9 @@ struct DiagramObject {
   Field<float> distances;
 };
 
+/// Throws Error for a name that is none of a metric.
+Metric metric_of(const std::string& name);
+
 void bind_errors(nb::module_& module);
 void bind_devices(nb::module_& module);
 void bind_seeds(nb::module_& module);

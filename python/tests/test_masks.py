@@ -358,3 +358,62 @@ NO_WAY = [
 def test_what_masks_cannot_be_is_refused(call, words):
     with pytest.raises(vorocl.BadArgument, match=words):
         call()
+
+
+# --- images larger than memory ---
+
+
+@pytest.mark.parametrize("dtype", ["?", "u1", "f4", ">i2"])
+@pytest.mark.parametrize("periodic", [(False, False), (True, False), (True, True)])
+def test_tiles_of_a_mask_are_parts_of_its_labels_and_distances(tmp_path, dtype, periodic):
+    shape, random = (130, 170), np.random.default_rng(5)
+    for share in 0, 0.0001, 0.01, 0.6, 1:
+        path = tmp_path / f"{share}.npy"
+        mask = np.lib.format.open_memmap(path, "w+", np.dtype(dtype), shape)
+        mask[...] = random.random(shape) < share
+        labels, distances = np.zeros(shape, "u4"), np.zeros(shape, "f4")
+        seeds = vorocl.mask_tiles(np.load(path, mmap_mode="r"), labels, distances, tile=48, periodic=periodic)
+        assert seeds == np.count_nonzero(mask)
+        np.testing.assert_array_equal(labels, vorocl.from_mask(mask, periodic=periodic))
+        if seeds == 0:
+            assert np.isinf(distances).all()
+        elif not any(periodic):
+            np.testing.assert_allclose(distances, ndimage.distance_transform_edt(mask == 0), rtol=3e-7)
+
+
+def test_tiles_of_a_mask_may_be_written_one_by_one():
+    mask, tiles = np.eye(100, dtype=bool), {}
+
+    class Store:
+        shape = mask.shape
+
+        def __setitem__(self, where, pixels):
+            tiles[where[0].start, where[1].start] = pixels.copy()
+
+    assert vorocl.mask_tiles(mask, Store(), tile=64, metric="manhattan") == 100
+    assert {where: pixels.shape for where, pixels in tiles.items()} == {
+        (0, 0): (64, 64), (0, 64): (64, 36), (64, 0): (36, 64), (64, 64): (36, 36)
+    }  # fmt: skip
+    labels = np.block([[tiles[0, 0], tiles[0, 64]], [tiles[64, 0], tiles[64, 64]]])
+    np.testing.assert_array_equal(labels, vorocl.from_mask(mask, metric="manhattan"))
+
+
+def test_what_tiles_of_a_mask_cannot_be_is_refused():
+    mask, labels = np.eye(5), np.zeros((5, 5), "u4")
+    with pytest.raises(vorocl.BadArgument, match="two dimensions"):
+        vorocl.mask_tiles(np.zeros((2, 3, 4)), labels)
+    with pytest.raises(vorocl.BadArgument, match="nothing to make"):
+        vorocl.mask_tiles(mask)
+    with pytest.raises(vorocl.BadArgument, match=r"labels must be an array of the mask's shape, \(5, 5\); this is \(4, 5\)"):
+        vorocl.mask_tiles(mask, labels[1:])
+    with pytest.raises(vorocl.BadArgument, match="tile must be"):
+        vorocl.mask_tiles(mask, labels, tile=0)
+
+    class Full:
+        shape = mask.shape
+
+        def __setitem__(self, where, pixels):
+            raise OSError("no space is left")
+
+    with pytest.raises(OSError, match="no space"):
+        vorocl.mask_tiles(mask, Full())

@@ -210,3 +210,36 @@ WRONG_CALLS = [
 def test_what_volumes_cannot_be_is_refused(call, words):
     with pytest.raises(vorocl.Error, match=words):
         call()
+
+
+@exact_alone
+@pytest.mark.parametrize("shape, spacing", [((14, 9, 12), (1, 2, 4)), ((31, 40), (3, 1))])
+@pytest.mark.parametrize("periodic", [False, True])
+def test_voxels_may_be_longer_along_an_axis(shape, spacing, periodic):
+    points = np.random.default_rng(3).uniform(0, shape[::-1], (25, len(shape)))
+    grid = vorocl.Grid(shape, spacing=spacing, periodic=(periodic,) * len(shape))
+    apart = abs(np.stack(np.indices(shape)[::-1], -1)[..., None, :] - np.floor(points))
+    apart = np.minimum(apart, np.array(shape[::-1]) - apart) if periodic else apart
+    squared = ((apart * spacing) ** 2).sum(-1)
+    labels = vorocl.diagram(points, grid)
+    np.testing.assert_array_equal(np.take_along_axis(squared, labels[..., None].astype(int), -1)[..., 0], squared.min(-1))
+    np.testing.assert_allclose(vorocl.distances(points, grid), np.sqrt(squared.min(-1)), rtol=1e-6)
+    assert vorocl.errors(labels, points, grid).wrong_pixels == 0
+
+    # The same in the data, whose units are a fifth of these.
+    bounds = (0.0,) * len(shape) + tuple(np.array(shape[::-1]) * spacing / 5)
+    in_data = vorocl.Grid(shape, bounds=bounds, spacing=spacing, periodic=grid.periodic)
+    there = points * spacing / 5
+    np.testing.assert_allclose(vorocl.distances(there, in_data), np.sqrt(squared.min(-1)) / 5, rtol=1e-6)
+    cells, whole = vorocl.cells(there, in_data), vorocl.cells(points, grid)
+    np.testing.assert_allclose(cells["largest_distance"], whole["largest_distance"] / 5, rtol=1e-6)
+    np.testing.assert_array_equal(cells["perimeter_px"], whole["perimeter"])
+    np.testing.assert_allclose(cells["area"], whole["area"] * np.prod(spacing) / 5.0 ** len(shape))
+    with pytest.raises(vorocl.BadArgument, match="lengths have no scale"):
+        vorocl.adjacency(there, in_data)
+
+
+@pytest.mark.parametrize("spacing", [(1, 1), (1, 1, 17), (1, 1, 0), (1, 1, 1.5), 2, "abc", (1, 1, None)])
+def test_spacing_is_whole_numbers(spacing):
+    with pytest.raises(vorocl.BadArgument, match="spacing must be 3 whole numbers from 1 to 16"):
+        vorocl.Grid((4, 5, 6), spacing=spacing)

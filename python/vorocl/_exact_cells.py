@@ -318,7 +318,7 @@ def exact_cells(
         )
     try:
         dimensions = 3 if len(bounds) == 6 else 2
-    except TypeError:
+    except (TypeError, ValueError):
         dimensions = 2
     with_polyhedra = to_flag(polyhedra, "polyhedra")
     if with_polyhedra and dimensions == 2:

@@ -39,12 +39,15 @@ from ._arguments import (
 )
 from ._device import Device, to_device
 from ._errors import BadArgument
-from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid
+from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid, to_periodic
 from ._objects import Diagram, Seeds
 from ._parameters import with_parameters
 
 NO_LABEL = 0xFFFFFFFF
 """The label of a pixel that has no nearest seed, because there are no seeds."""
+
+_PIXELS_AT_ONCE = 1 << 22
+"""Of rows that are read together."""
 
 _CONTINUING = {method.name for method in _vorocl.methods() if method.continues}
 
@@ -248,6 +251,83 @@ def from_mask(
     made._diagram.fill(seeds, method, metric, None)
     made.read(labels.reshape(made.shape))
     return labels
+
+
+@with_parameters
+def mask_tiles(
+    mask: Any,
+    labels: Any = None,
+    distances: Any = None,
+    *,
+    tile: int = 2048,
+    metric: Metric = "euclidean",
+    periodic: Periodic = (False, False),
+    device: Optional[Device] = None,
+) -> int:
+    """Give every pixel of an image that may be larger than memory its nearest non-zero pixel, tile by tile.
+
+    What `from_mask` and `distances` give of all of it. In memory there are a bit for each pixel, and a few tiles.
+
+    Parameters
+    ----------
+    mask : array_like
+        Shape (H, W), up to 2**31 - 1 pixels a side, of numbers or booleans; NaN is no data. Read once, by rows:
+        ``mask[y0:y1]`` may be of a ``numpy.memmap``, and of an array of Zarr, HDF5 or Dask.
+    labels, distances : array_like, optional
+        Where the numbers of the nearest pixels go (uint32) and how far they are (float32, in pixels; infinity where there
+        are none): ``labels[y0:y1, x0:x1] = ...`` is done for each tile. Without one of them it is not made.
+    tile : int, optional
+        The side of tiles in pixels, such as that of the chunks of `labels` or a multiple.
+    <metric, periodic, device>
+
+    Returns
+    -------
+    int
+        How many pixels are not zero.
+
+    Raises
+    ------
+    BadArgument, DeviceMemoryError, DeviceError
+        And what reading and writing the arrays raises.
+
+    Examples
+    --------
+    >>> import numpy, vorocl
+    >>> mask = numpy.zeros((3, 40000), bool)
+    >>> mask[1, 7] = mask[2, 39000] = True
+    >>> distances = numpy.empty(mask.shape, numpy.float32)
+    >>> vorocl.mask_tiles(mask, distances=distances)
+    2
+    >>> distances[1, :9].tolist()
+    [7.0, 6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0, 1.0]
+    """
+    mask = mask if hasattr(mask, "shape") else to_image(unmasked(mask), "mask")
+    shape = mask.shape
+    if len(shape) != 2:
+        raise BadArgument(f"mask must have two dimensions; this has the shape {shape}")
+    for name, target in ("labels", labels), ("distances", distances):
+        found = getattr(target, "shape", None)
+        if target is not None and found != shape:
+            raise BadArgument(f"{name} must be an array of the mask's shape, {shape}; this is {shown(found or target)}")
+    if labels is None and distances is None:
+        raise BadArgument("nothing to make: give labels, distances or both")
+    side = to_count(tile, "tile")
+    if not 1 <= side <= 32_768:
+        raise BadArgument(f"tile must be from 1 to 32,768; this is {side}")
+    made_by = to_device(device)._device
+    bits = _vorocl.PlaneMask(shape[1], shape[0], *to_periodic(periodic, 2))
+    rows = max(1, _PIXELS_AT_ONCE // shape[1])
+    for first in range(0, shape[0], rows):
+        block = to_pixels(to_image(unmasked(mask[first : first + rows]), "mask"), "mask")
+        bits.add_rows(((block != 0) & (block == block)).view(np.uint8))
+
+    def put(y: int, x: int, found: Any, away: Any) -> None:
+        for target, pixels in (labels, found), (distances, away):
+            if target is not None:
+                target[y : y + len(pixels), x : x + pixels.shape[1]] = pixels
+
+    _vorocl.mask_tiles(made_by, bits, side, to_text(metric, "metric"), distances is not None, put)
+    return bits.seeds
 
 
 @with_parameters
@@ -641,8 +721,7 @@ def errors(
         Integers, shape (H, W) or (D, H, W): rows of `points`.
     <points>
     grid : Grid, optional
-        That of the labels. Without it, the one of their shape, and `bounds`, `periodic`, `tilt` and `y_up` are keywords
-        here, too.
+        That of the labels. Without it, the one of their shape, and what else a `Grid` says are keywords here, too.
     <metric, outside, truth, device>
 
     Returns

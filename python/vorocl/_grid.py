@@ -33,7 +33,7 @@ class Grid:
 
     Parameters
     ----------
-    <shape, bounds, periodic, tilt, y_up>
+    <shape, bounds, periodic, tilt, y_up, spacing>
 
     Raises
     ------
@@ -48,6 +48,8 @@ class Grid:
     array([[0, 0, 0, 1, 1, 1, 0, 0]], dtype=uint32)
     >>> vorocl.areas([(-157.5, 0), (22.5, 0)], plane, units="pixels")
     array([5, 3], dtype=uint32)
+    >>> vorocl.distances([(0.5, 0.5, 0.5)], vorocl.Grid((3, 1, 2), spacing=(1, 1, 4)))[:, 0, 0].tolist()
+    [0.0, 4.0, 8.0]
     """
 
     shape: Shape
@@ -55,15 +57,17 @@ class Grid:
     periodic: Periodic = (False, False)
     tilt: float = 0.0
     y_up: bool = False
+    spacing: Optional[Sequence[int]] = None
 
     def __post_init__(self) -> None:
         shape = _to_shape(self.shape)
         checked = {
             "shape": shape,
             "bounds": _to_bounds(self.bounds, len(shape)),
-            "periodic": _to_periodic(self.periodic, len(shape)),
+            "periodic": to_periodic(self.periodic, len(shape)),
             "tilt": to_number(self.tilt, "tilt"),
             "y_up": to_flag(self.y_up, "y_up"),
+            "spacing": _to_spacing(self.spacing, len(shape)),
         }
         for name, value in checked.items():
             object.__setattr__(self, name, value)
@@ -72,11 +76,17 @@ class Grid:
     def _of(self, outside: Outside) -> _vorocl.Grid:
         """For points of which those outside are dealt with so.
 
-        Points at the bounds' far ends are inside, unless what is outside them counts all round: not in volumes, which
-        refuse it.
+        Points at the bounds' far ends are inside, unless what is outside them counts all round: not in volumes and spaced
+        planes, which refuse it.
         """
-        counts = to_outside(outside) == "count" and not any(self.periodic) and len(self.shape) == 2
+        is_plane = len(self.shape) == 2 and self.spacing is None
+        counts = to_outside(outside) == "count" and not any(self.periodic) and is_plane
         return _made(self, self.bounds is not None and not counts)
+
+    @property
+    def _units(self) -> Tuple[int, ...]:
+        """As how many units distances count a pixel, along each axis."""
+        return tuple(self.spacing or (1,) * len(self.shape))
 
     def _showing(self, bounds: Optional[Bounds], tilt: Optional[float]) -> Grid:
         """With other bounds or another tilt, where there are any."""
@@ -92,6 +102,7 @@ class Frame(TypedDict, total=False):
     periodic: Periodic
     tilt: float
     y_up: bool
+    spacing: Optional[Sequence[int]]
 
 
 def to_grid(grid: Union[Grid, Shape], frame: Frame) -> Grid:
@@ -110,7 +121,8 @@ def to_grid(grid: Union[Grid, Shape], frame: Frame) -> Grid:
 def _made(grid: Grid, closed: bool) -> _vorocl.Grid:
     depth, height, width = [1, *grid.shape][-3:]
     x, y, z = [*grid.periodic, False][:3]
-    return _vorocl.Grid(width, height, depth, x, y, z, grid.tilt, grid.bounds, grid.y_up, closed)
+    units = [*grid._units, 1][:3]
+    return _vorocl.Grid(width, height, depth, x, y, z, units, grid.tilt, grid.bounds, grid.y_up, closed)
 
 
 def _to_shape(shape: Shape) -> Shape:
@@ -129,7 +141,7 @@ def _to_shape(shape: Shape) -> Shape:
     return checked
 
 
-def _to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
+def to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
     try:
         axes = tuple(to_bool(axis) for axis in periodic)
     except (TypeError, ValueError):
@@ -140,6 +152,18 @@ def _to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
         wanted = {2: "two booleans (x, y)", 3: "three booleans (x, y, z) for a volume"}
         raise BadArgument(f"periodic must be {wanted[dimensions]}; this is {shown(periodic)}")
     return axes
+
+
+def _to_spacing(spacing: Optional[Sequence[int]], dimensions: int) -> Optional[Tuple[int, ...]]:
+    if spacing is None:
+        return None
+    try:
+        units = tuple(operator.index(unit) for unit in spacing)
+    except (TypeError, ValueError):
+        units = ()
+    if len(units) != dimensions or not all(1 <= unit <= 16 for unit in units):
+        raise BadArgument(f"spacing must be {dimensions} whole numbers from 1 to 16; this is {shown(spacing)}")
+    return units if max(units) > 1 else None
 
 
 def _to_bounds(bounds: Optional[Bounds], dimensions: int) -> Optional[Bounds]:

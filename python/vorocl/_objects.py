@@ -253,7 +253,7 @@ class Diagram(OnDevice):
         **frame: Unpack[Frame],
     ) -> None:
         made = to_grid(grid, frame)
-        self._shape = made.shape
+        self._shape, self._units = made.shape, made._units  # the latter of its seeds, when it has some
         self._device = to_device(device)
         self._are_in_data = False  # what the points of its seeds are in
         if labels is None:
@@ -309,7 +309,7 @@ class Diagram(OnDevice):
         report = self._diagram.fill(
             to_seeds(seeds), to_text(method, "method"), to_text(metric, "metric"), displacement
         )
-        self._are_in_data = seeds._are_in_data
+        self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
         return report
 
     def _fill_into(self, seeds: Seeds, method: str, metric: str, labels: NDArray[np.uint32]) -> None:
@@ -354,7 +354,7 @@ class Diagram(OnDevice):
             self._diagram.write(image)
         else:
             self._diagram.write_of(image, to_seeds(seeds), text)
-            self._are_in_data = seeds._are_in_data
+            self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
 
     @property
     def buffer(self) -> Buffer:
@@ -366,28 +366,33 @@ class Diagram(OnDevice):
 
         return cast(Buffer, pyopencl.Buffer.from_int_ptr(self._diagram.buffer, retain=True))
 
-    def _scale(self) -> Tuple[float, Optional[float]]:
-        """The area of a pixel in the units of the points, and the length of its side; none if it is no square."""
+    def _scale(self) -> Tuple[float, Optional[float], Optional[float]]:
+        """The area of a pixel in the units of the points, the length of a unit of distances, and that of a pixel's side.
+
+        Lengths are none where pixels are no squares, or voxels no cubes; that of a side is none where axes are spaced.
+        """
         sides = self._shape[::-1]
         corners = np.array([(0.0, 0.0, 0.0), (*sides, 1.0)[:3]])
         self._diagram.to_data(corners)
         extents = [float(extent) for extent in abs(corners[1] - corners[0])][: len(sides)]
-        area = math.prod(extents) / math.prod(sides)
+        area, units = math.prod(extents) / math.prod(sides), math.prod(self._units)
 
-        if len(sides) == 3:
-            lengths = [extent / side for extent, side in zip(extents, sides)]
-            return area, area ** (1 / 3) if max(lengths) <= 1.01 * min(lengths) else None
+        if len(sides) == 3 or units > 1:
+            lengths = [extent / (side * unit) for extent, side, unit in zip(extents, sides, self._units)]
+            length = (area / units) ** (1 / len(sides)) if max(lengths) <= 1.01 * min(lengths) else None
+            return area, length, length if units == 1 else None
         (width, height), (extent_x, extent_y) = sides, extents
         # To the nearest whole number of pixels.
         is_square = (
             abs(height - max(1.0, width * extent_y / extent_x)) <= 0.5
             or abs(width - max(1.0, height * extent_x / extent_y)) <= 0.5
         )
-        return area, math.sqrt(area) if is_square else None
+        length = math.sqrt(area) if is_square else None
+        return area, length, length
 
-    def _length(self) -> float:
-        """The length of a pixel's side in the units of the points."""
-        length = self._scale()[1]
+    def _length(self, of_sides: bool = False) -> float:
+        """The length of a unit of distances, or of a pixel's side, in the units of the points."""
+        length = self._scale()[2 if of_sides else 1]
         if length is None:
             raise BadArgument(
                 'pixels are no squares in the units of the bounds, so lengths have no scale: give units="pixels", or a '
@@ -482,12 +487,13 @@ class Diagram(OnDevice):
 
     def _in_data(self, cells: NDArray[Any]) -> NDArray[Any]:
         """Rows of cells in pixels, in the units of the points."""
-        area, length = self._scale()
-        units = {"area": area, "perimeter": (length or 1) ** (len(self._shape) - 1), "largest_distance": length or 1}
+        area, length, side = self._scale()
+        units = {"area": area, "perimeter": (side or 1) ** (len(self._shape) - 1), "largest_distance": length or 1}
+        in_pixels = {"perimeter": side is None, "largest_distance": length is None}
         kept = ("neighbours", "touches_border")
 
         def name_of(field: str) -> str:
-            return field + "_px" if field in ("perimeter", "largest_distance") and length is None else field
+            return field + "_px" if in_pixels.get(field) else field
 
         types = [(name_of(field), CELL[field] if field in kept else np.float64) for field in self._fields()]
         result = np.empty(len(cells), np.dtype(types, align=True))
@@ -568,7 +574,7 @@ class Diagram(OnDevice):
         >>> pairs.tolist(), lengths.tolist()
         ([[0, 1], [1, 2]], [2, 2])
         """
-        length = self._length() if to_units(units, self._are_in_data) else None
+        length = self._length(of_sides=True) if to_units(units, self._are_in_data) else None
         rows = self._diagram.adjacency()
         return rows[:, :2], rows[:, 2] if length is None else rows[:, 2] * length ** (len(self._shape) - 1)
 

@@ -21,8 +21,8 @@ truth : {"snapped", "true"}, optional
     rounded to 1/4096 of a pixel.""",
     "grid": """\
 grid : Grid or (int, int) or (int, int, int)
-    A `Grid`; or its shape (H, W), of a volume (D, H, W). Then `bounds`, `periodic`, `tilt` and `y_up` are
-    keywords here, too.""",
+    A `Grid`; or its shape (H, W), of a volume (D, H, W). Then `bounds`, `periodic`, `tilt`, `y_up` and
+    `spacing` are keywords here, too.""",
     "shape": """\
 shape : (int, int) or (int, int, int)
     (H, W) in pixels: sides from 1 to 32,768, and at most 2**30 pixels. Along a periodic axis methods that flood take up
@@ -58,6 +58,11 @@ outside : {"count", "absent", "refuse"}, optional
     "y_up": """\
 y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then.""",
+    "spacing": """\
+spacing : sequence of int, optional
+    As how many units distances count a pixel along x and y, in a volume a voxel along x, y and z: from 1 to 16, such as
+    (1, 1, 4) for slices that lie four pixels apart. Distances in pixels are in these units then. Exact diagrams move
+    points to the centres of their pixels, and refuse points outside.""",
     "units": """\
 units : {"data", "pixels"}, optional
     What results are in: the units of the points, or pixels, x to the right and y down. Without it, the units of the

@@ -8,6 +8,7 @@
 #include "runtime/process.hpp"
 #include "tiles/plane_cells.hpp"
 #include "vorocl/exact_diagram.hpp"
+#include "vorocl/fields.hpp"
 #include "vorocl/tiles.hpp"
 
 namespace vorocl {
@@ -31,29 +32,32 @@ struct TileMaker {
   Diagram diagram;
 };
 
-/// Labels on the device that the host may read, while the object lives.
-class MappedLabels {
+/// Pixels of a tile on the device that the host may read, while the object lives.
+template <typename T>
+class Mapped {
  public:
-  /// Enqueues that they are mapped.
-  MappedLabels(const Device& device, const cl::Buffer& buffer, std::size_t count)
+  /// Enqueues that they are mapped. Of a null buffer there are none.
+  Mapped(const Device& device, const cl::Buffer& buffer, std::size_t count)
       : queue_(device.queue()), buffer_(buffer) {
+    if (buffer() == nullptr) return;
     cl_int status = CL_SUCCESS;
-    labels_ = clEnqueueMapBuffer(queue_(), buffer(), CL_FALSE, CL_MAP_READ, 0, count * sizeof(cl_uint), 0,
-                                 nullptr, &mapped_(), &status);
-    check(status, "mapping the labels of a tile");
+    pixels_ = clEnqueueMapBuffer(queue_(), buffer(), CL_FALSE, CL_MAP_READ, 0, count * sizeof(T), 0, nullptr,
+                                 &mapped_(), &status);
+    check(status, "mapping the pixels of a tile");
   }
-  ~MappedLabels() {
+  ~Mapped() {
     // If this fails, so does the next command that uses the buffer, which says so.
-    if (process_number() == process_)
-      clEnqueueUnmapMemObject(queue_(), buffer_(), labels_, 0, nullptr, nullptr);
+    if (pixels_ != nullptr && process_number() == process_)
+      clEnqueueUnmapMemObject(queue_(), buffer_(), pixels_, 0, nullptr, nullptr);
   }
-  MappedLabels(const MappedLabels&) = delete;
-  MappedLabels& operator=(const MappedLabels&) = delete;
+  Mapped(const Mapped&) = delete;
+  Mapped& operator=(const Mapped&) = delete;
 
   /// Waits for them.
-  const std::uint32_t* wait() const {
-    check(clWaitForEvents(1, &mapped_()), "waiting for the labels of a tile");
-    return static_cast<const std::uint32_t*>(labels_);
+  const T* wait() const {
+    if (pixels_ == nullptr) return nullptr;
+    check(clWaitForEvents(1, &mapped_()), "waiting for the pixels of a tile");
+    return static_cast<const T*>(pixels_);
   }
 
  private:
@@ -61,18 +65,18 @@ class MappedLabels {
   cl::Buffer buffer_;
   std::int64_t process_ = process_number();  // a forked child leaves them mapped
   cl::Event mapped_;
-  void* labels_ = nullptr;
+  void* pixels_ = nullptr;
 };
 
-/// A tile whose labels are enqueued, and whose cells, if they are asked for, are measured.
+/// A tile whose labels are enqueued, and what else is asked for.
 struct MadeTile {
   std::uint64_t number;
   Window tile;
-  cl::Buffer labels;
+  cl::Buffer labels, distances;
   TileMeasures measures;
 };
 
-/// Makes one tile after the other. Their labels go to two buffers in turn.
+/// Makes one tile after the other. What they have goes to two buffers in turn.
 class TileEngine {
  public:
   TileEngine(const Device& device, const SeedSource& seeds, const Tiling& tiling, const TileOptions& options)
@@ -93,12 +97,18 @@ class TileEngine {
     place(maker->seeds);
     upload_ids();
     exact_diagram(maker->seeds, maker->diagram, {options_.metric});
-    MadeTile made = {number, tile, name_labels(maker->diagram), {}};
+    MadeTile made = {number, tile, name_labels(maker->diagram), {}, {}};
+    if (options_.distances) {
+      Field<float>& field = distances_[next_];
+      distance_field(maker->diagram, field);
+      made.distances = field.values();
+    }
     if (options_.cells) made.measures = measure(*maker);
+    next_ = 1 - next_;
     return made;
   }
 
-  MappedLabels map(const MadeTile& made) const { return {device_, made.labels, made.tile.pixels()}; }
+  const Device& device() const { return device_; }
 
   void add_measures(const MadeTile& made, const std::uint32_t* labels) const {
     if (options_.cells) {
@@ -130,7 +140,6 @@ class TileEngine {
 
   cl::Buffer name_labels(const Diagram& diagram) {
     cl::Buffer& named = named_[next_];
-    next_ = 1 - next_;
     if (named() == nullptr) named = allocate_mappable(device_, largest_bytes(), "the labels of a tile");
     const PixelGrid& grid = Internal::state(diagram).grid;
     kernels_.get(device_, "core/tiles.cl", "name_labels", grid)
@@ -157,6 +166,7 @@ class TileEngine {
   Upload<cl_uint> upload_;
   cl::Buffer labels_;  // as the engine makes them
   cl::Buffer named_[2];
+  Field<float> distances_[2];
   int next_ = 0;
   CellSumsResult sums_;
   CellShapesResult shapes_;
@@ -181,20 +191,24 @@ void exact_tiles(const Device& device, const SeedSource& seeds, const Tiling& ti
                  const std::function<void(const TileLabels&)>& use, const TileOptions& options) {
   TileEngine engine(device, seeds, tiling, options);
   struct Waiting {
-    Waiting(MadeTile&& tile, const TileEngine& made_by) : made(std::move(tile)), labels(made_by.map(made)) {}
+    Waiting(MadeTile&& tile, const Device& by)
+        : made(std::move(tile)),
+          labels(by, made.labels, made.tile.pixels()),
+          distances(by, made.distances, made.tile.pixels()) {}
 
     MadeTile made;
-    MappedLabels labels;
+    Mapped<std::uint32_t> labels;
+    Mapped<float> distances;
   };
   std::unique_ptr<Waiting> waiting;
   const auto hand_over = [&] {
     if (!waiting) return;
     const std::uint32_t* const labels = waiting->labels.wait();
     engine.add_measures(waiting->made, labels);
-    use({waiting->made.number, waiting->made.tile, labels});
+    use({waiting->made.number, waiting->made.tile, labels, waiting->distances.wait()});
   };
   while (const std::optional<std::uint64_t> number = next()) {
-    auto made = std::make_unique<Waiting>(engine.enqueue(*number), engine);
+    auto made = std::make_unique<Waiting>(engine.enqueue(*number), engine.device());
     check(clFlush(device.queue()()), "starting the commands of a tile");
     hand_over();
     waiting = std::move(made);

@@ -2,6 +2,7 @@
 #define BOOST_TEST_MODULE plane_mask
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <random>
 
 #include "brute_force.hpp"
@@ -76,6 +77,43 @@ BOOST_AUTO_TEST_CASE(labels_are_those_of_the_nearest_pixels) {
           count_differences(labels_of(mask, tiling, {metric}), vorocl::brute_force(window, seeds, metric));
       BOOST_TEST(wrong == 0u, "mask " << i << ", " << name_of(metric) << ", tiles of " << tiling.side());
     }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(distances_are_to_the_nearest_pixels) {
+  std::mt19937 rng(7);
+  for (int i = 0; i < 40; ++i) {
+    const Grid grid(60 + i % 3, 50 - i % 5, i % 2 == 0 ? Axes::none : Axes::xy);
+    const Metric metric = both_metrics[i % 3 == 0 ? 1 : 0];
+    const Bytes pixels = some_mask(grid, rng);
+    const std::vector<Pixel> seeds = seeds_of(grid, pixels);
+    std::size_t wrong = 0, seen = 0;
+    const auto use = [&](const TileLabels& tile) {
+      for (std::int64_t at = 0; at < tile.tile.width() * tile.tile.height(); ++at, ++seen) {
+        const std::int64_t x = tile.tile.x() + at % tile.tile.width(),
+                           y = tile.tile.y() + at / tile.tile.width();
+        double least = std::numeric_limits<double>::infinity();
+        for (const Pixel& seed : seeds) {
+          std::int64_t dx = std::abs(seed.x - x), dy = std::abs(seed.y - y);
+          if (i % 2 != 0) {
+            dx = std::min(dx, grid.width() - dx);
+            dy = std::min(dy, grid.height() - dy);
+          }
+          const double away = metric == Metric::manhattan
+                                  ? static_cast<double>(dx + dy)
+                                  : std::hypot(static_cast<double>(dx), static_cast<double>(dy));
+          least = std::min(least, away);
+        }
+        const auto found = static_cast<double>(tile.distances[at]);
+        wrong += found != least && !(std::abs(found - least) <= 4e-7 * least);
+      }
+    };
+    TileOptions options;
+    options.metric = metric;
+    options.distances = true;
+    exact_tiles(test_device(), mask_of(grid, pixels), Tiling(grid, 17 + i), use, options);
+    BOOST_TEST(wrong == 0u, "mask " << i << ": " << wrong);
+    BOOST_TEST(seen == pixels.size());
   }
 }
 

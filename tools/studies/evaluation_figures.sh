@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes the figures, tables and .csv files of docs/evaluation.md anew, in about 10 minutes on two cores that have
+# Makes the figures, tables and .csv files of docs/evaluation.md anew, in some 20 minutes on two cores that have
 # nothing else to do: evaluation_figures.sh [VOROCL [PART]...]. The parts are pictures, lengths, evaluation, large,
 # similarities, plans, resolution, ablation and tables; without any, all of them.
 set -euo pipefail
