@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLUnstructuredGridReader
 
 WIDTH, HEIGHT = 61, 47
 
@@ -59,6 +59,30 @@ def check_volume(command, folder):
         check(numpy.array_equal(values, numpy.load(folder / f"volume_{kind}.npy")), f"the volumes of {kind} differ")
 
 
+def check_polyhedra(command, folder):
+    """VTK finds polyhedra whose faces enclose the volumes that their array has."""
+    path = folder / "cells.vtu"
+    numpy.save(folder / "p.npy", numpy.random.default_rng(5).uniform(0, 3, (200, 3)))
+    subprocess.run([command, "cells", "--exact", f"--points={folder}/p.npy", "--periodic", "xyz", f"--polygons={path}",
+                    "--bounds", "0,0,0,3,3,3"], check=True, stdout=subprocess.DEVNULL)
+    reader = vtkXMLUnstructuredGridReader()
+    check(reader.CanReadFile(str(path)), f"{path} is no file that VTK can read")
+    reader.SetFileName(str(path))
+    reader.Update()
+    cells = reader.GetOutput()
+    volumes, neighbours = (vtk_to_numpy(cells.GetCellData().GetArray(name)) for name in ("volume", "neighbours"))
+    check(len(volumes) == 200 and abs(volumes.sum() - 27) < 1e-11, "the polyhedra do not fill the box")
+    for i in range(200):
+        cell = cells.GetCell(i)
+        check(cell.GetCellType() == 42 and cell.GetNumberOfFaces() == neighbours[i], f"polyhedron {i} has other faces")
+        enclosed = 0
+        for face in range(cell.GetNumberOfFaces()):
+            corners = vtk_to_numpy(cell.GetFace(face).GetPoints().GetData())
+            for j in range(1, len(corners) - 1):
+                enclosed += numpy.linalg.det(corners[[0, j, j + 1]]) / 6
+        check(abs(enclosed - volumes[i]) < 1e-12, f"polyhedron {i} has another volume")
+
+
 def main():
     command = sys.argv[1]
     seeds = ["--random", "40", "--size", f"{WIDTH}x{HEIGHT}"]
@@ -81,6 +105,7 @@ def main():
             path = folder / entry.get("file")
             check_same(path, path.with_suffix(".npy"), "label")
         check_volume(command, folder)
+        check_polyhedra(command, folder)
 
 
 main()

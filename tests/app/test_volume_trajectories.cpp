@@ -599,7 +599,9 @@ BOOST_AUTO_TEST_CASE(planes_tell_that_they_leave_out_z) {
   const TemporaryFolder folder;
   folder.file("p.csv", "x,Y,Z\n1,2,3\n4,5,6\n");
   const std::string render = "render --points p.csv --size 8x8 ";
-  const std::string note = "vorocl: note: p.csv: z is left out; volumes have it, with --size WxHxD\n";
+  const std::string note =
+      "vorocl: note: p.csv: z is left out; volumes have it, with --size WxHxD, or with --exact --columns "
+      "X,Y,Z\n";
   BOOST_TEST(run(folder, render + "--labels a.npy").error == note);
   BOOST_TEST(run(folder, "cells --exact --points p.csv --cells c.csv").error == note);
   succeeds(folder, render + "--labels a.npy --columns x,Y");  // which says it
@@ -638,8 +640,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
   const std::string simulate = "simulate --trajectory a.lammpstrj --size 8x8x8 --labels %d.npy ";
-  for (const std::string option : {"--no-snap --compare-with exact", "--tolerance 1 --compare-with exact",
-                                   "--cell-columns id --cells c.csv", "--snap"}) {
+  for (const std::string option :
+       {"--no-snap --compare-with exact", "--tolerance 1 --compare-with exact", "--snap"}) {
     refuses(folder, simulate + option, usage, {option.substr(0, option.find(' ')) + " is for planes"});
   }
   for (const std::string option : {"--method djfa", "--compare-with djfa"}) {

@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
   refuses(folder, "cells --random 3 --size 8x8x8", usage,
           {"nothing to write", "--cells, --adjacency, --distance, --labels"});
-  for (const std::string other : {"--exact", "--border b.npy", "--cell-columns id", "--snap"}) {
+  for (const std::string other : {"--border b.npy", "--snap"}) {
     refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
             {other.substr(0, other.find(' ')) + " is for planes"});
   }
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, bench + "jfa --no-snap", usage, {"--no-snap is for planes"});
   folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));
   refuses(folder, "render --points points.npy --size 8x8 --labels a.npy", failure,
-          {"(1, 3)", "those of a volume, which --size WxHxD asks for, (N, 3)"});
+          {"(1, 3)", "those of a volume, which --size WxHxD or --exact asks for, (N, 3)"});
   // One sentence, whatever makes planes alone.
   const std::string makers =
       "WxHxD asks for a volume, which vorocl render, cells, simulate, compare and bench make";

@@ -312,7 +312,9 @@ bool CsvReader::begin() {
   };
   at.id = named("id");
   const auto z = options_.columns || has_z_ ? std::nullopt : named("z");
-  if (z && z != at.value) notes_.push_back(path_ + ": z is left out; volumes have it, with --size WxHxD");
+  if (z && z != at.value)
+    notes_.push_back(path_ + ": z is left out; volumes have it, with --size WxHxD, or " +
+                     "with --exact --columns X,Y,Z");
   if (options_.keep == CsvFields{"all"}) {
     options_.keep.clear();
     for (std::size_t i = 0; i < fields_.size() && first.is_header; ++i) {

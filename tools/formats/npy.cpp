@@ -182,7 +182,7 @@ NpyPoints::NpyPoints(const std::string& path, std::uint64_t most, bool has_z)
   const std::vector<std::size_t>& shape = array_->header().shape;
   if (shape.size() != 2 || shape[1] != dimensions_) {
     throw Error(path + " has the shape " + to_string(shape) + "; points of a plane need (N, 2), and " +
-                "those of a volume, which --size WxHxD asks for, (N, 3)");
+                "those of a volume, which --size WxHxD or --exact asks for, (N, 3)");
   }
   size_ = shape[0];
   if (size_ == 0) throw Error(path + " holds no points");
@@ -204,6 +204,12 @@ std::vector<Point> NpyPoints::read(std::uint64_t first, std::size_t count) {
     points.push_back({at[0], at[1], dimensions_ == 3 ? at[2] : 0});
   }
   return points;
+}
+
+bool holds_points_of_volume(const std::string& path) {
+  const NpyArray array(path);
+  const std::vector<std::size_t>& shape = array.header().shape;
+  return shape.size() == 2 && shape[1] == 3;
 }
 
 std::vector<Point> read_npy_points(const std::string& path, bool has_z) {

@@ -34,6 +34,9 @@ class NpyPoints {
   std::uint64_t size_ = 0;
 };
 
+/// Whether the file holds an array of shape (N, 3). Throws Error if it is no .npy file.
+bool holds_points_of_volume(const std::string& path);
+
 /// All points of such a file, at most 2^30.
 std::vector<Point> read_npy_points(const std::string& path, bool has_z = false);
 

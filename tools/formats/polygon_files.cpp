@@ -139,7 +139,7 @@ void write_wkt(GrowingFile& file, const std::vector<PolygonCell>& cells, const C
   }
 }
 
-/// The arrays of a .vtp file, raw at its end, each behind its size in bytes.
+/// The arrays of a .vtp or .vtu file, raw at its end, each behind its size in bytes.
 class VtkArrays {
  public:
   /// The text of an element that names an array.
@@ -154,7 +154,55 @@ class VtkArrays {
     return element;
   }
 
-  const std::vector<char>& bytes() const { return bytes_; }
+  /// What VTK has of all cells: their ids, areas or volumes, neighbours, and columns of numbers. Those that
+  /// `is_there` says, for it has no empty ones.
+  template <typename IsThere>
+  std::string add_cells(const std::vector<PolygonCell>& cells, const char* measure, const CsvFields& kept,
+                        IsThere is_there) {
+    std::vector<double> areas;
+    std::vector<std::uint32_t> ids, neighbours;
+    for (const PolygonCell& cell : cells) {
+      if (!is_there(cell)) continue;
+      ids.push_back(cell.id);
+      areas.push_back(cell.area);
+      neighbours.push_back(cell.neighbours);
+    }
+    std::string elements =
+        add("UInt32", "id", ids) + add("Float64", measure, areas) + add("UInt32", "neighbours", neighbours);
+    const CsvFields names = other_names(kept, own_columns());
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      std::vector<double> numbers;
+      for (const PolygonCell& cell : cells) {
+        if (!is_there(cell)) continue;
+        const std::string& field = cell.kept[i];
+        const std::optional<double> number = field.empty() ? NAN : parse_number<double>(field);
+        if (!number) break;
+        numbers.push_back(*number);
+      }
+      if (numbers.size() == ids.size()) elements += add("Float64", escaped(names[i]).c_str(), numbers);
+    }
+    return elements;
+  }
+
+  /// The file, of such a kind, with a piece of such sizes and elements.
+  void write(GrowingFile& file, const char* kind, const std::string& sizes,
+             const std::string& elements) const {
+    const std::uint16_t one = 1;
+    const bool is_little = *reinterpret_cast<const unsigned char*>(&one) == 1;
+    file << fmt::format(
+        R"(<?xml version="1.0"?>
+<VTKFile type="{0}" version="1.0" byte_order="{1}" header_type="UInt64">
+  <{0}>
+    <Piece {2}>
+      {3}
+    </Piece>
+  </{0}>
+  <AppendedData encoding="raw">
+    _)",
+        kind, is_little ? "LittleEndian" : "BigEndian", sizes, elements);
+    file.write(bytes_.data(), bytes_.size());
+    file << "\n  </AppendedData>\n</VTKFile>\n";
+  }
 
  private:
   void append(const void* first, std::size_t count) {
@@ -166,61 +214,37 @@ class VtkArrays {
 };
 
 void write_vtp(GrowingFile& file, const std::vector<PolygonCell>& cells, const CsvFields& kept) {
-  std::vector<double> points, areas;
+  std::vector<double> points;
   std::vector<std::int64_t> corners, ends;
-  std::vector<std::uint32_t> ids, neighbours;
   for (const PolygonCell& cell : cells) {
-    if (cell.polygon.empty()) continue;  // VTK has no empty polygons
+    if (cell.polygon.empty()) continue;
     for (const Point& vertex : cell.polygon) {
       corners.push_back(static_cast<std::int64_t>(corners.size()));
       points.insert(points.end(), {vertex.x, vertex.y, 0});
     }
     ends.push_back(static_cast<std::int64_t>(corners.size()));
-    ids.push_back(cell.id);
-    areas.push_back(cell.area);
-    neighbours.push_back(cell.neighbours);
   }
   VtkArrays arrays;
-  const std::uint16_t one = 1;
-  const bool is_little = *reinterpret_cast<const unsigned char*>(&one) == 1;
-  std::string cell_data = arrays.add("UInt32", "id", ids) + arrays.add("Float64", "area", areas) +
-                          arrays.add("UInt32", "neighbours", neighbours);
-  const CsvFields names = other_names(kept, own_columns());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    std::vector<double> numbers;
-    for (const PolygonCell& cell : cells) {
-      if (cell.polygon.empty()) continue;
-      const std::string& field = cell.kept[i];
-      const std::optional<double> number = field.empty() ? NAN : parse_number<double>(field);
-      if (!number) break;
-      numbers.push_back(*number);
-    }
-    if (numbers.size() == ids.size()) cell_data += arrays.add("Float64", escaped(names[i]).c_str(), numbers);
-  }
+  const std::string cell_data =
+      arrays.add_cells(cells, "area", kept, [](const PolygonCell& cell) { return !cell.polygon.empty(); });
   const std::string point_data = arrays.add("Float64", "points", points, 3);
   const std::string polygons =
       arrays.add("Int64", "connectivity", corners) + arrays.add("Int64", "offsets", ends);
-  file << fmt::format(
-      R"(<?xml version="1.0"?>
-<VTKFile type="PolyData" version="1.0" byte_order="{}" header_type="UInt64">
-  <PolyData>
-    <Piece NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{}">
-      <CellData Scalars="area">{}</CellData>
+  arrays.write(
+      file, "PolyData",
+      fmt::format(
+          R"(NumberOfPoints="{}" NumberOfVerts="0" NumberOfLines="0" NumberOfStrips="0" NumberOfPolys="{}")",
+          corners.size(), ends.size()),
+      fmt::format(R"(<CellData Scalars="area">{}</CellData>
       <Points>{}</Points>
-      <Polys>{}</Polys>
-    </Piece>
-  </PolyData>
-  <AppendedData encoding="raw">
-    _)",
-      is_little ? "LittleEndian" : "BigEndian", corners.size(), ends.size(), cell_data, point_data, polygons);
-  file.write(arrays.bytes().data(), arrays.bytes().size());
-  file << "\n  </AppendedData>\n</VTKFile>\n";
+      <Polys>{}</Polys>)",
+                  cell_data, point_data, polygons));
 }
 
 }  // namespace
 
 const std::vector<std::string>& polygon_extensions() {
-  static const std::vector<std::string> all = {".geojson", ".json", ".csv", ".vtp"};
+  static const std::vector<std::string> all = {".geojson", ".json", ".csv", ".vtp", polyhedra_extension};
   return all;
 }
 
@@ -236,6 +260,48 @@ void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cell
   } else {
     write_geojson(growing, cells, options);
   }
+  growing.finish();
+}
+
+void write_polyhedra(const OutputFile& file, const std::vector<PolygonCell>& cells,
+                     const std::vector<std::size_t>& numbers, const ExactPolyhedra& polyhedra,
+                     const CsvFields& kept) {
+  constexpr std::uint8_t type_of_polyhedra = 42;
+  std::vector<double> points;
+  std::vector<std::int64_t> corners, ends, faces, face_ends;
+  for (const std::size_t number : numbers) {
+    const auto& [offsets, neighbours, areas, corner_offsets, all_corners, vertex_offsets, vertices] =
+        polyhedra;
+    if (offsets[number] == offsets[number + 1]) continue;
+    const std::size_t first = corners.size(), begin = vertex_offsets[number];
+    for (std::size_t i = begin; i < vertex_offsets[number + 1]; ++i) {
+      corners.push_back(static_cast<std::int64_t>(corners.size()));
+      points.insert(points.end(), {vertices[i].x, vertices[i].y, vertices[i].z});
+    }
+    ends.push_back(static_cast<std::int64_t>(corners.size()));
+    faces.push_back(offsets[number + 1] - offsets[number]);
+    for (std::size_t face = offsets[number]; face < offsets[number + 1]; ++face) {
+      faces.push_back(static_cast<std::int64_t>(corner_offsets[face + 1] - corner_offsets[face]));
+      for (std::size_t i = corner_offsets[face]; i < corner_offsets[face + 1]; ++i)
+        faces.push_back(static_cast<std::int64_t>(all_corners[i] - begin + first));
+    }
+    face_ends.push_back(static_cast<std::int64_t>(faces.size()));
+  }
+  VtkArrays arrays;
+  const std::string cell_data =
+      arrays.add_cells(cells, "volume", kept, [](const PolygonCell& cell) { return cell.area > 0; });
+  const std::string point_data = arrays.add("Float64", "points", points, 3);
+  const std::string topology =
+      arrays.add("Int64", "connectivity", corners) + arrays.add("Int64", "offsets", ends) +
+      arrays.add("UInt8", "types", std::vector<std::uint8_t>(ends.size(), type_of_polyhedra)) +
+      arrays.add("Int64", "faces", faces) + arrays.add("Int64", "faceoffsets", face_ends);
+  GrowingFile growing(file);
+  arrays.write(growing, "UnstructuredGrid",
+               fmt::format(R"(NumberOfPoints="{}" NumberOfCells="{}")", corners.size(), ends.size()),
+               fmt::format(R"(<CellData Scalars="volume">{}</CellData>
+      <Points>{}</Points>
+      <Cells>{}</Cells>)",
+                           cell_data, point_data, topology));
   growing.finish();
 }
 

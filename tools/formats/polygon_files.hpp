@@ -1,5 +1,5 @@
 // Files of cells as polygons, by the extension of their name: GeoJSON (.geojson, .json), WKT in a table
-// (.csv), and .vtp, which ParaView opens. They are only written.
+// (.csv), and .vtp, which ParaView opens; and of cells as polyhedra, .vtu. They are only written.
 #pragma once
 
 #include <cstdint>
@@ -9,6 +9,7 @@
 #include "formats/csv.hpp"
 #include "formats/output_file.hpp"
 #include "formats/raster.hpp"
+#include "vorocl/exact_cells.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -24,7 +25,9 @@ struct PolygonCell {
   CsvFields kept = {};  ///< of columns of the input
 };
 
+/// All, with that of polyhedra.
 const std::vector<std::string>& polygon_extensions();
+constexpr const char* polyhedra_extension = ".vtu";
 
 /// What a file of polygons says besides these.
 struct PolygonFileOptions {
@@ -39,5 +42,11 @@ struct PolygonFileOptions {
 /// the same. Throws Error if the name ends in no such extension, or the file cannot be written.
 void write_polygons(const OutputFile& file, const std::vector<PolygonCell>& cells,
                     const PolygonFileOptions& options = {});
+
+/// Cells of a volume, each with its number in the polyhedra, as .vtu with their volumes and the columns of
+/// the input that hold numbers alone. Throws Error if the file cannot be written.
+void write_polyhedra(const OutputFile& file, const std::vector<PolygonCell>& cells,
+                     const std::vector<std::size_t>& numbers, const ExactPolyhedra& polyhedra,
+                     const CsvFields& kept);
 
 }  // namespace vorocl::command

@@ -26,12 +26,12 @@ struct CellsFiles {
   FileRequest border = {border_kind(), ""};
   FileRequest labels = {labels_kind(), ""};
 
-  std::vector<FileRequest> all() const { return {cells, adjacency, distance, border, labels}; }
-
-  /// The same files of a volume, which has no borders.
-  std::vector<FileRequest> of_volume() const {
-    return {command::of_volume(cells), command::of_volume(adjacency), command::of_volume(distance),
-            command::of_volume(labels)};
+  /// Of a plane, or of a volume, which has no borders.
+  std::vector<FileRequest> of(bool is_volume) const {
+    std::vector<FileRequest> files = {cells, adjacency, distance, border, labels};
+    if (is_volume) files.erase(files.end() - 2);
+    for (FileRequest& file : files) file = of_grid(file, is_volume);
+    return files;
   }
 };
 
@@ -46,7 +46,7 @@ struct CellsOptions {
   std::string polygons;
 
   bool is_volume() const { return seeds.depth > 1; }
-  std::vector<FileRequest> requests() const { return is_volume() ? files.of_volume() : files.all(); }
+  std::vector<FileRequest> requests() const { return files.of(is_volume()); }
 };
 
 struct Output {
@@ -117,7 +117,7 @@ void run_exact(const Command& command, const CellsOptions& options) {
   }
   const CellsFiles& files = options.files;
   run_exact_cells({options.seeds, options.device, files.cells.path, files.adjacency.path, options.polygons,
-                   files.cells.kind.table()->columns, options.json});
+                   files.cells.columns, options.json});
 }
 
 void run(const CellsOptions& options) {
@@ -161,24 +161,22 @@ void add_cells(CommandLine& line) {
   add_json_option(command, options->json);
   const Option exact = command.add(
       "--exact", options->exact,
-      "Cut the cells as polygons, at the seeds' own places and without pixels: for --cells, --adjacency and "
-      "--polygons, in the units of the data");
+      "Cut the cells as polygons, of points and particles with z as polyhedra, at the seeds' own places and "
+      "without pixels: for --cells, --adjacency and --polygons, in the units of the data");
   command
       .add("--polygons", options->polygons,
-           "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView)")
+           "The polygons of --exact: .geojson, .csv (with a column of WKT) or .vtp (ParaView); polyhedra: "
+           ".vtu")
       .value_name("FILE")
       .needs(exact);
   command.set_work([command, options] {
     check_crs(options->seeds.crs, options->exact ? std::vector<std::string>{options->polygons}
                                                  : std::vector<std::string>{options->files.labels.path,
                                                                             options->files.distance.path});
+    if (options->exact) return run_exact(command, *options);
     if (options->is_volume()) {
-      for (const char* const name : {"--exact", "--border", "--cell-columns"}) {
-        if (command.has(name)) refuse_in_volumes(name);
-      }
+      if (command.has("--border")) refuse_in_volumes("--border");
       check_volume_method(options->method, options->method_options.metric);
-    } else if (options->exact) {
-      return run_exact(command, *options);
     }
     check_method_options(command, {options->method}, options->method_options);
     if (options->is_volume()) return run(*options);

@@ -29,18 +29,27 @@ std::vector<RequestedFile> requested_files(const ExactCellsOptions& options) {
 
 void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCellRows& rows,
                   const ExactCellsCheck& check, const Report& report) {
-  const Axis &x = seeds.grid().x(), &y = seeds.grid().y();
+  const Grid& grid = seeds.grid();
+  const bool is_volume = grid.is_volume();
+  std::vector<double> corners;
+  for (const bool is_end : {false, true}) {
+    const auto add = [&](const Axis& axis) { corners.push_back(is_end ? axis.to() : axis.from()); };
+    add(grid.x());
+    add(grid.y());
+    if (is_volume) add(grid.z());
+  }
+  const std::string measure = is_volume ? "volume" : "area";
   if (options.json) {
     print_json(Json{{"exact", true},
                     {"device", seeds.device().name()},
-                    {"rectangle", {x.from(), y.from(), x.to(), y.to()}},
-                    {"periodic", to_string(seeds.grid().periodic())},
+                    {is_volume ? "box" : "rectangle", corners},
+                    {"periodic", to_string(grid.periodic())},
                     {"cells", rows.cells()},
                     {"empty_cells", rows.empty_cells()},
-                    {"mean_area", rows.mean_area()},
-                    {"area_deviation", rows.area_deviation()},
-                    {"pairs", rows.pairs().size()},
-                    {"area", check.area},
+                    {"mean_" + measure, rows.mean_area()},
+                    {measure + "_deviation", rows.area_deviation()},
+                    {"pairs", rows.pair_count()},
+                    {measure, check.area},
                     {"not_mutual", check.not_mutual},
                     {"uncertified", check.uncertified},
                     {"milliseconds", report.milliseconds()},
@@ -48,19 +57,20 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCel
     return;
   }
   print("exact cells: {} in {} in {:.1f} ms, on {}\n", counted(seeds.alive(), "seed"),
-        to_string(Bounds{x.from(), y.from(), x.to(), y.to()}), report.milliseconds(), seeds.device().name());
+        fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
   if (rows.empty_cells() > 0) {
     print("{} of these lie where another does and have no cell\n", counted(rows.empty_cells(), "seed"));
   }
-  print("the mean area is {:.6g}, with a deviation of {:.6g}\n", rows.mean_area(), rows.area_deviation());
-  print("{} between cells\n", counted(rows.pairs().size(), "edge"));
+  print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
+        rows.area_deviation());
+  print("{} between cells\n", counted(rows.pair_count(), is_volume ? "face" : "edge"));
   print_written(requested_files(options));
 }
 
 /// GeoJSON without a system means longitudes and latitudes, which readers take others for without a word.
 void note_degrees(const ExactCellsOptions& options, const Grid& grid) {
-  const bool is_geojson =
-      extension_of(options.polygons) != ".csv" && extension_of(options.polygons) != ".vtp";
+  const std::string extension = extension_of(options.polygons);
+  const bool is_geojson = extension == ".geojson" || extension == ".json";
   const double x = std::max(std::abs(grid.x().from()), std::abs(grid.x().to())),
                y = std::max(std::abs(grid.y().from()), std::abs(grid.y().to()));
   if (options.seeds.points.empty() || options.seeds.crs || !is_geojson || (x <= 360 && y <= 180)) return;
@@ -79,14 +89,17 @@ void run_exact_cells(const ExactCellsOptions& options) {
   if (!cells && !adjacency && !polygons)
     throw UsageError("nothing to write: give at least one of --cells, --adjacency, --polygons");
   const ExactInput input = read_exact_input(options.seeds);
+  const bool is_volume = input.grid.is_volume();
+  check_polygons(options.polygons, is_volume);
+  const ExactTable cells_table = exact_cells_table(options.columns, is_volume);
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);
   ExactCellsResult result;
   const Report report = exact_cells(seeds, result);
   ExactCellRows rows(seeds, result, input, points_up(options.seeds));
-  if (cells) exact_cells_table(options.columns).write(*cells, rows);
-  if (adjacency) exact_pairs_table().write(*adjacency, rows);
+  if (cells) cells_table.write(*cells, rows);
+  if (adjacency) exact_pairs_table(is_volume).write(*adjacency, rows);
   if (polygons) rows.write_polygons(*polygons);
   if (polygons) note_degrees(options, seeds.grid());
   print_result(options, seeds, rows, result.check(), report);

@@ -1,4 +1,4 @@
-// vorocl cells --exact: cells as polygons, without a diagram.
+// vorocl cells --exact: cells as polygons or polyhedra, without a diagram.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct ExactCellsOptions {
   SeedOptions seeds;
   std::string device;
   std::string cells, adjacency, polygons;  // paths; empty: not asked for
-  std::vector<std::string> columns;        // of the cells
+  std::vector<std::string> columns;        // of the cells, as they were chosen
   bool json = false;
 };
 

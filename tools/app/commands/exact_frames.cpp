@@ -60,11 +60,12 @@ class ExactTables {
 
 class ExactRun {
  public:
-  explicit ExactRun(const ExactFramesOptions& options)
+  ExactRun(const ExactFramesOptions& options, bool of_volume)
       : options_(options),
-        cells_(options.cells, exact_cells_table(options.cells.kind.table()->columns)),
-        pairs_(options.adjacency, exact_pairs_table()),
+        cells_(options.cells, exact_cells_table(options.cells.columns, of_volume)),
+        pairs_(options.adjacency, exact_pairs_table(of_volume)),
         frame_(options.frames.first) {
+    check_polygons(options.polygons, of_volume);
     if (!options.polygons.empty()) polygons_.emplace(options.polygons);
   }
 
@@ -132,9 +133,8 @@ class ExactRun {
 void run_exact_frames(const ExactFramesOptions& options) {
   const Interruption interruption;  // before there are files
   check_outputs(as_usage([&] { return requested_files(options); }), options.seeds);
-  check_seed_options(options.seeds, false);
-  ExactRun run(options);
   ExactFrames frames(options.seeds);
+  ExactRun run(options, frames.is_volume());
   while (frames.count() < options.frames.first && frames.skip()) {
     if (interruption.came()) throw Error("interrupted, before the first frame was made");
   }

@@ -1,4 +1,4 @@
-// vorocl simulate --exact: cells as polygons in each frame of a trajectory, without diagrams.
+// vorocl simulate --exact: cells as polygons or polyhedra in each frame of a trajectory, without diagrams.
 #pragma once
 
 #include <string>

@@ -149,7 +149,7 @@ std::optional<double> parse_distance(const std::string& text) {
 void prepare_volume(const Command& command, RenderOptions& options) {
   if (command.has("--waves")) refuse_in_volumes("--waves");
   check_volume_method(options.method, options.method_options.metric);
-  options.labels = of_volume(options.labels);
+  options.labels = of_grid(options.labels, true);
 }
 
 /// Throws UsageError for options that planes do not have.

@@ -244,14 +244,11 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
     throw UsageError("--size WxHxD: vorocl simulate makes volumes of a --trajectory");
   }
   check_volume_options(seeds);
-  for (const char* const name : {"--tolerance", "--cell-columns"}) {
-    if (command.has(name)) refuse_in_volumes(name);
-  }
+  if (command.has("--tolerance")) refuse_in_volumes("--tolerance");
   check_volume_method(options.method, options.method_options.metric);
   if (options.compare_with) check_volume_method(*options.compare_with, options.other_metric());
   check_slice(options.output.picture, options.output.picture_path, volume_size(seeds));
   seeds.usual_snap = Snap::to_pixels;
-  for (FileRequest& request : options.output.files) request = of_volume(request);
 }
 
 /// Throws UsageError for options that planes do not have, or that do not go together there.
@@ -321,14 +318,15 @@ void add_simulate(CommandLine& line) {
   add_device_option(command, options->device);
   add_json_option(command, options->json);
   const Option exact = command.add("--exact", options->exact,
-                                   "Cut the cells of a trajectory as polygons, at the particles' own places "
+                                   "Cut the cells of a trajectory as polygons, or where the particles have z "
+                                   "as polyhedra, at the particles' own places "
                                    "and without pixels: for --cells, "
                                    "--adjacency and --polygons, in the units of the data");
   command
       .add("--polygons", options->polygons,
            "The polygons of --exact, one file per frame, such as frames/%05d.vtp: .geojson, .csv (with a "
            "column "
-           "of WKT) or .vtp (ParaView)")
+           "of WKT) or .vtp (ParaView); polyhedra: .vtu")
       .value_name("FILES")
       .needs(exact);
   command.set_work([command, options] {
@@ -336,6 +334,7 @@ void add_simulate(CommandLine& line) {
     if (options->output.picture_path.empty()) refuse_picture_options(command, "-o");
     check_method_options(command, {options->method}, options->method_options);
     options->seeds.depth > 1 ? prepare_volumes(command, *options) : prepare_planes(*options);
+    for (FileRequest& request : options->output.files) request = of_grid(request, options->seeds.depth > 1);
     run(*options);
   });
 }

@@ -19,7 +19,7 @@ Option add_file_option(Command& command, FileRequest& request, bool numbered) {
 
 void add_cell_columns_option(Command& command, FileRequest& cells) {
   Choices<std::string> columns;
-  for (const std::string& name : cell_columns()) columns.emplace_back(name, name);
+  for (const std::string& name : cell_columns(CellsOf::both)) columns.emplace_back(name, name);
   const auto choose_all = [&cells, columns](const std::vector<std::string>& texts) {
     std::vector<std::string> names;
     for (const std::string& text : texts) {
@@ -28,11 +28,12 @@ void add_cell_columns_option(Command& command, FileRequest& cells) {
         throw Error("\"" + name + "\" is given twice");
       names.push_back(name);
     }
-    cells.kind = cells_kind(names);
+    cells.columns = names;
   };
   command
       .add_texts("--cell-columns", choose_all,
-                 "The columns of --cells, in this order, separated by commas: " + names_of(columns))
+                 "The columns of --cells, in this order, separated by commas: " + names_of(columns) +
+                     "; planes have area and perimeter, volumes volume and surface, and z, front and back")
       .value_name("NAMES")
       .default_text("all")
       .needs("--cells");

@@ -78,18 +78,16 @@ constexpr Source seed = entry_of<std::optional<Point>, &Measures::seeds>,
                  perimeter = entry_of<std::uint32_t, &Measures::perimeters>,
                  neighbours = entry_of<std::uint32_t, &Measures::neighbours>;
 
-enum class Of { planes, volumes, both };
-
 struct CellColumn {
   std::string name;
-  Of of;
+  CellsOf of;
   Source source;
   /// Finds the values of the labels [begin, end).
   void (*find)(Measures& measures, const std::uint32_t* begin, const std::uint32_t* end, double* values);
 };
 
 template <Source source, double (CellRow::*value)() const>
-CellColumn column(const char* name, Of of = Of::both) {
+CellColumn column(const char* name, CellsOf of = CellsOf::both) {
   const auto find = [](Measures& measures, const std::uint32_t* begin, const std::uint32_t* end,
                        double* values) {
     constexpr std::ptrdiff_t ahead = 8;  // ids say nothing of where labels lie
@@ -106,20 +104,20 @@ const std::vector<CellColumn>& all_cell_columns() {
       column<seed, &CellRow::id>("id"),
       column<seed, &CellRow::x>("x"),
       column<seed, &CellRow::y>("y"),
-      column<seed, &CellRow::z>("z", Of::volumes),
-      column<pixels, &CellRow::area>("area", Of::planes),
-      column<pixels, &CellRow::area>("volume", Of::volumes),
+      column<seed, &CellRow::z>("z", CellsOf::volumes),
+      column<pixels, &CellRow::area>("area", CellsOf::planes),
+      column<pixels, &CellRow::area>("volume", CellsOf::volumes),
       column<sums, &CellRow::centroid_x>("centroid_x"),
       column<sums, &CellRow::centroid_y>("centroid_y"),
-      column<sums, &CellRow::centroid_z>("centroid_z", Of::volumes),
+      column<sums, &CellRow::centroid_z>("centroid_z", CellsOf::volumes),
       column<shape, &CellRow::left>("left"),
       column<shape, &CellRow::top>("top"),
-      column<shape, &CellRow::front>("front", Of::volumes),
+      column<shape, &CellRow::front>("front", CellsOf::volumes),
       column<shape, &CellRow::right>("right"),
       column<shape, &CellRow::bottom>("bottom"),
-      column<shape, &CellRow::back>("back", Of::volumes),
-      column<perimeter, &CellRow::perimeter>("perimeter", Of::planes),
-      column<perimeter, &CellRow::perimeter>("surface", Of::volumes),
+      column<shape, &CellRow::back>("back", CellsOf::volumes),
+      column<perimeter, &CellRow::perimeter>("perimeter", CellsOf::planes),
+      column<perimeter, &CellRow::perimeter>("surface", CellsOf::volumes),
       column<neighbours, &CellRow::neighbours>("neighbours"),
       column<shape, &CellRow::largest_distance>("largest_distance"),
       column<shape, &CellRow::touches_border>("touches_border")};
@@ -206,12 +204,23 @@ const FileKind& labels_kind() {
   return kind;
 }
 
-std::vector<std::string> cell_columns(bool of_volume) {
+std::vector<std::string> cell_columns(CellsOf cells) {
   std::vector<std::string> names;
   for (const CellColumn& column : all_cell_columns()) {
-    if (column.of != (of_volume ? Of::planes : Of::volumes)) names.push_back(column.name);
+    if (cells == CellsOf::both || column.of == CellsOf::both || column.of == cells)
+      names.push_back(column.name);
   }
   return names;
+}
+
+std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, bool of_volume) {
+  const std::vector<std::string> all = cell_columns(of_volume ? CellsOf::volumes : CellsOf::planes);
+  for (const std::string& name : chosen) {
+    if (std::find(all.begin(), all.end(), name) == all.end())
+      throw UsageError("--cell-columns " + name + ": cells of " + (of_volume ? "volumes" : "planes") +
+                       " have no such column, but " + to_csv(all));
+  }
+  return chosen.empty() ? all : chosen;
 }
 
 FileKind cells_kind(const std::vector<std::string>& names) {
@@ -260,14 +269,14 @@ const FileKind& border_kind() {
   return kind;
 }
 
-FileRequest of_volume(FileRequest request) {
+FileRequest of_grid(FileRequest request, bool is_volume) {
   FileKind& kind = request.kind;
-  if (kind.table() == nullptr) {
-    kind.extensions = volume_extensions();
-  } else if (kind.table()->of_cells) {
-    kind = cells_kind(cell_columns(true));
-  } else {
+  if (kind.table() != nullptr && kind.table()->of_cells) {
+    kind = cells_kind(chosen_columns(request.columns, is_volume));
+  } else if (is_volume && kind.table() != nullptr) {
     std::get<TableKind>(kind.content).columns = {"a", "b", "area"};
+  } else if (is_volume) {
+    kind.extensions = volume_extensions();
   }
   return request;
 }

@@ -40,11 +40,14 @@ struct FileKind {
 
 /// Labels by id: .npy, .tif or .vti.
 const FileKind& labels_kind();
-/// The columns that a table of cells of a plane can have, or of a volume, in their order.
-std::vector<std::string> cell_columns(bool of_volume = false);
+enum class CellsOf { planes, volumes, both };
+/// The columns that a table of such cells can have, in their order.
+std::vector<std::string> cell_columns(CellsOf cells);
+/// Those that were chosen, or all. Throws UsageError for one that such cells do not have.
+std::vector<std::string> chosen_columns(const std::vector<std::string>& chosen, bool of_volume);
 /// One row per cell with these of the columns, one row per pair of cells that touch: .csv. The manual page
 /// explains the columns.
-FileKind cells_kind(const std::vector<std::string>& columns = cell_columns());
+FileKind cells_kind(const std::vector<std::string>& columns = cell_columns(CellsOf::planes));
 const FileKind& adjacency_kind();
 /// Distances to the nearest seed in pixels, float: .npy, .tif or .vti.
 const FileKind& distance_kind();
@@ -54,14 +57,16 @@ const FileKind& border_kind();
 /// A file that the command line may ask for.
 struct FileRequest {
   FileKind kind;
-  std::string path;  // empty: not asked for
+  std::string path;                       // empty: not asked for
+  std::vector<std::string> columns = {};  // of cells, as they were chosen; none: all
 
   /// Whether the file is one table of all frames: its name has no place for a number.
   bool is_long_table() const { return kind.table() != nullptr && path.find('%') == std::string::npos; }
 };
 
-/// The same of a volume: with other formats, or all of its columns. Borders are of planes alone.
-FileRequest of_volume(FileRequest of_plane);
+/// The same of a plane or a volume, with its formats and columns. Borders are of planes alone. Throws as
+/// chosen_columns().
+FileRequest of_grid(FileRequest request, bool is_volume);
 
 /// As check_outputs() takes it, for one diagram.
 RequestedFile requested(const FileRequest& request);

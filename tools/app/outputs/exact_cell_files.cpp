@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
-#include <tuple>
 #include <utility>
 
+#include "app/outputs/diagram_files.hpp"
 #include "app/outputs/table_rows.hpp"
+#include "app/terminal/console.hpp"
+#include "formats/files.hpp"
 #include "formats/polygon_files.hpp"
 
 namespace vorocl::command {
@@ -18,29 +19,30 @@ namespace {
 
 using Value = std::optional<double>;
 
-/// The vertices of a polygon.
-struct Ring {
+/// The vertices of a polygon, in their order, or of a polyhedron.
+struct Vertices {
   const Point *first = nullptr, *behind = nullptr;
   const Point* begin() const { return first; }
   const Point* end() const { return behind; }
 };
 
-Ring ring_of(const ExactPolygons& polygons, std::size_t seed) {
-  const Point* const vertices = polygons.vertices.data();
-  return {vertices + polygons.offsets[seed], vertices + polygons.offsets[seed + 1]};
+template <typename Offset>
+Vertices vertices_of(const std::vector<Point>& vertices, const std::vector<Offset>& offsets,
+                     std::size_t seed) {
+  return {vertices.data() + offsets[seed], vertices.data() + offsets[seed + 1]};
 }
 
-/// A cell as its row has it: the columns of the cells of diagrams, of polygons.
+/// A cell as its row has it: the columns of the cells of diagrams, of polygons and polyhedra.
 struct Row {
   std::uint32_t id;
   Point seed;
   const ExactCell& cell;
-  Ring polygon;  // empty unless a column needs it
+  Vertices vertices;  // none unless a column needs them
   bool y_up;
 
   Value extreme(double Point::*along, bool greatest) const {
     Value found;
-    for (const Point& vertex : polygon) {
+    for (const Point& vertex : vertices) {
       if (!found || (vertex.*along > *found) == greatest) found = vertex.*along;
     }
     return found;
@@ -48,8 +50,9 @@ struct Row {
 
   Value largest_distance() const {
     Value found;
-    for (const Point& vertex : polygon)
-      found = std::max(found.value_or(0), std::hypot(vertex.x - seed.x, vertex.y - seed.y));
+    for (const Point& vertex : vertices)
+      found =
+          std::max(found.value_or(0), std::hypot(vertex.x - seed.x, vertex.y - seed.y, vertex.z - seed.z));
     return found;
   }
 
@@ -58,56 +61,71 @@ struct Row {
 
 struct Column {
   Value (*value)(const Row& of);
-  bool of_polygon = false;
+  bool of_vertices = false;
 };
 
 Column column_of(const std::string& name) {
+  constexpr auto area = [](const Row& of) { return Value(of.cell.area); };
+  constexpr auto perimeter = [](const Row& of) { return Value(of.cell.perimeter); };
   static const std::map<std::string, Column> columns = {
       {"id", {[](const Row& of) { return Value(of.id); }}},
       {"x", {[](const Row& of) { return Value(of.seed.x); }}},
       {"y", {[](const Row& of) { return Value(of.seed.y); }}},
-      {"area", {[](const Row& of) { return Value(of.cell.area); }}},
+      {"z", {[](const Row& of) { return Value(of.seed.z); }}},
+      {"area", {area}},
+      {"volume", {area}},
       {"centroid_x", {[](const Row& of) { return of.if_full(of.cell.centroid.x); }}},
       {"centroid_y", {[](const Row& of) { return of.if_full(of.cell.centroid.y); }}},
+      {"centroid_z", {[](const Row& of) { return of.if_full(of.cell.centroid.z); }}},
       {"left", {[](const Row& of) { return of.extreme(&Point::x, false); }, true}},
       {"top", {[](const Row& of) { return of.extreme(&Point::y, of.y_up); }, true}},
+      {"front", {[](const Row& of) { return of.extreme(&Point::z, false); }, true}},
       {"right", {[](const Row& of) { return of.extreme(&Point::x, true); }, true}},
       {"bottom", {[](const Row& of) { return of.extreme(&Point::y, !of.y_up); }, true}},
-      {"perimeter", {[](const Row& of) { return Value(of.cell.perimeter); }}},
+      {"back", {[](const Row& of) { return of.extreme(&Point::z, true); }, true}},
+      {"perimeter", {perimeter}},
+      {"surface", {perimeter}},
       {"neighbours", {[](const Row& of) { return Value(of.cell.neighbours); }}},
       {"largest_distance", {[](const Row& of) { return of.largest_distance(); }, true}},
       {"touches_border", {[](const Row& of) { return Value(of.cell.touches_border ? 1 : 0); }}}};
   return columns.at(name);
 }
 
-/// The image of a seed that its cell lies around; of a cell without an area one in the period.
-Point image_at_cell(Point seed, const ExactCell& cell, const Grid& grid) {
-  const auto middle = [](const Axis& axis) { return axis.from() + (axis.to() - axis.from()) / 2; };
-  const Point near = cell.area > 0 ? cell.centroid : Point{middle(grid.x()), middle(grid.y())};
-  const auto periods = [](const Axis& axis, double way) {
-    return axis.is_periodic() ? std::nearbyint(way / (axis.to() - axis.from())) : 0;
+/// Moves a seed to the image that its cell lies around; of a cell without an area to one in the period.
+/// Returns by how many periods.
+PeriodCounts move_to_cell(Point& seed, const ExactCell& cell, const Grid& grid) {
+  const auto move = [&](const Axis& axis, double Point::*along) {
+    const double length = axis.to() - axis.from();
+    const double near = cell.area > 0 ? cell.centroid.*along : axis.from() + length / 2;
+    const double periods = axis.is_periodic() ? std::nearbyint((near - seed.*along) / length) : 0;
+    seed.*along += periods * length;
+    return static_cast<std::int32_t>(periods);
   };
-  const double rows = periods(grid.y(), near.y - seed.y);
-  seed.y += rows * (grid.y().to() - grid.y().from());
-  seed.x += rows * grid.tilt();
-  seed.x += periods(grid.x(), near.x - seed.x) * (grid.x().to() - grid.x().from());
-  return seed;
+  PeriodCounts moved = {0, move(grid.y(), &Point::y), move(grid.z(), &Point::z)};
+  seed.x += moved[1] * grid.tilt();
+  moved[0] = move(grid.x(), &Point::x);
+  return moved;
 }
 
 }  // namespace
 
 ExactCellRows::ExactCellRows(const Seeds& seeds, const ExactCellsResult& result, const ExactInput& input,
                              bool y_up)
-    : result_(result), input_(input), y_up_(y_up), points_(seeds.read()), cells_(result.read()) {
+    : result_(result),
+      input_(input),
+      y_up_(y_up && !input.grid.is_volume()),
+      points_(seeds.read()),
+      cells_(result.read()),
+      periods_(cells_.size()) {
   const Grid& grid = seeds.grid();
   for (std::size_t seed = 0; seed < cells_.size(); ++seed) {
     std::optional<Point>& point = points_[seed];
-    if (point) point = image_at_cell(*point, cells_[seed], grid);
-    if (point && (cells_[seed].area > 0 || (grid.x().covers(point->x) && grid.y().covers(point->y))))
-      order_.push_back(seed);
+    if (point) periods_[seed] = move_to_cell(*point, cells_[seed], grid);
+    const auto is_inside = [&] {
+      return grid.is_volume() || (grid.x().covers(point->x) && grid.y().covers(point->y));
+    };
+    if (point && (cells_[seed].area > 0 || is_inside())) order_.push_back(seed);
   }
-  std::sort(order_.begin(), order_.end(),
-            [this](std::size_t a, std::size_t b) { return id_of(a) < id_of(b); });
 }
 
 const ExactPolygons& ExactCellRows::polygons() {
@@ -115,15 +133,24 @@ const ExactPolygons& ExactCellRows::polygons() {
   return *polygons_;
 }
 
+const ExactPolyhedra& ExactCellRows::polyhedra() {
+  if (!polyhedra_) polyhedra_ = result_.read_polyhedra();
+  return *polyhedra_;
+}
+
 const std::vector<ExactPair>& ExactCellRows::pairs() {
-  if (pairs_) return *pairs_;
-  pairs_ = result_.read_pairs();
-  if (input_.ids.empty()) return *pairs_;
-  for (ExactPair& pair : *pairs_) std::tie(pair.a, pair.b) = std::minmax({id_of(pair.a), id_of(pair.b)});
-  std::stable_sort(pairs_->begin(), pairs_->end(), [](const ExactPair& p, const ExactPair& q) {
-    return std::tie(p.a, p.b) < std::tie(q.a, q.b);
-  });
+  if (!pairs_) pairs_ = result_.read_pairs();
   return *pairs_;
+}
+
+const std::vector<ExactFace>& ExactCellRows::faces() {
+  if (faces_) return *faces_;
+  faces_ = result_.read_faces();
+  for (ExactFace& face : *faces_) {  // images of the points as rows have them
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      face.image[axis] += periods_[face.a][axis] - periods_[face.b][axis];
+  }
+  return *faces_;
 }
 
 void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
@@ -131,35 +158,48 @@ void ExactCellRows::add_cells(GrowingFile& table, const std::string& first,
   std::vector<Column> columns;
   columns.reserve(names.size());
   for (const std::string& name : names) columns.push_back(column_of(name));
-  const bool need_polygons =
-      std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_polygon; });
-  const ExactPolygons* const polygons = need_polygons ? &this->polygons() : nullptr;
+  const bool need_vertices =
+      std::any_of(columns.begin(), columns.end(), [](const Column& column) { return column.of_vertices; });
+  const ExactPolygons* const polygons = need_vertices && !is_volume() ? &this->polygons() : nullptr;
+  const ExactPolyhedra* const polyhedra = need_vertices && is_volume() ? &this->polyhedra() : nullptr;
   add_rows(table, first, order_, [&](RowText& text, std::size_t seed) {
-    const Ring ring = polygons != nullptr ? ring_of(*polygons, seed) : Ring();
-    const Row row = {id_of(seed), *points_[seed], cells_[seed], ring, y_up_};
+    const Vertices vertices = polygons != nullptr ? vertices_of(polygons->vertices, polygons->offsets, seed)
+                              : polyhedra != nullptr
+                                  ? vertices_of(polyhedra->vertices, polyhedra->vertex_offsets, seed)
+                                  : Vertices();
+    const Row row = {id_of(seed), *points_[seed], cells_[seed], vertices, y_up_};
     for (const Column& column : columns) text.add(column.value(row));
     if (!kept().fields.empty()) text.add(kept().fields[seed]);
   });
 }
 
 void ExactCellRows::add_pairs(GrowingFile& table, const std::string& first) {
-  add_rows(table, first, pairs(), [](RowText& text, const ExactPair& pair) {
-    text.add(pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y);
-  });
+  if (is_volume()) {
+    add_rows(table, first, faces(), [this](RowText& text, const ExactFace& face) {
+      text.add(id_of(face.a), id_of(face.b), face.area, face.image[0], face.image[1], face.image[2]);
+    });
+  } else {
+    add_rows(table, first, pairs(), [this](RowText& text, const ExactPair& pair) {
+      text.add(id_of(pair.a), id_of(pair.b), pair.length, pair.midpoint.x, pair.midpoint.y);
+    });
+  }
 }
 
 void ExactCellRows::write_polygons(const OutputFile& file) {
   std::vector<PolygonCell> cells;
   cells.reserve(order_.size());
   for (const std::size_t seed : order_) {
-    const Ring ring = ring_of(polygons(), seed);
     cells.push_back({id_of(seed),
                      *points_[seed],
                      cells_[seed].area,
                      cells_[seed].neighbours,
-                     {ring.begin(), ring.end()},
+                     {},
                      kept().fields.empty() ? CsvFields() : kept().fields[seed]});
+    if (is_volume()) continue;
+    const Vertices vertices = vertices_of(polygons().vertices, polygons().offsets, seed);
+    cells.back().polygon.assign(vertices.begin(), vertices.end());
   }
+  if (is_volume()) return write_polyhedra(file, cells, order_, polyhedra(), kept().names);
   const Axis& x = input_.grid.x();
   const bool has_date_line = x.is_periodic() && x.from() == -180 && x.to() == 180;
   command::write_polygons(file, cells, {kept().names, input_.crs, has_date_line});
@@ -204,7 +244,15 @@ void ExactTable::write(const OutputFile& file, ExactCellRows& rows) const {
   table.finish();
 }
 
-ExactTable exact_cells_table(const std::vector<std::string>& columns) {
+void check_polygons(const std::string& path, bool of_volume) {
+  if (path.empty() || (extension_of(path) == polyhedra_extension) == of_volume) return;
+  throw UsageError("--polygons " + path +
+                   (of_volume ? ": cells of a volume are polyhedra, which .vtu files hold"
+                              : ": .vtu files hold polyhedra, and cells of a plane are polygons"));
+}
+
+ExactTable exact_cells_table(const std::vector<std::string>& chosen, bool of_volume) {
+  const std::vector<std::string> columns = chosen_columns(chosen, of_volume);
   return {columns,
           [columns](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
             rows.add_cells(table, first, columns);
@@ -212,8 +260,9 @@ ExactTable exact_cells_table(const std::vector<std::string>& columns) {
           true};
 }
 
-ExactTable exact_pairs_table() {
-  return {{"a", "b", "length", "midpoint_x", "midpoint_y"},
+ExactTable exact_pairs_table(bool of_volume) {
+  const std::vector<std::string> of_faces = {"a", "b", "area", "image_x", "image_y", "image_z"};
+  return {of_volume ? of_faces : std::vector<std::string>{"a", "b", "length", "midpoint_x", "midpoint_y"},
           [](ExactCellRows& rows, GrowingFile& table, const std::string& first) {
             rows.add_pairs(table, first);
           }};

@@ -3,15 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "app/sources/bounds.hpp"
+#include "app/sources/volume_input.hpp"
 #include "app/terminal/console.hpp"
+#include "formats/files.hpp"
+#include "formats/npy.hpp"
 #include "formats/trajectory/trajectory.hpp"
 
 namespace vorocl::command {
 
 namespace {
+
+/// Whether a file has places of a volume. What can be read once alone has none.
+bool has_depth(const SeedOptions& options) {
+  std::error_code code;
+  const std::string& path = options.points + options.trajectory;  // one of these
+  if (!std::filesystem::is_regular_file(path, code)) return false;
+  Frame frame;
+  if (!options.trajectory.empty()) return open_trajectory(path)->next(frame) && frame.z_span > 0;
+  return extension_of(path) == ".npy" && holds_points_of_volume(path);
+}
+
+/// See read_exact_input(). Checks the options.
+bool is_volume(const SeedOptions& options) {
+  const bool is_told = options.depth > 1 || options.z_bounds ||
+                       (options.periodic && has_z(*options.periodic)) ||
+                       (options.columns && !options.columns->z.empty());
+  const bool may_be_told = !options.bounds && !options.columns && !options.domain && options.mask.empty();
+  const bool is_volume = is_told || (may_be_told && has_depth(options));
+  is_volume ? check_volume_options(options) : check_seed_options(options, false);
+  return is_volume;
+}
 
 /// The ends of an axis: those of `shown`, or of what repeats.
 Axis axis_of(double low, double high, bool is_periodic, bool is_closed) {
@@ -40,7 +66,7 @@ Grid grid_of(const SeedOptions& options, const Bounds& repeats, Axes periodic, c
 
 ExactInput input_of(const SeedOptions& options, const std::string& file, const Grid& grid,
                     std::vector<Point> points, std::vector<std::uint32_t> ids) {
-  const Outside outside = options.outside.value_or(Outside::count);
+  const Outside outside = grid.is_volume() ? Outside::refuse : options.outside.value_or(Outside::count);
   return {grid,
           [file, grid, points = std::move(points), outside](const Device& device) {
             try {
@@ -105,6 +131,25 @@ ExactInput input_of_frame(const SeedOptions& options, Frame frame, int number, b
   return input;
 }
 
+ExactInput volume_of_frame(const SeedOptions& options, Frame frame, int number, bool is_first) {
+  std::vector<Point> points = points_of(frame);
+  try {
+    const Grid grid = grid_of_frame(options, frame, points);
+    if (is_first) note_of_volume(options, frame);
+    ExactInput input = input_of(options, options.trajectory, grid, std::move(points), std::move(frame.ids));
+    input.timestep = frame.timestep;
+    return input;
+  } catch (const Error& error) {
+    throw Error(fmt::format("frame {}: {}", number, error.what()));
+  }
+}
+
+ExactInput volume_without_voxels(SeedOptions options) {
+  if (options.random == 0) options.size.reset();
+  Input input = read_volume_input(options);
+  return {input.view.window.grid(), std::move(input.place), std::move(input.ids), {}, std::move(input.kept)};
+}
+
 ExactInput exact_input_from_trajectory(const SeedOptions& options) {
   ExactFrames frames(options);
   for (int number = 0; number < options.frame && frames.skip();) ++number;
@@ -116,7 +161,9 @@ ExactInput exact_input_from_trajectory(const SeedOptions& options) {
 }  // namespace
 
 ExactFrames::ExactFrames(const SeedOptions& options)
-    : options_(options), reader_(open_trajectory(options.trajectory, "")) {}
+    : options_(options),
+      is_volume_(command::is_volume(options)),
+      reader_(open_trajectory(options.trajectory, "", is_volume_ ? Wanted::volume : Wanted::all)) {}
 
 bool ExactFrames::skip() {
   const bool is_there = reader_->next(frame_);
@@ -127,15 +174,16 @@ bool ExactFrames::skip() {
 std::optional<ExactInput> ExactFrames::next() {
   if (!skip()) return {};
   try {
-    return input_of_frame(options_, std::move(frame_), count_ - 1, std::exchange(is_first_, false));
+    const auto input = is_volume_ ? volume_of_frame : input_of_frame;
+    return input(options_, std::move(frame_), count_ - 1, std::exchange(is_first_, false));
   } catch (const Error& error) {
     throw Error(options_.trajectory + ": " + error.what());
   }
 }
 
 ExactInput read_exact_input(const SeedOptions& options) {
-  check_seed_options(options, false);
   if (!options.trajectory.empty()) return exact_input_from_trajectory(options);
+  if (is_volume(options)) return volume_without_voxels(options);
   if (!options.points.empty()) return exact_input_from_points(options);
   const Input input = read_input(options);
   return {input.view.window.grid(),

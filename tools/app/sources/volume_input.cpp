@@ -22,15 +22,6 @@ constexpr char names[] = {'x', 'y', 'z'};
 
 std::array<double, 3> coordinates(const Point& point) { return {point.x, point.y, point.z}; }
 
-std::vector<Point> points_of(const Frame& frame) {
-  std::vector<Point> points;
-  points.reserve(frame.positions.size());
-  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
-    points.push_back({frame.positions[i].x, frame.positions[i].y, frame.z[i]});
-  }
-  return points;
-}
-
 VolumeSides bounding_sides(const std::vector<Point>& points) {
   VolumeSides sides;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -63,6 +54,7 @@ void take_periodic_axes(const SeedOptions& options, VolumeSides& sides) {
   sides[2].is_periodic = has_z(*options.periodic);
 }
 
+/// Without a size it has few voxels, which do not count.
 Grid grid_of(const SeedOptions& options, const VolumeSides& sides) {
   const auto axis = [](std::int64_t voxels, const VolumeSide& side) {
     const Axis open(voxels, side.low, side.high);
@@ -73,8 +65,9 @@ Grid grid_of(const SeedOptions& options, const VolumeSides& sides) {
       throw Error(fmt::format("there is no extent in {}, which is to be periodic", names[i]));
     }
   }
-  return {axis(options.size->width(), sides[0]), axis(options.size->height(), sides[1]),
-          axis(options.depth, sides[2])};
+  const Size size = options.size.value_or(Size(1, 1));
+  return {axis(size.width(), sides[0]), axis(size.height(), sides[1]),
+          axis(options.size ? options.depth : 2, sides[2])};
 }
 
 void check_inside(const std::vector<Point>& points, const std::vector<std::uint32_t>& ids, const Grid& grid) {
@@ -142,6 +135,11 @@ std::array<int, 3> spacing_of(const Grid& grid, int most = few) {
   return {1, 1, 1};
 }
 
+/// Spaced as its voxels are, if it is to have some.
+Grid with_voxels(const SeedOptions& options, const Grid& grid, int most = few) {
+  return options.size ? with_spacing(grid, spacing_of(grid, most)) : grid;
+}
+
 /// Where the volume of `where` ("frame 3: ") is no picture of the data to scale, a warning says so. Returns
 /// whether it did.
 bool warn_of_voxels(const Grid& grid, const std::string& where) {
@@ -199,11 +197,12 @@ Input input_from_points(const SeedOptions& options) {
     const std::optional<VolumeSides> given = given_sides(options);
     VolumeSides sides = given ? *given : bounding_sides(points);
     take_periodic_axes(options, sides);
-    const Grid unspaced = grid_of(options, sides),
-               grid = with_spacing(unspaced, spacing_of(unspaced, Axis::max_spacing));
+    const Grid grid = with_voxels(options, grid_of(options, sides), Axis::max_spacing);
     check_inside(points, read.ids, grid);
-    warn_of_voxels(grid, "");
-    note_scales(grid);
+    if (options.size) {
+      warn_of_voxels(grid, "");
+      note_scales(grid);
+    }
     if (!given &&
         std::any_of(sides.begin(), sides.end(), [](const VolumeSide& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
@@ -227,7 +226,60 @@ Input input_at_random(const SeedOptions& options) {
           {}};
 }
 
+/// What the volume of a frame shows: see VolumeFrames for `all`.
+VolumeSides sides_of_frame(const SeedOptions& options, const Frame& frame, const std::vector<Point>& points,
+                           const std::optional<VolumeSides>& all) {
+  const std::optional<VolumeSides> given = given_sides(options);
+  if (!frame.box && !given && !all && points.empty()) {
+    throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
+  }
+  VolumeSides whole = frame.box ? sides_of(*frame.box) : given ? *given : all ? *all : bounding_sides(points);
+  take_periodic_axes(options, whole);
+  VolumeSides sides = whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (given) {
+      sides[i].low = (*given)[i].low;
+      sides[i].high = (*given)[i].high;
+    } else if (all && !sides[i].is_periodic) {
+      sides[i].low = (*all)[i].low;
+      sides[i].high = (*all)[i].high;
+    }
+    if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
+    throw Error(
+        fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
+                    names[i], whole[i].low, whole[i].high));
+  }
+  return sides;
+}
+
 }  // namespace
+
+void note_of_volume(const SeedOptions& options, const Frame& frame) {
+  note_of_turn(frame);
+  if (!frame.box || !options.periodic) return;
+  const Box& box = *frame.box;
+  const std::string of_file = to_string(axes_of(box.periodic_x, box.periodic_y, box.periodic_z));
+  const std::string told = to_string(*options.periodic);
+  if (told == of_file) return;
+  print_note(
+      fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead", of_file, told));
+}
+
+std::vector<Point> points_of(const Frame& frame) {
+  std::vector<Point> points;
+  points.reserve(frame.positions.size());
+  for (std::size_t i = 0; i < frame.positions.size(); ++i) {
+    points.push_back({frame.positions[i].x, frame.positions[i].y, frame.z[i]});
+  }
+  return points;
+}
+
+Grid grid_of_frame(const SeedOptions& options, const Frame& frame, const std::vector<Point>& points,
+                   const std::optional<VolumeSides>& all) {
+  const Grid grid = with_voxels(options, grid_of(options, sides_of_frame(options, frame, points, all)));
+  check_inside(points, frame.ids, grid);
+  return grid;
+}
 
 std::optional<VolumeSides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
                                                const Interruption& interruption) {
@@ -254,14 +306,7 @@ VolumeFrames::VolumeFrames(const SeedOptions& options, int start, const std::opt
     ++number_;
   }
   take_frame();
-  note_of_turn(frame_);
-  if (!frame_.box || !options_.periodic) return;
-  const Box& box = *frame_.box;
-  const std::string of_file = to_string(axes_of(box.periodic_x, box.periodic_y, box.periodic_z));
-  const std::string told = to_string(*options_.periodic);
-  if (told == of_file) return;
-  print_note(
-      fmt::format("the periodic axes of the file's box are {}; --periodic {} counts instead", of_file, told));
+  note_of_volume(options, frame_);
 }
 
 bool VolumeFrames::next() {
@@ -273,41 +318,12 @@ bool VolumeFrames::next() {
 
 View VolumeFrames::view() const { return view_of(*grid_, in_pixels(options_)); }
 
-VolumeSides VolumeFrames::sides_of_frame() {
-  const std::optional<VolumeSides> given = given_sides(options_);
-  if (!frame_.box && !given && !all_ && points_.empty()) {
-    throw Error("the frame has neither a box nor particles to tell the bounds by: give --bounds");
-  }
-  VolumeSides whole = frame_.box ? sides_of(*frame_.box)
-                      : given    ? *given
-                      : all_     ? *all_
-                                 : bounding_sides(points_);
-  take_periodic_axes(options_, whole);
-  VolumeSides sides = whole;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (given) {
-      sides[i].low = (*given)[i].low;
-      sides[i].high = (*given)[i].high;
-    } else if (all_ && !sides[i].is_periodic) {
-      sides[i].low = (*all_)[i].low;
-      sides[i].high = (*all_)[i].high;
-    }
-    if (!sides[i].is_periodic || (sides[i].low == whole[i].low && sides[i].high == whole[i].high)) continue;
-    throw Error(
-        fmt::format("volumes show whole periods: in {}, which is periodic, --bounds must be from {} to {}",
-                    names[i], whole[i].low, whole[i].high));
-  }
-  return sides;
-}
-
 void VolumeFrames::take_frame() {
   points_ = points_of(frame_);
   try {
-    const Grid unspaced = grid_of(options_, sides_of_frame());
     const bool is_first = !grid_;
-    grid_ = with_spacing(unspaced, spacing_of(unspaced));
+    grid_ = grid_of_frame(options_, frame_, points_, all_);
     if (is_first) note_scales(*grid_);
-    check_inside(points_, frame_.ids, *grid_);
   } catch (const Error& error) {
     throw Error(fmt::format("{}: frame {}: {}", options_.trajectory, number_, error.what()));
   }

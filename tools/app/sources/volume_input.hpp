@@ -27,6 +27,18 @@ using VolumeSides = std::array<VolumeSide, 3>;
 std::optional<VolumeSides> sides_of_all_frames(const std::string& path, std::optional<int> frames,
                                                const Interruption& interruption);
 
+std::vector<Point> points_of(const Frame& frame);
+
+/// The grid of a frame with these points: what its box, the bounds that are given, `all` (see VolumeFrames)
+/// or the points say that it shows. Without a size it has few voxels, which do not count. Throws Error, as if
+/// a point lies outside.
+Grid grid_of_frame(const SeedOptions& options, const Frame& frame, const std::vector<Point>& points,
+                   const std::optional<VolumeSides>& all = std::nullopt);
+
+/// Says on standard error what may not be expected of a first frame: that it is turned, or has other periodic
+/// axes than are given.
+void note_of_volume(const SeedOptions& options, const Frame& frame);
+
 /// The particles of a trajectory in a volume, frame by frame. Voxels are counted along the coordinates. Each
 /// frame has its own box, whose periodic axes are those of the file unless they are given; without a box the
 /// bounding box of the particles. Where the sides of a frame's voxels are whole multiples of one length in
@@ -59,7 +71,6 @@ class VolumeFrames {
   std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
 
  private:
-  VolumeSides sides_of_frame();
   void take_frame();
 
   const SeedOptions& options_;

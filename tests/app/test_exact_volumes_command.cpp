@@ -1,0 +1,284 @@
+// Cells of volumes by --exact: lattices whose cells are known, pyramids over faces, voxels.
+#define BOOST_TEST_MODULE exact_volumes_command
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numeric>
+#include <random>
+
+#include "formats/npy.hpp"
+#include "host_measures.hpp"
+#include "raw_images.hpp"
+#include "run_command.hpp"
+
+using namespace vorocl;
+using nlohmann::json;
+
+namespace {
+
+using Vector = std::array<double, 3>;
+
+const std::string box_header = "ITEM: BOX BOUNDS pp pp pp\n";
+
+/// A frame of a dump in a periodic cube.
+std::string dump_of(const std::vector<Vector>& points, double side, int timestep = 0) {
+  std::string text = fmt::format(
+      "ITEM: TIMESTEP\n{0}\nITEM: NUMBER OF ATOMS\n{1}\n{2}0 {3}\n0 {3}\n0 {3}\nITEM: ATOMS id x y z\n",
+      timestep, points.size(), box_header, side);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += fmt::format("{} {} {} {}\n", i + 1, points[i][0], points[i][1], points[i][2]);
+  return text;
+}
+
+/// So many cubes of side 1 along each axis, with a point at each of these places in each.
+std::vector<Vector> lattice(const std::vector<Vector>& places, int cubes) {
+  std::vector<Vector> points;
+  for (int i = 0; i < cubes * cubes * cubes; ++i) {
+    for (const Vector& place : places)
+      points.push_back({i % cubes + place[0], i / cubes % cubes + place[1], i / cubes / cubes + place[2]});
+  }
+  return points;
+}
+
+std::vector<Vector> random_points(std::size_t count, double side) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0, side);
+  std::vector<Vector> points(count);
+  for (Vector& point : points) point = {uniform(random), uniform(random), uniform(random)};
+  return points;
+}
+
+std::string csv_of(const std::vector<Vector>& points) {
+  std::string text = "id,x,y,z\n";
+  for (std::size_t i = 0; i < points.size(); ++i)
+    text += fmt::format("{},{},{},{}\n", points.size() - i, points[i][0], points[i][1], points[i][2]);
+  return text;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(cells_of_cubic_lattices_have_known_faces) {
+  struct Lattice {
+    std::vector<Vector> places;
+    double surface;
+    std::map<std::size_t, double> faces;  // by their number for each point, their areas
+  };
+  const double hexagon = 3 * std::sqrt(3.0) / 16, rhombus = std::sqrt(2.0) / 8;
+  const Lattice lattices[] = {
+      {{{0, 0, 0}}, 6, {{3, 1}}},
+      {{{0, 0, 0}, {0.5, 0.5, 0.5}}, 6.0 / 8 + 8 * hexagon, {{3, 1.0 / 8}, {4, hexagon}}},
+      {{{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}, 12 * rhombus, {{6, rhombus}}}};
+  for (const Lattice& known : lattices) {
+    const TemporaryFolder folder;
+    const std::vector<Vector> points = lattice(known.places, 3);
+    folder.file("t.dump", dump_of(points, 3));
+    const json result = json::parse(succeeds(
+        folder,
+        "cells --exact --trajectory t.dump --cells c.csv --cell-columns id,volume,surface,neighbours "
+        "--adjacency a.csv --json"));
+    BOOST_TEST(result.at("box") == json({0.0, 0.0, 0.0, 3.0, 3.0, 3.0}));
+    BOOST_TEST(result.at("periodic") == "xyz");
+    BOOST_TEST(result.at("volume") == 27.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST((result.at("not_mutual") == 0 && result.at("uncertified") == 0));
+    std::size_t coordination = 0;
+    for (const auto& [number, area] : known.faces) coordination += 2 * number;
+    for (const TableRow& cell : read_table(folder / "c.csv").rows) {
+      BOOST_TEST(*cell[1] == 1 / static_cast<double>(known.places.size()),
+                 boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(*cell[2] == known.surface, boost::test_tools::tolerance(1e-12));
+      BOOST_TEST(*cell[3] == static_cast<double>(coordination));
+    }
+    const Table pairs = read_table(folder / "a.csv");
+    BOOST_TEST(pairs.header == "a,b,area,image_x,image_y,image_z");
+    std::size_t faces = 0;
+    for (const auto& [number, area] : known.faces) {
+      for (const TableRow& pair : pairs.rows) faces += std::abs(*pair[2] - area) < 1e-12 ? 1 : 0;
+      BOOST_TEST(faces == number * points.size());
+      faces = 0;
+    }
+    BOOST_TEST(pairs.rows.size() == coordination / 2 * points.size());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(pyramids_over_faces_fill_the_cells) {
+  const TemporaryFolder folder;
+  std::vector<Vector> points = random_points(300, 4);
+  folder.file("in.csv", csv_of(points));
+  for (std::size_t i = 0; i < points.size(); i += 3) {  // the same points, told by others of their images
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      points[i][axis] += 4 * (static_cast<int>(i / 3 + axis) % 5 - 2);
+  }
+  folder.file("out.csv", csv_of(points));
+  const std::string options =
+      " --columns x,y,z --bounds 0,0,0,4,4,4 --periodic xyz --cells c.csv --adjacency a.csv --json";
+  std::map<std::size_t, std::size_t> numbers;
+  for (const std::string file : {"in", "out"}) {
+    const json result = json::parse(run(folder, "cells --exact --points " + file + ".csv" + options).out);
+    BOOST_TEST(result.at("volume") == 64.0, boost::test_tools::tolerance(1e-12));
+    const Table cells = read_table(folder / "c.csv");
+    BOOST_TEST(cells.header ==
+               "id,x,y,z,volume,centroid_x,centroid_y,centroid_z,left,top,front,right,bottom,back,surface,"
+               "neighbours,largest_distance,touches_border");
+    BOOST_TEST_REQUIRE(cells.rows.size() == points.size());
+    std::vector<double> pyramids(points.size() + 1), surfaces(points.size() + 1), faces(points.size() + 1);
+    for (const TableRow& pair : read_table(folder / "a.csv").rows) {
+      BOOST_TEST_REQUIRE(*pair[0] <= *pair[1]);
+      const TableRow &a = cells.rows[static_cast<std::size_t>(*pair[0]) - 1],
+                     &b = cells.rows[static_cast<std::size_t>(*pair[1]) - 1];
+      double squares = 0;
+      for (const std::size_t axis : {1, 2, 3})
+        squares += std::pow(*b[axis] + 4 * *pair[axis + 2] - *a[axis], 2);
+      for (const std::size_t end : {0, 1}) {
+        const auto cell = static_cast<std::size_t>(*pair[end]);
+        pyramids[cell] += *pair[2] * std::sqrt(squares) / 6;  // whose height is half of the way
+        surfaces[cell] += *pair[2];
+        ++faces[cell];
+      }
+    }
+    for (const TableRow& cell : cells.rows) {
+      const auto id = static_cast<std::size_t>(*cell[0]);
+      BOOST_TEST(pyramids[id] == *cell[4], boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(surfaces[id] == *cell[14], boost::test_tools::tolerance(1e-9));
+      BOOST_TEST(faces[id] == *cell[15]);
+      for (const std::size_t axis : {0, 1, 2}) {
+        const double seed = *cell[1 + axis], low = *cell[8 + axis], high = *cell[11 + axis];
+        BOOST_TEST((low < seed && seed < high));
+        BOOST_TEST((low < *cell[5 + axis] && *cell[5 + axis] < high));
+        BOOST_TEST((seed - low <= *cell[16] && high - seed <= *cell[16]));
+      }
+    }
+    if (file == "in") folder.file("kept.csv", content_of(folder / "c.csv"));
+  }
+  const Table in = read_table(folder / "kept.csv"), out = read_table(folder / "c.csv");
+  for (std::size_t i = 0; i < in.rows.size(); ++i) {
+    for (std::size_t column = 0; column < in.rows[i].size(); ++column)
+      BOOST_TEST(std::abs(*in.rows[i][column] - *out.rows[i][column]) < 1e-9);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(voxels_have_nearly_the_same_volumes) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", csv_of(random_points(60, 8)));
+  const std::string input = "cells --points p.csv --columns x,y,z --bounds 0,0,0,8,8,8 --method exact ",
+                    columns = "--cell-columns id,volume,centroid_z,back ";
+  succeeds(folder, input + "--size 128x128x128 --cells voxels.csv " + columns);
+  succeeds(folder,
+           "cells --exact --points p.csv --columns x,y,z --bounds 0,0,0,8,8,8 --cells exact.csv " + columns);
+  const Table voxels = read_table(folder / "voxels.csv"), exact = read_table(folder / "exact.csv");
+  BOOST_TEST(voxels.header == exact.header);
+  BOOST_TEST_REQUIRE(voxels.rows.size() == exact.rows.size());
+  for (std::size_t i = 0; i < exact.rows.size(); ++i) {
+    BOOST_TEST(*exact.rows[i][0] == *voxels.rows[i][0]);
+    BOOST_TEST(std::abs(*exact.rows[i][1] - *voxels.rows[i][1]) < 0.8);  // of 8.5 in the mean
+    BOOST_TEST(std::abs(*exact.rows[i][2] - *voxels.rows[i][2]) < 0.2);
+    BOOST_TEST(std::abs(*exact.rows[i][3] - *voxels.rows[i][3]) < 0.3);
+  }
+  // Seeds at random are the centres of voxels.
+  const json result =
+      json::parse(succeeds(folder, "cells --exact --random 50 --size 16x12x9 --cells r.csv --json"));
+  BOOST_TEST(result.at("volume") == 16.0 * 12 * 9, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(result.at("cells") == 50);
+}
+
+BOOST_AUTO_TEST_CASE(frames_of_a_volume_have_the_cells_of_each_frame) {
+  const TemporaryFolder folder;
+  std::vector<Vector> points = random_points(40, 3);
+  std::string text = dump_of(points, 3, 5);
+  for (Vector& point : points) point[2] /= 2;
+  text += dump_of(points, 3, 10);
+  points.resize(30);
+  folder.file("t.dump", text + dump_of(points, 3.5, 15));
+  succeeds(folder,
+           "simulate --exact --trajectory t.dump --cells all.csv --adjacency a%d.csv --polygons p%d.vtu");
+  std::string expected;
+  for (const int frame : {0, 1, 2}) {
+    succeeds(folder,
+             fmt::format("cells --exact --trajectory t.dump --frame {} --cells c.csv --adjacency a.csv "
+                         "--polygons p.vtu",
+                         frame));
+    std::istringstream rows(content_of(folder / "c.csv"));
+    std::string line;
+    std::getline(rows, line);
+    if (frame == 0) expected = "frame,timestep," + line + "\n";
+    while (std::getline(rows, line)) expected += fmt::format("{},{},{}\n", frame, 5 * frame + 5, line);
+    BOOST_TEST(content_of(folder / fmt::format("a{}.csv", frame)) == content_of(folder / "a.csv"));
+    BOOST_TEST(content_of(folder / fmt::format("p{}.vtu", frame)) == content_of(folder / "p.vtu"));
+  }
+  BOOST_TEST(content_of(folder / "all.csv") == expected);
+  const std::string polyhedra = content_of(folder / "p.vtu");
+  BOOST_TEST(found_in(polyhedra, "NumberOfCells=\"([^\"]*)\"") == "30");
+}
+
+BOOST_AUTO_TEST_CASE(a_plane_is_cut_where_the_line_says_so) {
+  const TemporaryFolder folder;
+  folder.file("t.dump", dump_of({{1, 1, 1}, {2, 2, 3}}, 4));
+  const Result plane = run(folder, "cells --exact --trajectory t.dump --bounds 0,0,4,4 --cells c.csv");
+  BOOST_TEST(plane.exit_code == 0);
+  BOOST_TEST(plane.error.find("z is left out, along which the particles of frame 0 span 2") !=
+             std::string::npos);
+  BOOST_TEST(content_of(folder / "c.csv").find("area") != std::string::npos);
+  folder.file("flat.dump", dump_of({{1, 1, 1}, {2, 2, 1}}, 4));
+  succeeds(folder, "cells --exact --trajectory flat.dump --cells c.csv --cell-columns area");
+  succeeds(folder, "cells --exact --trajectory flat.dump --periodic xyz --cells c.csv --cell-columns volume");
+  BOOST_TEST(content_of(folder / "c.csv") == "volume\n32\n32\n");
+  // Three columns of an array are a volume, and those of a table if they are asked for.
+  const double coordinates[] = {1, 1, 1, 1, 1, 3};
+  folder.file("p.npy", command::npy_header<double>({2, 3}) +
+                           std::string(reinterpret_cast<const char*>(coordinates), sizeof coordinates));
+  const Result periods =
+      run(folder, "cells --exact --points p.npy --periodic x --bounds 0,0,0,2,2,4 --cells c.csv");
+  BOOST_TEST(periods.exit_code == 0);
+  folder.file("p.csv", "x,y,z,kind\n0,0,0,5\n2,2,4,6\n");
+  succeeds(folder,
+           "cells --exact --points p.csv --columns x,y,z --keep kind --cells c.csv --polygons p.vtu "
+           "--cell-columns id,volume,neighbours,touches_border");
+  BOOST_TEST(content_of(folder / "c.csv") ==
+             "id,volume,neighbours,touches_border,kind\n0,8,1,1,5\n1,8,1,1,6\n");
+  BOOST_TEST(content_of(folder / "p.vtu").find("Name=\"kind\"") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(what_exact_volumes_cannot_be_is_refused_before_the_work) {
+  const TemporaryFolder folder;
+  folder.file("t.dump", dump_of({{1, 1, 1}, {2, 2, 3}}, 4));
+  folder.file("flat.dump", dump_of({{1, 1, 1}, {2, 2, 1}}, 4));
+  folder.file("p.csv", "x,y,z\n1,2,3\n4,5,6\n");
+  folder.file("flat.csv", "x,y\n1,2\n4,5\n");
+  folder.file(
+      "tilted.xyz",
+      "2\nLattice=\"4 0 0 1 4 0 0 0 4\" Properties=species:S:1:pos:R:3 pbc=\"T T T\"\nA 1 1 0\nA 1 1 2\n");
+  folder.file(
+      "sheared.dump",
+      "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 5 0\n0 4 1\n"
+      "0 4 0\nITEM: ATOMS id x y z\n1 1 1 1\n");
+  for (const std::string command : {"cells", "simulate"}) {
+    const std::string files = command == "cells" ? "p" : "p%d",
+                      exact = command + " --exact --trajectory t.dump --device none ";
+    refuses(folder, exact + "--polygons " + files + ".vtp", usage, {".vtp", "polyhedra", ".vtu"});
+    const std::string flat = command + " --exact --trajectory flat.dump --device none ";
+    refuses(folder, flat + "--polygons " + files + ".vtu", usage, {".vtu", "polygons"});
+    refuses(folder, exact + "--cells c.csv --cell-columns id,area", usage,
+            {"area", "volumes have no", "surface"});
+    refuses(folder, flat + "--cells c.csv --cell-columns volume", usage,
+            {"volume", "planes have no", "perimeter"});
+    refuses(folder, exact + "--cells c.csv --y-down", usage, {"--y-down is for planes"});
+    refuses(folder, exact + "--cells c.csv --outside count", usage, {"--outside is for planes"});
+    refuses(folder, exact + "--cells c.csv --bounds 0,0,4,4 --periodic xz", usage, {"six numbers"});
+    refuses(folder, exact + "--cells c.csv --bounds 0,0,0,4,4,3", failure,
+            {"frame 0", "whole periods", "in z"});
+    refuses(folder, exact + "--cells c.csv --periodic none --bounds 0,0,0,4,4,2", failure,
+            {"frame 0", "particle 2", "outside the bounds, in z"});
+    refuses(folder, command + " --exact --trajectory tilted.xyz --cells c.csv", failure,
+            {"tilted.xyz:2", "tilted (xy = 1)", "volumes cannot take"});
+    refuses(folder, command + " --exact --trajectory sheared.dump --cells c.csv", failure,
+            {"sheared.dump:8", "tilted in z (xz, yz)"});
+  }
+  refuses(folder, "cells --exact --points flat.csv --columns x,y,z --cells c.csv", failure, {"no column z"});
+  refuses(folder, "cells --exact --points p.csv --columns x,y,z --bounds 0,0,0,4,4,4 --cells c.csv", failure,
+          {"point 1 at (4, 5, 6)", "outside the bounds"});
+  refuses(folder, "cells --exact --mask m.png --size 8x8x8 --cells c.csv", usage, {"--mask is for planes"});
+  BOOST_TEST((folder.names() == std::set<std::string>{"t.dump", "flat.dump", "p.csv", "flat.csv",
+                                                      "tilted.xyz", "sheared.dump"}));
+}
