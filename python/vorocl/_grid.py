@@ -161,8 +161,8 @@ def _to_spacing(spacing: Optional[Sequence[int]], dimensions: int) -> Optional[T
         units = tuple(operator.index(unit) for unit in spacing)
     except (TypeError, ValueError):
         units = ()
-    if len(units) != dimensions or not all(1 <= unit <= 16 for unit in units):
-        raise BadArgument(f"spacing must be {dimensions} whole numbers from 1 to 16; this is {shown(spacing)}")
+    if len(units) != dimensions or not all(1 <= unit <= 64 for unit in units):
+        raise BadArgument(f"spacing must be {dimensions} whole numbers from 1 to 64; this is {shown(spacing)}")
     return units if max(units) > 1 else None
 
 

@@ -60,7 +60,7 @@ y_up : bool, optional
     Whether y of the points goes up: rows are counted from the bottom then.""",
     "spacing": """\
 spacing : sequence of int, optional
-    As how many units distances count a pixel along x and y, in a volume a voxel along x, y and z: from 1 to 16, such as
+    As how many units distances count a pixel along x and y, in a volume a voxel along x, y and z: from 1 to 64, such as
     (1, 1, 4) for slices that lie four pixels apart. Distances in pixels are in these units then. Exact diagrams move
     points to the centres of their pixels, and refuse points outside.""",
     "units": """\
