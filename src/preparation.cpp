@@ -125,6 +125,12 @@ void prepare_volumes(const Device& device) {
     distance_errors(other, diagram, wrong);
     measure_cells(diagram);
     diagram.wait();
+    if (device.tuning().shape == Shape::group) continue;
+    exact_diagram(Seeds(device, grid, {{1.25, 2.5, 3.75}}), diagram);
+    distance_field(diagram, distances);
+    distance_errors(other, diagram, wrong);
+    measure_cells(diagram);
+    diagram.wait();
   }
 }
 
@@ -156,7 +162,7 @@ void prepare_images(const Device& device) {
     for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
   }
   Diagram diagram(device, thin);
-  exact_diagram(Seeds(device, thin, crowded), diagram);
+  exact_diagram(Seeds(device, thin, crowded, {Outside::count, Snap::to_pixels}), diagram);
   diagram.wait();
 }
 

@@ -40,10 +40,10 @@ struct ExactOptions {
 /// as many as rows of images may reach the window. Throws Error if such a grid has a side of more than
 /// 131,072 pixels.
 ///
-/// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4.2
-/// bytes of device memory per voxel, more where sides are short, and 20 per seed. Seeds that stand close
-/// together, and those of masks, cost what their voxels do. Throws Error for the
-/// Manhattan metric, and with Shape::group, as on a GPU. docs/volumes.md says how and how fast.
+/// In a volume: of several seeds at the least distance the one that comes first by z, then y, then x. 4
+/// bytes of device memory per voxel, the labels, and 34 per seed besides its place. Snapped seeds that stand
+/// close together, and those of masks, cost what their voxels do. Throws Error for the Manhattan metric, and
+/// with Shape::group, as on a GPU. docs/volumes.md says how and how fast.
 VOROCL_API Report exact_diagram(const Seeds& seeds, Diagram& diagram, const ExactOptions& options = {});
 
 }  // namespace vorocl

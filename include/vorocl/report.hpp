@@ -29,7 +29,7 @@ class VOROCL_API Report {
   const FloodStart& start() const { return start_; }
 
   /// Whether the labels are those of the centres of the seeds' pixels, although the seeds' points lie
-  /// elsewhere in them (Snap::none): engines that flood snap, and so do all engines in volumes.
+  /// elsewhere in them (Snap::none): engines that flood snap.
   bool snapped() const { return snapped_; }
 
   /// Completes with the diagram.

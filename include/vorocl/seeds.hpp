@@ -51,10 +51,11 @@ struct SeedsOptions {
 /// seeds outside a diagram's window, and every window of a grid; flooding methods need a window that is the
 /// whole grid, which is not tilted, and holds all seeds, and periods of at most 32,000 pixels.
 ///
-/// In a volume, and in a plane with an axis that is spaced, exact diagrams snap too, and all seeds lie in the
-/// grid: points outside it are absent or refused, with Outside::count too.
+/// In a volume, and in a plane with an axis that is spaced, all seeds lie in the grid: points outside it are
+/// absent or refused, with Outside::count too.
 ///
-/// Memory: on the device 4 bytes per seed and frame that is remembered, 8 more of points with Snap::none, and
+/// Memory: on the device 4 bytes per seed and frame that is remembered, 8 more of points with Snap::none, 16
+/// of those in volumes, and
 /// those of its point where that came from the caller; two or three times as much in a loop over frames.
 /// Where a diagram's window does not hold all seeds 8 more, and up to 15 for each outer seed and image that
 /// may own a pixel, which the host finds and sorts. On the host 16 or 24 bytes per seed whose point came from

@@ -6,6 +6,7 @@
 #define VOROCL_METRIC
 
 #define NO_LABEL 0xffffffffu
+#define NO_DISTANCE 0x7fffffffu  // what results say where there is no seed: more than any distance
 #define FIRST_ID 1  // an image of ids starts with NO_LABEL, which is looked up for an empty position
 #define EMPTY_BIT 0x80000000u  // of a position: there is no seed
 

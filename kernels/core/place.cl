@@ -47,29 +47,31 @@ typedef struct {
 
 typedef struct {
   uint_v positions;  // packed
-  int_v x, y;        // in 1/4096 pixel
+  int_v x, y, z;     // in 1/4096 pixel
   int_v is_absent, is_outside, is_bad;
 } places_t;
 
 static inline places_t places_of(const grid_t* grid, points_t at, int has_z, int_v counts, int outside,
                                  int2 bits, uint empty) {
   const flags is_finite = isfinite(at.x) && isfinite(at.y) && isfinite(at.z);
+  spots_t z = {0, PARTS_OF_PIXEL / 2};
+  if (has_z) z = spots_on(grid->z, at.z);
+  if (grid->z.count == 1) z.part = PARTS_OF_PIXEL / 2;  // a plane
+  const flags is_on_z = is_finite && is_on(grid->z, z.pixel);
+  const int_v along_z = CONVERT_INT_V(IF(is_on_z, z.pixel, (double_v)0)) * PARTS_OF_PIXEL + CONVERT_INT_V(z.part);
   if (grid->tilt != 0) at.x -= grid->tilt * periods_beyond(grid->y, at.y);
   const spots_t x = spots_on(grid->x, at.x), y = spots_on(grid->y, at.y);
-  double_v z = 0;
-  if (has_z) z = spots_on(grid->z, at.z).pixel;
-  const flags is_on_z = is_finite && is_on(grid->z, z);
   const flags is_on_all = is_on_z && is_on(grid->x, x.pixel) && is_on(grid->y, y.pixel);
   const int_v is_inside = counts && CONVERT_FLAGS(is_on_all), is_beyond = counts && !is_inside;
   const int_v column = CONVERT_INT_V(IF(is_on_all, x.pixel, (double_v)0));
   const int_v row = CONVERT_INT_V(IF(is_on_all, y.pixel, (double_v)0));
-  const int_v slice = CONVERT_INT_V(IF(is_on_all, z, (double_v)0));
-  const uint_v packed = AS_UINT_V(slice << (bits.x + bits.y) | row << bits.x | column);
+  const uint_v packed = AS_UINT_V(along_z / PARTS_OF_PIXEL << (bits.x + bits.y) | row << bits.x | column);
   const flags is_near_all = is_on_z && is_near(grid->x, x.pixel) && is_near(grid->y, y.pixel);
   places_t places;
   places.positions = IF(is_inside, packed, (uint_v)empty);
   places.x = IF(is_inside, column * PARTS_OF_PIXEL + CONVERT_INT_V(x.part), (int_v)INT_MIN);
   places.y = IF(is_inside, row * PARTS_OF_PIXEL + CONVERT_INT_V(y.part), (int_v)0);
+  places.z = IF(is_inside, along_z, (int_v)0);
   places.is_absent = outside == OUTSIDE_IS_ABSENT ? is_beyond && CONVERT_FLAGS(is_finite) : (int_v)0;
   places.is_outside = outside == OUTSIDE_COUNTS ? is_beyond && CONVERT_FLAGS(is_near_all) : (int_v)0;
   places.is_bad = is_beyond && !places.is_absent && !places.is_outside;
@@ -84,15 +86,21 @@ static inline void count_in(global uint* found, int_v are) {
   if (ANY(are)) atomic_add(found, lane_sum(IF(are, (uint_v)1, (uint_v)0)));
 }
 
-static inline void store_places(places_t places, global int2* to, uint some) {
+// Places of so many numbers each: (x, y), or (x, y, z, 0).
+static inline void store_places(places_t places, int numbers, global int* to, uint some) {
   const JOIN(int, PLACES_WIDTH) in_turn = IN_TURN(places.x, places.y);
-  if (some >= VOROCL_WIDTH) {
-    JOIN(vstore, PLACES_WIDTH)(in_turn, 0, (global int*)to);
+  if (numbers == 2 && some >= VOROCL_WIDTH) {
+    JOIN(vstore, PLACES_WIDTH)(in_turn, 0, to);
     return;
   }
   int2 lane[VOROCL_WIDTH];
+  int z[VOROCL_WIDTH];
   JOIN(vstore, PLACES_WIDTH)(in_turn, 0, (int*)lane);
-  for (uint i = 0; i < some; ++i) to[i] = lane[i];
+  STORE_VECTOR(places.z, z);
+  for (uint i = 0; i < min(some, (uint)VOROCL_WIDTH); ++i) {
+    if (numbers == 2) vstore2(lane[i], i, to);
+    if (numbers == 4) vstore4((int4)(lane[i], z[i], 0), i, to);
+  }
 }
 
 // Points of `dimensions` numbers each: two, or three if they have a z, which is in the grid's first slice
@@ -107,11 +115,11 @@ static inline void store_places(places_t places, global int2* to, uint some) {
   kernel void place_##number##s(                                                                             \
       global const number* restrict points, int dimensions, global const uchar* restrict marks,              \
       int absent_by, double2 ends_x, double2 ends_y, double2 ends_z, int4 pixels, int4 kinds, double tilt,   \
-      int outside, uint count, int2 bits, uint empty, global uint* restrict positions, int has_places,       \
-      global int2* restrict places, global uint* restrict found) {                                           \
+      int outside, uint count, int2 bits, uint empty, global uint* restrict positions, int of_place,         \
+      global int* restrict places, global uint* restrict found) {                                            \
     const uint first = (uint)get_global_id(0) * VOROCL_WIDTH;                                                \
     if (first > count) return;                                                                               \
-    places_t placed = {empty, INT_MIN, 0, 0, 0, 0};                                                          \
+    places_t placed = {empty, INT_MIN, 0, 0, 0, 0, 0};                                                       \
     if (first < count) {                                                                                     \
       const uint_v own = first + LANES, ids = min(own, (uint_v)(count - 1));                                 \
       const int_v is_seed = AS_INT_V(own < count);                                                           \
@@ -130,7 +138,7 @@ static inline void store_places(places_t places, global int2* to, uint some) {
     }                                                                                                        \
     const uint some = count + 1 - first;                                                                     \
     store_some(placed.positions, positions + first, some);                                                   \
-    if (has_places) store_places(placed, places + first, some);                                              \
+    if (of_place != 0) store_places(placed, of_place, places + (size_t)first * (size_t)of_place, some);      \
   }
 
 DEFINE_PLACE(float)

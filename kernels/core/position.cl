@@ -12,7 +12,6 @@
 
 #define EMPTY 0x80008000u
 #define LAST_COORDINATE 0x7fff
-#define NO_DISTANCE 0x7fffffffu  // what results say where there is no seed: more than any distance
 
 static inline uint pack(int x, int y) { return (uint)y << 16 | (uint)x; }
 static inline int packed_x(uint position) { return (int)(position & 0xffffu); }

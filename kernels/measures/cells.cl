@@ -165,7 +165,7 @@ kernel void add_periods(global const uint* restrict labels, SEED_PARAMETERS, int
       const int at_x = seed_x(seed, size.x), at_y = seed_y(seed, size.y), length = walk.to - walk.from;
       const int x = PERIODIC_X ? periods_away(walk.from, walk.to, at_x, centre_behind_x(seed), size.x) : 0;
       const int of_row_y = PERIODIC_Y ? periods_away(y, y + 1, at_y, centre_behind_y(seed), size.y) : 0;
-      const int of_row_z = PERIODIC_Z ? periods_away(z, z + 1, seed_z(seed), 0, DEPTH(size)) : 0;
+      const int of_row_z = PERIODIC_Z ? periods_away(z, z + 1, seed_z(seed), centre_behind_z(seed), DEPTH(size)) : 0;
       if (x != 0) atomic_add(of_cell, x);
       if (of_row_y != 0) atomic_add(of_cell + 1, of_row_y * length);
       if (of_row_z != 0) atomic_add(of_cell + 2, of_row_z * length);

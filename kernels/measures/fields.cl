@@ -27,8 +27,9 @@ static inline length_v find_distances(global const uint* labels, global const se
   labels += vector_begin(size);
 #ifdef VOROCL_OUTER_SEEDS
   const window_t window = window_of(size, of_axes);
+  const int z = slice_of(size);
   LENGTH lane[VOROCL_WIDTH];
-  for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = distance_to(seeds[min(labels[i], count)], x + i, y, 0, window);
+  for (int i = 0; i < VOROCL_WIDTH; ++i) lane[i] = distance_to(seeds[min(labels[i], count)], x + i, y, z, window);
   return LOAD_VECTOR(lane);
 #else
   (void)of_axes;

@@ -1,7 +1,7 @@
 // Where the seeds of a diagram lie, as its measures see it. Seeds are packed positions of the window's pixels
 // (core/position.cl) or of a volume's voxels (volumes/position.cl); with the build option VOROCL_OUTER_SEEDS they are
-// positions in the plane (core/plane.cl), some of them outside the pixels; with VOROCL_FRACTIONS besides, these are in
-// fractions of a pixel (core/plane.cl).
+// positions in the plane (core/plane.cl), some of them outside the pixels; with VOROCL_FRACTIONS besides, these, and
+// those in a volume, are in fractions of a pixel (core/units.cl).
 //
 // THE RULE OF PLACE. Where the window shows one whole period of an axis (PERIODIC_X and its like), a pixel lies the
 // shorter way round from its seed, perhaps outside the window; half a period away it is behind the seed. Along other
@@ -18,15 +18,11 @@
 
 // What both kinds of positions need comes first, for a file is included once, whichever branch that is in.
 #include "core/metric.cl"
+#include "core/units.cl"
 #include "measures/runs.cl"
 
 #if VOROCL_DIMENSIONS == 3
 #include "volumes/position.cl"
-#define LENGTH int
-#define MOST_LENGTH INT_MAX
-#define UNIT_BITS 0
-#define CENTRE 0
-#define UNIT 1
 #else
 #include "core/plane.cl"
 #endif
@@ -41,26 +37,37 @@ typedef struct {
 typedef int4 way_t;
 
 #ifdef VOROCL_OUTER_SEEDS
+#if VOROCL_DIMENSIONS == 3
+typedef int4 seed_t;
+#define Z_OF(seed) ((seed).z)
+#else
 typedef int2 seed_t;
+#define Z_OF(seed) 0
+#endif
 
 static inline window_t window_of(int4 size, int4 periods) {
-  const window_t window = {size.x, size.y, 1, periods.x, periods.y, 0, periods.z};
+  const int period_z = PERIODIC_Z ? DEPTH(size) : 0;
+  const window_t window = {size.x, size.y, DEPTH(size), periods.x, periods.y, period_z, periods.z};
   return window;
 }
 
 static inline bool is_there(seed_t seed) { return seed.x != ABSENT; }
 
 // Its pixel: in the window, along an axis that is shown whole.
-static inline int seed_x(seed_t seed, int width) { return wrapped_x(seed.x >> UNIT_BITS, width); }
-static inline int seed_y(seed_t seed, int height) { return wrapped_y(seed.y >> UNIT_BITS, height); }
+static inline int seed_x(seed_t seed, int width) { return wrapped(seed.x >> UNIT_BITS, width, PERIODIC_X); }
+static inline int seed_y(seed_t seed, int height) { return wrapped(seed.y >> UNIT_BITS, height, PERIODIC_Y); }
 static inline int seed_z(seed_t seed) {
   (void)seed;
-  return 0;
+  return Z_OF(seed) >> UNIT_BITS;
 }
 
 // How far behind a seed the centre of its own pixel is.
 static inline int centre_behind_x(seed_t seed) { return CENTRE - (seed.x & (UNIT - 1)); }
 static inline int centre_behind_y(seed_t seed) { return CENTRE - (seed.y & (UNIT - 1)); }
+static inline int centre_behind_z(seed_t seed) {
+  (void)seed;
+  return CENTRE - (Z_OF(seed) & (UNIT - 1));
+}
 
 static inline int shorter_way_round(long way, long period) {
   if (period == 0) return (int)way;
@@ -78,7 +85,8 @@ static inline int way_y(seed_t seed, int y, window_t window) {
 }
 static inline int way_z(seed_t seed, int z, window_t window) {
   (void)seed, (void)z, (void)window;
-  return 0;
+  return VOROCL_DIMENSIONS == 3 ? shorter_way_round((long)z * UNIT + CENTRE - Z_OF(seed), (long)window.period_z * UNIT)
+                                : 0;
 }
 #else
 typedef uint seed_t;
@@ -127,6 +135,10 @@ static inline int centre_behind_y(seed_t seed) {
   (void)seed;
   return 0;
 }
+static inline int centre_behind_z(seed_t seed) {
+  (void)seed;
+  return 0;
+}
 
 static inline int way_x(seed_t seed, int x, window_t window) {
   return shorter_way(x - SEED_X(seed), window.width, PERIODIC_X);
@@ -149,6 +161,10 @@ static inline int place_x(seed_t seed, int way, int width) {
 }
 static inline int place_y(seed_t seed, int way, int height) {
   return seed_y(seed, height) + ((way - centre_behind_y(seed)) >> UNIT_BITS);
+}
+
+static inline int place_z(seed_t seed, int way) {
+  return seed_z(seed) + ((way - centre_behind_z(seed)) >> UNIT_BITS);
 }
 
 // The distance of a way, in units (squared, if Euclidean).

@@ -28,7 +28,9 @@ static inline void add_to_box(global box_t* box, int left, int right, int y, int
 #define NO_BOX ((box_t)INT_MAX)
 
 // The pixels at home have a box of their own and their largest distance. The others have another box and, because a
-// distance in a plane may take 64 bits, which have no atomics, their farthest pixel, packed; in a volume the distance.
+// distance may take 64 bits, which have no atomics, their farthest pixel, packed; the distance between the centres of
+// voxels takes 31, and is kept itself.
+#define KEEPS_DISTANCES (VOROCL_DIMENSIONS == 3 && UNIT == 1)
 kernel void clear_shapes(SEED_PARAMETERS, int4 bits, global ushort* restrict home, global box_t* restrict home_boxes,
                          global box_t* restrict other_boxes, global LENGTH* restrict distances,
                          global uint* restrict farthest) {
@@ -70,15 +72,17 @@ static inline uint start_of_row(int y, int z, int4 size) {
 }
 
 static inline LENGTH distance_of_farthest(uint found, seed_t seed, window_t window) {
-#if VOROCL_DIMENSIONS == 3
+#if KEEPS_DISTANCES
   (void)seed, (void)window;
   return (LENGTH)found;
+#elif VOROCL_DIMENSIONS == 3
+  return distance_to(seed, x_of(found), y_of(found), z_of(found), window);
 #else
   return distance_to(seed, packed_x(found), packed_y(found), 0, window);
 #endif
 }
 
-// Puts a pixel of a plane in the place of a cell's farthest one so far, if it is farther.
+// Puts a pixel in the place of a cell's farthest one so far, if it is farther.
 static inline void add_farthest(global uint* farthest, uint pixel, LENGTH distance, seed_t seed, window_t window) {
   for (uint known = EMPTY, found;; known = found) {
     found = atomic_cmpxchg(farthest, known, pixel);
@@ -114,7 +118,7 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
         const way_t way = piece.way, way_of_last = way + (way_t)((last - first) * UNIT, 0, 0, 0);
         const int left = PERIODIC_X ? place_x(seed, way.x, size.x) : first, right = left + last - first;
         const int row_at = PERIODIC_Y ? place_y(seed, way.y, size.y) : y;
-        const int slice_at = PERIODIC_Z ? seed_z(seed) + way.z : z;
+        const int slice_at = PERIODIC_Z ? place_z(seed, way.z) : z;
         const LENGTH distance = length_of(way), of_last = length_of(way_of_last);
         if (at_home) {
           add_to_box(home_boxes + label, left, right, row_at, slice_at);
@@ -142,7 +146,12 @@ kernel void add_shapes(global const uint* restrict labels, SEED_PARAMETERS, int4
         if (!(has_next_z(z, 1, way.z, window) && labels[back + (uint)first] == label)) {
           atomic_min(box + LAST_SIDES + 2, ~slice_at);
         }
+#if KEEPS_DISTANCES
         atomic_max((global int*)(farthest + label), max(distance, of_last));
+#else
+        const int end = of_last > distance ? last : first;
+        add_farthest(farthest + label, pack(end, y, z), max(distance, of_last), seed, window);
+#endif
 #else
         const bool ends_y = way.y < 0 ? !above : !below;
         const uint away_y = way.y < 0 ? rows.above : rows.below;

@@ -49,7 +49,7 @@ kernel void add_weights(global const uint* restrict labels, SEED_PARAMETERS, int
       }
       if (weight == 0) continue;
       const ulong moment_y = weight * (ulong)(long)(place_y(seed, dy, size.y) - home_y);
-      const ulong moment_z = weight * (ulong)(long)dz;
+      const ulong moment_z = weight * (ulong)(long)(place_z(seed, dz) - seed_z(seed));
       if (block_of(home_x, home_y, seed_z(seed), size, bits) == block.index) {
         global ulong* const sums = at_home + 4 * (size_t)label;
         sums[0] += weight;

@@ -270,8 +270,6 @@ DistanceErrors errors(DiagramObject& diagram, std::optional<bool> of_points) {
   const Turn turn(diagram.mutex);
   const Snap snap = !of_points ? diagram.snap : *of_points ? Snap::none : Snap::to_pixels;
   const Seeds& named = seeds_of(diagram);
-  if ((named.grid().is_volume() || named.grid().is_spaced()) && snap == Snap::none)
-    throw Error("volumes and spaced grids know whole voxels alone: the truth is \"snapped\"");
   const Seeds seeds(named.device(), named.grid(), named.read(), {Outside::count, snap});
   const Metric metric = diagram.diagram.metric();
   const Device& device = diagram.diagram.device();

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 import vorocl
+from oracles import PARTS, rounded
 from scipy import ndimage
 from scipy.spatial import cKDTree
 from skimage import measure
@@ -10,12 +11,12 @@ from skimage import measure
 SHAPES = [(9, 14, 23), (40, 33, 37)]
 
 
-def brute_force(points, shape):
-    """The row of the nearest voxel; ties by z, y, x, row."""
-    voxels = np.floor(points).astype(int)
-    z, y, x = np.indices(shape)
-    order = np.lexsort((np.arange(len(voxels)), voxels[:, 0], voxels[:, 1], voxels[:, 2]))
-    distances = [(x - i) ** 2 + (y - j) ** 2 + (z - k) ** 2 for i, j, k in voxels[order]]
+def brute_force(points, shape, snap=False):
+    """The row of the nearest point, in whole numbers of 1/4096 voxel; ties by z, y, x, row."""
+    places = np.round(rounded(points, snap) * PARTS).astype(np.int64)
+    z, y, x = np.indices(shape) * PARTS + PARTS // 2
+    order = np.lexsort((np.arange(len(places)), places[:, 0], places[:, 1], places[:, 2]))
+    distances = [(x - i) ** 2 + (y - j) ** 2 + (z - k) ** 2 for i, j, k in places[order]]
     return order[np.argmin(distances, axis=0)].astype(np.uint32)
 
 
@@ -38,33 +39,56 @@ exact_alone = pytest.mark.skipif(not device_is_exact(), reason="exact diagrams o
 @exact_alone
 @pytest.mark.parametrize("shape", SHAPES)
 @pytest.mark.parametrize("count", [1, 5, 60])
-def test_labels_are_those_of_brute_force(shape, count):
+@pytest.mark.parametrize("snap", [True, False])
+def test_labels_are_those_of_brute_force(shape, count, snap):
     points = points_in(shape, count, count)
-    assert np.array_equal(vorocl.diagram(points, shape), brute_force(points, shape))
+    assert np.array_equal(vorocl.diagram(points, shape, snap=snap), brute_force(points, shape, snap))
 
 
 @exact_alone
 @pytest.mark.parametrize("shape", [(60, 50, 70), (3, 1, 40)])
 @pytest.mark.parametrize("count", [1, 20, 3000])
-def test_periodic_labels_are_those_of_a_k_d_tree(shape, count):
+@pytest.mark.parametrize("snap", [True, False])
+def test_periodic_labels_are_those_of_a_k_d_tree(shape, count, snap):
     points = points_in(shape, count, count)
-    labels = vorocl.diagram(points + 3 * np.array(shape[::-1]), shape, periodic=(True, True, True))
-    centres = np.stack(np.indices(shape), axis=-1)[..., ::-1].reshape(-1, 3)
-    voxels = np.floor(points)
-    nearest, _ = cKDTree(voxels, boxsize=shape[::-1]).query(centres)
-    apart = abs(centres - voxels[labels.ravel()])
+    box = dict(periodic=(True, True, True), snap=snap)
+    labels = vorocl.diagram(points + 3 * np.array(shape[::-1]), shape, **box)
+    centres = np.stack(np.indices(shape), axis=-1)[..., ::-1].reshape(-1, 3) + 0.5
+    places = rounded(points, snap)
+    nearest, _ = cKDTree(places, boxsize=shape[::-1]).query(centres)
+    apart = abs(centres - places[labels.ravel()])
     apart = np.minimum(apart, np.array(shape[::-1]) - apart)
-    assert np.array_equal((apart**2).sum(1), np.round(nearest**2))
-    tree = vorocl.distances(points, shape, periodic=(True, True, True))
-    assert np.allclose(tree.ravel(), nearest, rtol=1e-6)
-    assert vorocl.errors(labels, points, periodic=(True, True, True)).wrong_pixels == 0
+    np.testing.assert_allclose(np.sqrt((apart**2).sum(1)), nearest, rtol=1e-12)
+    np.testing.assert_allclose(vorocl.distances(points, shape, **box).ravel(), nearest, rtol=1e-6, atol=1e-9)
+    truth = "snapped" if snap else "true"
+    assert vorocl.errors(labels, points, periodic=(True, True, True), truth=truth).wrong_pixels == 0
+
+
+@exact_alone
+@pytest.mark.parametrize("kind", ["line", "sphere", "one voxel", "one point"])
+def test_crowds_have_no_farther_label(kind):
+    shape, rng = (40, 50, 45), np.random.default_rng(8)
+    points = np.full((4000, 3), 20.3)
+    if kind == "line":
+        points[:, 0] = rng.uniform(0, 45, 4000)
+    if kind == "sphere":
+        away = rng.normal(size=(4000, 3))
+        points += 15 * away / np.linalg.norm(away, axis=1)[:, None]
+    if kind == "one voxel":
+        points = 20 + rng.uniform(0, 1, (4000, 3))
+    labels, places = vorocl.diagram(points, shape), rounded(points)
+    centres = np.stack(np.indices(shape), axis=-1)[..., ::-1].reshape(-1, 3) + 0.5
+    nearest = cKDTree(np.unique(places, axis=0)).query(centres)[0]
+    np.testing.assert_allclose(np.linalg.norm(centres - places[labels.ravel()], axis=1), nearest, rtol=1e-12)
+    if kind == "one point":
+        assert (labels == 0).all()
 
 
 def test_jump_flooding_is_judged_by_exact_labels():
     shape = (30, 40, 50)
     points = points_in(shape, 80, 1)
     flooded = vorocl.diagram(points, shape, method="jfa")
-    expected = brute_force(points, shape)
+    expected = brute_force(points, shape, snap=True)
     assert 99 < vorocl.similarity(flooded, expected) <= 100
 
 
@@ -72,14 +96,18 @@ def test_jump_flooding_is_judged_by_exact_labels():
 def test_errors_and_distances():
     shape = (12, 20, 30)
     points = points_in(shape, 40, 2)
-    labels = brute_force(points, shape)
+    assert vorocl.errors(brute_force(points, shape), points, truth="true").wrong_pixels == 0
+    assert vorocl.errors(brute_force(points, shape), points).wrong_pixels > 0
+    labels = brute_force(points, shape, snap=True)
     assert vorocl.errors(labels, points).wrong_pixels == 0
     labels[5, 6, 7] = 39 if labels[5, 6, 7] != 39 else 38
     assert vorocl.errors(labels, points).wrong_pixels == 1
     voxels = np.ones(shape)
     x, y, z = np.floor(points).astype(int).T
     voxels[z, y, x] = 0
-    assert np.allclose(vorocl.distances(points, shape), ndimage.distance_transform_edt(voxels), rtol=1e-6)
+    snapped = vorocl.distances(points, shape, snap=True)
+    assert np.allclose(snapped, ndimage.distance_transform_edt(voxels), rtol=1e-6)
+    assert abs(vorocl.distances(points, shape) - snapped).max() > 0.3
 
 
 @exact_alone
@@ -87,7 +115,7 @@ def test_objects_take_volumes():
     shape = (6, 7, 8)
     seeds = vorocl.Seeds([(1.2, 2.5, 3.9), (np.nan, 0, 0), (7, 6, 5)], shape)
     assert seeds.alive == 2
-    assert np.array_equal(seeds.read(), [(1.5, 2.5, 3.5), (np.nan,) * 3, (7.5, 6.5, 5.5)], equal_nan=True)
+    assert np.array_equal(seeds.read(), rounded([(1.2, 2.5, 3.9), (np.nan,) * 3, (7, 6, 5)]), equal_nan=True)
     simulation = vorocl.Simulation(shape)
     simulation.step([(0, 0, 0), (4, 4, 4)])
     assert simulation.step([(0, 0, 3), (4, 4, 4)]).read().shape == shape
@@ -105,7 +133,7 @@ def test_cells_are_those_of_scikit_image(shape):
     assert cells.dtype == vorocl.CELL
     assert np.isnan(cells["x"][7]) and cells["area"][7] == 0 and np.isnan(cells["centroid_z"][7])
     assert np.array_equal(diagram.areas(), cells["area"])
-    x, y, z = (np.floor(points) + 0.5).T
+    x, y, z = rounded(points).T  # the points, where their voxels' centres were flooded
     for name, expected in ("x", x), ("y", y), ("z", z):
         assert np.array_equal(cells[name], expected, equal_nan=True)
     distances = diagram.distances()
@@ -148,7 +176,7 @@ def test_volumes_lie_in_the_units_of_the_points():
     low, high = np.array(bounds[:3]), np.array(bounds[3:])
     points = rng.uniform(low, high, (20, 3))
     points[0] = high  # the far end is inside
-    voxels = np.minimum((points - low) * 2, np.array(shape[::-1]) - 0.01)
+    voxels = np.minimum((points - low) * 2, np.array(shape[::-1]) - 1 / PARTS)
     pixels, data = vorocl.cells(voxels, shape), vorocl.cells(points, shape, bounds=bounds)
     assert np.array_equal(vorocl.diagram(points, shape, bounds=bounds), vorocl.diagram(voxels, shape))
     np.testing.assert_allclose(data["area"], pixels["area"] / 8)
@@ -169,8 +197,8 @@ def test_volumes_lie_in_the_units_of_the_points():
     assert np.array_equal(pairs, vorocl.adjacency(voxels, shape)[0])
     np.testing.assert_allclose(faces, vorocl.adjacency(voxels, shape)[1] / 4)
     seeds = vorocl.Seeds(points, shape, bounds=bounds, y_up=True)
-    np.testing.assert_allclose(seeds.read(), low + (np.floor(voxels) + 0.5) / 2)
-    assert np.array_equal(seeds.read(units="pixels")[:, 1], 7 - np.floor(voxels[:, 1]) - 0.5)
+    np.testing.assert_allclose(seeds.read()[1:], points[1:], atol=0.5 / PARTS)
+    np.testing.assert_allclose(seeds.read(units="pixels")[1:, 1], 7 - voxels[1:, 1], atol=1 / PARTS)
     flat = vorocl.cells(points, (6, 7, 16), bounds=bounds)  # voxels are no cubes
     assert "perimeter_px" in flat.dtype.names and flat["area"].sum() == np.prod(high - low)
     with pytest.raises(vorocl.Error, match="no scale"):
@@ -216,15 +244,15 @@ def test_what_volumes_cannot_be_is_refused(call, words):
 @pytest.mark.parametrize("shape, spacing", [((14, 9, 12), (1, 2, 4)), ((31, 40), (3, 1))])
 @pytest.mark.parametrize("periodic", [False, True])
 def test_voxels_may_be_longer_along_an_axis(shape, spacing, periodic):
-    points = np.random.default_rng(3).uniform(0, shape[::-1], (25, len(shape)))
+    points = np.floor(np.random.default_rng(3).uniform(0, shape[::-1], (25, len(shape))) * PARTS) / PARTS
     grid = vorocl.Grid(shape, spacing=spacing, periodic=(periodic,) * len(shape))
-    apart = abs(np.stack(np.indices(shape)[::-1], -1)[..., None, :] - np.floor(points))
+    apart = abs(np.stack(np.indices(shape)[::-1], -1)[..., None, :] + 0.5 - points)
     apart = np.minimum(apart, np.array(shape[::-1]) - apart) if periodic else apart
     squared = ((apart * spacing) ** 2).sum(-1)
     labels = vorocl.diagram(points, grid)
     np.testing.assert_array_equal(np.take_along_axis(squared, labels[..., None].astype(int), -1)[..., 0], squared.min(-1))
     np.testing.assert_allclose(vorocl.distances(points, grid), np.sqrt(squared.min(-1)), rtol=1e-6)
-    assert vorocl.errors(labels, points, grid).wrong_pixels == 0
+    assert vorocl.errors(labels, points, grid, truth="true").wrong_pixels == 0
 
     # The same in the data, whose units are a fifth of these.
     bounds = (0.0,) * len(shape) + tuple(np.array(shape[::-1]) * spacing / 5)

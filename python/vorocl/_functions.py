@@ -113,10 +113,9 @@ def diagram(
     distance the one with the least y wins, counted down the grid, then the one with the least x, then the one with the
     lowest row of `points`. A method that floods, and ``snap=True``, move points to the centres of their pixels first.
 
-    In a volume, of a shape (D, H, W), points are rows (x, y, z), and each is moved to the centre of its voxel: of several
-    at the least distance the one with the least z wins, then y, then x, then the row. There "exact" is Euclidean and
-    needs a CPU, "jfa" and its variants are the other methods, there are no tilts, and points outside are refused unless
-    they are to be absent.
+    In a volume, of a shape (D, H, W), points are rows (x, y, z): of several at the least distance the one with the least
+    z wins, then y, then x, then the row. There "exact" is Euclidean and needs a CPU, "jfa" and its variants are the
+    other methods, there are no tilts, and points outside are refused unless they are to be absent.
 
     Parameters
     ----------

@@ -25,6 +25,8 @@ bool places_points(const Device& device) {
   return has_doubles(device) && environment("VOROCL_PLACE_ON") != "host";
 }
 
+cl_int numbers_of_place(const Grid& grid) { return has_voxels(grid) ? 4 : 2; }
+
 void place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, Outside outside,
                    const PointsThere& points, const Absence& absence, const cl::Buffer& positions,
                    const cl::Buffer& places, const cl::Buffer& found) {
@@ -44,7 +46,8 @@ void place_on_grid(const Device& device, KernelSet& kernels, const Grid& grid, O
                     has_marks ? absence.marks : positions, absent_by, ends_of(grid.x()), ends_of(grid.y()),
                     ends_of(grid.z()), of_axes(pixels_of), of_axes(kind_of), grid.tilt(),
                     static_cast<cl_int>(outside), static_cast<cl_uint>(points.count), packed.bits,
-                    packed.empty, positions, cl_int{has_places}, has_places ? places : positions, found);
+                    packed.empty, positions, has_places ? numbers_of_place(grid) : cl_int{0},
+                    has_places ? places : positions, found);
 }
 
 GivenPoints read_points(const Device& device, const PointsThere& points) {

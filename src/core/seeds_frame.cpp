@@ -161,6 +161,15 @@ std::vector<std::optional<Point>> SeedsFrame::read_positions() const {
     }
     return positions;
   }
+  if (whole->places) {
+    const auto places = download<cl_int4>(device, *whole->places, size);
+    const auto along = [](cl_int at) { return static_cast<double>(at) / fractions_of_pixel; };
+    for (std::size_t id = 0; id < size; ++id) {
+      const auto& [x, y, z, unused] = places[id].s;
+      if (x != absent_coordinate) positions[id] = {along(x), along(y), along(z)};
+    }
+    return positions;
+  }
   const VoxelBits bits(whole->grid);
   const std::vector<std::uint32_t> voxels = download<std::uint32_t>(device, *whole->positions, size);
   for (std::size_t id = 0; id < size; ++id) {

@@ -82,6 +82,23 @@ std::vector<std::uint32_t> voxels_of(const SeedsFrame& frame) {
   return voxels;
 }
 
+/// The places of points that lie in a grid of voxels, as place_on_grid() makes them.
+std::vector<cl_int4> places_of(const SeedsFrame& frame) {
+  const Grid& grid = frame.grid;
+  const auto along = [](const Axis& axis, double coordinate) {
+    return static_cast<cl_int>(axis.rounded_position(coordinate) * fractions_of_pixel);
+  };
+  const cl_int4 absent = {{absent_coordinate, 0, 0, 0}};
+  std::vector<cl_int4> places(frame.size + 1, absent);
+  for (std::size_t id = 0; id < frame.size; ++id) {
+    const Point at = frame.given.point(grid, id);
+    if (std::isnan(at.x)) continue;
+    const cl_int z = grid.is_volume() ? along(grid.z(), at.z) : fractions_of_pixel / 2;
+    places[id] = {{along(grid.x(), at.x), along(grid.y(), at.y), z, 0}};
+  }
+  return places;
+}
+
 }  // namespace
 
 SeedsState::SeedsState(const Device& device_of_seeds, const Grid& grid, const SeedsOptions& of_seeds)
@@ -157,8 +174,8 @@ void SeedsState::place(const Grid& grid, const Points& points) {
   next.outside = beyond;
   next.given = given;
   next.is_off_centre = options.snap == Snap::none;
-  // The host looks whether the voxels of points are crowded.
-  if (beyond == 0 && !has_voxels(grid) && kernels_place(device, grid)) {
+  // The host looks whether voxels are crowded.
+  if (beyond == 0 && (next.is_off_centre || !has_voxels(grid)) && kernels_place(device, grid)) {
     const PointsThere points_there = {rooms_of_points_.take(device, numbers->size() * sizeof(double)),
                                       points.size(), true, given.dimensions};
     upload_of_points_.start(device, *points_there.points, numbers);
@@ -166,6 +183,7 @@ void SeedsState::place(const Grid& grid, const Points& points) {
       found_ = allocate_with(device, std::vector<cl_uint>(4), "the check of the points");
     place_by_kernel(next, points_there, {{}, true}, found_);
   } else if (has_voxels(grid)) {
+    next.are_points = next.is_off_centre;
     upload_positions(next, voxels_of(next));
   } else {
     const std::shared_ptr<std::vector<Place>> places = list_of_places();
@@ -179,11 +197,12 @@ void SeedsState::place(const Grid& grid, const Points& points) {
 void SeedsState::place_by_kernel(SeedsFrame& next, const PointsThere& points, const Absence& absence,
                                  const cl::Buffer& found) {
   find_way_to(next);
-  next.are_points = (next.is_off_centre && !has_voxels(next.grid)) || next.grid.is_tilted();
+  next.are_points = next.is_off_centre || next.grid.is_tilted();
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(points.count);
   std::shared_ptr<cl::Buffer> places;
   if (next.are_points && next.is_off_centre)
-    places = rooms_of_places_.take(device, (points.count + 1) * sizeof(cl_int2));
+    places = rooms_of_places_.take(
+        device, (points.count + 1) * word * static_cast<std::size_t>(numbers_of_place(next.grid)));
   next.whole =
       std::make_shared<const Placement>(Placement{whole_of(next.grid), positions, places, nullptr, false});
   place_on_grid(device, kernels, next.grid, options.outside, points, absence, *positions,
@@ -194,8 +213,12 @@ void SeedsState::upload_positions(SeedsFrame& next, std::vector<std::uint32_t>&&
   find_way_to(next);
   const PixelGrid pixels{Window(next.grid)};
   const std::shared_ptr<cl::Buffer> positions = room_for_positions(next.size);
-  const bool crowded = has_voxels(next.grid) && are_crowded(pixels, packed);
-  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, nullptr, nullptr, crowded});
+  const bool are_voxels = has_voxels(next.grid),
+             crowded = are_voxels && !next.are_points && are_crowded(pixels, packed);
+  std::shared_ptr<const cl::Buffer> places;
+  if (are_voxels && next.are_points)
+    places = std::make_shared<const cl::Buffer>(allocate_with(device, places_of(next), "the seeds"));
+  next.whole = std::make_shared<const Placement>(Placement{pixels, positions, places, nullptr, crowded});
   packed.push_back(PackedPositions(pixels).empty);
   upload_.start(device, *positions, std::move(packed));
 }

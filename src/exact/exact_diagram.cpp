@@ -8,8 +8,8 @@
 #include "exact/outer.hpp"
 #include "exact/points.hpp"
 #include "masks/exact_diagram.hpp"
+#include "points/exact_diagram.hpp"
 #include "runtime/buffer.hpp"
-#include "volumes/exact_diagram.hpp"
 // Last: it defines macros.
 #include "exact/sizes.cl"
 

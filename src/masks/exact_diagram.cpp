@@ -36,11 +36,11 @@ bool shows_marks(const Filling& filling) {
 bool labels_by_passes(const Filling& filling, const DiagramState& state) {
   if (state.device.tuning().shape != Shape::vector) return false;
   if (shows_marks(filling)) return true;
+  if (filling.seeds().are_points) return false;
   const Placement& placement = filling.placement();
   // Of fewer seeds the ways by their index take a shorter time (measured).
-  const std::size_t pixels_per_seed = placement.grid.is_volume() ? 2 : 24;
-  return placement.is_crowded ||
-         (!filling.seeds().are_points && filling.seeds().size > placement.grid.pixels() / pixels_per_seed);
+  constexpr std::size_t pixels_per_seed = 24;
+  return placement.is_crowded || filling.seeds().size > placement.grid.pixels() / pixels_per_seed;
 }
 
 Report exact_diagram_by_passes(Filling& filling, DiagramState& state) {

@@ -30,27 +30,33 @@ struct Space {
 
 constexpr std::array<int, 3> cubes = {20, 40, 12};
 
-/// The file of labels: the id of the nearest voxel that has a particle, ties by z, y, x and id. `units` are
-/// the sides of a voxel.
+/// Where a particle is along an axis, in whole numbers of 1/4096 voxel; within its voxel.
+std::int64_t place_of(const Space& space, const Particle& particle, std::size_t axis, int voxels) {
+  const double length = space.high[axis] - space.low[axis];
+  const double at = (particle.at[axis] - space.low[axis]) * voxels / length;
+  const double voxel = space.periodic[axis] ? std::floor(at) : std::min(std::floor(at), voxels - 1.0);
+  const std::int64_t part = std::min(std::llround((at - voxel) * 4096), 4095LL),
+                     whole = static_cast<std::int64_t>(voxel);
+  return (space.periodic[axis] ? (whole % voxels + voxels) % voxels : whole) * 4096 + part;
+}
+
+/// The file of labels: the id of the particle that is nearest to each voxel's centre, ties by z, y, x and id.
+/// `units` are the sides of a voxel.
 std::string labels_of(const Space& space, const std::vector<Particle>& particles,
                       const std::array<int, 3>& sides = cubes, const std::array<int, 3>& units = {1, 1, 1}) {
   std::string bytes =
       command::npy_header<std::uint32_t>(std::vector<std::size_t>(sides.rbegin(), sides.rend()));
   std::array<int, 3> voxel = {};
   const auto key = [&](const Particle& particle) {
-    std::array<int, 3> of_seed = {};
-    int distance = 0;
+    std::array<std::int64_t, 3> places = {};
+    std::int64_t distance = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double length = space.high[axis] - space.low[axis];
-      const auto at =
-          static_cast<int>(std::floor((particle.at[axis] - space.low[axis]) * sides[axis] / length));
-      of_seed[axis] = space.periodic[axis] ? (at % sides[axis] + sides[axis]) % sides[axis]
-                                           : std::min(at, sides[axis] - 1);
-      int way = std::abs(of_seed[axis] - voxel[axis]);
-      if (space.periodic[axis]) way = std::min(way, sides[axis] - way);
+      places[axis] = place_of(space, particle, axis, sides[axis]);
+      std::int64_t way = std::abs(places[axis] - voxel[axis] * 4096 - 2048);
+      if (space.periodic[axis]) way = std::min(way, sides[axis] * std::int64_t{4096} - way);
       distance += way * way * units[axis] * units[axis];
     }
-    return std::make_tuple(distance, of_seed[2], of_seed[1], of_seed[0], particle.id);
+    return std::make_tuple(distance, places[2], places[1], places[0], particle.id);
   };
   for (voxel[2] = 0; voxel[2] < sides[2]; ++voxel[2]) {
     for (voxel[1] = 0; voxel[1] < sides[1]; ++voxel[1]) {
@@ -234,7 +240,8 @@ BOOST_AUTO_TEST_CASE(cells_of_files_have_their_ids_and_units) {
     BOOST_TEST(row[0] == particle.id);
     std::array<double, 3> low = {99, 99, 99}, high = {-99, -99, -99}, sum = {}, centre = {};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      centre[axis] = box.low[axis] + (std::floor((particle.at[axis] - box.low[axis]) / side) + 0.5) * side;
+      centre[axis] =
+          box.low[axis] + static_cast<double>(place_of(box, particle, axis, cubes[axis])) / 4096 * side;
     }
     double count = 0, farthest = 0;
     for (std::size_t voxel = 0; voxel < labels.size(); ++voxel) {
@@ -337,8 +344,8 @@ BOOST_AUTO_TEST_CASE(voxels_that_are_no_cubes_count_as_they_are_long) {
     std::memcpy(&found, distances.data() + distances.size() - 4 * (20 * 20 * 3 - i), 4);
     double sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double seed = std::floor((some[label].at[axis] - first.low[axis]) / voxel[axis]);
-      sum += (at[axis] - seed) * voxel[axis] * (at[axis] - seed) * voxel[axis];
+      const double place = static_cast<double>(place_of(open, some[label], axis, sides[axis])) / 4096;
+      sum += std::pow((at[axis] + 0.5 - place) * voxel[axis], 2);
     }
     BOOST_TEST_REQUIRE(std::abs(found - std::sqrt(sum)) < 1e-5);
     farthest[label] = std::max(farthest[label], std::sqrt(sum));
@@ -519,7 +526,7 @@ BOOST_AUTO_TEST_CASE(flooding_is_compared_with_exact_labels) {
       "simulate --trajectory " VOROCL_SAMPLES "/lj-melt-3d.lammpstrj --frames 1 --size 48x48x48 ";
   const auto json = nlohmann::json::parse(succeeds(
       folder, melt + "--method jfa --compare-with exact --labels f%d.npy --similarity s.csv --json"));
-  succeeds(folder, melt + "--labels e%d.npy --cells c%d.csv --units px");
+  succeeds(folder, melt + "--snap --labels e%d.npy --cells c%d.csv --units px");  // as flooding takes them
   const std::vector<std::uint32_t> flooded = labels_in(content_of(folder / "f1.npy")),
                                    exact = labels_in(content_of(folder / "e1.npy"));
   std::map<std::uint32_t, std::array<int, 3>> seeds;
@@ -574,8 +581,9 @@ BOOST_AUTO_TEST_CASE(image_data_lie_where_the_data_lie) {
   BOOST_TEST(distances.find("type=\"Float32\" Name=\"distance\"") != std::string::npos);
   std::vector<float> values(bytes / 4);
   std::memcpy(values.data(), distances.data() + end - bytes, bytes);
-  BOOST_TEST(values[2 + 4 * 20] == 0);                    // particle 90's voxel
-  BOOST_TEST(std::abs(values[3 + 4 * 20] - 0.5) < 1e-6);  // the next one, in data units
+  // Particle 90 is at the centre of its voxel along x and z, and on its side along y; in data units.
+  BOOST_TEST(std::abs(values[2 + 4 * 20] - 0.25) < 1e-6);
+  BOOST_TEST(std::abs(values[3 + 4 * 20] - std::sqrt(0.5 * 0.5 + 0.25 * 0.25)) < 1e-6);
 }
 
 BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
@@ -583,7 +591,7 @@ BOOST_AUTO_TEST_CASE(labels_of_particles_are_compared_with_theirs) {
   const TemporaryFolder folder;
   folder.file("a.lammpstrj", dump_frame(7, first, some, false));
   std::string labels = labels_of(first, some);
-  const std::string compare = "compare a.npy --trajectory a.lammpstrj --json";
+  const std::string compare = "compare a.npy --trajectory a.lammpstrj --no-snap --json";
   folder.file("a.npy", labels);
   BOOST_TEST(nlohmann::json::parse(succeeds(folder, compare))["errors"]["wrong_pixels"] == 0u);
   labels.replace(labels.size() - 8, 8, std::string("\x03\0\0\0\xff\xff\xff\xff", 8));  // none of the file's
@@ -640,10 +648,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_of_files_cannot_be_is_refused) {
   refuses(folder, "simulate --random 3 --size 8x8x8 --step-length 1 --frames 2 --labels a%d.npy", usage,
           {"of a --trajectory"});
   const std::string simulate = "simulate --trajectory a.lammpstrj --size 8x8x8 --labels %d.npy ";
-  for (const std::string option :
-       {"--no-snap --compare-with exact", "--tolerance 1 --compare-with exact", "--snap"}) {
-    refuses(folder, simulate + option, usage, {option.substr(0, option.find(' ')) + " is for planes"});
-  }
+  refuses(folder, simulate + "--method jfa --no-snap", usage, {"--no-snap is for exact diagrams"});
+  refuses(folder, simulate + "--tolerance 1 --compare-with exact", usage, {"--tolerance is for planes"});
   for (const std::string option : {"--method djfa", "--compare-with djfa"}) {
     refuses(folder, simulate + option, usage, {"djfa is for planes; volumes have"});
   }

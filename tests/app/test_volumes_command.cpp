@@ -255,10 +255,8 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
           {"4096 x 4096 x 4096 voxels is too large", "2048 x 1024 x 1024"});
   refuses(folder, "cells --random 3 --size 8x8x8", usage,
           {"nothing to write", "--cells, --adjacency, --distance, --labels"});
-  for (const std::string other : {"--border b.npy", "--snap"}) {
-    refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv " + other, usage,
-            {other.substr(0, other.find(' ')) + " is for planes"});
-  }
+  refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --border b.npy", usage,
+          {"--border is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x8 --cells a.csv --method djfa", usage, {"djfa is for planes"});
   refuses(folder, "cells --random 3 --size 8x8x16385 --cells a.csv", usage,
           {"16385", "from 2 to 16384 voxels"});
@@ -274,7 +272,7 @@ BOOST_AUTO_TEST_CASE(what_volumes_do_not_have_is_refused) {
   refuses(folder, bench + "jfa,exact --metric manhattan", usage,
           {"are Euclidean", "jump flooding takes --metric"});
   refuses(folder, bench + "jfa --tile 4", usage, {"--tile is for planes"});
-  refuses(folder, bench + "jfa --no-snap", usage, {"--no-snap is for planes"});
+  refuses(folder, bench + "jfa --no-snap", usage, {"--no-snap needs --points or --trajectory"});
   folder.file("points.npy", command::npy_header<std::uint32_t>({1, 3}) + std::string(12, '\1'));
   refuses(folder, "render --points points.npy --size 8x8 --labels a.npy", failure,
           {"(1, 3)", "those of a volume, which --size WxHxD or --exact asks for, (N, 3)"});
@@ -358,7 +356,8 @@ BOOST_AUTO_TEST_CASE(volumes_are_compared_and_benched) {
   refuses(folder, "compare a.npy plane.npy", failure, {"24 x 20 x 16 voxels", "24 x 20;"});
   folder.file("p.csv", "x,y,z\n1,2,3\n");
   refuses(folder, "compare a.npy --points p.csv --width 9", usage, {"--width is for planes"});
-  refuses(folder, "compare a.npy " + seeds + "--no-snap", usage, {"--no-snap is for planes"});
+  refuses(folder, "compare a.npy " + seeds + "--no-snap", usage,
+          {"--no-snap needs --points or --trajectory"});
   refuses(folder, "compare a.npy --random 3 --size 24x20x8", failure, {"24 x 20 x 16", "24 x 20 x 8"});
   refuses(folder, "compare a.npy --random 3 --metric manhattan", usage, {"are Euclidean"});
 }

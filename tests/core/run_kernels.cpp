@@ -20,6 +20,7 @@
 #include "seed_tree.hpp"
 #include "snapped_seeds.hpp"
 #include "true_positions.hpp"
+#include "volume_points.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;
@@ -255,6 +256,47 @@ void make_volumes(const Device& device, const Grid& grid) {
   }
 }
 
+/// Points within their voxels: few, dense ones, many on one point and on a line, on a sphere.
+void make_volumes_of_points(const Device& device) {
+  for (const Grid& grid : {Grid(20, 9, 6), Grid(18, 13, 7, Axes::xyz),
+                           Grid(Axis(19).spaced(2), Axis(9).periodic(), Axis(5).spaced(3))}) {
+    for (int kind = 0; kind < 5; ++kind) {
+      std::vector<Spot> seeds;
+      const std::int64_t x = grid.width() * parts, y = grid.height() * parts, z = grid.depth() * parts;
+      for (std::int64_t i = 0; i < (kind == 0 ? 3 : 150); ++i) {
+        if (kind < 2) seeds.push_back({i * 7919 * 31 % x, i * 104729 % y, i * 1299709 % z});
+        if (kind == 2) seeds.push_back({x / 3, y / 2, z / 2});
+        if (kind == 3) seeds.push_back({i * 524287 % x, y / 2, z / 2});
+        const double u = 1 - static_cast<double>(i) / 75, angle = static_cast<double>(i) * 2.4;
+        const auto away = [](double way) { return std::llround(2 * parts * way); };
+        const double flat = std::sqrt(std::max(0.0, 1 - u * u));
+        if (kind == 4)
+          seeds.push_back(
+              {x / 2 + away(flat * std::cos(angle)), y / 2 + away(flat * std::sin(angle)), z / 2 + away(u)});
+      }
+      Labels expected;
+      for (std::int64_t i = 0; i < static_cast<std::int64_t>(grid.pixels()); ++i) {
+        expected.push_back(label_by_definition(
+            grid, seeds,
+            {i % grid.width(), i / grid.width() % grid.height(), i / grid.width() / grid.height()}));
+      }
+      const Seeds points(device, grid, points_at(seeds));
+      Diagram diagram(device, grid), by_short_lists(with_lists(device, ListLength::two_entries), grid);
+      exact_diagram(points, by_short_lists);
+      exact_diagram(points, diagram);
+      expect(by_short_lists.read(), expected, "points in volumes by short lists");
+      expect(diagram.read(), expected, "points in volumes");
+      if (kind != 0) continue;
+      Field<float> distances;
+      DistanceErrorsResult errors;
+      distance_field(diagram, distances);
+      distance_errors(diagram, by_short_lists, errors);
+      measure_volume(diagram);
+      device.finish();
+    }
+  }
+}
+
 /// Images of planes and volumes by keys of 32 and of 64 bits, seeds of a mask, and seeds close together.
 void transform_images(const Device& device) {
   for (const Grid& grid : {Grid(20, 35), Grid(35, 12, Axes::xy), Grid(18, 9, 6)}) {
@@ -279,7 +321,7 @@ void transform_images(const Device& device) {
     for (const double z : {0.5, 1.5}) crowded.push_back({i + 0.5, 0.5, z});
   }
   Diagram diagram(device, thin);
-  exact_diagram(Seeds(device, thin, crowded), diagram);
+  exact_diagram(Seeds(device, thin, crowded, to_centres), diagram);
   diagram.wait();
 }
 
@@ -405,6 +447,7 @@ int main() {
   measure_many_cells(device, Grid(13, 9));
   measure_islands(device);
   const Device for_volumes = device.with_tuning({4, 4, 2, Shape::vector, 32});
+  make_volumes_of_points(for_volumes);
   make_volumes(for_volumes, Grid(20, 12, 9));
   make_volumes(for_volumes, Grid(Axis(18).periodic(), Axis(11).periodic().spaced(2), Axis(5).periodic()));
   transform_images(for_volumes);

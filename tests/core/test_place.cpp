@@ -263,8 +263,10 @@ BOOST_AUTO_TEST_CASE(seeds_of_volumes_are_placed_alike_by_the_device_and_by_the_
                            Grid(Axis(20), Axis(15), Axis(9).spaced(3))}) {
     std::vector<Point> points = points_on(grid, rng, 500, 0.2);
     for (Point& point : points) point.z = uniform(rng, grid.z().from() - 0.1, grid.z().to() + 0.1);
-    expect_the_same_on_both(grid, [&](const Device& device) {
-      return Seeds(device, grid, points, {Outside::absent, Snap::to_pixels});
-    });
+    for (const Snap snap : {Snap::to_pixels, Snap::none}) {
+      expect_the_same_on_both(grid, [&](const Device& device) {
+        return Seeds(device, grid, points, {Outside::absent, snap});
+      });
+    }
   }
 }

@@ -259,7 +259,8 @@ Seeds seeds_of(const Device& device, const Case& test) {
   for (std::size_t id = 0; id < test.absent.size(); ++id) present[id] = test.absent[id] ? 0 : 1;
   const double* const first = xyz.data();
   return {device, test.grid,
-          Points(first, first + 1, first + 2, test.seeds.size(), 3 * sizeof(double)).marked(present.data())};
+          Points(first, first + 1, first + 2, test.seeds.size(), 3 * sizeof(double)).marked(present.data()),
+          to_centres};
 }
 
 void check_all(const std::vector<Case>& cases, const std::vector<Device>& devices) {

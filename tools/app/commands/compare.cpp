@@ -180,7 +180,7 @@ void run(const CompareOptions& options) {
   const Comparison comparison = options.has_seeds() ? compare_with_exact(options) : compare_files(options);
   print_result(options, comparison);
   const bool has_points = !options.seeds.points.empty() || !options.seeds.trajectory.empty();
-  if (has_points && !comparison.is_volume && !options.seeds.snap && comparison.errors->wrong_pixels > 0) {
+  if (has_points && !options.seeds.snap && comparison.errors->wrong_pixels > 0) {
     print_note(
         "the centres of the points' pixels are the truth here, as methods that flood take them; --no-snap "
         "judges by the points themselves");

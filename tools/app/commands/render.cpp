@@ -155,7 +155,6 @@ void prepare_volume(const Command& command, RenderOptions& options) {
 /// Throws UsageError for options that planes do not have.
 void prepare_plane(RenderOptions& options) {
   if (options.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-  snap_for(options.method, options.seeds);
   options.seeds.value_column = options.picture.color.column;
   if (!options.method.windows) options.seeds.keeps_inside = keeps_flooding_inside;
 }
@@ -200,6 +199,7 @@ void add_render(CommandLine& line) {
       throw UsageError("--max-distance is for whole diagrams, without --waves");
     }
     check_crs(options->seeds.crs, {options->labels.path});
+    snap_for(options->method, options->seeds);
     options->is_volume() ? prepare_volume(command, *options) : prepare_plane(*options);
     run(*options);
   });

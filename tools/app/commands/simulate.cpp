@@ -237,6 +237,15 @@ void run(const SimulateOptions& options) {
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
 
+/// Points that something floods are snapped. Throws UsageError if they must not be.
+void choose_snap(SimulateOptions& options) {
+  if (options.compare_with && options.compare_with->exact && !options.method.exact) {
+    options.seeds.usual_snap = Snap::to_pixels;  // with --no-snap, what floods is judged by the points
+  } else {
+    snap_for(options.method, options.seeds);
+  }
+}
+
 /// Throws UsageError for options that volumes do not have, and asks for the files that they do.
 void prepare_volumes(const Command& command, SimulateOptions& options) {
   SeedOptions& seeds = options.seeds;
@@ -248,17 +257,13 @@ void prepare_volumes(const Command& command, SimulateOptions& options) {
   check_volume_method(options.method, options.method_options.metric);
   if (options.compare_with) check_volume_method(*options.compare_with, options.other_metric());
   check_slice(options.output.picture, options.output.picture_path, volume_size(seeds));
-  seeds.usual_snap = Snap::to_pixels;
+  choose_snap(options);
 }
 
 /// Throws UsageError for options that planes do not have, or that do not go together there.
 void prepare_planes(SimulateOptions& options) {
   if (options.output.picture.slice) throw UsageError("--slice is for volumes: give --size WxHxD");
-  if (options.compare_with && options.compare_with->exact && !options.method.exact) {
-    options.seeds.usual_snap = Snap::to_pixels;  // with --no-snap, what floods is judged by the points
-  } else {
-    snap_for(options.method, options.seeds);
-  }
+  choose_snap(options);
   options.seeds.value_column = options.output.picture.color.column;
   const bool floods = !options.method.windows || (options.compare_with && !options.compare_with->windows);
   if (floods) options.seeds.keeps_inside = keeps_flooding_inside;

@@ -175,9 +175,9 @@ View view_of(const Grid& grid, bool in_pixels) {
 }
 
 Input input_from(const View& view, const std::vector<Point>& points, const std::vector<std::uint32_t>& ids,
-                 std::optional<std::int64_t> timestep) {
-  const auto place = [grid = view.window.grid(), points](const Device& device) {
-    return Seeds(device, grid, points, {Outside::refuse});
+                 Snap snap, std::optional<std::int64_t> timestep) {
+  const auto place = [grid = view.window.grid(), points, snap](const Device& device) {
+    return Seeds(device, grid, points, {Outside::refuse, snap});
   };
   return {view, place, ids, {}, false, timestep};
 }
@@ -207,7 +207,7 @@ Input input_from_points(const SeedOptions& options) {
         std::any_of(sides.begin(), sides.end(), [](const VolumeSide& side) { return side.is_periodic; })) {
       print_note("the periods are those of the points' bounding box; --bounds says others");
     }
-    Input input = input_from(view_of(grid, in_pixels(options)), points, read.ids, {});
+    Input input = input_from(view_of(grid, in_pixels(options)), points, read.ids, options.snapping(), {});
     input.kept = {read.kept_names, read.kept};
     return input;
   } catch (const Error& error) {
@@ -335,17 +335,18 @@ void refuse_in_volumes(const std::string& option) {
 }
 
 void check_volume_options(const SeedOptions& options) {
-  const char* const of_planes = !options.mask.empty() ? "--mask"
-                                : options.width != 0  ? "--width"
-                                : options.outside     ? "--outside"
-                                : options.y_up        ? "--y-up"
-                                : options.y_down      ? "--y-down"
-                                : options.snap        ? (*options.snap == Snap::none ? "--no-snap" : "--snap")
+  const char* const of_planes = !options.mask.empty()           ? "--mask"
+                                : options.width != 0            ? "--width"
+                                : options.outside               ? "--outside"
+                                : options.y_up                  ? "--y-up"
+                                : options.y_down                ? "--y-down"
                                 : !options.value_column.empty() ? "--color column:NAME"
                                                                 : nullptr;
   if (of_planes != nullptr) refuse_in_volumes(of_planes);
   if (options.domain) throw UsageError("--domain is for planes; the periods of a volume are its --bounds");
   const char* const of_data = options.bounds                        ? "--bounds"
+                              : options.snap == Snap::to_pixels     ? "--snap"
+                              : options.snap == Snap::none          ? "--no-snap"
                               : options.units == MeasureUnits::data ? "--units data"
                                                                     : nullptr;
   if (of_data != nullptr && options.random > 0) {
@@ -364,7 +365,7 @@ Input read_volume_input(const SeedOptions& options) {
   if (options.random > 0) return input_at_random(options);
   if (!options.points.empty()) return input_from_points(options);
   const VolumeFrames frames(options, options.frame);
-  return input_from(frames.view(), frames.points(), frames.ids(), frames.timestep());
+  return input_from(frames.view(), frames.points(), frames.ids(), options.snapping(), frames.timestep());
 }
 
 }  // namespace vorocl::command

@@ -1,4 +1,4 @@
-// Exact diagrams of volumes: see kernels/volumes/exact.cl.
+// Exact diagrams of volumes: see kernels/points/diagram.cl.
 #pragma once
 
 #include "core/diagram_state.hpp"

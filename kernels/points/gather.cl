@@ -1,0 +1,152 @@
+// Gathering what may win in a box, and searching what wins at one voxel.
+
+#ifndef VOROCL_POINTS_GATHER
+#define VOROCL_POINTS_GATHER
+
+#include "points/walk.cl"
+
+// Finds the place of a walk that is nearest to a centre, of at most so many of each range; false if there is none.
+static inline bool nearest_of_walk(const scene_t* scene, walk_t* walk, int4 centre, uint most, float4* place) {
+  uint from, to;
+  int4 origin;
+  float8 least = INFINITY, best_x = 0, best_y = 0, best_z = 0;
+  while (next_range(scene, walk, centre, &from, &to, &origin)) {
+    to = min(to, from + most);
+    for (uint at = from; at < to; at += 8) {
+      const floats8_t f = floats_of(load_from_index(scene, at, origin));
+      const int8 wins = (f.n < least) & (EIGHT < (int)(to - at));
+      least = select(least, f.n, wins);
+      best_x = select(best_x, f.x, wins), best_y = select(best_y, f.y, wins), best_z = select(best_z, f.z, wins);
+    }
+  }
+  const float found = least_float(least);
+  if (found == INFINITY) return false;
+  float n[8], x[8], y[8], z[8];
+  vstore8(least, 0, n), vstore8(best_x, 0, x), vstore8(best_y, 0, y), vstore8(best_z, 0, z);
+  for (int i = 0; i < 8; ++i) {
+    if (n[i] == found) *place = (float4)(x[i], y[i], z[i], 0);
+  }
+  return true;
+}
+
+// Finds a place near the centre of a box, from it; false if there is no place at all. Where the bins of the box are
+// empty, a few places of each range around it say which ranges the nearest one is in.
+#define FEW_OF_RANGE 8
+#define ALL_OF_RANGE (UINT_MAX / 2)
+NOINLINE static bool find_near(const scene_t* scene, box_t box, const cuboid_t* limits, float4* place) {
+  const int4 centre = centre_of(box), bits = scene->bins.bits;
+  for (int rings = 0;; rings = 2 * rings + 1) {
+    const span_t x = clamped(with_bins_around(span_of(box.x, box.x + box.sx - 1), rings, bits.x), limits->x);
+    const span_t y = clamped(with_bins_around(span_of(box.y, box.y + box.sy - 1), rings, bits.y), limits->y);
+    const span_t z = clamped(with_bins_around(span_of(box.z, box.z + box.sz - 1), rings, bits.z), limits->z);
+    walk_t walk = walk_over(scene, x, y, z);
+    if (nearest_of_walk(scene, &walk, centre, rings > 0 ? FEW_OF_RANGE : ALL_OF_RANGE, place)) {
+      if (rings > 0) {
+        walk = walk_over_balls(scene, limits, ball_around(centre, *place));
+        nearest_of_walk(scene, &walk, centre, ALL_OF_RANGE, place);
+      }
+      return true;
+    }
+    if (holds(x, limits->x) && holds(y, limits->y) && holds(z, limits->z)) return false;
+  }
+}
+
+// Gathers what a place does not drop. Full lists are cut by the corners, and gathering goes on.
+#define OVERFLOW (-1)
+NOINLINE static int gather(const scene_t* scene, box_t box, const cuboid_t* limits, float4 place, list_t* list) {
+  const int4 centre = centre_of(box);
+  const spans_t spans = spans_of(box);
+  const rival_t rival = rival_at(place, &spans);
+  walk_t walk = walk_in_balls(scene, box, limits, place);
+  uint from, to;
+  int4 origin;
+  int count = 0;
+  while (next_range(scene, &walk, centre, &from, &to, &origin)) {
+    for (uint at = from; at < to; at += 8) {
+      if (count > MOST_IN_LIST - 8) {
+        count = drop_beaten(list, count, box);
+        if (count > MOST_IN_LIST / 2) return OVERFLOW;
+      }
+      const places8_t p = load_from_index(scene, at, origin);
+      const floats8_t f = floats_of(p);
+      const int8 stays = may_win(&f, &rival, &spans) & (EIGHT < (int)(to - at));
+      count = keep(list, count, stays, &p, at + as_uint8(EIGHT));
+    }
+  }
+  return count;
+}
+
+// --- in integers, voxel by voxel ---
+
+static inline bool comes_first(const scene_t* scene, uint a, uint b) {
+  if (scene->z[a] != scene->z[b]) return scene->z[a] < scene->z[b];
+  if (scene->y[a] != scene->y[b]) return scene->y[a] < scene->y[b];
+  if (scene->x[a] != scene->x[b]) return scene->x[a] < scene->x[b];
+  return scene->ids[a] < scene->ids[b];
+}
+
+typedef struct {
+  ulong distance;  // squared
+  uint at;
+} winner_t;
+
+// Lets up to eight places stand against the best one.
+static inline void compare_eight(const scene_t* scene, const places8_t* p, uint8 at, int count, winner_t* best) {
+  const long8 x = convert_long8(p->x), y = convert_long8(p->y), z = convert_long8(p->z);
+  const long8 distance = x * x + y * y + z * z;
+  if (!any(distance <= (long8)(long)best->distance)) return;
+  long lane[8];
+  uint place[8];
+  vstore8(distance, 0, lane);
+  store_uints(at, place);
+  for (int i = 0; i < min(count, 8); ++i) {
+    const ulong d = (ulong)lane[i];
+    if (d > best->distance) continue;
+    if (d == best->distance && best->at != NO_PLACE && !comes_first(scene, place[i], best->at)) continue;
+    best->distance = d, best->at = place[i];
+  }
+}
+
+static inline float to_nearest_image(int way, int size, int spacing, int periodic) {
+  return (float)shorter_way(way, size * ONE * spacing, periodic);
+}
+
+// `known`: a place that is near, or NO_PLACE.
+NOINLINE static uint search_voxel(const scene_t* scene, int x, int y, int z, uint known) {
+  const box_t box = box_at(x, y, z, 1, 1, 1);
+  const cuboid_t limits = limits_around(scene, box);
+  const int4 centre = centre_of(box);
+  float4 place;
+  if (known != NO_PLACE) {
+    place.x = to_nearest_image(scene->x[known] - centre.x, scene->size.x, SPACING_X, PERIODIC_X);
+    place.y = to_nearest_image(scene->y[known] - centre.y, scene->size.y, SPACING_Y, PERIODIC_Y);
+    place.z = to_nearest_image(scene->z[known] - centre.z, scene->size.z, SPACING_Z, PERIODIC_Z);
+  } else if (!find_near(scene, box, &limits, &place)) {
+    return NO_LABEL;
+  }
+  walk_t walk = walk_in_balls(scene, box, &limits, place);
+  winner_t best = {LONG_MAX, NO_PLACE};
+  uint from, to;
+  int4 origin;
+  while (next_range(scene, &walk, centre, &from, &to, &origin)) {
+    for (uint at = from; at < to; at += 8) {
+      const places8_t p = load_from_index(scene, at, origin);
+      compare_eight(scene, &p, at + as_uint8(EIGHT), (int)(to - at), &best);
+    }
+  }
+  return scene->ids[best.at];
+}
+
+// The nearest of a list at a voxel of its box.
+NOINLINE static uint compare_at(const scene_t* scene, box_t b, const list_t* list, int count, int x, int y, int z) {
+  const int4 way = centre_of(box_at(x, y, z, 1, 1, 1)) - centre_of(b);
+  winner_t best = {LONG_MAX, NO_PLACE};
+  for (int k = 0; k < count; k += 8) {
+    places8_t p = load_from_list(list, k);
+    p.x -= way.x, p.y -= way.y, p.z -= way.z;
+    compare_eight(scene, &p, vload8(0, list->at + k), count - k, &best);
+  }
+  return scene->ids[best.at];
+}
+
+#endif

@@ -1,0 +1,302 @@
+// The nearest of a short list at each voxel of a box, by keys of 32 bits: one addition and one minimum per place and
+// vector of voxels.
+//
+// KEYS. With the origin at a voxel centre, a place c in units of 2^-FRACTION_BITS and a voxel p in whole units of the
+// spacing, |c - p|^2 less |p|^2, which is the same for all places, is |c|^2 - 2^(FRACTION_BITS + 1) p.c. So the low
+// FRACTION_BITS + 1 bits are those of |c|^2 at every voxel. They go into the RANK of a place: its number in the order
+// of (these bits, z, y, x, id). A key is the other bits, and below them the rank.
+
+#ifndef VOROCL_POINTS_KEYS
+#define VOROCL_POINTS_KEYS
+
+#include "points/gather.cl"
+
+#ifndef MOST_OF_KEYS
+#define MOST_OF_KEYS 128
+#endif
+#define RANK_ROOM (MOST_OF_KEYS + 8)
+#define FAR_BITS (32 - LOW_BITS)
+
+typedef struct {
+  int x[RANK_ROOM], y[RANK_ROOM], z[RANK_ROOM];
+  uint high[RANK_ROOM];
+  int low[RANK_ROOM];
+  uint rank[RANK_ROOM], labels[RANK_ROOM];
+} places_t;
+
+NOINLINE static void rank_to_the_end(const scene_t* scene, const uint* at, places_t* places, int count) {
+  int x[RANK_ROOM], y[RANK_ROOM], z[RANK_ROOM];
+  uint id[RANK_ROOM];
+  for (int i = 0; i < count; ++i) {
+    x[i] = scene->x[at[i]], y[i] = scene->y[at[i]], z[i] = scene->z[at[i]], id[i] = scene->ids[at[i]];
+  }
+  for (int k = 0; k < count; k += 8) {
+    const int8 own_low = vload8(0, places->low + k), own_z = vload8(0, z + k);
+    const int8 own_y = vload8(0, y + k), own_x = vload8(0, x + k);
+    const uint8 own_id = vload8(0, id + k);
+    int8 rank = 0;
+    for (int i = 0; i < count; ++i) {
+      const int8 by_id = (id[i] < own_id) | ((id[i] == own_id) & (i < EIGHT + k));
+      const int8 by_x = (x[i] < own_x) | ((x[i] == own_x) & by_id);
+      const int8 by_y = (y[i] < own_y) | ((y[i] == own_y) & by_x);
+      const int8 by_z = (z[i] < own_z) | ((z[i] == own_z) & by_y);
+      const int8 before = (places->low[i] < own_low) | ((places->low[i] == own_low) & by_z);
+      rank = select(rank, rank + 1, before);
+    }
+    store_uints(as_uint8(rank), places->rank + k);
+  }
+}
+
+static inline bool differ(const int* values, int count) {
+  int8 other = 0;
+  for (int k = 0; k < count; k += 8) other |= (vload8(0, values + k) != values[0]) & (EIGHT + k < count);
+  return any(other);
+}
+
+static inline void rank_places(const scene_t* scene, const uint* at, places_t* places, int count) {
+  // By the low bits and the first axis of the tie rule along which places differ, as far as these are enough.
+  const int* own = places->z;
+  global const int* along = scene->z;
+  if (!differ(own, count)) own = places->y, along = scene->y;
+  int order[RANK_ROOM];
+#ifdef VOROCL_PERIODIC  // images, whose seeds' positions decide
+  int of_seeds[RANK_ROOM];
+  for (int i = 0; i < count; ++i) of_seeds[i] = along[at[i]];
+  own = of_seeds;
+#endif
+  const int most = 1 << (FAR_BITS - 1), first = own[0];
+  for (int k = 0; k < count; k += 8) {
+    const int8 way = clamp(vload8(0, own + k) - first, (int8)-most, (int8)(most - 1)) + most;
+    store_ints(((vload8(0, places->low + k) - ONE) << FAR_BITS) + way, order + k);
+  }
+  int8 sum = 0;
+  for (int k = 0; k < count; k += 8) {
+    const int8 mine = vload8(0, order + k);
+    int8 rank = 0;
+    for (int i = 0; i < count; ++i) rank = select(rank, rank + 1, order[i] < mine);
+    store_uints(as_uint8(rank), places->rank + k);
+    sum += select((int8)0, rank, EIGHT + k < count);
+  }
+  if (sum_of(sum) != count * (count - 1) / 2) rank_to_the_end(scene, at, places, count);
+}
+
+INLINE uint8 look_up(const uint* table, int vectors, uint8 rank) {
+  uint8 value = permuted(vload8(0, table), rank & 7u);
+#pragma unroll
+  for (int t = 1; t < vectors; ++t) {
+    value = select(value, permuted(vload8(0, table + 8 * t), rank & 7u), rank >= (uint)(8 * t));
+  }
+  return value;
+}
+static inline uint8 look_up_one_by_one(const uint* table, uint8 rank) {
+  uint lane[8];
+  store_uints(rank, lane);
+  for (int i = 0; i < 8; ++i) lane[i] = table[lane[i]];
+  return vload8(0, lane);
+}
+
+// --- labels ---
+
+static inline size_t index_of(const scene_t* scene, int x, int y, int z) {
+  return ((size_t)z * (size_t)scene->size.y + (size_t)y) * (size_t)scene->size.x + (size_t)x;
+}
+static inline void show_eight(const scene_t* scene, bool is_inside, int x, int y, int z, uint8 labels) {
+  if (is_inside) {
+    ((global unaligned_uints*)(scene->labels + index_of(scene, x, y, z)))->v = labels;
+    return;
+  }
+  if (y >= scene->size.y || z >= scene->size.z) return;
+  uint lane[8];
+  store_uints(labels, lane);
+  for (int i = 0; i < 8 && x + i < scene->size.x; ++i) scene->labels[index_of(scene, x + i, y, z)] = lane[i];
+}
+static inline bool is_inside(const scene_t* scene, box_t b) {
+  return b.x + b.sx <= scene->size.x && b.y + b.sy <= scene->size.y && b.z + b.sz <= scene->size.z;
+}
+NOINLINE static void show_one(const scene_t* scene, box_t b, uint label) {
+  const bool inside = is_inside(scene, b);
+  for (int z = b.z; z < min(b.z + b.sz, scene->size.z); ++z) {
+    for (int y = b.y; y < min(b.y + b.sy, scene->size.y); ++y) {
+      for (int x = b.x; x < b.x + b.sx; x += 8) show_eight(scene, inside, x, y, z, (uint8)label);
+    }
+  }
+}
+
+// Rows of a box stand one after another, slice after slice; eight of them, or four, have their least keys at once.
+INLINE void label_rows(const scene_t* scene, box_t b, const places_t* places, int count, int bits, const int columns) {
+  uint8 of_columns[MOST_OF_KEYS * 2];
+  uint of_rows[MOST_OF_KEYS * 8], steps[MOST_OF_KEYS];  // of eight rows, and from them to the next eight
+  const uint8 mask = (1u << bits) - 1;
+  const uint base = places->high[0];
+  const int base_x = places->x[0], base_y = places->y[0], base_z = places->z[0];
+  const bool inside = is_inside(scene, b);
+  const int vectors = (count + 7) / 8, rows = b.sy * b.sz, shift = 31 - (int)clz((uint)b.sy);
+  const uint8 y = (as_uint8(EIGHT) & (uint)(b.sy - 1)) - (uint)(b.sy / 2);
+  const uint8 z = (as_uint8(EIGHT) >> (uint)shift) - (uint)(b.sz / 2);
+  for (int i = 0; i < count; ++i) {
+    const uint from_x = (uint)(places->x[i] - base_x) * SPACING_X << bits;
+    const uint from_y = (uint)(places->y[i] - base_y) * SPACING_Y << bits;
+    const uint from_z = (uint)(places->z[i] - base_z) * SPACING_Z << bits;
+#pragma unroll
+    for (int q = 0; q < columns; ++q) {
+      of_columns[i * columns + q] = ((places->high[i] - base) << bits) + places->rank[i] -
+                                    as_uint8(EIGHT + (8 * q - 4 * columns)) * from_x;
+    }
+    store_uints(0u - y * from_y - z * from_z, of_rows + 8 * i);
+    steps[i] = from_z << (3 - shift);
+  }
+  for (int top = 0; top < rows && b.z + (top >> shift) < scene->size.z; top += 8) {
+    if (top > 0) {
+      for (int i = 0; i < count; ++i) store_uints(vload8(0, of_rows + 8 * i) - steps[i], of_rows + 8 * i);
+    }
+    for (int part = 0; part < 8; part += 8 / columns) {
+      int8 least[8];
+#pragma unroll
+      for (int k = 0; k < 8; ++k) least[k] = INT_MAX;
+      for (int i = 0; i < count; ++i) {
+        const uint* const own = of_rows + 8 * i + part;
+        const uint8 left = of_columns[i * columns], right = of_columns[i * columns + columns - 1];
+#pragma unroll
+        for (int k = 0; k < 8; ++k) {
+          least[k] = min(least[k], as_int8((columns == 2 && k % 2 ? right : left) + own[k / columns]));
+        }
+      }
+      uint8 found[8];
+#define LOOK_UP(n) \
+  _Pragma("unroll") for (int k = 0; k < 8; ++k) found[k] = look_up(places->labels, n, as_uint8(least[k]) & mask)
+      switch (vectors) {
+        case 1: LOOK_UP(1); break;
+        case 2: LOOK_UP(2); break;
+        case 3: LOOK_UP(3); break;
+        case 4: LOOK_UP(4); break;
+        case 5:
+        case 6: LOOK_UP(6); break;
+        default:
+#pragma unroll
+          for (int k = 0; k < 8; ++k) found[k] = look_up_one_by_one(places->labels, as_uint8(least[k]) & mask);
+      }
+#pragma unroll
+      for (int k = 0; k < 8; ++k) {
+        const int r = top + part + k / columns;
+        show_eight(scene, inside, b.x + (columns == 2 ? k % 2 * 8 : 0), b.y + (r & (b.sy - 1)), b.z + (r >> shift),
+                   found[k]);
+      }
+    }
+  }
+}
+NOINLINE static void label_rows_of_8(const scene_t* scene, box_t b, const places_t* places, int count, int bits) {
+  label_rows(scene, b, places, count, bits, 1);
+}
+NOINLINE static void label_rows_of_16(const scene_t* scene, box_t b, const places_t* places, int count, int bits) {
+  label_rows(scene, b, places, count, bits, 2);
+}
+
+// By how much the keys of two places of a list differ at a voxel of its box, at most, before ranks.
+static inline float spread_of_keys(const list_t* list, int count, box_t b) {
+  // From the box's centre to the origin and to any of its voxels it is at most half a side and one along an axis.
+  const float4 reach = convert_float4((int4)(b.sx / 2 + 1, b.sy / 2 + 1, b.sz / 2 + 1, 0) * SPACINGS) * (2.f * ONE);
+  const float4 first = place_in(list, 0);
+  float8 most = 0;
+  for (int k = 0; k < count; k += 8) {
+    const floats8_t f = floats_of(load_from_list(list, k));
+    const float8 x = fabs(f.x - first.x), y = fabs(f.y - first.y), z = fabs(f.z - first.z);
+    const float8 lead = fma(x, fabs(f.x + first.x) + reach.x,
+                            fma(y, fabs(f.y + first.y) + reach.y, z * (fabs(f.z + first.z) + reach.z)));
+    most = fmax(most, select(lead, (float8)0, EIGHT + k >= count));
+  }
+  return -least_float(-most) * (1.f / (1 << LOW_BITS)) * (1 + 0x1p-10f) + 4;
+}
+#define MOST_SPREAD 0x1.fp30f
+
+// |c|^2 without 64 bits, from the origin, next to a box's centre: c is whole * 2^FRACTION_BITS + rest along each axis.
+typedef struct {
+  uint8 high, low;
+} squares_t;
+static inline squares_t squares_of(places8_t p) {
+  p.x -= HALF * SPACING_X, p.y -= HALF * SPACING_Y, p.z -= HALF * SPACING_Z;
+  const uint8 wx = as_uint8(p.x >> FRACTION_BITS), rx = as_uint8(p.x) & (ONE - 1u);
+  const uint8 wy = as_uint8(p.y >> FRACTION_BITS), ry = as_uint8(p.y) & (ONE - 1u);
+  const uint8 wz = as_uint8(p.z >> FRACTION_BITS), rz = as_uint8(p.z) & (ONE - 1u);
+  const uint8 rests = rx * rx + ry * ry + rz * rz, wholes = wx * wx + wy * wy + wz * wz;
+  squares_t squares;
+  squares.high = (wholes << (FRACTION_BITS - 1)) + wx * rx + wy * ry + wz * rz + (rests >> LOW_BITS);
+  squares.low = rests & ((1u << LOW_BITS) - 1);
+  return squares;
+}
+
+// Labels a box of which a list has the places, relative to its centre; false if keys do not hold them.
+NOINLINE static bool label_by_keys(const scene_t* scene, const list_t* list, int count, box_t b) {
+  if (count > MOST_OF_KEYS) return false;
+  const int bits = 32 - (int)clz((uint)max(count - 1, 1));
+  if (is_inside(scene, b)) {  // the labels' lines come while keys are made
+    for (int z = 0; z < b.sz; ++z) {
+      for (int y = 0; y < b.sy; ++y) {
+        FETCH_LINE(scene->labels + index_of(scene, b.x, b.y + y, b.z + z));
+      }
+    }
+  }
+  if (spread_of_keys(list, count, b) * (float)(1 << bits) >= MOST_SPREAD) return false;
+  places_t places;
+  for (int k = 0; k < count; k += 8) {
+    const places8_t p = load_from_list(list, k);
+    const squares_t squares = squares_of(p);
+    store_ints(p.x, places.x + k), store_ints(p.y, places.y + k), store_ints(p.z, places.z + k);
+    store_uints(squares.high, places.high + k);
+    store_ints(as_int8(squares.low), places.low + k);
+  }
+  rank_places(scene, list->at, &places, count);
+  for (int i = 0; i < count; ++i) places.labels[places.rank[i]] = scene->ids[list->at[i]];
+  if (b.sx == 16) {
+    label_rows_of_16(scene, b, &places, count, bits);
+  } else {
+    label_rows_of_8(scene, b, &places, count, bits);
+  }
+  return true;
+}
+
+// The same of a box of eight columns and more places: keys without ranks, and beside the least one the place that it is
+// of. Voxels where two places have the least key are compared in 64 bits.
+#define ROWS 4
+NOINLINE static bool label_many(const scene_t* scene, const list_t* list, int count, box_t b) {
+  if (spread_of_keys(list, count, b) >= MOST_SPREAD) return false;
+  uint high[LIST_ROOM];
+  for (int k = 0; k < count; k += 8) store_uints(squares_of(load_from_list(list, k)).high, high + k);
+  const uint8 columns = as_uint8(EIGHT - 4);
+  const bool inside = is_inside(scene, b);
+  for (int z = 0; z < min(b.sz, scene->size.z - b.z); ++z) {
+    for (int y = 0; y < b.sy; y += ROWS) {
+      int8 least[ROWS], best[ROWS], is_tie[ROWS];
+#pragma unroll
+      for (int r = 0; r < ROWS; ++r) least[r] = INT_MAX, best[r] = 0, is_tie[r] = 0;
+      for (int i = 0; i < count; ++i) {
+        const uint from_x = (uint)(list->x[i] - list->x[0]) * SPACING_X;
+        const uint from_y = (uint)(list->y[i] - list->y[0]) * SPACING_Y;
+        const uint from_z = (uint)(list->z[i] - list->z[0]) * SPACING_Z;
+        const uint of_row = high[i] - high[0] - (uint)(y - b.sy / 2) * from_y - (uint)(z - b.sz / 2) * from_z;
+        uint8 keys = of_row - columns * from_x;
+#pragma unroll
+        for (int r = 0; r < ROWS; ++r) {
+          const int8 key = as_int8(keys), is_less = key < least[r];
+          is_tie[r] = (is_tie[r] & ~is_less) | (key == least[r]);
+          best[r] = select(best[r], (int8)i, is_less);
+          least[r] = min(least[r], key);
+          keys -= from_y;
+        }
+      }
+      for (int r = 0; r < ROWS; ++r) {
+        uint lane[8];
+        store_uints(as_uint8(best[r]), lane);
+        for (int i = 0; i < 8; ++i) lane[i] = scene->ids[list->at[lane[i]]];
+        show_eight(scene, inside, b.x, b.y + y + r, b.z + z, vload8(0, lane));
+        if (b.y + y + r >= scene->size.y) continue;
+        for (uint rest = mask_of(is_tie[r] & (EIGHT < scene->size.x - b.x)); rest != 0; rest &= rest - 1) {
+          const int at_x = b.x + 31 - (int)clz(rest & (0 - rest)), at_y = b.y + y + r, at_z = b.z + z;
+          scene->labels[index_of(scene, at_x, at_y, at_z)] = compare_at(scene, b, list, count, at_x, at_y, at_z);
+        }
+      }
+    }
+  }
+  return true;
+}
+
+#endif

@@ -1,0 +1,288 @@
+// Dense places: an image of keys of a tile, into which each place of the tile and around it takes minima, `side` rows
+// by `side` rows, one or two vectors each. The `side` voxels of an axis that are nearest to a place hold all voxel
+// centres that are less than side / 2 away, so a voxel whose least distance is below that is done. Others are searched.
+//
+// Keys are as in keys.cl, with the origin of each place at the first voxel of its stamp: that moves by whole voxels, so
+// the low bits of |c|^2 stay, and |p|^2 is added, so that keys of places with other origins compare.
+
+#ifndef VOROCL_POINTS_STAMPS
+#define VOROCL_POINTS_STAMPS
+
+#include "points/keys.cl"
+
+#define STAMP_PAD 16
+#define STAMP_ROW (REGION + 2 * STAMP_PAD)
+#define SLICE_PAD 16
+#define STAMP_SLICE (STAMP_ROW * REGION + SLICE_PAD)  // no multiple of 4096 bytes: stores would wait for each other
+#ifndef MOST_STAMPS
+#define MOST_STAMPS 12288
+#endif
+#define STAMP_ROOM (MOST_STAMPS + 16)
+#define MOST_STAMP_SIDE 12
+#define NO_KEY 0xffffffffu  // in the image
+#define LEFT_PART 32  // a tile of which a greater part is left by its stamps is left to lists
+#define SORT_BITS 12
+#define SORT_BUCKETS (1 << SORT_BITS)
+
+typedef struct {
+  int x[STAMP_ROOM], y[STAMP_ROOM], z[STAMP_ROOM];  // units from the tile's corner; then from the first voxel's centre
+  int first_y[STAMP_ROOM], first_z[STAMP_ROOM];     // first voxels, from the tile's corner
+  int offset[STAMP_ROOM];                           // of the first voxel in the image
+  uint high[STAMP_ROOM], low[STAMP_ROOM];           // of |c|^2
+  uint along[STAMP_ROOM];                           // own positions along the first axis of the tie rule
+  uint at[STAMP_ROOM];
+  uint labels[STAMP_ROOM];  // by rank
+  uint rank[STAMP_ROOM];
+  ulong order[STAMP_ROOM];
+  uint image[STAMP_SLICE * REGION];
+} stamps_t;
+
+// The first of the `side` voxels of an axis that are nearest to a place.
+#define FIRST_OF(place, side) ((((place) + ((side) % 2 ? 0 : HALF)) >> FRACTION_BITS) - (side) / 2)
+
+// The seeds whose stamps meet the tile; OVERFLOW if there are too many.
+NOINLINE static int gather_stamps(const scene_t* scene, box_t tile, int side, stamps_t* s) {
+  const int m = side / 2 + 1;
+  const cuboid_t limits = limits_around(scene, tile);
+  walk_t walk = walk_over(scene, clamped(span_of(tile.x - m, tile.x + tile.sx - 1 + m), limits.x),
+                          clamped(span_of(tile.y - m, tile.y + tile.sy - 1 + m), limits.y),
+                          clamped(span_of(tile.z - m, tile.z + tile.sz - 1 + m), limits.z));
+  const int4 corner = (int4)(tile.x, tile.y, tile.z, 0) * ONE;
+  uint from, to;
+  int4 origin;
+  int count = 0;
+  while (next_range(scene, &walk, corner, &from, &to, &origin)) {
+    for (uint at = from; at < to; at += 8) {
+      if (count > MOST_STAMPS - 8) return OVERFLOW;
+      const places8_t p = load_from_index(scene, at, origin);
+      const int8 x = FIRST_OF(p.x, side), y = FIRST_OF(p.y, side), z = FIRST_OF(p.z, side);
+      const int8 meets = (x > -side) & (x < tile.sx) & (y > -side) & (y < tile.sy) & (z > -side) & (z < tile.sz) &
+                         (EIGHT < (int)(to - at));
+      const uint mask = mask_of(meets);
+      const uint8 lanes = lanes_of(mask);
+      store_ints(permuted_ints(p.x, lanes), s->x + count), store_ints(permuted_ints(p.y, lanes), s->y + count);
+      store_ints(permuted_ints(p.z, lanes), s->z + count);
+      store_uints(permuted(at + as_uint8(EIGHT), lanes), s->at + count);
+      store_uints(permuted(as_uint8(p.z + origin.z), lanes), s->along + count);
+      count += (int)popcount(mask);
+    }
+  }
+  return count;
+}
+
+// What the stamps begin with.
+NOINLINE static void prepare_stamps(int count, int side, stamps_t* s) {
+  for (int k = 0; k < count; k += 8) {
+    const int8 px = vload8(0, s->x + k), py = vload8(0, s->y + k), pz = vload8(0, s->z + k);
+    const int8 x = FIRST_OF(px, side), y = FIRST_OF(py, side), z = FIRST_OF(pz, side);
+    const int8 ax = px - x * ONE - HALF, ay = py - y * ONE - HALF, az = pz - z * ONE - HALF;
+    const uint8 square = as_uint8(ax * ax + ay * ay + az * az);
+    store_ints(ax, s->x + k), store_ints(ay, s->y + k), store_ints(az, s->z + k);
+    store_ints(y, s->first_y + k), store_ints(z, s->first_z + k);
+    store_ints(z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD + x, s->offset + k);
+    store_uints(square >> LOW_BITS, s->high + k);
+    store_uints(square & ((1u << LOW_BITS) - 1), s->low + k);
+  }
+}
+
+typedef struct {
+  uint first, last;
+} range_t;
+static inline range_t range_of(const uint* values, int count) {
+  uint8 least = UINT_MAX, most = 0;
+  for (int k = 0; k < count; k += 8) {
+    const uint8 some = vload8(0, values + k);
+    const int8 is_there = EIGHT + k < count;
+    least = min(least, select((uint8)UINT_MAX, some, is_there)), most = max(most, select((uint8)0, some, is_there));
+  }
+  const range_t range = {least_uint(least), ~least_uint(~most)};
+  return range;
+}
+// How far numbers of a range are shifted right for so many bits.
+static inline uint shift_to(range_t range, uint bits) {
+  const uint size = 32 - clz(range.last - range.first);
+  return size > bits ? size - bits : 0;
+}
+
+// Puts the numbers of the seeds in the order of (low bits, z, y, x, id): by buckets of low bits, then by insertion.
+NOINLINE static void order_stamps(const scene_t* scene, int count, stamps_t* s) {
+  uint next[SORT_BUCKETS + 1];
+  for (int i = 0; i <= SORT_BUCKETS; ++i) next[i] = 0;
+  const uint* const low = s->low;
+  // Buckets: by the low bits, and two more by the first axis of the tie rule, as far as there is room. Of a lattice all
+  // have the same low bits: by the first two axes.
+  const range_t along = range_of(s->along, count), lows = range_of(low, count);
+  uint bucket[STAMP_ROOM];
+  if (lows.last > lows.first) {
+    const uint shift = shift_to(along, 2);
+    for (int k = 0; k < count; k += 8) {
+      const uint8 by_axis = min((vload8(0, s->along + k) - along.first) >> shift, (uint8)3u);
+      const uint8 composite = vload8(0, low + k) << 2 | by_axis;
+      store_uints(LOW_BITS + 2 > SORT_BITS ? composite >> (LOW_BITS + 2 - SORT_BITS) : composite, bucket + k);
+    }
+  } else {
+    const uint shift = shift_to(along, SORT_BITS - 5);
+    uint8 lost = 0;
+    for (int k = 0; k < count; k += 8) {
+      const uint8 way = vload8(0, s->along + k) - along.first;
+      lost |= select((uint8)0, way & ((1u << shift) - 1), EIGHT + k < count);
+      store_uints(min(way >> shift, (uint8)((1u << (SORT_BITS - 5)) - 1)) << 5, bucket + k);
+    }
+    if (!any(lost != 0u)) {
+      uint other[STAMP_ROOM];
+      for (int i = 0; i < count; ++i) other[i] = (uint)scene->y[s->at[i]];
+      const range_t others = range_of(other, count);
+      const uint other_shift = shift_to(others, 5);
+      for (int i = 0; i < count; ++i) bucket[i] |= (other[i] - others.first) >> other_shift;
+    }
+  }
+  for (int i = 0; i < count; ++i) ++next[bucket[i] + 1];
+  for (int i = 0; i < SORT_BUCKETS; ++i) next[i + 1] += next[i];
+  // A key: low bits, then that axis, then the number.
+  for (int i = 0; i < count; ++i) {
+    s->order[next[bucket[i]]++] = (ulong)low[i] << 46 | (ulong)s->along[i] << 16 | (ulong)i;
+  }
+  for (int i = 1; i < count; ++i) {
+    const ulong own = s->order[i];
+    int k = i;
+    for (; k > 0; --k) {
+      const ulong other = s->order[k - 1];
+      if (other >> 16 < own >> 16) break;
+      if (other >> 16 == own >> 16 && comes_first(scene, s->at[other & 0xffff], s->at[own & 0xffff])) break;
+      s->order[k] = other;
+    }
+    s->order[k] = own;
+  }
+}
+
+// A part of a key: that of the first eight voxels of an axis, of which the first one's centre is so far from the seed.
+static inline uint8 parts_of(uint8 lanes, uint from_first, int bits) {
+  return ((lanes * lanes << (FRACTION_BITS - 1)) - lanes * from_first) << bits;
+}
+
+INLINE void stamp_row(uint* row, uint8 columns_0, uint8 columns_1, uint more, const int vectors) {
+  store_uints(min(vload8(0, row), columns_0 + more), row);
+  if (vectors == 2) store_uints(min(vload8(1, row), columns_1 + more), row + 8);
+}
+
+// How many rows at either end of slice k are farther than side / 2 from the seed, wherever it is: the first voxels of
+// an axis are at least side / 2 - 1 away, the next ones a voxel less.
+static inline int rows_out(int side, int k) {
+  const int at = min(k, side - 1 - k);
+  return side < 8 ? 0 : side == 8 ? (at == 0) : at == 0 ? 2 : at == 1 ? 1 : 0;
+}
+
+// `vectors`: of a row.
+INLINE void stamp_all(int count, int bits, const int side, box_t tile, stamps_t* s, const int vectors) {
+  const uint8 lane_0 = as_uint8(EIGHT), lane_1 = lane_0 + 8u;
+  for (int i = 0; i < count; ++i) {
+    const uint ax = (uint)s->x[i], ay = (uint)s->y[i], az = (uint)s->z[i];
+    const int y = s->first_y[i], z = s->first_z[i];
+    const uint all = (s->high[i] << bits) + s->rank[i];
+    const uint8 columns_0 = all + parts_of(lane_0, ax, bits);
+    const uint8 columns_1 = vectors == 2 ? all + parts_of(lane_1, ax, bits) : (uint8)0;
+    uint of_y[16], of_z[16];
+    store_uints(parts_of(lane_0, ay, bits), of_y);
+    if (vectors == 2) store_uints(parts_of(lane_1, ay, bits), of_y + 8);
+    store_uints(parts_of(lane_0, az, bits), of_z);
+    if (vectors == 2) store_uints(parts_of(lane_1, az, bits), of_z + 8);
+    const int first_y = max(-y, 0), last_y = min(side, tile.sy - y);
+    const int first_z = max(-z, 0), last_z = min(side, tile.sz - z);
+    uint* const image = s->image + s->offset[i];
+    for (int k = first_z; k < last_z; ++k) {
+      uint* const rows = image + k * STAMP_SLICE;
+      const uint8 slice_0 = columns_0 + of_z[k], slice_1 = columns_1 + of_z[k];
+      const int out = rows_out(side, k);
+      if (last_y - first_y == side && out == 0) {
+#pragma unroll
+        for (int j = 0; j < side; ++j) stamp_row(rows + j * STAMP_ROW, slice_0, slice_1, of_y[j], vectors);
+      } else {
+        for (int j = max(first_y, out); j < min(last_y, side - out); ++j)
+          stamp_row(rows + j * STAMP_ROW, slice_0, slice_1, of_y[j], vectors);
+      }
+    }
+  }
+}
+#define DEFINE_STAMP(side, vectors)                                                              \
+  NOINLINE static void stamp_##side(int count, int bits, box_t tile, stamps_t* s) {              \
+    stamp_all(count, bits, side, tile, s, vectors);                                              \
+  }
+DEFINE_STAMP(3, 1)
+DEFINE_STAMP(4, 1)
+DEFINE_STAMP(5, 1)
+DEFINE_STAMP(6, 1)
+DEFINE_STAMP(7, 1)
+DEFINE_STAMP(8, 1)
+DEFINE_STAMP(10, 2)
+DEFINE_STAMP(12, 2)
+
+// Labels a tile; false if it is left to lists.
+NOINLINE static bool label_by_stamps(const scene_t* scene, box_t tile, int side, stamps_t* s) {
+  if (side > 8) side += side % 2;
+  const int count = gather_stamps(scene, tile, side, s);
+  if (count <= 0) return false;
+  const int bits = 32 - (int)clz((uint)max(count - 1, 1));
+  // The greatest distance of a lane.
+  const int lanes = side > 8 ? 16 : 8, far_x = max(lanes - side / 2, side / 2) + 1, far_y = side / 2 + 1;
+  if ((ulong)(far_x * far_x + 2 * far_y * far_y) << (FRACTION_BITS - 1 + bits) >> 32) return false;
+  prepare_stamps(count, side, s);
+  order_stamps(scene, count, s);
+  const bool inside = is_inside(scene, tile);
+  for (int z = 0; z < tile.sz; ++z) {
+    for (int y = 0; y < tile.sy; ++y) {
+      uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
+      for (int x = 0; x < tile.sx; x += 8) store_uints((uint8)NO_KEY, row + x);
+      // The labels' lines come while stamps are made.
+      global uint* const out = scene->labels + index_of(scene, tile.x, tile.y + y, tile.z + z);
+      for (int x = 0; inside && x < tile.sx; x += 16) FETCH_LINE(out + x);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    const uint number = (uint)(s->order[i] & 0xffff);
+    s->rank[number] = (uint)i;
+    s->labels[i] = scene->ids[s->at[number]];
+  }
+  switch (side) {
+    case 3: stamp_3(count, bits, tile, s); break;
+    case 4: stamp_4(count, bits, tile, s); break;
+    case 5: stamp_5(count, bits, tile, s); break;
+    case 6: stamp_6(count, bits, tile, s); break;
+    case 7: stamp_7(count, bits, tile, s); break;
+    case 8: stamp_8(count, bits, tile, s); break;
+    case 10: stamp_10(count, bits, tile, s); break;
+    default: stamp_12(count, bits, tile, s); break;
+  }
+  const uint limit = ((uint)(side * side << FRACTION_BITS) + 7) / 8 << bits, mask = (1u << bits) - 1;
+  const int sx = min(tile.sx, scene->size.x - tile.x), sy = min(tile.sy, scene->size.y - tile.y);
+  const int sz = min(tile.sz, scene->size.z - tile.z);
+  int8 far = 0;
+  for (int z = 0; z < sz; ++z) {
+    for (int y = 0; y < sy; ++y) {
+      const uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
+      for (int x = 0; x < sx; x += 8) far -= (vload8(0, row + x) >= limit) & (EIGHT < sx - x);
+    }
+  }
+  const int left = sum_of(far);
+  if (left > sx * sy * sz / LEFT_PART) return false;
+  for (int z = 0; z < sz; ++z) {
+    for (int y = 0; y < sy; ++y) {
+      const uint* const row = s->image + z * STAMP_SLICE + y * STAMP_ROW + STAMP_PAD;
+      for (int x = 0; x < sx; x += 8) {
+        const uint8 keys = vload8(0, row + x);
+        // Keys of voxels without a stamp have ranks that may be too great.
+        show_eight(scene, inside, tile.x + x, tile.y + y, tile.z + z,
+                   look_up_one_by_one(s->labels, min(keys & mask, (uint8)(uint)(count - 1))));
+        if (left == 0) continue;
+        for (uint rest = mask_of((keys >= limit) & (EIGHT < sx - x)); rest != 0; rest &= rest - 1) {
+          const int lane = 31 - (int)clz(rest & (0 - rest)), vx = tile.x + x + lane, vy = tile.y + y, vz = tile.z + z;
+          const uint key = row[x + lane], number = (uint)(s->order[min(key & mask, (uint)count - 1)] & 0xffff);
+          const uint known = key == NO_KEY ? NO_PLACE : s->at[number];
+          scene->labels[index_of(scene, vx, vy, vz)] = search_voxel(scene, vx, vy, vz, known);
+        }
+      }
+    }
+  }
+  return true;
+}
+
+#endif

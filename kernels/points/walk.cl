@@ -1,0 +1,190 @@
+// Walking the bins around a box, row by row, images of them along periodic axes included.
+//
+// BALLS. What is nearest at a corner of a box lies in the ball around it through any known place. What is nearest
+// anywhere in the box lies in one of the eight balls: a ball around a voxel centre of the box, through the same place,
+// lies in their union. So each row of bins has its own stretch along x, or none.
+
+#ifndef VOROCL_POINTS_WALK
+#define VOROCL_POINTS_WALK
+
+#include "points/lists.cl"
+
+typedef struct {
+  int from, to;  // voxels of an axis, both ends included
+} span_t;
+typedef struct {
+  span_t x, y, z;
+} cuboid_t;
+
+static inline span_t span_of(int from, int to) {
+  const span_t span = {from, to};
+  return span;
+}
+static inline span_t clamped(span_t s, span_t limits) {
+  return span_of(clamp(s.from, limits.from, limits.to), clamp(s.to, limits.from, limits.to));
+}
+static inline bool holds(span_t outer, span_t inner) { return inner.from >= outer.from && inner.to <= outer.to; }
+static inline span_t with_bins_around(span_t s, int rings, int bits) {
+  return span_of(((s.from >> bits) - rings) * (1 << bits), ((s.to >> bits) + rings + 1) * (1 << bits) - 1);
+}
+// What a box can need: the axis, or along a periodic one all that is at most half a period away.
+static inline span_t limits_of(int from, int to, int size, int periodic) {
+  return periodic ? span_of(from - size / 2 - 1, to + size / 2 + 1) : span_of(0, size - 1);
+}
+static inline cuboid_t limits_around(const scene_t* scene, box_t b) {
+  cuboid_t c;
+  c.x = limits_of(b.x, b.x + b.sx - 1, scene->size.x, PERIODIC_X);
+  c.y = limits_of(b.y, b.y + b.sy - 1, scene->size.y, PERIODIC_Y);
+  c.z = limits_of(b.z, b.z + b.sz - 1, scene->size.z, PERIODIC_Z);
+  return c;
+}
+static inline int image_at(int at, int size, int periodic) {
+  return periodic ? (at >= 0 ? at / size : -((size - 1 - at) / size)) : 0;
+}
+static inline span_t of_image(span_t s, int image, int size, int periodic) {
+  return periodic ? span_of(max(s.from - image * size, 0), min(s.to - image * size, size - 1)) : s;
+}
+
+// Centres and squared radii, in units of the spacing.
+typedef struct {
+  float8 x, y, z, square;
+} balls_t;
+
+static inline float8 with_margin(float8 square) { return square * (1 + 0x1p-16f) + 0x1p-4f; }
+
+static inline balls_t balls_around(box_t b, float4 place) {
+  const float4 half_way = between_centres(b) / 2, centre = convert_float4(centre_of(b)) * (1.f / ONE);
+  const float8 sides_x = (float8)(-1, 1, -1, 1, -1, 1, -1, 1) * half_way.x;
+  const float8 sides_y = (float8)(-1, -1, 1, 1, -1, -1, 1, 1) * half_way.y;
+  const float8 sides_z = (float8)(-1, -1, -1, -1, 1, 1, 1, 1) * half_way.z;
+  const float8 x = sides_x - place.x * (1.f / ONE), y = sides_y - place.y * (1.f / ONE);
+  const float8 z = sides_z - place.z * (1.f / ONE);
+  balls_t balls;
+  balls.x = sides_x + centre.x, balls.y = sides_y + centre.y, balls.z = sides_z + centre.z;
+  balls.square = with_margin(x * x + y * y + z * z);
+  return balls;
+}
+// One ball, in each lane.
+static inline balls_t ball_around(int4 centre, float4 place) {
+  const float4 middle = convert_float4(centre) * (1.f / ONE), way = place * (1.f / ONE);
+  balls_t ball;
+  ball.x = middle.x, ball.y = middle.y, ball.z = middle.z;
+  ball.square = with_margin((float8)(way.x * way.x + way.y * way.y + way.z * way.z));
+  return ball;
+}
+
+// A box of bins: ranges of the list, and where the images of their places lie.
+typedef struct {
+  span_t x, y, z;
+  balls_t balls;
+  bool has_balls;
+  span_t row;                                             // along x, of the present row
+  int image_x, image_y, image_z, last_x, last_y, last_z;  // images
+  int row_y, row_z, end_y, end_z;                         // bins
+} walk_t;
+
+static inline void enter_y(const scene_t* scene, walk_t* w) {
+  const span_t y = of_image(w->y, w->image_y, scene->size.y, PERIODIC_Y);
+  w->row_y = (y.from >> scene->bins.bits.y) - 1;
+  w->end_y = y.to >> scene->bins.bits.y;
+}
+static inline void enter_z(const scene_t* scene, walk_t* w) {
+  const span_t z = of_image(w->z, w->image_z, scene->size.z, PERIODIC_Z);
+  w->row_z = z.from >> scene->bins.bits.z;
+  w->end_z = z.to >> scene->bins.bits.z;
+}
+
+static inline walk_t walk_over(const scene_t* scene, span_t x, span_t y, span_t z) {
+  walk_t w;
+  w.x = x, w.y = y, w.z = z;
+  w.has_balls = false;
+  w.image_x = 1, w.last_x = 0;
+  w.image_y = image_at(y.from, scene->size.y, PERIODIC_Y), w.last_y = image_at(y.to, scene->size.y, PERIODIC_Y);
+  w.image_z = image_at(z.from, scene->size.z, PERIODIC_Z), w.last_z = image_at(z.to, scene->size.z, PERIODIC_Z);
+  enter_z(scene, &w);
+  enter_y(scene, &w);
+  return w;
+}
+
+// How far outside a range centres are.
+static inline float8 outside(float8 at, int from, int to) { return fmax(fmax((float)from - at, at - (float)to), 0.f); }
+
+// The voxels along x of the present row that the balls meet; false if there are none.
+static inline bool row_in_balls(const scene_t* scene, walk_t* w) {
+  w->row = w->x;
+  if (!w->has_balls) return true;
+  const int4 bits = scene->bins.bits;
+  const int y = (w->row_y << bits.y) + w->image_y * scene->size.y;
+  const int z = (w->row_z << bits.z) + w->image_z * scene->size.z;
+  const float8 dy = outside(w->balls.y, y * SPACING_Y, (y + (1 << bits.y)) * SPACING_Y);
+  const float8 dz = outside(w->balls.z, z * SPACING_Z, (z + (1 << bits.z)) * SPACING_Z);
+  const float8 rest = w->balls.square - dy * dy - dz * dz;
+  const float8 reach = sqrt(fmax(rest, 0.f));
+  const int8 misses = rest < 0.f;
+  const float west = least_float(select(w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
+  const float east = -least_float(select(-w->balls.x - reach, (float8)INFINITY, misses)) * (1.f / SPACING_X);
+  if (west > east) return false;
+  const float most = 1 << 20;
+  w->row = span_of(max(w->x.from, (int)fmax(west - 1, -most)), min(w->x.to, (int)fmin(east + 1, most)));
+  return w->row.from <= w->row.to;
+}
+
+// The next range that is not empty; false at the end. `origin`: what is subtracted from its places, a centre in the
+// image's place.
+static inline bool next_range(const scene_t* scene, walk_t* w, int4 centre, uint* from, uint* to, int4* origin) {
+  const bins_t* const bins = &scene->bins;
+  while (true) {
+    for (; w->image_x <= w->last_x; ++w->image_x) {
+      const span_t x = of_image(w->row, w->image_x, scene->size.x, PERIODIC_X);
+      const uint first = (uint)((w->row_z * bins->rows + w->row_y) * (bins->columns + 1));
+      *from = scene->starts[first + (uint)(x.from >> bins->bits.x)];
+      *to = scene->starts[first + (uint)(x.to >> bins->bits.x) + 1];
+      if (*from == *to) continue;
+      *origin = centre;
+#ifdef VOROCL_PERIODIC
+      *origin -= (int4)(w->image_x, w->image_y, w->image_z, 0) * scene->size * (ONE * SPACINGS);
+#endif
+      ++w->image_x;
+      return true;
+    }
+    while (++w->row_y > w->end_y) {
+      if (PERIODIC_Y && w->image_y < w->last_y) {
+        ++w->image_y;
+        enter_y(scene, w);
+        continue;
+      }
+      w->image_y = image_at(w->y.from, scene->size.y, PERIODIC_Y);
+      if (++w->row_z > w->end_z) {
+        if (!PERIODIC_Z || w->image_z == w->last_z) return false;
+        ++w->image_z;
+        enter_z(scene, w);
+      }
+      enter_y(scene, w);
+    }
+    if (!row_in_balls(scene, w)) continue;
+    w->image_x = image_at(w->row.from, scene->size.x, PERIODIC_X);
+    w->last_x = image_at(w->row.to, scene->size.x, PERIODIC_X);
+  }
+}
+
+// The voxels of an axis that balls meet, and one more at both ends.
+static inline span_t span_of_balls(float8 at, float8 reach, int spacing, span_t limits) {
+  const float most = 1 << 20;
+  const float from = least_float(at - reach) / (float)spacing, to = -least_float(-at - reach) / (float)spacing;
+  return clamped(span_of((int)fmax(from - 1, -most), (int)fmin(to + 1, most)), limits);
+}
+static inline walk_t walk_over_balls(const scene_t* scene, const cuboid_t* limits, balls_t balls) {
+  const float8 reach = sqrt(balls.square);
+  walk_t walk = walk_over(scene, span_of_balls(balls.x, reach, SPACING_X, limits->x),
+                          span_of_balls(balls.y, reach, SPACING_Y, limits->y),
+                          span_of_balls(balls.z, reach, SPACING_Z, limits->z));
+  walk.balls = balls;
+  walk.has_balls = true;
+  return walk;
+}
+// The walk over all that may win in a box where a place is known.
+static inline walk_t walk_in_balls(const scene_t* scene, box_t box, const cuboid_t* limits, float4 place) {
+  return walk_over_balls(scene, limits, balls_around(box, place));
+}
+
+#endif
