@@ -276,8 +276,8 @@ static void test_refusals(const vorocl_device* device) {
                                  &none),
         VOROCL_NULL_ARGUMENT, "points is NULL");
   FAILS(vorocl_seeds_random(device, unknown, 3, 1, &none), VOROCL_BAD_ARGUMENT, "must be 0 or 1");
-  flat.x.spacing = 17;
-  FAILS(vorocl_seeds_random(device, flat, 3, 1, &none), VOROCL_BAD_ARGUMENT, "a spacing of 17");
+  flat.x.spacing = 65;
+  FAILS(vorocl_seeds_random(device, flat, 3, 1, &none), VOROCL_BAD_ARGUMENT, "a spacing of 65");
   flat.x.spacing = 0;
   wrong.z.to = 5;
   FAILS(vorocl_seeds_random(device, wrong, 3, 1, &none), VOROCL_BAD_ARGUMENT, "0 pixels");

@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(windows_that_fail_can_be_made_again) {
 BOOST_AUTO_TEST_CASE(volumes_that_fail_can_be_made_again) {
   const Grid volume(12, 10, 8);
   const std::vector<Point> points = {{9, 3, 1}, {2, 5, 6}, {11, 9, 7}};
-  const Seeds whole(test_device(), volume, points, to_centres);
+  const Seeds whole(test_device(), volume, points);
   Diagram fresh(test_device(), volume);
   jump_flooding(whole, fresh);
   const std::vector<std::uint32_t> flooded = fresh.read();
