@@ -216,6 +216,16 @@ BOOST_AUTO_TEST_CASE(pixels_beyond_the_greatest_distance_have_no_label) {
   succeeds(folder, render + "--units px --labels b.npy");  // beyond no pixel of the first seven
   BOOST_TEST(labels_of(folder, "b.npy")[4] == 0u);
   BOOST_TEST(labels_of(folder, "b.npy")[5] == no_label);
+  succeeds(folder, render + "--color distance --contours 2 -o d.png");
+  const cv::Mat by_distance = cv::imread(folder / "d.png");
+  for (int i = 0; i < 20; ++i) {
+    const bool is_far = labels[static_cast<std::size_t>(21 * i)] == no_label;
+    BOOST_TEST((by_distance.at<cv::Vec3b>(i, i) == cv::Vec3b(0, 0, 0)) == is_far, "pixel " << i);
+  }
+  const Result oblong =  // behind the warning of what such pixels are
+      run(folder, "render --points p.csv --size 20x30 --bounds 0,0,13,13 --max-distance 4 --labels o.npy");
+  BOOST_TEST(oblong.exit_code == usage);
+  BOOST_TEST(oblong.error.find("error: --max-distance: pixels are no squares") != std::string::npos);
   refuses(folder, render + "--method jfa --waves w%d.png", usage, {"--max-distance", "--waves"});
   refuses(folder, "render --points p.csv --size 9x9 --max-distance -1 --labels a.npy", usage,
           {"--max-distance"});

@@ -59,7 +59,7 @@ void print_result(const ExactCellsOptions& options, const Seeds& seeds, ExactCel
   print("exact cells: {} in {} in {:.1f} ms, on {}\n", counted(seeds.alive(), "seed"),
         fmt::format("{}", fmt::join(corners, ",")), report.milliseconds(), seeds.device().name());
   if (rows.empty_cells() > 0) {
-    print("{} of these lie where another does and have no cell\n", counted(rows.empty_cells(), "seed"));
+    print("{} without a cell: another one has the same place\n", counted(rows.empty_cells(), "seed"));
   }
   print("the mean {} is {:.6g}, with a deviation of {:.6g}\n", measure, rows.mean_area(),
         rows.area_deviation());

@@ -116,6 +116,12 @@ void run(const RenderOptions& options) {
   const Outputs outputs = open_outputs(options);
   const Input input = options.is_volume() ? read_volume_input(options.seeds) : read_input(options.seeds);
   if (!options.is_volume()) check_picture_size(options.picture, input.view.picture.size);
+  if (options.max_distance && input.view.units.lengths_stay_in_pixels()) {
+    throw UsageError(
+        "--max-distance: pixels are no squares, voxels no cubes, in data units, so distances are in pixels; "
+        "say "
+        "--units px if D is, or give a --size of the shape of the bounds");
+  }
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);
   const Seeds seeds = input.place(device);

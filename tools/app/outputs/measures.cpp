@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <tuple>
@@ -182,11 +183,13 @@ CellCount Measures::cell_count() {
 }
 
 void Measures::leave_out_beyond(double distance) {
-  const std::vector<float>& distances = this->distances();  // before the labels change, which it may share
-  const double most = distance * (1 + 1e-6);                // a float's rounding leaves out no pixel
+  distances();                                // before the labels change, which it may share
+  const double most = distance * (1 + 1e-6);  // a float's rounding leaves out no pixel
   labels();
-  for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (view_.units.length(static_cast<double>(distances[i])) > most) images_.labels[i] = no_label;
+  for (std::size_t i = 0; i < images_.distances.size(); ++i) {
+    if (!(view_.units.length(static_cast<double>(images_.distances[i])) > most)) continue;
+    images_.labels[i] = no_label;
+    images_.distances[i] = std::numeric_limits<float>::infinity();
   }
 }
 

@@ -110,7 +110,7 @@ class Measures {
   // Made of these on the host.
 
   /// From here on pixels farther than this from the seed of their label, in the unit of distances, have no
-  /// label. Of these labels the device's measures know nothing.
+  /// label, and an infinite distance. Of these labels the device's measures know nothing.
   void leave_out_beyond(double distance);
 
   /// The labels as files have them, and these in the picture.

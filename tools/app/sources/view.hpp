@@ -98,6 +98,9 @@ class Units {
   const char* of_area() const { return area_in_data_ ? "data" : "px"; }
   const char* of_length() const { return length_unit_.c_str(); }
 
+  /// Whether positions are in data units and lengths are not, for pixels are no squares there.
+  bool lengths_stay_in_pixels() const { return area_in_data_ && !length_in_data_; }
+
   /// The first line of a table with these columns: where lengths stay in pixels beside positions in data
   /// units, the names of their columns say so.
   std::string header(const std::vector<std::string>& columns) const {
