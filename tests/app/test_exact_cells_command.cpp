@@ -267,6 +267,7 @@ BOOST_AUTO_TEST_CASE(what_exact_cells_cannot_do_is_refused_before_the_work) {
   const std::string exact = "cells --exact --points p.csv --device none ";
   refuses(folder, exact, usage, {"nothing to write", "--cells", "--adjacency", "--polygons"});
   refuses(folder, exact + "--cells c.csv --method jfa", usage, {"--method", "--exact"});
+  refuses(folder, exact + "--cells c.csv --snap", usage, {"--snap", "--exact"});
   refuses(folder, exact + "--cells c.csv --metric manhattan", usage, {"--metric", "--exact"});
   refuses(folder, exact + "--cells c.csv --extra-waves 1", usage, {"--extra-waves", "--exact"});
   refuses(folder, exact + "--labels l.npy", usage, {"--labels", "--exact"});

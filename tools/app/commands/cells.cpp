@@ -109,7 +109,7 @@ void print_result(const CellsOptions& options, const Seeds& seeds, const Report&
 /// The cells without a diagram. Throws UsageError for options that say something of one.
 void run_exact(const Command& command, const CellsOptions& options) {
   for (const char* name : {"--method", "--metric", "--neighbourhood", "--von-neumann-waves", "--extra-waves",
-                           "--refresh-interval", "--reach", "--distance", "--border", "--labels"}) {
+                           "--refresh-interval", "--reach", "--snap", "--distance", "--border", "--labels"}) {
     if (command.has(name)) throw UsageError(std::string(name) + " is of diagrams, and --exact makes none");
   }
   if (in_pixels(options.seeds)) {
