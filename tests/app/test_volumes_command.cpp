@@ -44,6 +44,22 @@ std::string bytes_of(const Labels& labels) {
 
 }  // namespace
 
+/// The sides are 3 / 61, 2 / 37 and 1 / 23: 28 : 31 : 25 of 0.001756, 0.001744 and 0.001739.
+BOOST_AUTO_TEST_CASE(a_note_says_how_exact_the_sides_of_voxels_are) {
+  const TemporaryFolder folder;
+  folder.file("p.csv", "x,y,z\n0.5,0.5,0.5\n2,1,0.25\n");
+  const auto said = [&](const std::string& size, const std::string& bounds) {
+    return run(folder, "render --points p.csv --size " + size + " --bounds=" + bounds + " --labels a.npy")
+        .error;
+  };
+  BOOST_TEST(said("61x37x23", "0,0,0,3,2,1").find("as 28 : 31 : 25 in the data to 1 %,") !=
+             std::string::npos);
+  BOOST_TEST(said("60x40x21", "0,0,0,3,2,1.045").find("as 1 : 1 : 1 in the data to 0.5 %") !=
+             std::string::npos);
+  BOOST_TEST(said("60x40x20", "0,0,0,3,2,2").find("as 1 : 1 : 2 in the data, and") != std::string::npos);
+  BOOST_TEST(said("60x40x20", "0,0,0,3,2,1").find("sides of a voxel") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(labels_are_written_slice_after_slice) {
   const TemporaryFolder folder;
   const std::string method = "--method " + method_of_device();

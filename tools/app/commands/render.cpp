@@ -119,8 +119,7 @@ void run(const RenderOptions& options) {
   if (options.max_distance && input.view.units.lengths_stay_in_pixels()) {
     throw UsageError(
         "--max-distance: pixels are no squares, voxels no cubes, in data units, so distances are in pixels; "
-        "say "
-        "--units px if D is, or give a --size of the shape of the bounds");
+        "say --units px if D is, or give a --size of the shape of the bounds");
   }
   const Device device = select_device(options.device);
   const FinishAtEnd finish(device);

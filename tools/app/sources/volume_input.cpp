@@ -154,10 +154,13 @@ bool warn_of_voxels(const Grid& grid, const std::string& where) {
 
 /// Says what may surprise: distances that count voxels as they are long, and data without an extent.
 void note_scales(const Grid& grid) {
-  if (grid.is_spaced()) {
+  const double spread = spread_of_units(grid);
+  const bool is_rounded = spread > exact && has_scale(grid);  // else a warning says more
+  if (grid.is_spaced() || is_rounded) {
     print_note(
-        fmt::format("the sides of a voxel are as {} : {} : {} in the data, and distances count them so",
-                    grid.x().spacing(), grid.y().spacing(), grid.z().spacing()));
+        fmt::format("the sides of a voxel are as {} : {} : {} in the data{}, and distances count them so",
+                    grid.x().spacing(), grid.y().spacing(), grid.z().spacing(),
+                    is_rounded ? fmt::format(" to {:.1g} %", 100 * (spread - 1)) : ""));
   }
   const Axis* const axes[] = {&grid.x(), &grid.y(), &grid.z()};
   for (std::size_t i = 0; i < 3; ++i) {
