@@ -126,7 +126,9 @@ void prepare_volumes(const Device& device) {
     measure_cells(diagram);
     diagram.wait();
     if (device.tuning().shape == Shape::group) continue;
-    exact_diagram(Seeds(device, grid, {{1.25, 2.5, 3.75}}), diagram);
+    const Seeds between_centres(device, grid, {{1.25, 2.5, 3.75}});
+    exact_diagram(between_centres, diagram);
+    method("jfa").run(between_centres, other, {});
     distance_field(diagram, distances);
     distance_errors(other, diagram, wrong);
     measure_cells(diagram);
