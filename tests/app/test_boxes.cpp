@@ -81,8 +81,8 @@ LabelImage labels_of(const TemporaryFolder& folder, const std::string& name) {
 /// The columns of a row that have labels, from ... up to and without.
 std::pair<int, int> labelled_columns(const LabelImage& image, int row) {
   int begin = 0, end = image.size.width();
-  while (begin < end && label_at(image.size.grid(), image.labels, begin, row) == no_label) ++begin;
-  while (end > begin && label_at(image.size.grid(), image.labels, end - 1, row) == no_label) --end;
+  while (begin < end && label_at(image.size.grid(), image.labels, {begin, row}) == no_label) ++begin;
+  while (end > begin && label_at(image.size.grid(), image.labels, {end - 1, row}) == no_label) --end;
   return {begin, end};
 }
 
@@ -101,8 +101,9 @@ BOOST_AUTO_TEST_CASE(labels_in_a_box_that_is_stretched_are_those_of_the_data) {
       BOOST_TEST(image.size.height() == std::lround(280 * 10 / side));
       const double unit = side / 280, high = 10.0 / image.size.height();
       double inside = 0, equal = 0, astray = 0;
-      each_pixel(image.size.grid(), image.labels, [&](std::uint32_t label, int x, int y) {
-        const Point place = {-side / 2 + (x + 0.5) * unit, bottom + (image.size.height() - y - 0.5) * high};
+      each_pixel(image.size.grid(), image.labels, [&](std::uint32_t label, const Pixel& pixel) {
+        const Point at = centre(pixel);
+        const Point place = {-side / 2 + at.x * unit, bottom + (image.size.height() - at.y) * high};
         if (!is_in(scenes[frame], place)) {
           astray += label == no_label ? 0 : 1;
           return;
@@ -139,7 +140,8 @@ BOOST_AUTO_TEST_CASE(measures_in_a_part_of_the_picture_are_those_of_its_pixels) 
     const LabelImage picture = labels_of(folder, "l1.npy");
     LabelledGrid box = {Grid(20, 24, Axes::xy), {}};
     for (int y = 6; y < 30; ++y) {
-      for (int x = 8; x < 28; ++x) box.labels.push_back(label_at(picture.size.grid(), picture.labels, x, y));
+      for (int x = 8; x < 28; ++x)
+        box.labels.push_back(label_at(picture.size.grid(), picture.labels, {x, y}));
     }
     BOOST_TEST(std::count(picture.labels.begin(), picture.labels.end(), no_label) == 40 * 30 - 20 * 24);
     check_adjacency_table(folder / "a1.csv", box);

@@ -193,15 +193,13 @@ BOOST_AUTO_TEST_CASE(images_hold_the_same_in_every_format) {
   BOOST_TEST_REQUIRE(mask.type() == CV_8U);
 
   const Grid grid(61, 47);
-  std::size_t wrong = 0, i = 0;
-  each_pixel(grid, labels.values, [&](std::uint32_t label, int x, int y) {
+  std::size_t wrong = 0;
+  each_pixel(grid, labels.values, [&](std::uint32_t label, const Pixel& pixel) {
     bool border = false;
-    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-      if (x + dx < 0 || x + dx >= 61 || y + dy < 0 || y + dy >= 47) continue;
-      border |= label_at(grid, labels.values, x + dx, y + dy) != label;
-    }
-    wrong += borders.values[i++] != (border ? 1 : 0) ? 1 : 0;
-    wrong += mask.at<std::uint8_t>(y, x) != (border ? 255 : 0) ? 1 : 0;
+    for (const Pixel& other : beside(grid, pixel)) border |= label_at(grid, labels.values, other) != label;
+    wrong += borders.values[index_of(grid, pixel)] != (border ? 1 : 0) ? 1 : 0;
+    const auto at = cv::Point(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    wrong += mask.at<std::uint8_t>(at) != (border ? 255 : 0) ? 1 : 0;
   });
   BOOST_TEST(wrong == 0u);
 }

@@ -70,8 +70,8 @@ BOOST_AUTO_TEST_CASE(seeds_settle_and_their_points_give_the_same_diagram) {
     BOOST_TEST((points.at(static_cast<std::size_t>(*row[0])) == TableRow{row[0], row[1], row[2]}));
   }
   double energy = 0;
-  each_pixel(Grid(200, 140), labels_of(folder, "l.npy").labels, [&](std::uint32_t label, int x, int y) {
-    const double dx = x + 0.5 - *points[label][1], dy = y + 0.5 - *points[label][2];
+  each_pixel(Grid(200, 140), labels_of(folder, "l.npy").labels, [&](std::uint32_t label, const Pixel& pixel) {
+    const double dx = centre(pixel).x - *points[label][1], dy = centre(pixel).y - *points[label][2];
     energy += dx * dx + dy * dy;
   });
   BOOST_TEST(result.at("energy_at_end").get<double>() == energy, boost::test_tools::tolerance(1e-6));

@@ -23,7 +23,7 @@ LabelledGrid labels_of(const TemporaryFolder& folder, const std::string& name, A
 TableRow statistics_on_host(int frame, const LabelledGrid& image, const std::optional<LabelledGrid>& before,
                             const SeedsById& seeds) {
   std::map<std::uint32_t, double> areas;
-  each_pixel(image.grid, image.labels, [&](std::uint32_t label, int, int) { ++areas[label]; });
+  each_pixel(image.grid, image.labels, [&](std::uint32_t label, const Pixel&) { ++areas[label]; });
   const auto cells = static_cast<double>(seeds.size());
   const double mean = static_cast<double>(image.grid.pixels()) / cells;
   double variance = 0;

@@ -10,7 +10,6 @@
 
 #include "all_measures.hpp"
 #include "brute_force.hpp"
-#include "brute_force_of_volumes.hpp"
 #include "list_length.hpp"
 #include "reference.hpp"
 #include "reference_flood.hpp"
@@ -214,13 +213,8 @@ void make_volumes(const Device& device, const Grid& grid) {
   int vector_width = grid.periodic() == Axes::none ? 1 : 4;
   for (const std::size_t count : {9u, 600u}) {
     const Seeds seeds = Seeds::random(device, Grid(10, grid.height(), grid.depth()), count, 1);
-    std::vector<Point> points;
-    std::vector<At> voxels;
-    for (const auto& voxel : seeds.read_pixels()) {
-      points.push_back(*voxel);
-      voxels.push_back({static_cast<int>(voxel->x), static_cast<int>(voxel->y), static_cast<int>(voxel->z)});
-    }
-    const Labels expected = brute_force(grid, voxels);
+    auto points = transformed(seeds.read_pixels(), [](const auto& voxel) { return *voxel; });
+    const Labels expected = brute_force(grid, pixels_of(points), Metric::euclidean);
     Seeds in_a_part(device, grid, points, to_centres);
     Diagram flooded(device, grid), exact(device, grid),
         by_short_lists(with_lists(device, ListLength::two_entries), grid);

@@ -13,28 +13,22 @@ namespace {
 DistanceErrors on_the_host(const Grid& grid, const std::vector<Pixel>& seeds, Metric metric,
                            const std::vector<std::uint32_t>& labels,
                            const std::vector<std::uint32_t>& exact) {
-  const auto in_pixels = [&](std::int64_t d) {
-    return metric == Metric::euclidean ? std::sqrt(static_cast<double>(d)) : static_cast<double>(d);
-  };
   DistanceErrors errors;
   errors.pixels = grid.pixels();
   const DistanceIn distance(grid, metric);
-  std::size_t i = 0;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x, ++i) {
-      if (exact[i] == no_label) continue;
-      const std::int64_t least = distance({x, y}, seeds.at(exact[i]));
-      if (labels[i] >= seeds.size()) {
-        ++errors.wrong_pixels;
-        ++errors.unlabelled_pixels;
-      } else if (const std::int64_t d = distance({x, y}, seeds[labels[i]]); d > least) {
-        ++errors.wrong_pixels;
-        const double excess = in_pixels(d) - in_pixels(least);
-        errors.largest_excess = std::max(errors.largest_excess, excess);
-        errors.mean_excess += excess / static_cast<double>(errors.pixels);
-      }
+  each_pixel(grid, exact, [&](std::uint32_t nearest, const Pixel& pixel) {
+    const std::uint32_t label = label_at(grid, labels, pixel);
+    const std::int64_t least = distance(pixel, seeds.at(nearest));
+    if (label >= seeds.size()) {
+      ++errors.wrong_pixels;
+      ++errors.unlabelled_pixels;
+    } else if (const std::int64_t d = distance(pixel, seeds[label]); d > least) {
+      ++errors.wrong_pixels;
+      const double excess = length_of(d, metric) - length_of(least, metric);
+      errors.largest_excess = std::max(errors.largest_excess, excess);
+      errors.mean_excess += excess / static_cast<double>(errors.pixels);
     }
-  }
+  });
   return errors;
 }
 
@@ -59,7 +53,12 @@ void check(const std::string& name, const Device& device, const Case& example, M
 
 BOOST_AUTO_TEST_CASE(errors_are_those_of_the_host) {
   for (const Metric metric : both_metrics) {
-    for (const Case& example : all_edge_cases(metric)) {
+    std::vector<Case> examples = all_edge_cases(metric);
+    for (const Grid& grid : {Grid(50, 40, 30), Grid(33, 20, 9, Axes::xyz),
+                             Grid(Axis(50).spaced(2), Axis(40), Axis(30).spaced(4))}) {
+      examples.push_back({"volume", grid, random_pixels(grid, 60, 7)});
+    }
+    for (const Case& example : examples) {
       const auto cells = static_cast<std::uint32_t>(example.seeds.size());
       const Labels ground_truth = brute_force(example.grid, example.seeds, metric);
       for (const Device& device : shapes()) {

@@ -9,10 +9,10 @@ using namespace vorocl;
 
 namespace {
 
-void check_fields(const std::string& name, const std::vector<Pixel>& pixels, const Diagram& diagram,
-                  Metric metric) {
-  const Grid& grid = diagram.window().grid();
-  const std::vector<std::uint32_t> labels = diagram.read();
+void check_fields(const Case& test, const Diagram& diagram) {
+  const Grid& grid = test.grid;
+  const Metric metric = diagram.metric();
+  const Labels labels = diagram.read();
   Field<std::int32_t> integers;
   Field<float> floats;
   Field<std::uint8_t> mask;
@@ -24,29 +24,29 @@ void check_fields(const std::string& name, const std::vector<Pixel>& pixels, con
   const std::vector<std::uint8_t> border = mask.read();
   BOOST_TEST_REQUIRE((integer.size() == labels.size() && in_pixels.size() == labels.size()));
   BOOST_TEST_REQUIRE(border.size() == labels.size());
-  std::size_t wrong_integers = 0, wrong_floats = 0, wrong_border = 0, i = 0;
-  for (int y = 0; y < grid.height(); ++y) {
-    for (int x = 0; x < grid.width(); ++x, ++i) {
-      if (labels[i] == no_label) {
-        wrong_integers += integer[i] != no_distance ? 1 : 0;
-        wrong_floats += !std::isinf(in_pixels[i]) ? 1 : 0;
-      } else {
-        const auto d = static_cast<double>(distance(grid, {x, y}, pixels[labels[i]], metric));
-        const double length = metric == Metric::euclidean ? std::sqrt(d) : d;
-        wrong_integers += integer[i] != d ? 1 : 0;
-        wrong_floats += std::abs(in_pixels[i] - length) > length * 4e-7 ? 1 : 0;
-      }
-      const auto differs = [&](int dx, int dy) {
-        const auto other = in_grid(grid, {x + dx, y + dy});
-        return other && label_at(grid, labels, other->x, other->y) != labels[i];
-      };
-      const bool expected = differs(-1, 0) || differs(1, 0) || differs(0, -1) || differs(0, 1);
-      wrong_border += border[i] != (expected ? 1 : 0) ? 1 : 0;
+  const DistanceIn distance(grid, metric);
+  std::size_t wrong_integers = 0, wrong_floats = 0, wrong_border = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const Pixel pixel = pixel_at(grid, i);
+    const bool is_absent = labels[i] < test.absent.size() && test.absent[labels[i]];
+    if (labels[i] == no_label || is_absent) {
+      wrong_integers += integer[i] != no_distance ? 1 : 0;
+      wrong_floats += !std::isinf(in_pixels[i]) ? 1 : 0;
+    } else {
+      const std::int64_t d = distance(pixel, test.seeds[labels[i]]);
+      const double length = length_of(d, metric);
+      wrong_integers += integer[i] != d ? 1 : 0;
+      wrong_floats += std::abs(in_pixels[i] - length) > length * 4e-7 ? 1 : 0;
     }
+    const std::vector<Pixel> others = beside(grid, pixel);
+    const bool expected = std::any_of(others.begin(), others.end(), [&](const Pixel& other) {
+      return label_at(grid, labels, other) != labels[i];
+    });
+    wrong_border += border[i] != (expected ? 1 : 0) ? 1 : 0;
   }
-  BOOST_TEST(wrong_integers == 0u, name << ": " << wrong_integers << " integer distances are wrong");
-  BOOST_TEST(wrong_floats == 0u, name << ": " << wrong_floats << " distances in pixels are wrong");
-  BOOST_TEST(wrong_border == 0u, name << ": " << wrong_border << " pixels are wrong about the border");
+  BOOST_TEST(wrong_integers == 0u, test.name << ": " << wrong_integers << " integer distances are wrong");
+  BOOST_TEST(wrong_floats == 0u, test.name << ": " << wrong_floats << " distances in pixels are wrong");
+  BOOST_TEST(wrong_border == 0u, test.name << ": " << wrong_border << " pixels are wrong about the border");
 }
 
 }  // namespace
@@ -54,18 +54,10 @@ void check_fields(const std::string& name, const std::vector<Pixel>& pixels, con
 BOOST_AUTO_TEST_CASE(fields_are_those_of_the_host) {
   for (const Device& device : shapes()) {
     for (const Case& test : measured_cases(device)) {
-      const Seeds seeds(device, test.grid, centres(test.seeds), to_centres);
       Diagram diagram(device, test.grid);
-      const Metric metric = test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan;
-      fill(seeds, diagram, metric);
-      check_fields(test.name, test.seeds, diagram, metric);
-    }
-    const Grid grid(97, 53);
-    const std::vector<Pixel> pixels = random_pixels(grid, 20, 1);
-    Diagram pieces(device, grid);
-    for (const Metric metric : both_metrics) {
-      pieces.write(random_labels(grid, 20, 2), Seeds(device, grid, centres(pixels), to_centres), metric);
-      check_fields("pieces", pixels, pieces, metric);
+      fill(test, seeds_of(device, test), diagram,
+           test.seeds.size() % 2 == 0 ? Metric::euclidean : Metric::manhattan);
+      check_fields(test, diagram);
     }
   }
 }
@@ -82,7 +74,7 @@ BOOST_AUTO_TEST_CASE(the_longest_distance_there_is) {
 
 BOOST_AUTO_TEST_CASE(labels_are_looked_up_in_a_table) {
   for (const Device& device : shapes()) {
-    for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Axes::x)}) {
+    for (const Grid& grid : {Grid(1, 1), Grid(97, 53), Grid(640, 3, Axes::x), Grid(37, 19, 12)}) {
       if (!is_for(device, grid)) continue;
       const Seeds seeds(device, grid, centres(random_pixels(grid, 40, 1)), to_centres);
       Diagram diagram(device, grid);
@@ -123,7 +115,8 @@ BOOST_AUTO_TEST_CASE(a_table_that_cannot_be_read_is_refused) {
 BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const Device& device : shapes()) {
-    for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Axes::xy)}) {
+    for (const Grid& grid : {Grid(97, 53), Grid(64, 48, Axes::xy),
+                             Grid(Axis(37).spaced(2), Axis(20), Axis(12).spaced(3).periodic())}) {
       const std::vector<Pixel> pixels = random_pixels(grid, 12, 3);
       const Seeds seeds(device, grid, centres(pixels), to_centres);
       Diagram diagram(device, grid);
@@ -133,10 +126,9 @@ BOOST_AUTO_TEST_CASE(labels_expand_to_a_distance) {
         for (const double most : {0.0, 0.99, 2.5, 5.0, 13.0, 1e300, infinite}) {
           const double bound = metric == Metric::euclidean ? most * most : most;
           std::vector<std::uint32_t> expected(labels.size(), no_label);
-          std::size_t i = 0;
-          each_pixel(grid, labels, [&](std::uint32_t label, int x, int y) {
-            const auto d = static_cast<double>(distance(grid, {x, y}, pixels[label], metric));
-            expected[i++] = d <= bound ? label : no_label;
+          each_pixel(grid, labels, [&](std::uint32_t label, const Pixel& pixel) {
+            const auto d = static_cast<double>(distance(grid, pixel, pixels[label], metric));
+            expected[index_of(grid, pixel)] = d <= bound ? label : no_label;
           });
           Field<std::uint32_t> field;
           expand_labels(diagram, most, field);

@@ -8,37 +8,26 @@
 #include <optional>
 #include <random>
 
-#include "brute_force_of_volumes.hpp"
+#include "brute_force.hpp"
 #include "fixture.hpp"
 #include "list_length.hpp"
+#include "reference_flood.hpp"
 #include "runtime/pixel_grid.hpp"
 
 using namespace vorocl;
 
 namespace {
 
-using Labels = std::vector<std::uint32_t>;
-
-struct Case {
-  std::string name;
-  Grid grid;
-  std::vector<At> seeds;
-};
-
 const bool long_tests = std::getenv("VOROCL_LONG_TESTS") != nullptr;
 
 /// At the centres of voxels, as points snapped to them or as points themselves.
-Seeds seeds_at(const Device& device, const Grid& grid, const std::vector<At>& voxels,
+Seeds seeds_at(const Device& device, const Grid& grid, const std::vector<Pixel>& voxels,
                Snap snap = Snap::to_pixels) {
-  const bool snapped = snap == Snap::to_pixels;
-  return {
-      device,
-      grid,
-      transformed(voxels,
-                  [=](const At& at) {
-                    return Point{at.x + 0.5, at.y + (snapped ? 0.25 : 0.5), at.z + (snapped ? 0.75 : 0.5)};
-                  }),
-      {Outside::count, snap}};
+  const double aside = snap == Snap::to_pixels ? 0.25 : 0;
+  const auto points = transformed(centres(voxels), [=](const Point& at) {
+    return Point{at.x, at.y - aside, at.z + aside};
+  });
+  return {device, grid, points, {Outside::count, snap}};
 }
 
 /// Exact diagrams of volumes are for CPUs: elsewhere they are refused (see below).
@@ -53,15 +42,12 @@ Device with_tuning(int vector_width, std::size_t group) {
 }
 
 /// In turn of snapped points and of points that are at the centres themselves.
-Labels exact_labels(const Grid& grid, const std::vector<At>& voxels, const Device& device = test_device()) {
+Labels exact_labels(const Grid& grid, const std::vector<Pixel>& voxels,
+                    const Device& device = test_device()) {
   static int calls = 0;
   Diagram diagram(device, grid);
   exact_diagram(seeds_at(device, grid, voxels, ++calls % 2 == 0 ? Snap::none : Snap::to_pixels), diagram);
   return diagram.read();
-}
-
-std::size_t index_of(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z) {
-  return static_cast<std::size_t>((z * grid.height() + y) * grid.width() + x);
 }
 
 /// These axes of a grid, made periodic.
@@ -70,44 +56,40 @@ Grid periodic(const Grid& grid, bool x, bool y, bool z) {
           z ? grid.z().periodic() : grid.z()};
 }
 
-Grid spaced(const Grid& grid, int x, int y, int z) {
-  return {grid.x().spaced(x), grid.y().spaced(y), grid.z().spaced(z)};
+Grid spaced(const Grid& grid, std::int64_t x, std::int64_t y, std::int64_t z) {
+  const auto along = [](const Axis& axis, std::int64_t spacing) {
+    return axis.spaced(static_cast<int>(spacing));
+  };
+  return {along(grid.x(), x), along(grid.y(), y), along(grid.z(), z)};
 }
 
 /// As brute_force() does, axis by axis: each voxel takes the best of its line's, of which there is one for
 /// each line of the axes before.
-Labels line_by_line(const Grid& grid, const std::vector<At>& seeds) {
+Labels line_by_line(const Grid& grid, const std::vector<Pixel>& seeds) {
   Labels labels(grid.pixels(), no_label);
   for (std::size_t id = seeds.size(); id-- > 0;) {
-    labels[index_of(grid, seeds[id].x, seeds[id].y, seeds[id].z)] = static_cast<std::uint32_t>(id);
+    labels[index_of(grid, seeds[id])] = static_cast<std::uint32_t>(id);
   }
-  const std::int64_t sides[] = {grid.width(), grid.height(), grid.depth()};
-  const std::int64_t strides[] = {1, grid.width(), grid.width() * grid.height()};
-  for (int axis = 0; axis < 3; ++axis) {
+  const DistanceIn distance(grid, Metric::euclidean);
+  const Pixel sides = {grid.width(), grid.height(), grid.depth()};
+  for (const auto along : {&Pixel::x, &Pixel::y, &Pixel::z}) {
     const Labels before = labels;
-    for (std::int64_t i = 0; i < static_cast<std::int64_t>(labels.size()); ++i) {
-      const std::int64_t voxel[] = {i % sides[0], i / sides[0] % sides[1], i / strides[2]};
-      const At at = {static_cast<int>(voxel[0]), static_cast<int>(voxel[1]), static_cast<int>(voxel[2])};
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+      const Pixel at = pixel_at(grid, i);
       std::int64_t least = INT64_MAX;
-      for (std::int64_t j = 0; j < sides[axis];
-           ++j) {  // the first one stays: axes come in the order of the rule
-        const std::uint32_t id = before[static_cast<std::size_t>(i + (j - voxel[axis]) * strides[axis])];
+      Pixel other = at;
+      // The first one stays: axes come in the order of the rule.
+      for (other.*along = 0; other.*along < sides.*along; ++(other.*along)) {
+        const std::uint32_t id = before[index_of(grid, other)];
         if (id == no_label) continue;
-        const std::int64_t distance = squared_distance(grid, at, seeds[id]);
-        if (distance >= least) continue;
-        least = distance;
-        labels[static_cast<std::size_t>(i)] = id;
+        const std::int64_t d = distance(at, seeds[id]);
+        if (d >= least) continue;
+        least = d;
+        labels[i] = id;
       }
     }
   }
   return labels;
-}
-
-std::size_t count_differences(const Labels& a, const Labels& b) {
-  BOOST_TEST_REQUIRE(a.size() == b.size());
-  std::size_t differences = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) differences += a[i] != b[i] ? 1 : 0;
-  return differences;
 }
 
 /// At most so many: a modulus of 0 is none.
@@ -115,10 +97,10 @@ class Random {
  public:
   explicit Random(unsigned seed) : rng_(seed) {}
   int below(std::int64_t end) { return static_cast<int>(rng_() % static_cast<std::uint64_t>(end)); }
-  At in(const Grid& grid) { return {below(grid.width()), below(grid.height()), below(grid.depth())}; }
-  std::vector<At> in(const Grid& grid, std::size_t count) {
-    std::vector<At> voxels(count);
-    for (At& voxel : voxels) voxel = in(grid);
+  Pixel in(const Grid& grid) { return {below(grid.width()), below(grid.height()), below(grid.depth())}; }
+  std::vector<Pixel> in(const Grid& grid, std::size_t count) {
+    std::vector<Pixel> voxels(count);
+    for (Pixel& voxel : voxels) voxel = in(grid);
     return voxels;
   }
 
@@ -126,11 +108,12 @@ class Random {
   std::mt19937_64 rng_;
 };
 
-At on_a_sphere(At middle, double radius, Random& random) {
+Pixel on_a_sphere(const Point& middle, double radius, Random& random) {
   const double u = random.below(100000) / 5e4 - 1, angle = random.below(100000) * 6.2831853e-5;
   const double flat = radius * std::sqrt(1 - u * u);
-  return {static_cast<int>(middle.x + flat * std::cos(angle)),
-          static_cast<int>(middle.y + flat * std::sin(angle)), static_cast<int>(middle.z + radius * u)};
+  return pixels_of(
+             {{middle.x + flat * std::cos(angle), middle.y + flat * std::sin(angle), middle.z + radius * u}})
+      .front();
 }
 
 /// Sets that starve some of the volume and flood the rest.
@@ -138,12 +121,12 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
   const int w = static_cast<int>(grid.width()), h = static_cast<int>(grid.height()),
             d = static_cast<int>(grid.depth());
   Random random(3);
-  std::vector<At> plane, line, diagonal, sphere, corner, stacked, lattice, full, half, walls, slab, fading;
+  std::vector<Pixel> plane, line, diagonal, sphere, corner, stacked, lattice, full, half, walls, slab, fading;
   for (int i = 0; i < 3000; ++i) {
     plane.push_back({random.below(w), random.below(h), d / 3});
     corner.push_back({random.below(w / 4 + 1), random.below(h / 4 + 1), random.below(d / 4 + 1)});
     stacked.push_back({w / 2, h / 2, d / 2});
-    sphere.push_back(on_a_sphere({w / 2, h / 2, d / 2}, 0.45 * std::min({w, h, d}), random));
+    sphere.push_back(on_a_sphere({w / 2.0, h / 2.0, d / 2.0}, 0.45 * std::min({w, h, d}), random));
     walls.push_back({i % 2 == 0 ? 0 : w - 1, random.below(h), random.below(d)});
     slab.push_back({random.below(w), random.below(h), random.below(std::min(d, 4))});
   }
@@ -159,7 +142,7 @@ std::vector<Case> hurtful_cases(const Grid& grid) {
       }
     }
   }
-  const At middle = {w / 2, h / 2, d / 2}, last = {w - 1, h - 1, d - 1};
+  const Pixel middle = {w / 2, h / 2, d / 2}, last = {w - 1, h - 1, d - 1};
   return {{"no seed", grid, {}},
           {"one seed", grid, {middle}},
           {"two ends", grid, {last, {0, 0, 0}}},
@@ -189,19 +172,19 @@ void check_exact(const Case& c, const Labels& expected, const Device& device, co
 }
 
 /// The labels of some voxels against every seed.
-void check_some(const Labels& labels, const Grid& grid, const std::vector<At>& seeds,
-                const std::vector<At>& voxels) {
-  const auto order = [&](std::size_t id) { return std::tie(seeds[id].z, seeds[id].y, seeds[id].x); };
-  for (const At& voxel : voxels) {
+void check_some(const Labels& labels, const Grid& grid, const std::vector<Pixel>& seeds,
+                const std::vector<Pixel>& voxels) {
+  const DistanceIn distance(grid, Metric::euclidean);
+  for (const Pixel& voxel : voxels) {
     std::int64_t least = INT64_MAX;
     std::size_t nearest = 0;
     for (std::size_t id = 0; id < seeds.size(); ++id) {
-      const std::int64_t distance = squared_distance(grid, voxel, seeds[id]);
-      if (distance > least || (distance == least && !(order(id) < order(nearest)))) continue;
-      least = distance;
+      const std::int64_t d = distance(voxel, seeds[id]);
+      if (d > least || (d == least && !(seeds[id] < seeds[nearest]))) continue;
+      least = d;
       nearest = id;
     }
-    BOOST_TEST_REQUIRE(labels[index_of(grid, voxel.x, voxel.y, voxel.z)] == nearest);
+    BOOST_TEST_REQUIRE(labels[index_of(grid, voxel)] == nearest);
   }
 }
 
@@ -211,7 +194,9 @@ BOOST_AUTO_TEST_CASE(the_two_oracles_agree) {
   std::vector<Case> cases = hurtful_cases(Grid(20, 12, 9));
   for (const Case& c : hurtful_cases(periodic(Grid(13, 12, 3), true, false, true))) cases.push_back(c);
   for (const Case& c : cases) {
-    BOOST_TEST(count_differences(line_by_line(c.grid, c.seeds), brute_force(c.grid, c.seeds)) == 0, c.name);
+    BOOST_TEST(count_differences(line_by_line(c.grid, c.seeds),
+                                 brute_force(c.grid, c.seeds, Metric::euclidean)) == 0,
+               c.name);
   }
 }
 
@@ -235,7 +220,7 @@ namespace {
 void check_random_seeds(int number, const Grid& grid, const Grid& part, Random& random) {
   const double magnitude = std::log(static_cast<double>(part.pixels()) + 1);
   const auto count = static_cast<std::size_t>(std::exp(magnitude * random.below(1001) / 1000.0) - 0.99);
-  const std::vector<At> seeds = random.in(part, count);
+  const std::vector<Pixel> seeds = random.in(part, count);
   const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
   BOOST_TEST_REQUIRE(wrong == 0, "volume " << number << ", " << size_text(grid) << " with " << count
                                            << " seeds: " << wrong << " wrong voxels");
@@ -269,7 +254,7 @@ BOOST_AUTO_TEST_CASE(dense_seeds_round_the_ends_have_no_wrong_voxel) {
         periodic(Grid(70, 33, 40), false, true, false), periodic(Grid(10, 32, 33), true, false, false),
         periodic(Grid(32, 33, 11), false, false, true)}) {
     for (const std::uint64_t voxels_per_seed : {2u, 6u, 14u, 30u, 80u}) {
-      const std::vector<At> seeds = random.in(grid, grid.pixels() / voxels_per_seed);
+      const std::vector<Pixel> seeds = random.in(grid, grid.pixels() / voxels_per_seed);
       const std::size_t wrong = count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds));
       BOOST_TEST(wrong == 0u, size_text(grid) << ", a seed for " << voxels_per_seed << " voxels");
     }
@@ -282,7 +267,7 @@ BOOST_AUTO_TEST_CASE(spaced_volumes_have_no_wrong_voxel) {
   if (!can_be_exact()) return;
   Random random(21);
   const Device short_list_device = with_lists(test_device(), ListLength::two_entries);
-  for (const auto& spacing : {At{3, 3, 4}, At{2, 1, 4}, At{13, 13, 40}, At{62, 63, 64}}) {
+  for (const auto& spacing : {Pixel{3, 3, 4}, Pixel{2, 1, 4}, Pixel{13, 13, 40}, Pixel{62, 63, 64}}) {
     if (spacing.z == 64 && !long_tests) continue;
     const auto grid_of = [&](std::int64_t width, std::int64_t height, std::int64_t depth) {
       const bool ends_meet = spacing.y == 1;
@@ -309,7 +294,7 @@ BOOST_AUTO_TEST_CASE(the_longest_spaced_volumes_are_right) {
   Random random(23);
   const Grid grid = spaced(Grid(1024, 64, 2), 16, 3, 7);
   for (const std::size_t count : {3u, 300u}) {
-    const std::vector<At> seeds = random.in(grid, count);
+    const std::vector<Pixel> seeds = random.in(grid, count);
     check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, 2000));
   }
 }
@@ -319,7 +304,7 @@ BOOST_AUTO_TEST_CASE(long_volumes_pack_positions_in_their_own_way) {
   const Grid grid(3, 5, 2100);
   Random random(5);
   for (const std::size_t count : {1u, 30u, 3000u}) {
-    const std::vector<At> seeds = random.in(grid, count);
+    const std::vector<Pixel> seeds = random.in(grid, count);
     BOOST_TEST(count_differences(exact_labels(grid, seeds), line_by_line(grid, seeds)) == 0);
   }
 }
@@ -330,7 +315,7 @@ BOOST_AUTO_TEST_CASE(a_large_volume_is_right_where_it_is_looked_at) {
   for (const std::size_t count : {100u, 4096u, 40000u, 300000u}) {
     const bool some_periodic = count == 100 || count == 300000;
     const Grid grid = periodic(Grid(256, 250, 256), some_periodic, some_periodic, some_periodic);
-    const std::vector<At> seeds = random.in(grid, count);
+    const std::vector<Pixel> seeds = random.in(grid, count);
     check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, long_tests ? 5000 : 100));
   }
 }
@@ -342,10 +327,10 @@ BOOST_AUTO_TEST_CASE(seeds_in_a_corner_reach_round_all_ends) {
   for (const Grid& open : {Grid(150, 97, 130), Grid(64, 200, 71)}) {
     const Grid grid = periodic(open, true, true, true);
     for (const int corner : {0, 1}) {
-      std::vector<At> seeds = random.in(Grid(9, 9, 9), 4);
-      for (At& seed : seeds) {
-        seed.x += corner * static_cast<int>(grid.width() - 9);
-        seed.z += corner * static_cast<int>(grid.depth() - 9);
+      std::vector<Pixel> seeds = random.in(Grid(9, 9, 9), 4);
+      for (Pixel& seed : seeds) {
+        seed.x += corner * (grid.width() - 9);
+        seed.z += corner * (grid.depth() - 9);
       }
       check_some(exact_labels(grid, seeds), grid, seeds, random.in(grid, 20000));
     }
@@ -358,10 +343,10 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_sphere_is_right) {
   const Grid grid(256, 256, 256);
   Random random(9);
   for (const int middle : {128, 130}) {  // between parts of boxes, and within one
-    std::vector<At> seeds(32768);
-    for (At& seed : seeds) seed = on_a_sphere({middle, middle, middle}, 115, random);
-    std::vector<At> voxels = random.in(Grid(24, 24, 24), long_tests ? 5000 : 300);
-    for (At& voxel : voxels) voxel = {voxel.x + middle - 12, voxel.y + middle - 12, voxel.z + middle - 12};
+    std::vector<Pixel> seeds(32768);
+    for (Pixel& seed : seeds) seed = on_a_sphere({middle + 0.0, middle + 0.0, middle + 0.0}, 115, random);
+    std::vector<Pixel> voxels = random.in(Grid(24, 24, 24), long_tests ? 5000 : 300);
+    for (Pixel& voxel : voxels) voxel = {voxel.x + middle - 12, voxel.y + middle - 12, voxel.z + middle - 12};
     check_some(exact_labels(grid, seeds), grid, seeds, voxels);
   }
 }
@@ -377,7 +362,7 @@ BOOST_AUTO_TEST_CASE(absent_seeds_have_no_voxel) {
   const auto voxels = seeds.read_pixels();
   BOOST_TEST((!voxels[1] && !voxels[3]));
   BOOST_TEST((voxels[2]->x == 17.5 && voxels[2]->y == 9.5 && voxels[2]->z == 5.5));
-  Labels expected = brute_force(grid, {{2, 2, 2}, {17, 9, 5}});
+  Labels expected = brute_force(grid, {{2, 2, 2}, {17, 9, 5}}, Metric::euclidean);
   for (std::uint32_t& label : expected) label = label == 1 ? 2 : label;
   Diagram diagram(test_device(), grid);
   for (const Method& method : methods()) {
@@ -422,8 +407,7 @@ BOOST_AUTO_TEST_CASE(a_mask_gives_its_voxels_in_the_order_of_the_slices) {
   const auto voxels = seeds.read_pixels();
   BOOST_TEST_REQUIRE(voxels.size() == 3u);
   for (std::size_t id = 0; id < 3; ++id) {
-    const auto at = [](double centre) { return static_cast<std::int64_t>(centre); };
-    BOOST_TEST(mask[index_of(grid, at(voxels[id]->x), at(voxels[id]->y), at(voxels[id]->z))] == 1);
+    BOOST_TEST(mask[index_of(grid, pixels_of({*voxels[id]}).front())] == 1);
   }
   BOOST_TEST(voxels[1]->z == 1.5);
 }
@@ -446,61 +430,11 @@ BOOST_AUTO_TEST_CASE(random_voxels_are_the_same_for_all_widths_and_fill_the_volu
   }
 }
 
-namespace {
-
-std::int64_t distance(const Grid& grid, const At& a, const At& b, Metric metric) {
-  if (metric == Metric::euclidean) return squared_distance(grid, a, b);
-  return way(grid.x(), a.x, b.x) + way(grid.y(), a.y, b.y) + way(grid.z(), a.z, b.z);
-}
-
-/// A coordinate as it is in the volume; none where it is outside.
-std::optional<int> inside(const Axis& axis, int at) {
-  const auto size = static_cast<int>(axis.pixels());
-  if (axis.is_periodic()) return (at % size + size) % size;
-  return at >= 0 && at < size ? std::optional<int>(at) : std::nullopt;
-}
-
-/// A plan of waves on the host: labels are those of the lowest ids.
-Labels reference_flood(const Grid& grid, const std::vector<At>& seeds, const Plan& plan, Metric metric) {
-  Labels image(grid.pixels(), no_label);
-  for (std::size_t id = seeds.size(); id-- > 0;) {
-    image[index_of(grid, seeds[id].x, seeds[id].y, seeds[id].z)] = static_cast<std::uint32_t>(id);
-  }
-  for (const Wave& wave : plan) {
-    const Labels before = image;
-    for (int i = 0; i < static_cast<int>(image.size()); ++i) {
-      const int w = static_cast<int>(grid.width()), h = static_cast<int>(grid.height());
-      const At own = {i % w, i / w % h, i / w / h};
-      std::uint32_t best = no_label;
-      for (int n = 0; n < 27; ++n) {
-        const int x = n % 3 - 1, y = n / 3 % 3 - 1, z = n / 9 - 1;
-        if (wave.neighbourhood == Neighbourhood::von_neumann && std::abs(x) + std::abs(y) + std::abs(z) > 1)
-          continue;
-        const auto from_x = inside(grid.x(), own.x + x * wave.step),
-                   from_y = inside(grid.y(), own.y + y * wave.step),
-                   from_z = inside(grid.z(), own.z + z * wave.step);
-        if (!from_x || !from_y || !from_z) continue;
-        const std::uint32_t label = before[index_of(grid, *from_x, *from_y, *from_z)];
-        if (label == no_label) continue;
-        const auto key = [&](std::uint32_t id) {
-          const At& at = seeds[id];
-          return std::make_tuple(distance(grid, at, own, metric), at.z, at.y, at.x);
-        };
-        if (best == no_label || key(label) < key(best)) best = label;
-      }
-      image[static_cast<std::size_t>(i)] = best;
-    }
-  }
-  return image;
-}
-
-}  // namespace
-
 BOOST_AUTO_TEST_CASE(jump_flooding_runs_its_waves_in_volumes) {
   Random random(17);
   for (const Grid& grid : {Grid(37, 20, 11), Grid(6, 3, 50), periodic(Grid(21, 3, 14), true, true, true)}) {
     for (const std::size_t count : {1u, 7u, 300u}) {
-      const std::vector<At> voxels = random.in(grid, count);
+      const std::vector<Pixel> voxels = random.in(grid, count);
       for (const Metric metric : {Metric::euclidean, Metric::manhattan}) {
         for (const Neighbourhood neighbourhood : {Neighbourhood::moore, Neighbourhood::von_neumann}) {
           const JumpFloodingOptions options = {metric, neighbourhood, JumpFloodingVariant::jfa_plus_1};
@@ -515,78 +449,6 @@ BOOST_AUTO_TEST_CASE(jump_flooding_runs_its_waves_in_volumes) {
           }
         }
       }
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(errors_and_distances_are_those_of_the_labels) {
-  Random random(19);
-  const Grid open(50, 40, 30);
-  for (const auto& [grid, metric] : {std::pair(open, Metric::euclidean), std::pair(open, Metric::manhattan),
-                                     std::pair(periodic(open, true, true, true), Metric::euclidean),
-                                     std::pair(spaced(open, 2, 1, 4), Metric::euclidean),
-                                     std::pair(spaced(open, 2, 1, 4), Metric::manhattan)}) {
-    const std::vector<At> voxels = random.in(grid, 60);
-    const Seeds seeds = seeds_at(test_device(), grid, voxels);
-    Diagram flooded(test_device(), grid), exact(test_device(), grid);
-    const Labels truth = metric == Metric::euclidean ? brute_force(grid, voxels) : Labels(grid.pixels(), 0);
-    exact.write(truth, seeds, metric);
-    jump_flooding(seeds, flooded, {metric, Neighbourhood::von_neumann});
-    const Labels labels = flooded.read();
-    std::size_t wrong = 0, unlabelled = 0, differences = 0;
-    double largest = 0, sum = 0;
-    std::vector<std::int64_t> distances;
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      const At at = {static_cast<int>(i % 50), static_cast<int>(i / 50 % 40), static_cast<int>(i / 2000)};
-      const std::int64_t own =
-          labels[i] == no_label ? no_distance : distance(grid, voxels[labels[i]], at, metric);
-      const std::int64_t least = distance(grid, voxels[truth[i]], at, metric);
-      distances.push_back(own);
-      differences += labels[i] != truth[i] ? 1 : 0;
-      if (own <= least) continue;
-      ++wrong;
-      unlabelled += labels[i] == no_label ? 1 : 0;
-      if (labels[i] == no_label) continue;
-      const auto in_voxels = [&](std::int64_t compared) {
-        return metric == Metric::euclidean ? std::sqrt(static_cast<double>(compared))
-                                           : static_cast<double>(compared);
-      };
-      largest = std::max(largest, in_voxels(own) - in_voxels(least));
-      sum += in_voxels(own) - in_voxels(least);
-    }
-    BOOST_TEST(wrong > 0u);
-    DistanceErrorsResult result;
-    distance_errors(flooded, exact, result);
-    const DistanceErrors errors = result.read();
-    BOOST_TEST(errors.pixels == grid.pixels());
-    BOOST_TEST(errors.wrong_pixels == wrong);
-    BOOST_TEST(errors.unlabelled_pixels == unlabelled);
-    BOOST_TEST(errors.largest_excess == largest, boost::test_tools::tolerance(1e-4));
-    BOOST_TEST(errors.mean_excess * static_cast<double>(grid.pixels()) == sum,
-               boost::test_tools::tolerance(1e-4));
-    SimilarityResult similar;
-    similarity(flooded, exact, similar);
-    BOOST_TEST(similar.read_differences() == differences);
-
-    Field<std::int32_t> whole;
-    Field<float> lengths;
-    Field<std::uint32_t> near_ones;
-    distance_field(flooded, whole);
-    distance_field(flooded, lengths);
-    const double most = metric == Metric::euclidean ? std::sqrt(13) : 5;
-    expand_labels(flooded, most, near_ones);
-    const auto in_integers = whole.read();
-    const auto in_floats = lengths.read();
-    const auto expanded = near_ones.read();
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-      BOOST_TEST_REQUIRE(in_integers[i] == distances[i]);
-      const bool is_near = distances[i] <= (metric == Metric::euclidean ? 13 : 5);
-      BOOST_TEST_REQUIRE(expanded[i] == (is_near ? labels[i] : no_label));
-      const auto compared = static_cast<float>(distances[i]);
-      const float length = labels[i] == no_label         ? INFINITY
-                           : metric == Metric::euclidean ? std::sqrt(compared)
-                                                         : compared;
-      BOOST_TEST_REQUIRE((in_floats[i] == length || std::abs(in_floats[i] - length) < 1e-6f * length));
     }
   }
 }

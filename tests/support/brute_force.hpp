@@ -9,6 +9,7 @@
 #include <optional>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "transformed.hpp"
@@ -18,14 +19,17 @@ namespace vorocl {
 
 using Labels = std::vector<std::uint32_t>;
 
-/// A pixel of a grid or beside it, counted from the grid's first one.
+/// A pixel of a grid or beside it, counted from the grid's first one. A plane's lie in the slice 0.
 struct Pixel {
-  std::int64_t x, y;
-  friend bool operator<(const Pixel& a, const Pixel& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; }
+  std::int64_t x, y, z = 0;
+  friend bool operator<(const Pixel& a, const Pixel& b) {
+    return std::tie(a.z, a.y, a.x) < std::tie(b.z, b.y, b.x);
+  }
 };
 
 inline Point centre(const Pixel& pixel) {
-  return {static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5};
+  return {static_cast<double>(pixel.x) + 0.5, static_cast<double>(pixel.y) + 0.5,
+          static_cast<double>(pixel.z) + 0.5};
 }
 
 inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
@@ -33,15 +37,32 @@ inline std::vector<Point> centres(const std::vector<Pixel>& pixels) {
 }
 
 inline std::vector<Pixel> pixels_of(const std::vector<Point>& points) {
-  return transformed(points, [](const Point& point) {
-    return Pixel{static_cast<std::int64_t>(std::floor(point.x)),
-                 static_cast<std::int64_t>(std::floor(point.y))};
+  const auto along = [](double at) { return static_cast<std::int64_t>(std::floor(at)); };
+  return transformed(points, [&](const Point& point) {
+    return Pixel{along(point.x), along(point.y), along(point.z)};
   });
 }
 
+/// The pixel of an index of a grid's labels, and that index.
+inline Pixel pixel_at(const Grid& grid, std::size_t index) {
+  const auto at = static_cast<std::int64_t>(index);
+  return {at % grid.width(), at / grid.width() % grid.height(), at / grid.width() / grid.height()};
+}
+
+inline std::size_t index_of(const Grid& grid, const Pixel& pixel) {
+  return static_cast<std::size_t>((pixel.z * grid.height() + pixel.y) * grid.width() + pixel.x);
+}
+
+/// Squared by the Euclidean metric.
 inline std::int64_t distance(const Pixel& a, const Pixel& b, Metric metric) {
-  const std::int64_t dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
-  return metric == Metric::euclidean ? dx * dx + dy * dy : dx + dy;
+  const std::int64_t x = std::abs(a.x - b.x), y = std::abs(a.y - b.y), z = std::abs(a.z - b.z);
+  return metric == Metric::euclidean ? x * x + y * y + z * z : x + y + z;
+}
+
+/// The length of a distance.
+inline double length_of(std::int64_t distance, Metric metric) {
+  const auto compared = static_cast<double>(distance);
+  return metric == Metric::euclidean ? std::sqrt(compared) : compared;
 }
 
 /// Of the images of a coordinate in a period the one nearest to another one there; of two the one behind it.
@@ -57,28 +78,31 @@ inline std::int64_t nearest_image(std::int64_t at, std::int64_t to, const Axis& 
 }
 
 inline Pixel nearest_image(const Grid& grid, const Pixel& pixel, const Pixel& to) {
-  return {nearest_image(pixel.x, to.x, grid.x()), nearest_image(pixel.y, to.y, grid.y())};
+  return {nearest_image(pixel.x, to.x, grid.x()), nearest_image(pixel.y, to.y, grid.y()),
+          nearest_image(pixel.z, to.z, grid.z())};
 }
 
-/// Distances in a grid, which may be periodic: along such an axis both pixels lie in the period.
+/// Distances in a grid in its spacing, the shorter way round its periods: in these both pixels lie.
 class DistanceIn {
  public:
-  DistanceIn(const Grid& grid, Metric metric)
-      : period_x_(period_of(grid.x())), period_y_(period_of(grid.y())), metric_(metric) {}
+  DistanceIn(const Grid& grid, Metric metric) : x_(grid.x()), y_(grid.y()), z_(grid.z()), metric_(metric) {}
 
   std::int64_t operator()(const Pixel& a, const Pixel& b) const {
-    return distance({0, 0}, {along(a.x, b.x, period_x_), along(a.y, b.y, period_y_)}, metric_);
+    return distance({0, 0}, {x_.way(a.x, b.x), y_.way(a.y, b.y), z_.way(a.z, b.z)}, metric_);
   }
 
  private:
-  static std::int64_t period_of(const Axis& axis) { return axis.is_periodic() ? axis.pixels() : 0; }
+  struct Along {
+    explicit Along(const Axis& axis)
+        : period(axis.is_periodic() ? axis.pixels() : 0), spacing(axis.spacing()) {}
+    std::int64_t way(std::int64_t a, std::int64_t b) const {
+      const std::int64_t direct = std::abs(a - b);
+      return spacing * (period > 0 ? std::min(direct, period - direct) : direct);
+    }
+    std::int64_t period, spacing;
+  };
 
-  static std::int64_t along(std::int64_t a, std::int64_t b, std::int64_t period) {
-    const std::int64_t direct = std::abs(a - b);
-    return period > 0 ? std::min(direct, period - direct) : direct;
-  }
-
-  std::int64_t period_x_, period_y_;
+  Along x_, y_, z_;
   Metric metric_;
 };
 
@@ -91,21 +115,23 @@ inline Pixel in_period(const Grid& grid, const Pixel& pixel) {
   const auto along = [](std::int64_t at, const Axis& axis) {
     return axis.is_periodic() ? (at % axis.pixels() + axis.pixels()) % axis.pixels() : at;
   };
-  return {along(pixel.x, grid.x()), along(pixel.y, grid.y())};
+  return {along(pixel.x, grid.x()), along(pixel.y, grid.y()), along(pixel.z, grid.z())};
 }
 
 /// The pixel of the grid that one outside is an image of, if there is one.
 inline std::optional<Pixel> in_grid(const Grid& grid, const Pixel& pixel) {
   const Pixel own = in_period(grid, pixel);
-  const bool inside = own.x >= 0 && own.x < grid.width() && own.y >= 0 && own.y < grid.height();
+  const bool inside = own.x >= 0 && own.x < grid.width() && own.y >= 0 && own.y < grid.height() &&
+                      own.z >= 0 && own.z < grid.depth();
   return inside ? std::optional<Pixel>(own) : std::nullopt;
 }
 
-/// The grid's pixel that a window shows in a column and row of its own: none beside the period, if the
+/// The grid's pixel that a window shows in a column, row and slice of its own: none beside the period, if the
 /// window is longer than it.
-inline std::optional<Pixel> shown_pixel(const Window& window, std::int64_t column, std::int64_t row) {
+inline std::optional<Pixel> shown_pixel(const Window& window, std::int64_t column, std::int64_t row,
+                                        std::int64_t slice = 0) {
   const Grid& grid = window.grid();
-  const Pixel at = {window.x() + column, window.y() + row};
+  const Pixel at = {window.x() + column, window.y() + row, window.z() + slice};
   const auto beside = [](std::int64_t length, std::int64_t pixel, const Axis& axis) {
     return axis.is_periodic() && length > axis.pixels() && (pixel < 0 || pixel >= axis.pixels());
   };
@@ -122,20 +148,19 @@ inline Labels brute_force(const Window& window, std::vector<Pixel> seeds, Metric
   for (Pixel& seed : seeds) seed = in_period(grid, seed);
   Labels labels;
   labels.reserve(window.pixels());
-  for (std::int64_t y = 0; y < window.height(); ++y) {
-    for (std::int64_t x = 0; x < window.width(); ++x) {
-      std::uint32_t best = no_label;
-      std::int64_t least = 0;
-      const std::optional<Pixel> pixel = shown_pixel(window, x, y);
-      for (std::uint32_t id = 0; pixel && id < seeds.size(); ++id) {
-        const std::int64_t d = distance(*pixel, seeds[id]);
-        if (best == no_label || d < least || (d == least && seeds[id] < seeds[best])) {
-          best = id;
-          least = d;
-        }
+  for (std::size_t i = 0; i < window.pixels(); ++i) {
+    std::uint32_t best = no_label;
+    std::int64_t least = 0;
+    const Pixel at = pixel_at(Grid(window.width(), window.height(), window.depth()), i);
+    const std::optional<Pixel> pixel = shown_pixel(window, at.x, at.y, at.z);
+    for (std::uint32_t id = 0; pixel && id < seeds.size(); ++id) {
+      const std::int64_t d = distance(*pixel, seeds[id]);
+      if (best == no_label || d < least || (d == least && seeds[id] < seeds[best])) {
+        best = id;
+        least = d;
       }
-      labels.push_back(best);
     }
+    labels.push_back(best);
   }
   return labels;
 }
@@ -160,8 +185,7 @@ inline Verdict judge(const Grid& grid, const std::vector<Pixel>& seeds, Metric m
                      const Labels& ground_truth) {
   Verdict verdict;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
-    const Pixel pixel = {static_cast<std::int64_t>(i) % grid.width(),
-                         static_cast<std::int64_t>(i) / grid.width()};
+    const Pixel pixel = pixel_at(grid, i);
     if (labels[i] == no_label) {
       verdict.unlabelled += ground_truth[i] != no_label ? 1 : 0;
     } else if (labels[i] >= seeds.size()) {
@@ -182,7 +206,9 @@ inline std::vector<Pixel> random_pixels(const Grid& grid, std::size_t count, uns
   for (std::size_t i = 0; i < count; ++i) {
     const auto x = static_cast<std::int64_t>(rng() % static_cast<unsigned>(grid.width()));
     const auto y = static_cast<std::int64_t>(rng() % static_cast<unsigned>(grid.height()));
-    pixels.push_back({x, y});
+    pixels.push_back(
+        {x, y,
+         grid.is_volume() ? static_cast<std::int64_t>(rng() % static_cast<unsigned>(grid.depth())) : 0});
   }
   return pixels;
 }
@@ -199,6 +225,8 @@ struct Case {
   std::string name;
   Grid grid;
   std::vector<Pixel> seeds;
+  Labels labels = {};             // of the caller's; empty: an engine's
+  std::vector<bool> absent = {};  // by seed; empty: none is
 };
 
 /// All kinds of seeds on each of the grids.

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -59,51 +58,31 @@ inline Table read_table(const std::string& path) {
   return table;
 }
 
+/// Labels as indices of the seeds in order of their ids.
+inline Labels indices_of(const Labels& labels, const SeedsById& seeds) {
+  std::map<std::uint32_t, std::uint32_t> index;
+  for (const auto& seed : seeds) index.emplace(seed.first, static_cast<std::uint32_t>(index.size()));
+  return transformed(labels,
+                     [&](std::uint32_t label) { return label == no_label ? label : index.at(label); });
+}
+
 /// The rows that a table of cells must have, sorted by id.
 inline std::vector<TableRow> cells_on_host(const LabelledGrid& image, const SeedsById& seeds, Metric metric) {
-  struct Cell {
-    double area = 0, sum_x = 0, sum_y = 0, farthest = 0, perimeter = 0;
-    std::int64_t left = 1 << 20, top = 1 << 20, right = -(1 << 20), bottom = -(1 << 20);
-    std::set<std::uint32_t> neighbours;
-  };
-  const Grid& grid = image.grid;
-  std::map<std::uint32_t, Cell> cells;
-  each_pixel(grid, image.labels, [&](std::uint32_t label, int x, int y) {
-    Cell& cell = cells[label];
-    const Pixel pixel = nearest_image(grid, {x, y}, seeds.at(label));
-    ++cell.area;
-    cell.sum_x += static_cast<double>(pixel.x);
-    cell.sum_y += static_cast<double>(pixel.y);
-    cell.left = std::min(cell.left, pixel.x);
-    cell.top = std::min(cell.top, pixel.y);
-    cell.right = std::max(cell.right, pixel.x);
-    cell.bottom = std::max(cell.bottom, pixel.y);
-    const auto far = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
-    cell.farthest = std::max(cell.farthest, metric == Metric::euclidean ? std::sqrt(far) : far);
-    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{-1, 0}, std::pair{0, 1}, std::pair{0, -1}}) {
-      const auto next = in_grid(grid, {x + dx, y + dy});
-      if (!next) continue;
-      const std::uint32_t other = label_at(grid, image.labels, next->x, next->y);
-      if (other == label || other == no_label) continue;
-      ++cell.perimeter;
-      cell.neighbours.insert(other);
-    }
-  });
+  const auto pixels = transformed(seeds, [](const auto& seed) { return seed.second; });
+  const CellsOnHost found = cells_on_host(image.grid, pixels, indices_of(image.labels, seeds), metric);
   std::vector<TableRow> rows;
   for (const auto& [id, pixel] : seeds) {
-    TableRow row = {static_cast<double>(id), centre(pixel).x, centre(pixel).y, 0};
-    const auto found = cells.find(id);
-    if (found == cells.end()) {
+    const CellOnHost& cell = found.cells[rows.size()];
+    TableRow row = {static_cast<double>(id), centre(pixel).x, centre(pixel).y, cell.area};
+    if (cell.area == 0) {
       row.resize(10);
       row.insert(row.end(), {0, 0, std::nullopt, 0});
     } else {
-      const Cell& cell = found->second;
-      row[3] = cell.area;
-      const bool touches = (!grid.x().is_periodic() && (cell.left == 0 || cell.right == grid.width() - 1)) ||
-                           (!grid.y().is_periodic() && (cell.top == 0 || cell.bottom == grid.height() - 1));
-      row.insert(row.end(),
-                 {cell.sum_x / cell.area + 0.5, cell.sum_y / cell.area + 0.5, cell.left, cell.top, cell.right,
-                  cell.bottom, cell.perimeter, cell.neighbours.size(), cell.farthest, touches ? 1 : 0});
+      const auto number = [](std::int64_t value) { return static_cast<double>(value); };
+      row.insert(row.end(), {number(cell.sum.x) / cell.area + 0.5, number(cell.sum.y) / cell.area + 0.5,
+                             number(cell.least.x), number(cell.least.y), number(cell.greatest.x),
+                             number(cell.greatest.y), cell.perimeter, cell.neighbours,
+                             length_of(cell.farthest, metric), cell.touches_border ? 1 : 0});
     }
     rows.push_back(row);
   }
@@ -111,20 +90,16 @@ inline std::vector<TableRow> cells_on_host(const LabelledGrid& image, const Seed
 }
 
 inline std::vector<TableRow> pairs_on_host(const LabelledGrid& image) {
-  const Grid& grid = image.grid;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, double> lengths;
-  each_pixel(grid, image.labels, [&](std::uint32_t label, int x, int y) {
-    for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, 1}}) {
-      const auto next = in_grid(grid, {x + dx, y + dy});
-      if (!next) continue;
-      const std::uint32_t other = label_at(grid, image.labels, next->x, next->y);
-      if (other != label && other != no_label) ++lengths[std::minmax(label, other)];
-    }
+  SeedsById seeds;
+  each_pixel(image.grid, image.labels,
+             [&](std::uint32_t label, const Pixel& pixel) { seeds[label] = pixel; });
+  const auto pixels = transformed(seeds, [](const auto& seed) { return seed.second; });
+  const auto ids = transformed(seeds, [](const auto& seed) { return seed.first; });
+  const Labels indices = indices_of(image.labels, seeds);
+  const CellsOnHost found = cells_on_host(image.grid, pixels, indices, Metric::euclidean);
+  return transformed(found.pairs, [&](const CellPair& pair) {
+    return TableRow{ids[pair.a], ids[pair.b], pair.length};
   });
-  std::vector<TableRow> rows;
-  rows.reserve(lengths.size());
-  for (const auto& [ids, length] : lengths) rows.push_back({ids.first, ids.second, length});
-  return rows;
 }
 
 inline void check_rows(const std::string& path, const std::vector<TableRow>& expected) {
@@ -160,11 +135,10 @@ inline void check_adjacency_table(const std::string& path, const LabelledGrid& i
 inline std::size_t wrong_distances(const LabelledGrid& image, const std::vector<float>& distances,
                                    const SeedsById& seeds, Metric metric) {
   BOOST_TEST_REQUIRE(distances.size() == image.grid.pixels());
-  std::size_t wrong = 0, i = 0;
-  each_pixel(image.grid, image.labels, [&](std::uint32_t label, int x, int y) {
-    const auto d = static_cast<double>(distance(image.grid, {x, y}, seeds.at(label), metric));
-    const double expected = metric == Metric::euclidean ? std::sqrt(d) : d;
-    wrong += std::abs(distances[i++] - expected) > 1e-6 * expected ? 1 : 0;
+  std::size_t wrong = 0;
+  each_pixel(image.grid, image.labels, [&](std::uint32_t label, const Pixel& pixel) {
+    const double expected = length_of(distance(image.grid, pixel, seeds.at(label), metric), metric);
+    wrong += std::abs(distances[index_of(image.grid, pixel)] - expected) > 1e-6 * expected ? 1 : 0;
   });
   return wrong;
 }

@@ -25,21 +25,19 @@ inline bool preferred(const Grid& grid, std::uint32_t a, std::uint32_t b, const 
 /// pixel.
 template <typename Better>
 Labels after_wave(const Grid& pixels, const Wave& wave, const Labels& before, const Better& better) {
-  const auto at = [&](std::int64_t x, std::int64_t y) {
-    return static_cast<std::size_t>(y * pixels.width() + x);
-  };
-  const std::int64_t step = wave.step;
+  const int slices = pixels.is_volume() ? 1 : 0;
   Labels labels = before;
-  for (std::int64_t y = 0; y < pixels.height(); ++y) {
-    for (std::int64_t x = 0; x < pixels.width(); ++x) {
-      std::uint32_t& label = labels[at(x, y)];
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const Pixel at = pixel_at(pixels, i);
+    for (int dz = -slices; dz <= slices; ++dz) {
       for (int dy = -1; dy <= 1; ++dy) {
         for (int dx = -1; dx <= 1; ++dx) {
-          if (wave.neighbourhood == Neighbourhood::von_neumann && dx != 0 && dy != 0) continue;
-          const auto from = in_grid(pixels, {x + dx * step, y + dy * step});
+          if (wave.neighbourhood == Neighbourhood::von_neumann && dx * dx + dy * dy + dz * dz > 1) continue;
+          const auto from =
+              in_grid(pixels, {at.x + dx * wave.step, at.y + dy * wave.step, at.z + dz * wave.step});
           if (!from) continue;
-          const std::uint32_t candidate = before[at(from->x, from->y)];
-          if (better(candidate, label, Pixel{x, y})) label = candidate;
+          const std::uint32_t candidate = before[index_of(pixels, *from)];
+          if (better(candidate, labels[i], at)) labels[i] = candidate;
         }
       }
     }
@@ -55,7 +53,7 @@ inline Labels reference_flood(const Grid& grid, const std::vector<Pixel>& seeds,
   };
   labels.resize(grid.pixels(), no_label);
   for (std::uint32_t id = 0; id < seeds.size(); ++id) {
-    std::uint32_t& label = labels[static_cast<std::size_t>(seeds[id].y * grid.width() + seeds[id].x)];
+    std::uint32_t& label = labels[index_of(grid, seeds[id])];
     if (better(id, label, seeds[id])) label = id;
   }
   for (const Wave& wave : plan) labels = after_wave(grid, wave, labels, better);
@@ -85,8 +83,7 @@ inline Labels reference_low_resolution(const Grid& grid, const std::vector<Pixel
     for (const Pixel& part : {Pixel{0, 0}, Pixel{1, 0}, Pixel{0, 1}, Pixel{1, 1}}) {
       const std::int64_t x = 2 * whole.x + part.x, y = 2 * whole.y + part.y;
       if (x >= parts.width() || y >= parts.height()) continue;
-      const std::uint32_t candidate =
-          kept[static_cast<std::size_t>(level)][static_cast<std::size_t>(y * parts.width() + x)];
+      const std::uint32_t candidate = kept[static_cast<std::size_t>(level)][index_of(parts, {x, y})];
       if (better_at(level)(candidate, label, at)) label = candidate;
     }
   };
@@ -94,10 +91,9 @@ inline Labels reference_low_resolution(const Grid& grid, const std::vector<Pixel
     const Grid pixels = pixels_of_level(level), parts = pixels_of_level(level - 1);
     Labels best(pixels.pixels(), no_label);
     for (std::size_t i = 0; i < parts.pixels(); ++i) {
-      const auto x = static_cast<std::int64_t>(i) % parts.width(),
-                 y = static_cast<std::int64_t>(i) / parts.width();
-      std::uint32_t& label = best[static_cast<std::size_t>(y / 2 * pixels.width() + x / 2)];
-      if (better_at(level)(kept.back()[i], label, {x / 2, y / 2})) label = kept.back()[i];
+      const Pixel part = pixel_at(parts, i), whole = {part.x / 2, part.y / 2};
+      std::uint32_t& label = best[index_of(pixels, whole)];
+      if (better_at(level)(kept.back()[i], label, whole)) label = kept.back()[i];
     }
     kept.push_back(best);
   }
@@ -109,10 +105,8 @@ inline Labels reference_low_resolution(const Grid& grid, const std::vector<Pixel
     const Labels coarse = labels;
     labels = kept[static_cast<std::size_t>(level)];
     for (std::size_t i = 0; i < pixels.pixels(); ++i) {
-      const Pixel at = {static_cast<std::int64_t>(i) % pixels.width(),
-                        static_cast<std::int64_t>(i) / pixels.width()};
-      const std::uint32_t above =
-          coarse[static_cast<std::size_t>(at.y / 2 * pixels_of_level(level + 1).width() + at.x / 2)];
+      const Pixel at = pixel_at(pixels, i);
+      const std::uint32_t above = coarse[index_of(pixels_of_level(level + 1), {at.x / 2, at.y / 2})];
       if (above == no_label) continue;
       const std::int64_t side = std::int64_t{2} << level;
       take_parts(level, {seeds[above].x / side, seeds[above].y / side}, at, labels[i]);
