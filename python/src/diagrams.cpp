@@ -73,28 +73,11 @@ Report fill(DiagramObject& diagram, SeedsObject& seeds, const std::string& name,
   return report;
 }
 
-template <typename T>
-T* pixels_of(const Diagram& diagram, const Array<T>& image) {
-  const Window& window = diagram.window();
-  std::vector<std::int64_t> sides = {window.height(), window.width()};
-  if (window.depth() > 1) sides.insert(sides.begin(), window.depth());
-  bool fits = image.ndim() == sides.size();
-  for (std::size_t axis = 0; fits && axis < sides.size(); ++axis) {
-    fits = image.shape(axis) == static_cast<std::size_t>(sides[axis]);
-  }
-  if (fits) return image.data();
-  std::string text = "the shape of the image is not that of the diagram, ";
-  const char* before = "(";
-  for (const std::int64_t side : sides) {
-    text += before + std::to_string(side);
-    before = ", ";
-  }
-  throw Error(text + ")");
-}
+// Images have the diagram's shape: Python has seen to it.
 
 void read(DiagramObject& diagram, const Array<std::uint32_t>& labels) {
   const Turn turn(diagram.mutex);
-  diagram.diagram.read(pixels_of(diagram.diagram, labels));
+  diagram.diagram.read(labels.data());
 }
 
 /// As fill() and read(), where the labels are made in the array, if the device can.
@@ -109,37 +92,33 @@ void fill_into(DiagramObject& diagram, SeedsObject& seeds, const std::string& na
     ~InArray() { diagram.put_labels_at(nullptr); }
     Diagram& diagram;
   };
-  std::uint32_t* const place = pixels_of(diagram.diagram, labels);
-  const InArray in_array(diagram.diagram, place);
+  const InArray in_array(diagram.diagram, labels.data());
   method(name).run(seeds.seeds, diagram.diagram, options_with(metric));
-  diagram.diagram.read(place);
+  diagram.diagram.read(labels.data());
 }
 
-void write(DiagramObject& diagram, const Array<const std::uint32_t>& image) {
+/// Labels that name these seeds, if there are any.
+void write(DiagramObject& diagram, const Array<const std::uint32_t>& image, SeedsObject* seeds,
+           const std::string& metric) {
   const Turn turn(diagram.mutex);
-  const std::uint32_t* const first = pixels_of(diagram.diagram, image);
+  std::vector<std::uint32_t> labels(image.data(), image.data() + image.size());
   diagram.seeds.reset();
-  diagram.diagram.write({first, first + image.size()});
-}
-
-/// Labels that name these seeds.
-void write_of(DiagramObject& diagram, const Array<const std::uint32_t>& image, SeedsObject& seeds,
-              const std::string& metric) {
-  const Turns turns(diagram.mutex, seeds.mutex);
-  const std::uint32_t* const first = pixels_of(diagram.diagram, image);
-  diagram.seeds.reset();
-  show(diagram.diagram, seeds.seeds.grid());
-  diagram.diagram.write({first, first + image.size()}, seeds.seeds, metric_of(metric));
-  remember(diagram, seeds.seeds);
+  if (seeds == nullptr) {
+    diagram.diagram.write(labels);
+    return;
+  }
+  const Turn turn_of_seeds(seeds->mutex);
+  show(diagram.diagram, seeds->seeds.grid());
+  diagram.diagram.write(labels, seeds->seeds, metric_of(metric));
+  remember(diagram, seeds->seeds);
 }
 
 // --- measures ---
 
 void distances(DiagramObject& diagram, const Array<float>& values) {
   const Turn turn(diagram.mutex);
-  float* const first = pixels_of(diagram.diagram, values);
   distance_field(diagram.diagram, diagram.distances);
-  diagram.distances.read(first);
+  diagram.distances.read(values.data());
 }
 
 /// What is measured of one cell, besides how its seed is given.
@@ -199,26 +178,35 @@ std::vector<Row> measure_cells(DiagramObject& diagram) {
   return rows;
 }
 
-nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>> cells(DiagramObject& diagram) {
-  std::vector<Row> rows;
-  {
-    const nb::gil_scoped_release unlocked;
-    const Turn turn(diagram.mutex);
-    rows = measure_cells(diagram);
-  }
-  return to_numpy<std::uint8_t>(std::move(rows));
+std::vector<std::uint32_t> measure_areas(DiagramObject& diagram) {
+  std::vector<std::uint32_t> result;
+  cell_sums(diagram.diagram, diagram.sums);
+  for (const CellSums& sums : diagram.sums.read()) result.push_back(sums.area);
+  return result;
 }
 
-/// Pixels, by id.
-nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> areas(DiagramObject& diagram) {
-  std::vector<std::uint32_t> result;
+/// The ids of each pair and the length of its border.
+std::vector<CellPair> measure_adjacency(DiagramObject& diagram) {
+  adjacency(diagram.diagram, diagram.adjacency);
+  return diagram.adjacency.read_pairs();
+}
+
+std::vector<Point> measure_vertices(DiagramObject& diagram) {
+  VerticesResult result;
+  vertices(diagram.diagram, result);
+  return result.read();
+}
+
+/// What is measured, as rows of numbers T.
+template <typename T, auto measure>
+nb::ndarray<nb::numpy, T, nb::ndim<2>> measured(DiagramObject& diagram) {
+  decltype(measure(diagram)) rows;
   {
     const nb::gil_scoped_release unlocked;
     const Turn turn(diagram.mutex);
-    cell_sums(diagram.diagram, diagram.sums);
-    for (const CellSums& sums : diagram.sums.read()) result.push_back(sums.area);
+    rows = measure(diagram);
   }
-  return to_numpy<std::uint32_t>(std::move(result));
+  return to_numpy<T>(std::move(rows));
 }
 
 /// Turns positions in pixels, NaN too, into the units of the points that the diagram was filled from.
@@ -234,35 +222,11 @@ void to_data(DiagramObject& diagram, const Array<double, nb::shape<-1, 3>>& poin
   }
 }
 
-/// The ids of each pair and the length of its border.
-nb::ndarray<nb::numpy, std::uint32_t, nb::ndim<2>> find_adjacency(DiagramObject& diagram) {
-  std::vector<CellPair> pairs;
-  {
-    const nb::gil_scoped_release unlocked;
-    const Turn turn(diagram.mutex);
-    adjacency(diagram.diagram, diagram.adjacency);
-    pairs = diagram.adjacency.read_pairs();
-  }
-  return to_numpy<std::uint32_t>(std::move(pairs));
-}
-
 std::size_t count_vertices(DiagramObject& diagram) {
   const Turn turn(diagram.mutex);
   VerticesResult result;
   vertices(diagram.diagram, result);
   return result.count();
-}
-
-nb::ndarray<nb::numpy, double, nb::ndim<2>> find_vertices(DiagramObject& diagram) {
-  std::vector<Point> corners;
-  {
-    const nb::gil_scoped_release unlocked;
-    const Turn turn(diagram.mutex);
-    VerticesResult result;
-    vertices(diagram.diagram, result);
-    corners = result.read();
-  }
-  return to_numpy<double>(std::move(corners));
 }
 
 /// By the points that were given, or the centres of their pixels; else by what the labels were made of.
@@ -335,15 +299,14 @@ void bind_diagrams(nb::module_& module) {
       .def("fill_into", fill_into, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("labels"),
            without_gil())
       .def("read", read, nb::arg("labels"), without_gil())
-      .def("write", write, nb::arg("labels"), without_gil())
-      .def("write_of", write_of, nb::arg("labels"), nb::arg("seeds"), nb::arg("metric"), without_gil())
+      .def("write", write, nb::arg("labels"), nb::arg("seeds").none(), nb::arg("metric"), without_gil())
       .def("distances", distances, nb::arg("values"), without_gil())
-      .def("cells", cells)
-      .def("areas", areas)
+      .def("cells", measured<std::uint8_t, measure_cells>)
+      .def("areas", measured<std::uint32_t, measure_areas>)
       .def("to_data", to_data, nb::arg("points"), without_gil())
-      .def("adjacency", find_adjacency)
+      .def("adjacency", measured<std::uint32_t, measure_adjacency>)
       .def("count_vertices", count_vertices, without_gil())
-      .def("vertices", find_vertices)
+      .def("vertices", measured<double, measure_vertices>)
       .def("errors", errors, nb::arg("of_points").none(), without_gil())
       .def("relax", relax, nb::arg("seeds"), nb::arg("method"), nb::arg("metric"), nb::arg("rounds"),
            nb::arg("density").none(), without_gil());

@@ -1,7 +1,6 @@
 // Exact cells: what was cut of seeds, as arrays.
-#include <nanobind/stl/unique_ptr.h>
-
 #include <array>
+#include <functional>
 
 #include "module.hpp"
 
@@ -36,92 +35,90 @@ struct FaceRow {
   std::array<std::int32_t, 3> image;
 };
 
-/// What was read, so that seeds and device may go. Of a plane, or of a volume.
-struct ExactCellsObject {
-  std::vector<CellRow> cells;
-  std::vector<PairRow> pairs;
-  ExactPolygons polygons;
-  std::vector<VolumeCellRow> volume_cells;
-  std::vector<FaceRow> faces;
-  ExactPolyhedra polyhedra;
-};
+/// What was read without Python's lock, each to become an array with it, by the names of vorocl.ExactCells.
+using Arrays = std::vector<std::pair<const char*, std::function<nb::object()>>>;
 
-void read_plane(const ExactCellsResult& result, ExactCellsObject& object) {
+template <typename T, typename Row>
+void add(Arrays& arrays, const char* name, std::vector<Row> rows) {
+  const auto shared = std::make_shared<std::vector<Row>>(std::move(rows));
+  arrays.emplace_back(name, [shared] { return nb::cast(to_numpy<T>(std::move(*shared))); });
+}
+
+void read_plane(const ExactCellsResult& result, Arrays& arrays) {
+  std::vector<CellRow> cells;
   for (const ExactCell& cell : result.read()) {
-    object.cells.push_back({cell.area, cell.centroid.x, cell.centroid.y, cell.perimeter, cell.neighbours,
-                            cell.touches_border, cell.certified});
+    cells.push_back({cell.area, cell.centroid.x, cell.centroid.y, cell.perimeter, cell.neighbours,
+                     cell.touches_border, cell.certified});
   }
+  std::vector<PairRow> pairs;
   for (const ExactPair& pair : result.read_pairs()) {
-    object.pairs.push_back({pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y});
+    pairs.push_back({pair.a, pair.b, pair.length, pair.midpoint.x, pair.midpoint.y});
   }
-  object.polygons = result.read_polygons();
+  ExactPolygons polygons = result.read_polygons();
+  add<std::uint8_t>(arrays, "cells", std::move(cells));
+  add<std::uint8_t>(arrays, "pairs", std::move(pairs));
+  add<std::uint32_t>(arrays, "offsets", std::move(polygons.offsets));
+  add<double>(arrays, "vertices", std::move(polygons.vertices));
+  add<std::uint32_t>(arrays, "neighbours", std::move(polygons.neighbours));
+  add<double>(arrays, "lengths", std::move(polygons.lengths));
 }
 
 template <typename T>
-void read_buffer(const Device& device, const cl::Buffer& buffer, std::size_t count, std::vector<T>& values) {
-  values.resize(count);
+std::vector<T> read_buffer(const Device& device, const cl::Buffer& buffer, std::size_t count) {
+  std::vector<T> values(count);
   if (count > 0) device.queue().enqueueReadBuffer(buffer, CL_TRUE, 0, count * sizeof(T), values.data());
+  return values;
 }
 
-void read_volume(const Device& device, const ExactCellsResult& result, bool with_polyhedra,
-                 ExactCellsObject& object) {
+void read_volume(const Device& device, const ExactCellsResult& result, bool with_polyhedra, Arrays& arrays) {
+  std::vector<VolumeCellRow> cells;
   for (const ExactCell& cell : result.read()) {
-    object.volume_cells.push_back(
+    cells.push_back(
         {cell.area, cell.centroid, cell.perimeter, cell.neighbours, cell.touches_border, cell.certified});
   }
-  for (const ExactFace& face : result.read_faces())
-    object.faces.push_back({face.a, face.b, face.area, face.image});
+  std::vector<FaceRow> faces;
+  for (const ExactFace& face : result.read_faces()) faces.push_back({face.a, face.b, face.area, face.image});
+  add<std::uint8_t>(arrays, "cells", std::move(cells));
+  add<std::uint8_t>(arrays, "pairs", std::move(faces));
+  ExactPolyhedra found;
   if (with_polyhedra) {
-    object.polyhedra = result.read_polyhedra();
-    return;
-  }
-  read_buffer(device, result.offsets(), result.size() + 1, object.polyhedra.offsets);
-  read_buffer(device, result.edge_neighbours(), result.edges(), object.polyhedra.neighbours);
-  read_buffer(device, result.lengths(), result.edges(), object.polyhedra.areas);
-}
-
-std::unique_ptr<ExactCellsObject> cut(SeedsObject& seeds, bool with_polyhedra) {
-  const std::lock_guard<std::mutex> turn(seeds.mutex);
-  ExactCellsResult result;
-  exact_cells(seeds.seeds, result);
-  auto object = std::make_unique<ExactCellsObject>();
-  if (seeds.seeds.grid().is_volume()) {
-    read_volume(seeds.seeds.device(), result, with_polyhedra, *object);
+    found = result.read_polyhedra();
+    add<double>(arrays, "vertices", std::move(found.vertices));
+    add<std::int64_t>(arrays, "vertex_offsets", std::move(found.vertex_offsets));
+    add<std::int64_t>(arrays, "corner_offsets", std::move(found.corner_offsets));
+    add<std::int64_t>(arrays, "corners", std::move(found.corners));
   } else {
-    read_plane(result, *object);
+    found.offsets = read_buffer<std::uint32_t>(device, result.offsets(), result.size() + 1);
+    found.neighbours = read_buffer<std::uint32_t>(device, result.edge_neighbours(), result.edges());
+    found.areas = read_buffer<double>(device, result.lengths(), result.edges());
   }
-  return object;
+  add<std::uint32_t>(arrays, "offsets", std::move(found.offsets));
+  add<std::uint32_t>(arrays, "neighbours", std::move(found.neighbours));
+  add<double>(arrays, "areas", std::move(found.areas));
 }
 
-template <typename T, typename Row>
-auto copy_of(const std::vector<Row>& rows) {
-  return to_numpy<T>(std::vector<Row>(rows));
+nb::typed<nb::dict, nb::str, nb::any> cut(SeedsObject& seeds, bool with_polyhedra) {
+  Arrays arrays;
+  {
+    const nb::gil_scoped_release unlocked;
+    const std::lock_guard<std::mutex> turn(seeds.mutex);
+    ExactCellsResult result;
+    exact_cells(seeds.seeds, result);
+    if (seeds.seeds.grid().is_volume()) {
+      read_volume(seeds.seeds.device(), result, with_polyhedra, arrays);
+    } else {
+      read_plane(result, arrays);
+    }
+  }
+  nb::dict named;
+  for (const auto& [name, make] : arrays) named[name] = make();
+  return named;
 }
 
 }  // namespace
 
 void bind_exact_cells(nb::module_& module) {
-  using Object = ExactCellsObject;
-  nb::class_<Object>(module, "ExactCells")
-      .def("cells", [](const Object& of) { return copy_of<std::uint8_t>(of.cells); })
-      .def("pairs", [](const Object& of) { return copy_of<std::uint8_t>(of.pairs); })
-      .def("offsets", [](const Object& of) { return copy_of<std::uint32_t>(of.polygons.offsets); })
-      .def("vertices", [](const Object& of) { return copy_of<double>(of.polygons.vertices); })
-      .def("neighbours", [](const Object& of) { return copy_of<std::uint32_t>(of.polygons.neighbours); })
-      .def("lengths", [](const Object& of) { return copy_of<double>(of.polygons.lengths); })
-      .def("volume_cells", [](const Object& of) { return copy_of<std::uint8_t>(of.volume_cells); })
-      .def("faces", [](const Object& of) { return copy_of<std::uint8_t>(of.faces); })
-      .def("face_offsets", [](const Object& of) { return copy_of<std::uint32_t>(of.polyhedra.offsets); })
-      .def("face_neighbours",
-           [](const Object& of) { return copy_of<std::uint32_t>(of.polyhedra.neighbours); })
-      .def("face_areas", [](const Object& of) { return copy_of<double>(of.polyhedra.areas); })
-      .def("corner_offsets",
-           [](const Object& of) { return copy_of<std::uint64_t>(of.polyhedra.corner_offsets); })
-      .def("corners", [](const Object& of) { return copy_of<std::uint64_t>(of.polyhedra.corners); })
-      .def("vertex_offsets",
-           [](const Object& of) { return copy_of<std::uint64_t>(of.polyhedra.vertex_offsets); })
-      .def("polyhedron_vertices", [](const Object& of) { return copy_of<double>(of.polyhedra.vertices); });
-  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"), without_gil());
+  module.def("exact_cells", cut, nb::arg("seeds"), nb::arg("with_polyhedra"));
 }
 
 }  // namespace vorocl::python

@@ -78,19 +78,11 @@ void move_to_buffer(SeedsObject& seeds, const PointBuffer& points) {
   seeds.seeds.move_to(points);
 }
 
-double displacement(SeedsObject& seeds) {
+/// What the seeds say of themselves.
+template <auto say>
+auto said(SeedsObject& seeds) {
   const Turn turn(seeds.mutex);
-  return seeds.seeds.displacement();
-}
-
-std::size_t size(SeedsObject& seeds) {
-  const Turn turn(seeds.mutex);
-  return seeds.seeds.size();
-}
-
-std::size_t alive(SeedsObject& seeds) {
-  const Turn turn(seeds.mutex);
-  return seeds.seeds.alive();
+  return (seeds.seeds.*say)();
 }
 
 /// Where exact diagrams have the seeds, in pixels or in the units of their points: rows (x, y), or (x, y, z).
@@ -122,10 +114,10 @@ void bind_seeds(nb::module_& module) {
            nb::arg("snap"), without_gil())
       .def_static("from_mask", from_mask, nb::arg("device"), nb::arg("grid"), nb::arg("mask"), without_gil())
       .def("move_to", move_to, nb::arg("points"), nb::arg("grid").none(), without_gil())
-      .def_prop_ro("displacement", displacement, without_gil())
+      .def_prop_ro("displacement", said<&Seeds::displacement>, without_gil())
       .def("read", read, nb::arg("points"), nb::arg("in_pixels"), without_gil())
-      .def_prop_ro("size", size, without_gil())
-      .def_prop_ro("alive", alive, without_gil());
+      .def_prop_ro("size", said<&Seeds::size>, without_gil())
+      .def_prop_ro("alive", said<&Seeds::alive>, without_gil());
 }
 
 }  // namespace vorocl::python

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import reprlib
-from typing import Any, List, Literal, Optional, Sequence, Tuple, TypeVar, Union
+from typing import Any, Dict, List, Literal, Optional, Sequence, Tuple, TypeVar, Union, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,8 +17,8 @@ Method = Literal["standard-flooding", "jfa", "jfa+1", "jfa+2", "1+jfa", "djfa", 
 Metric = Literal["euclidean", "manhattan"]
 Outside = Literal["count", "absent", "refuse"]
 Units = Literal["data", "pixels"]
-
 Truth = Literal["snapped", "true"]
+Text = TypeVar("Text", bound=str)
 
 Sampling = Union[None, float, Sequence[float]]
 
@@ -68,11 +68,18 @@ def to_flag(value: bool, name: str) -> bool:
         raise BadArgument(f"{name} must be True or False; this is {shown(value)}") from None
 
 
+def to_one_of(names: Any, value: Text, what: str) -> Text:
+    """One of the names of a Literal."""
+    possible = get_args(names)
+    if not isinstance(value, str) or value not in possible:
+        *others, last = (f'"{name}"' for name in possible)
+        raise BadArgument(f"{what} must be {', '.join(others)} or {last}; this is {shown(value)}")
+    return value
+
+
 def to_outside(outside: Outside) -> Outside:
     """What is done about points outside."""
-    if not isinstance(outside, str) or outside not in ("count", "absent", "refuse"):
-        raise BadArgument(f'outside must be "count", "absent" or "refuse"; this is {shown(outside)}')
-    return outside
+    return to_one_of(Outside, outside, "outside")
 
 
 _FLOODING = {method.name for method in _vorocl.methods() if not method.exact}
@@ -90,18 +97,12 @@ def to_snap(snap: Optional[bool], method: str = "exact") -> bool:
 
 def to_truth(truth: Truth) -> bool:
     """Whether labels are judged by the points themselves."""
-    if not isinstance(truth, str) or truth not in ("snapped", "true"):
-        raise BadArgument(f'truth must be "snapped" or "true"; this is {shown(truth)}')
-    return truth == "true"
+    return to_one_of(Truth, truth, "truth") == "true"
 
 
 def to_units(units: Optional[Units], are_in_data: bool) -> bool:
     """Whether results are in the units of the data, which are not pixels if `are_in_data`."""
-    if units is None:
-        return are_in_data
-    if not isinstance(units, str) or units not in ("data", "pixels"):
-        raise BadArgument(f'units must be "data" or "pixels"; this is {shown(units)}')
-    return units == "data"
+    return are_in_data if units is None else to_one_of(Units, units, "units") == "data"
 
 
 def to_number(value: float, name: str) -> float:
@@ -135,17 +136,14 @@ def to_count(value: int, name: str) -> int:
     return count
 
 
-Text = TypeVar("Text", bound=str)
-
-
 def to_text(value: Text, name: str) -> Text:
     if not isinstance(value, str) or not value.isascii():
         raise BadArgument(f"{name} must be a string of ASCII; this is {shown(value)}")
     return value
 
 
-def to_image(image: ArrayLike, name: str) -> NDArray[Any]:
-    """An array with two axes, or with three, none of them empty."""
+def to_image(image: ArrayLike, name: str, shape: Optional[Tuple[int, ...]] = None) -> NDArray[Any]:
+    """An array with two axes, or with three, none of them empty; of the shape of a diagram, if there is one."""
     shapes = "(H, W) or (D, H, W)"
     try:
         array = np.asarray(image)
@@ -153,6 +151,8 @@ def to_image(image: ArrayLike, name: str) -> NDArray[Any]:
         raise BadArgument(f"{name} must be an array of the shape {shapes}: {error}") from None
     if array.ndim not in (2, 3) or array.size == 0:
         raise BadArgument(f"{name} must have the shape {shapes}; this array has the shape {array.shape}")
+    if shape is not None and array.shape != shape:
+        raise BadArgument(f"{name} must have the shape of the diagram, {shape}; this array has {array.shape}")
     return array
 
 
@@ -182,9 +182,15 @@ def to_pixels(image: NDArray[Any], name: str) -> NDArray[Any]:
     return np.require(image, dtype, ["C", "A"])
 
 
-def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
+def to_marked(pixels: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which pixels of a mask are marked: those that are not zero, and not NaN."""
+    marked: NDArray[np.bool_] = (pixels != 0) & (pixels == pixels)
+    return marked
+
+
+def to_labels(labels: ArrayLike, name: str = "labels", shape: Optional[Tuple[int, ...]] = None) -> NDArray[np.uint32]:
     """(H, W) or (D, H, W) labels, C-contiguous, of any integers that uint32 holds."""
-    array = to_image(labels, name)
+    array = to_image(labels, name, shape)
     if array.dtype.kind not in "iu":
         raise BadArgument(f"{name} must be integers; this array has the dtype {array.dtype}")
     if array.dtype != np.uint32 and (array.min() < 0 or array.max() > 0xFFFFFFFF):
@@ -194,13 +200,16 @@ def to_labels(labels: ArrayLike, name: str = "labels") -> NDArray[np.uint32]:
 
 def to_density(density: ArrayLike, shape: Tuple[int, ...]) -> NDArray[np.float32]:
     """Weights of pixels, C-contiguous; what they must be, the library says."""
-    array = to_image(density, "density")
+    array = to_image(density, "density", shape)
     if array.dtype.kind not in "biuf":
         raise BadArgument(f"density must be real numbers; this array has the dtype {array.dtype}")
-    if array.shape != tuple(shape):
-        raise BadArgument(f"density must have the shape of the diagram, {tuple(shape)}; this array has {array.shape}")
     with np.errstate(over="ignore"):  # they become infinite
         return np.ascontiguousarray(array, dtype=np.float32)
+
+
+def row_of(fields: Dict[Any, str]) -> np.dtype[Any]:
+    """The dtype of a table's rows, as C++ has them: of each type the names of its fields."""
+    return np.dtype([(name, kind) for kind, names in fields.items() for name in names.split()], align=True)
 
 
 def output(

@@ -3,71 +3,30 @@
 from __future__ import annotations
 
 from importlib import import_module
-from typing import Any, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _vorocl
-from ._arguments import Outside, shown, to_flag, to_outside, to_points
+from ._arguments import Outside, row_of, shown, to_flag, to_outside, to_points
 from ._device import Device, to_device
 from ._errors import BadArgument
 from ._grid import Bounds, Grid, Periodic
 from ._parameters import with_parameters
 
-EXACT_CELL = np.dtype(
-    [
-        ("area", np.float64),
-        ("centroid_x", np.float64),
-        ("centroid_y", np.float64),
-        ("perimeter", np.float64),
-        ("neighbours", np.uint32),
-        ("touches_border", np.bool_),
-        ("certified", np.bool_),
-    ],
-    align=True,
-)
+_FOUND = {np.uint32: "neighbours", np.bool_: "touches_border certified"}
+
+EXACT_CELL = row_of({np.float64: "area centroid_x centroid_y perimeter", **_FOUND})
 """One row of ``ExactCells.cells``."""
 
-EXACT_PAIR = np.dtype(
-    [
-        ("a", np.uint32),
-        ("b", np.uint32),
-        ("length", np.float64),
-        ("midpoint_x", np.float64),
-        ("midpoint_y", np.float64),
-    ],
-    align=True,
-)
+EXACT_PAIR = row_of({np.uint32: "a b", np.float64: "length midpoint_x midpoint_y"})
 """One row of ``ExactCells.pairs``."""
 
-
-EXACT_VOLUME_CELL = np.dtype(
-    [
-        ("volume", np.float64),
-        ("centroid_x", np.float64),
-        ("centroid_y", np.float64),
-        ("centroid_z", np.float64),
-        ("surface", np.float64),
-        ("neighbours", np.uint32),
-        ("touches_border", np.bool_),
-        ("certified", np.bool_),
-    ],
-    align=True,
-)
+EXACT_VOLUME_CELL = row_of({np.float64: "volume centroid_x centroid_y centroid_z surface", **_FOUND})
 """One row of ``ExactCells.cells`` of a volume."""
 
-EXACT_FACE = np.dtype(
-    [
-        ("a", np.uint32),
-        ("b", np.uint32),
-        ("area", np.float64),
-        ("image_x", np.int32),
-        ("image_y", np.int32),
-        ("image_z", np.int32),
-    ],
-    align=True,
-)
+EXACT_FACE = row_of({np.uint32: "a b", np.float64: "area", np.int32: "image_x image_y image_z"})
 """One row of ``ExactCells.pairs`` of a volume."""
 
 
@@ -102,30 +61,26 @@ class ExactCells:
         rows of `vertices`, counter-clockwise as seen from outside.
     """
 
-    def __init__(self, points: NDArray[np.float64], cut: _vorocl.ExactCells, with_polyhedra: bool) -> None:
+    points: NDArray[np.float64]
+    cells: NDArray[Any]
+    pairs: NDArray[Any]
+    offsets: NDArray[np.uint32]
+    neighbours: NDArray[np.uint32]
+    lengths: NDArray[np.float64]
+    areas: NDArray[np.float64]
+    vertices: NDArray[np.float64]
+    vertex_offsets: NDArray[np.int64]
+    corner_offsets: NDArray[np.int64]
+    corners: NDArray[np.int64]
+
+    def __init__(self, points: NDArray[np.float64], found: Dict[str, NDArray[Any]]) -> None:
         self.points = points
-        self.cells: NDArray[Any]
-        self.pairs: NDArray[Any]
-        self.offsets: NDArray[np.uint32]
-        self.neighbours: NDArray[np.uint32]
+        rows = {"cells": EXACT_CELL, "pairs": EXACT_PAIR}
         if self._is_volume:
-            self.cells = cut.volume_cells().view(EXACT_VOLUME_CELL)[:, 0]
-            self.pairs = cut.faces().view(EXACT_FACE)[:, 0]
-            self.offsets = cut.face_offsets()[:, 0]
-            self.neighbours = cut.face_neighbours()[:, 0]
-            self.areas: NDArray[np.float64] = cut.face_areas()[:, 0]
-        else:
-            self.cells = cut.cells().view(EXACT_CELL)[:, 0]
-            self.pairs = cut.pairs().view(EXACT_PAIR)[:, 0]
-            self.offsets = cut.offsets()[:, 0]
-            self.vertices: NDArray[np.float64] = np.ascontiguousarray(cut.vertices()[:, :2])
-            self.neighbours = cut.neighbours()[:, 0]
-            self.lengths: NDArray[np.float64] = cut.lengths()[:, 0]
-        if with_polyhedra:
-            self.vertices = cut.polyhedron_vertices()
-            self.vertex_offsets: NDArray[np.int64] = cut.vertex_offsets()[:, 0].astype(np.int64)
-            self.corner_offsets: NDArray[np.int64] = cut.corner_offsets()[:, 0].astype(np.int64)
-            self.corners: NDArray[np.int64] = cut.corners()[:, 0].astype(np.int64)
+            rows = {"cells": EXACT_VOLUME_CELL, "pairs": EXACT_FACE}
+        for name, array in found.items():
+            array = array.view(rows.get(name, array.dtype))
+            setattr(self, name, array[:, 0] if array.shape[1] == 1 else np.ascontiguousarray(array[:, : points.shape[1]]))
 
     @property
     def _is_volume(self) -> bool:
@@ -326,4 +281,4 @@ def exact_cells(
     grid = Grid((2, 1, 1) if dimensions == 3 else (1, 1), bounds, periodic, tilt)._of(outside)
     array = to_points(points, dimensions)
     seeds = _vorocl.Seeds(to_device(device)._device, grid, array, to_outside(outside), True)
-    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra), with_polyhedra)
+    return ExactCells(array, _vorocl.exact_cells(seeds, with_polyhedra))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import threading
-from typing import Any, Callable, Dict, NamedTuple, Optional, Protocol, Sequence, Tuple, TypeVar, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Sequence, Tuple, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -25,6 +25,7 @@ from ._arguments import (
     to_flag,
     to_image,
     to_labels,
+    to_marked,
     to_mask,
     to_number,
     to_outside,
@@ -42,6 +43,13 @@ from ._errors import BadArgument
 from ._grid import Frame, Grid, Periodic, Shape, Unpack, to_grid, to_periodic
 from ._objects import Diagram, Seeds
 from ._parameters import with_parameters
+
+if TYPE_CHECKING:
+    from typing_extensions import ParamSpec
+
+    How = ParamSpec("How")
+
+Found = TypeVar("Found")
 
 NO_LABEL = 0xFFFFFFFF
 """The label of a pixel that has no nearest seed, because there are no seeds."""
@@ -171,23 +179,38 @@ def _transform(
     **targets: Optional[NDArray[Any]],
 ) -> bool:
     """Write into arrays what the nearest marked pixel of each one is; whether there is one."""
-    shape: Any = pixels.shape[1:] if pixels.ndim == 3 and len(pixels) == 1 else pixels.shape
+    shape: Any = pixels.shape
+    distances, indices, ranks, values = map(targets.get, ("distances", "indices", "ranks", "values"))
+    if pixels.ndim == 1:
+        nearest = _nearest_in_row(pixels == 0 if marks_zeros else to_marked(pixels))
+        if nearest is None:
+            return False
+        away = abs(nearest - np.arange(len(pixels))) * (sizes or [1])[0]
+        if distances is not None:
+            distances[...] = away
+        if indices is not None:
+            indices[0] = nearest
+        if values is not None:
+            values.view(pixels.dtype)[away <= farthest] = pixels[nearest[away <= farthest]]
+        return True
+    if pixels.ndim == 3 and len(pixels) == 1:  # a plane
+        shape = shape[1:]
+        if indices is not None:
+            indices[0] = 0
+            indices = indices[1:]
     z, y, x = (1.0,) * (3 - pixels.ndim) + tuple(sizes or (1.0,) * pixels.ndim)
+    grid = Grid(shape, periodic=periodic)._of("count")
+    image, dtype = pixels.view(np.uint8), pixels.dtype.str[1:]
     return _vorocl.transform(
-        to_device(device)._device,
-        Grid(shape, periodic=periodic)._of("count"),
-        (x, y, z),
-        pixels.view(np.uint8),
-        pixels.dtype.str[1:],
-        marks_zeros,
-        farthest,
-        *(targets.get(name) for name in ("distances", "indices", "ranks", "values")),
+        to_device(device)._device, grid, (x, y, z), image, dtype, marks_zeros, farthest, distances, indices, ranks, values
     )
 
 
-def _nearest_in_row(marked: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Where in an array of one dimension the nearest marked element is, of two the first; one at least must be."""
+def _nearest_in_row(marked: NDArray[np.bool_]) -> Optional[NDArray[np.intp]]:
+    """Where in an array of one dimension the nearest marked element is, of two the first; None where there is none."""
     places, here = np.flatnonzero(marked), np.arange(len(marked))
+    if len(places) == 0:
+        return None
     behind = np.minimum(np.searchsorted(places, here), len(places) - 1)
     before, behind = places[np.maximum(behind - 1, 0)], places[behind]
     return np.where(here - before <= behind - here, before, behind)
@@ -245,8 +268,7 @@ def from_mask(
     shape: Any = pixels.shape
     grid = Grid(shape, periodic=periodic)
     made = Diagram(grid, device=device)
-    marked = (pixels != 0) & (pixels == pixels)
-    seeds = _vorocl.Seeds.from_mask(made.device._device, grid._of("count"), marked.view(np.uint8))
+    seeds = _vorocl.Seeds.from_mask(made.device._device, grid._of("count"), to_marked(pixels).view(np.uint8))
     made._diagram.fill(seeds, method, metric, None)
     made.read(labels.reshape(made.shape))
     return labels
@@ -318,7 +340,7 @@ def mask_tiles(
     rows = max(1, _PIXELS_AT_ONCE // shape[1])
     for first in range(0, shape[0], rows):
         block = to_pixels(to_image(unmasked(mask[first : first + rows]), "mask"), "mask")
-        bits.add_rows(((block != 0) & (block == block)).view(np.uint8))
+        bits.add_rows(to_marked(block).view(np.uint8))
 
     def put(y: int, x: int, found: Any, away: Any) -> None:
         for target, pixels in (labels, found), (distances, away):
@@ -379,13 +401,7 @@ def expand_labels(
     sizes = to_sampling(spacing, image.ndim, "spacing")
     pixels = to_pixels(image, "label_image")
     grown = np.zeros_like(pixels)
-    if pixels.ndim == 1:
-        marked = (pixels != 0) & (pixels == pixels)
-        if marked.any():
-            nearest = _nearest_in_row(marked)
-            near = abs(nearest - np.arange(len(pixels))) * sizes[0] <= farthest
-            grown[near] = pixels[nearest[near]]
-    elif pixels.size > 0:
+    if pixels.size > 0:
         _transform(pixels, False, device, sizes, farthest=farthest, values=grown.view(np.uint8))
     return grown.astype(image.dtype, copy=False)
 
@@ -450,7 +466,7 @@ def distance_transform_edt(
     where = _place(indices, return_indices, whole, np.int32, "indices")
     if far is None and where is None:
         raise BadArgument("return_distances or return_indices must be True: nothing is wanted")
-    if pixels.size > 0 and not _fill_transform(pixels, sizes, device, far, where):
+    if pixels.size > 0 and not _transform(pixels, True, device, sizes, distances=far, indices=where):
         raise BadArgument("input has no zero that distances could be to")
     results = []
     for given, made in (distances, far), (indices, where):
@@ -470,29 +486,6 @@ def _place(
             raise BadArgument(f"return_{name} must be True where `{name}` is an array")
         return None
     return output(given, shape, dtype, name, copied=True)
-
-
-def _fill_transform(
-    pixels: NDArray[Any],
-    sizes: Sequence[float],
-    device: Optional[Device],
-    distances: Optional[NDArray[Any]],
-    indices: Optional[NDArray[Any]],
-) -> bool:
-    """Write the distances to the zeros, or their indices, or both; whether there is one."""
-    if pixels.ndim > 1:
-        if indices is not None and pixels.ndim == 3 and len(pixels) == 1:
-            indices[0] = 0
-            indices = indices[1:]  # of a plane
-        return _transform(pixels, True, device, sizes, distances=distances, indices=indices)
-    if not (pixels == 0).any():
-        return False
-    nearest = _nearest_in_row(pixels == 0)
-    if distances is not None:
-        distances[...] = abs(nearest - np.arange(len(pixels))) * sizes[0]
-    if indices is not None:
-        indices[0] = nearest
-    return True
 
 
 @with_parameters
@@ -541,56 +534,45 @@ def distances(
     return _filled(points, made, method, metric, outside, snap, device).distances(values, units=units)
 
 
-Measured = TypeVar("Measured", covariant=True)
+def _measured(
+    points: ArrayLike,
+    grid: Union[Grid, Shape],
+    *,
+    method: Method = "exact",
+    metric: Metric = "euclidean",
+    outside: Outside = "count",
+    snap: Optional[bool] = None,
+    units: Optional[Units] = None,
+    device: Optional[Device] = None,
+    **frame: Unpack[Frame],
+) -> Diagram:
+    """The diagram whose measures are asked for, in these units."""
+    to_units(units, True)
+    return _filled(points, to_grid(grid, frame), method, metric, outside, snap, device)
 
 
-class _Measure(Protocol[Measured]):
-    def __call__(
-        self,
-        points: ArrayLike,
-        grid: Union[Grid, Shape],
-        *,
-        method: Method = "exact",
-        metric: Metric = "euclidean",
-        outside: Outside = "count",
-        snap: Optional[bool] = None,
-        units: Optional[Units] = None,
-        device: Optional[Device] = None,
-        **frame: Unpack[Frame],
-    ) -> Measured: ...
+def _of_points(diagram_of: Callable[How, Diagram], measure: Callable[..., Found]) -> Callable[How, Found]:
+    """What a method measures of a diagram, as a function of its points, with the parameters of `diagram_of`."""
 
+    def function(*arguments: How.args, **named: How.kwargs) -> Found:
+        return measure(diagram_of(*arguments, **named), units=named.get("units"))
 
-def _of_points(measure: Callable[..., Measured]) -> _Measure[Measured]:
-    """What a method measures of a diagram, as a function of its points."""
-
-    def function(
-        points: ArrayLike,
-        grid: Union[Grid, Shape],
-        *,
-        method: Method = "exact",
-        metric: Metric = "euclidean",
-        outside: Outside = "count",
-        snap: Optional[bool] = None,
-        units: Optional[Units] = None,
-        device: Optional[Device] = None,
-        **frame: Unpack[Frame],
-    ) -> Measured:
-        to_units(units, True)
-        return measure(_filled(points, to_grid(grid, frame), method, metric, outside, snap, device), units=units)
-
-    function.__name__ = function.__qualname__ = measure.__name__
-    function.__annotations__["return"] = measure.__annotations__["return"]
+    made: Any = function
+    made.__name__ = made.__qualname__ = measure.__name__
+    returned = measure.__annotations__["return"]
+    made.__annotations__ = {**diagram_of.__annotations__, "return": returned}
+    made.__signature__ = inspect.signature(diagram_of).replace(return_annotation=returned)
     text = inspect.getdoc(measure)
     if text is not None:  # python -OO leaves none
         title = "Parameters\n----------\n"
-        function.__doc__ = text.replace(title, title + "<points, grid, method, metric, outside, snap, device>\n")
+        made.__doc__ = text.replace(title, title + "<points, grid, method, metric, outside, snap, device>\n")
     return with_parameters(function)
 
 
-cells = _of_points(Diagram.cells)
-areas = _of_points(Diagram.areas)
-adjacency = _of_points(Diagram.adjacency)
-vertices = _of_points(Diagram.vertices)
+cells = _of_points(_measured, Diagram.cells)
+areas = _of_points(_measured, Diagram.areas)
+adjacency = _of_points(_measured, Diagram.adjacency)
+vertices = _of_points(_measured, Diagram.vertices)
 
 
 class Relaxation(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import operator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple, Type, TypedDict, Union
+from typing import TYPE_CHECKING, Any, Callable, Optional, Sequence, Tuple, Type, TypedDict, Union
 
 from . import _vorocl
 from ._arguments import Outside, shown, to_bool, to_flag, to_number, to_outside
@@ -125,12 +125,17 @@ def _made(grid: Grid, closed: bool) -> _vorocl.Grid:
     return _vorocl.Grid(width, height, depth, x, y, z, units, grid.tilt, grid.bounds, grid.y_up, closed)
 
 
+def _converted(values: Any, convert: Callable[[Any], Any]) -> Tuple[Any, ...]:
+    """Each of some values, converted; none if it is not possible."""
+    try:
+        return tuple(convert(value) for value in values)
+    except (TypeError, ValueError, OverflowError):
+        return ()
+
+
 def _to_shape(shape: Shape) -> Shape:
     far = 2**31  # past every limit, of which the library tells
-    try:
-        sides: Any = tuple(max(-far, min(operator.index(side), far)) for side in shape)
-    except (TypeError, ValueError):
-        sides = ()
+    sides: Any = _converted(shape, lambda side: max(-far, min(operator.index(side), far)))
     if len(sides) not in (2, 3):
         raise BadArgument(
             f"a grid must be a vorocl.Grid or a shape: two whole numbers (H, W), or three (D, H, W); this is {shown(shape)}"
@@ -142,10 +147,7 @@ def _to_shape(shape: Shape) -> Shape:
 
 
 def to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
-    try:
-        axes = tuple(to_bool(axis) for axis in periodic)
-    except (TypeError, ValueError):
-        axes = ()
+    axes = _converted(periodic, to_bool)
     if len(axes) == 2 and not any(axes):  # the default
         axes = (False,) * dimensions
     if len(axes) != dimensions:
@@ -157,10 +159,7 @@ def to_periodic(periodic: Periodic, dimensions: int) -> Tuple[bool, ...]:
 def _to_spacing(spacing: Optional[Sequence[int]], dimensions: int) -> Optional[Tuple[int, ...]]:
     if spacing is None:
         return None
-    try:
-        units = tuple(operator.index(unit) for unit in spacing)
-    except (TypeError, ValueError):
-        units = ()
+    units = _converted(spacing, operator.index)
     if len(units) != dimensions or not all(1 <= unit <= 64 for unit in units):
         raise BadArgument(f"spacing must be {dimensions} whole numbers from 1 to 64; this is {shown(spacing)}")
     return units if max(units) > 1 else None
@@ -169,12 +168,9 @@ def _to_spacing(spacing: Optional[Sequence[int]], dimensions: int) -> Optional[T
 def _to_bounds(bounds: Optional[Bounds], dimensions: int) -> Optional[Bounds]:
     if bounds is None:
         return None
-    numbers = {2: "four numbers (x0, y0, x1, y1)", 3: "six numbers (x0, y0, z0, x1, y1, z1) for a volume"}
-    try:
-        corners: Any = tuple(float(value) for value in bounds)
-    except (TypeError, ValueError, OverflowError):
-        corners = ()
+    corners: Any = _converted(bounds, float)
     if len(corners) != 2 * dimensions:
+        numbers = {2: "four numbers (x0, y0, x1, y1)", 3: "six numbers (x0, y0, z0, x1, y1, z1) for a volume"}
         raise BadArgument(f"bounds must be {numbers[dimensions]}; this is {shown(bounds)}")
     if any(low == high for low, high in zip(corners, corners[dimensions:])):
         raise BadArgument(f"bounds must have an extent along all axes; these are {shown(bounds)}")

@@ -17,6 +17,7 @@ from ._arguments import (
     Truth,
     Units,
     output,
+    row_of,
     to_labels,
     to_number,
     to_outside,
@@ -31,27 +32,13 @@ from ._errors import BadArgument
 from ._grid import Bounds, Frame, Grid, Shape, Unpack, to_grid
 from ._parameters import with_parameters
 
-CELL = np.dtype(
-    [
-        ("x", np.float64),
-        ("y", np.float64),
-        ("z", np.float64),
-        ("centroid_x", np.float64),
-        ("centroid_y", np.float64),
-        ("centroid_z", np.float64),
-        ("largest_distance", np.float64),
-        ("area", np.uint32),
-        ("perimeter", np.uint32),
-        ("neighbours", np.uint32),
-        ("left", np.int32),
-        ("top", np.int32),
-        ("front", np.int32),
-        ("right", np.int32),
-        ("bottom", np.int32),
-        ("back", np.int32),
-        ("touches_border", np.bool_),
-    ],
-    align=True,
+CELL = row_of(
+    {
+        np.float64: "x y z centroid_x centroid_y centroid_z largest_distance",
+        np.uint32: "area perimeter neighbours",
+        np.int32: "left top front right bottom back",
+        np.bool_: "touches_border",
+    }
 )
 """One row of `cells` in pixels. Those of a plane leave out ``z``, ``centroid_z``, ``front`` and ``back``."""
 
@@ -349,11 +336,9 @@ class Diagram(OnDevice):
         ------
         BadArgument, DeviceError
         """
-        image, text = to_labels(labels), to_text(metric, "metric")
-        if seeds is None:
-            self._diagram.write(image)
-        else:
-            self._diagram.write_of(image, to_seeds(seeds), text)
+        image, named = to_labels(labels, shape=self._shape), None if seeds is None else to_seeds(seeds)
+        self._diagram.write(image, named, to_text(metric, "metric"))
+        if seeds is not None:
             self._are_in_data, self._units = seeds._are_in_data, seeds.grid._units
 
     @property
