@@ -5,7 +5,7 @@
 #   tools/gpu_report.sh --with FOLDER --piece still      one piece. Each takes at most 8 minutes; one that is cut off, or says
 #                                                        that there is more to do, goes on where it was when it is run again
 # The pieces: check (known diagrams and the core's tests), still, moving, hurtful (times, and labels by their hashes), kernels
-# (the time of each kernel), cupy (CuPy's distance transform beside them). tools/gpu/report.py has the other options.
+# (the time of each kernel), cupy (CuPy's distance transform beside them). tools/checks/gpu/report.py has the other options.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -31,4 +31,4 @@ if [ ${#missing[@]} -gt 0 ]; then
 fi
 : "${VOROCL_DEVICE:=NVIDIA}"
 export VOROCL_DEVICE
-exec python3 tools/gpu/report.py "${arguments[@]}"
+exec python3 tools/checks/gpu/report.py "${arguments[@]}"

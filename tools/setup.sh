@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what VoroCL needs on Debian or Ubuntu, and does nothing where all is there: setup.sh [GROUP]...
 # The groups are build (the libraries and the command), test (their tests), check (what .ci/run checks with besides),
-# drivers (what tools/check_drivers.sh runs the tests on) and intel (what tools/check_gpu.sh intel compiles with). Without any:
+# drivers (what tools/checks/drivers.sh runs the tests on) and intel (what tools/checks/gpu_compilers.sh intel compiles with). Without any:
 # build and test.
 #   setup.sh gpu FOLDER    copies what tools/gpu_report.sh needs besides a compiler into FOLDER, some 10 MB, for a machine
 #                          without a network whose C library is at least as new as this one's
@@ -84,7 +84,7 @@ END
   du -sh "$gpu_folder"
 fi
 
-# ptxas, where no CUDA is installed: tools/check_gpu.sh looks for it there.
+# ptxas, where no CUDA is installed: tools/checks/gpu_compilers.sh looks for it there.
 ptxas=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl/ptxas
 if [[ " $* " == *" check "* ]] && [ ! -e "$ptxas" ] && ! command -v ptxas >/dev/null; then
   python3 -m pip install --quiet --no-deps --target "$ptxas" nvidia-cuda-nvcc-cu12

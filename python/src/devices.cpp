@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/vector.h>
 
+#include "checks/known_answers.hpp"
 #include "module.hpp"
 
 namespace vorocl::python {
@@ -79,6 +80,9 @@ void bind_devices(nb::module_& module) {
         return prepare_programs(device, {index, count});
       },
       nb::arg("device"), nb::arg("index"), nb::arg("count"), without_gil());
+
+  module.def("count_known_answers", [] { return command::known_answers().size(); });
+  module.def("wrong_answers", command::wrong_answers, nb::arg("device"), nb::arg("only"), without_gil());
 
   nb::class_<Grid>(module, "Grid")
       .def(nb::new_(&make_grid), nb::arg("width"), nb::arg("height"), nb::arg("depth"), nb::arg("periodic_x"),

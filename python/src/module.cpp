@@ -11,5 +11,4 @@ NB_MODULE(_vorocl, module) {
   bind_diagrams(module);
   bind_exact_cells(module);
   bind_masks(module);
-  bind_known_answers(module);
 }

@@ -91,6 +91,5 @@ void bind_seeds(nb::module_& module);
 void bind_diagrams(nb::module_& module);
 void bind_exact_cells(nb::module_& module);
 void bind_masks(nb::module_& module);
-void bind_known_answers(nb::module_& module);
 
 }  // namespace vorocl::python

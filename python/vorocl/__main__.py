@@ -2,24 +2,11 @@
 
 import argparse
 import sys
-from typing import List
 
 from . import _vorocl
 from ._device import Device, devices
-from ._errors import DeviceError, Error
+from ._errors import DeviceError
 from ._opencl import skipped_drivers
-
-
-def wrong_answers(device: Device) -> List[str]:
-    """Make small diagrams whose labels are known, by every method, and name those that the device gets wrong."""
-    wrong = []
-    for index, name in enumerate(_vorocl.known_answers()):
-        try:
-            if not _vorocl.is_known_answer_right(device._device, index):
-                wrong.append(name)
-        except Error as error:
-            wrong.append(f"{name}: {str(error).splitlines()[0]}")
-    return wrong
 
 
 def main() -> int:
@@ -35,7 +22,7 @@ def main() -> int:
         help='check this one alone: a part of its name, or "platform:device"; without it, that of VOROCL_DEVICE, or all',
     )
     request = parser.parse_args().device
-    all_answers, status = len(_vorocl.known_answers()), 0
+    all_answers, status = _vorocl.count_known_answers(), 0
     try:
         chosen = Device(request)  # or the reason why there is none
     except DeviceError as error:
@@ -53,7 +40,7 @@ def main() -> int:
         if found.why_not:
             print(f"     cannot be used: {found.why_not}")
         elif found.asked_for or not one_is_asked_for:
-            wrong = wrong_answers(chosen if found.selected else Device(index))
+            wrong = _vorocl.wrong_answers((chosen if found.selected else Device(index))._device, "")
             for answer in wrong:
                 print(f"     wrong: {answer}")
             print(f"     {all_answers - len(wrong)} of {all_answers} known diagrams are right")

@@ -16,13 +16,13 @@ may_include() {
   trouble=1
 }
 may_include formats
-may_include trials formats
-may_include gpu formats trials
-may_include app/terminal formats trials
-may_include app/sources formats trials app/terminal
-may_include app/outputs formats trials app/terminal app/sources
-may_include app/options formats trials app/terminal app/sources app/outputs
-may_include app/commands formats trials app/terminal app/sources app/outputs app/options
+may_include checks formats
+may_include app/terminal formats
+may_include app/bench formats app/terminal
+may_include app/sources formats app/terminal
+may_include app/outputs formats app/terminal app/sources
+may_include app/options formats app/terminal app/sources app/outputs
+may_include app/commands formats checks app/terminal app/bench app/sources app/outputs app/options
 
 # What takes long to compile, or to load, is included in one place.
 only_in() {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "app/bench/benchmark.hpp"
 #include "brute_force.hpp"
 #include "fixture.hpp"
-#include "trials/benchmark.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

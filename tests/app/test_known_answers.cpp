@@ -7,11 +7,11 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "checks/known_answers.hpp"
 #include "formats/values.hpp"
 #include "reference_flood.hpp"
 #include "run_command.hpp"
 #include "seed_tree.hpp"
-#include "trials/known_answers.hpp"
 
 using namespace vorocl;
 using namespace vorocl::command;

@@ -1,4 +1,4 @@
-// Launches every kernel on small grids, for checkers that watch memory and races (tools/check_kernels.sh).
+// Launches every kernel on small grids, for checkers that watch memory and races (tools/checks/kernels.sh).
 // Fails if the sources hold a kernel that was not launched, and if labels are wrong, because a checker then
 // watches other work than a device does.
 #include <dlfcn.h>

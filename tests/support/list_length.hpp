@@ -19,7 +19,7 @@ inline const char* name_of(ListLength lists) {
 
 /// The build options by which nearly every list overflows (kernels/exact/sizes.cl,
 /// kernels/exact/group/sizes.cl, kernels/exact/points, kernels/points, kernels/masks).
-/// tools/check_kernels.sh reads them here.
+/// tools/checks/kernels.sh reads them here.
 constexpr const char* short_lists =
     "-DMOST_PARENTS=2 -DMOST_CANDIDATES=2 -DOUTER_LIST=8 "
     "-DMOST_GATHERED=2 -DMOST_RANKED=2 -DSTACK=SHORTEST_STACK "

@@ -5,6 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "app/bench/benchmark.hpp"
 #include "app/commands/commands.hpp"
 #include "app/commands/volume.hpp"
 #include "app/options/option_groups.hpp"
@@ -15,7 +16,6 @@
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/selected_device.hpp"
 #include "formats/values.hpp"
-#include "trials/benchmark.hpp"
 
 namespace vorocl::command {
 

@@ -8,7 +8,7 @@
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "trials/known_answers.hpp"
+#include "checks/known_answers.hpp"
 #include "vorocl/device.hpp"
 
 namespace vorocl::command {
@@ -57,20 +57,6 @@ void print_text(const DeviceDescription& device) {
   if (device.selected) print("     selected: {}\n", device.reason);
 }
 
-/// The known diagrams that a device gets wrong, each with the reason where it makes none.
-std::vector<std::string> wrong_answers(const Device& device) {
-  const FinishAtEnd finish(device);
-  std::vector<std::string> wrong;
-  for (const KnownAnswer& answer : known_answers()) {
-    try {
-      if (hash_on(device, answer) != answer.hash) wrong.push_back(to_string(answer));
-    } catch (const std::exception& error) {  // ours, or out of memory
-      wrong.push_back(to_string(answer) + ": " + message_of(error));
-    }
-  }
-  return wrong;
-}
-
 /// The one that was asked for, or those that can be used.
 std::vector<DeviceDescription> devices_to_check(const std::string& request) {
   std::vector<DeviceDescription> devices;
@@ -87,7 +73,9 @@ void check(const DevicesOptions& options) {
   std::vector<Json> list;
   std::string errors;
   for (const DeviceDescription& device : devices_to_check(options.device)) {
-    const std::vector<std::string> wrong = wrong_answers(Device::select(index_of(device)));
+    const Device checked = Device::select(index_of(device));
+    const FinishAtEnd finish(checked);
+    const std::vector<std::string> wrong = wrong_answers(checked);
     list.push_back(Json{{"index", index_of(device)},
                         {"platform", device.platform},
                         {"name", device.name},

@@ -12,10 +12,10 @@
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
 #include "app/terminal/progress.hpp"
+#include "app/terminal/samples.hpp"
 #include "app/terminal/selected_device.hpp"
 #include "formats/numbered_files.hpp"
 #include "formats/polygon_files.hpp"
-#include "trials/samples.hpp"
 
 namespace vorocl::command {
 

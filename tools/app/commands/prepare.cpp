@@ -18,7 +18,7 @@
 #include "app/options/option_groups.hpp"
 #include "app/terminal/console.hpp"
 #include "app/terminal/end_of_run.hpp"
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 #include "vorocl/preparation.hpp"
 
 #ifdef __linux__

@@ -6,7 +6,7 @@
 
 #include "app/outputs/frame_writer.hpp"
 #include "app/sources/moving_seeds.hpp"
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/simulation.hpp"
 

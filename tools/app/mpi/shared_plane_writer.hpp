@@ -12,7 +12,7 @@
 
 #include "app/mpi/ranks.hpp"
 #include "app/outputs/plane_writer.hpp"
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 
 namespace vorocl::command {
 

@@ -11,7 +11,7 @@
 #include "app/outputs/output_files.hpp"
 #include "app/outputs/plane_summary.hpp"
 #include "app/outputs/tile_journal.hpp"
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 
 namespace vorocl::command {
 

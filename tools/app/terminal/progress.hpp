@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 
 namespace vorocl::command {
 

@@ -46,7 +46,8 @@ constexpr int known_displacement = 2;
 /// "djfa, manhattan, periodic".
 std::string to_string(const KnownAnswer& answer);
 
-/// The hash of the labels that a device makes. Waits. Throws as the method.
-std::uint64_t hash_on(const Device& device, const KnownAnswer& answer);
+/// Makes them on a device, and names those that it gets wrong, with the reason where it makes none: all, or
+/// the one of this name.
+std::vector<std::string> wrong_answers(const Device& device, const std::string& only = "");
 
 }  // namespace vorocl::command

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Passes the core's tests on several OpenCL drivers for CPUs, with the exact engine in both shapes: check_drivers.sh [BUILD]
+# Passes the core's tests on several OpenCL drivers for CPUs, with the exact engine in both shapes: drivers.sh [BUILD]
 # BUILD is the folder of a build with the tests; without it build/ is built. The drivers are PoCL, as the system has it
 # (Debian 12: 3.1, Debian 13: 6.0), Intel's runtime, which it installs into a folder of its own, and on Debian 13 Mesa's
 # rusticl on llvmpipe, whose compiler gives up on some kernels (Mesa 25: "Unsupported vector type with 32 elements"). What cannot be
 # had is listed as skipped. The logs are in BUILD/drivers/.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 tools/setup.sh drivers || echo "Not every driver can be installed here."
 
 build=${1:-build}

@@ -1,4 +1,4 @@
-#include "trials/known_answers.hpp"
+#include "checks/known_answers.hpp"
 
 #include <algorithm>
 #include <random>
@@ -142,6 +142,8 @@ std::string to_string(const KnownAnswer& answer) {
          (answer.scene == Scene::scattered ? "" : std::string(", ") + setting_of(answer.scene).name);
 }
 
+namespace {
+
 std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {
   const Grid grid = known_grid(answer);
   Seeds moving(device, grid, std::vector<Point>(), {Outside::count, Snap::to_pixels});
@@ -153,6 +155,23 @@ std::uint64_t hash_on(const Device& device, const KnownAnswer& answer) {
     for (const std::uint32_t label : diagram.read()) hash.add(label);
   }
   return hash.value();
+}
+
+}  // namespace
+
+std::vector<std::string> wrong_answers(const Device& device, const std::string& only) {
+  std::vector<std::string> wrong;
+  for (const KnownAnswer& answer : known_answers()) {
+    const std::string name = to_string(answer);
+    if (!only.empty() && name != only) continue;
+    try {
+      if (hash_on(device, answer) != answer.hash) wrong.push_back(name);
+    } catch (const std::exception& error) {  // ours, or out of memory
+      const std::string reason = error.what();
+      wrong.push_back(name + ": " + reason.substr(0, reason.find('\n')));
+    }
+  }
+  return wrong;
 }
 
 }  // namespace vorocl::command

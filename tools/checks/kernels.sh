@@ -2,7 +2,7 @@
 # Checks the kernels without a GPU: every .cl file compiles in strict OpenCL C 1.2 without a warning, and (with a test
 # program as argument, which checks its labels) runs under Oclgrind without a finding. Exits with 77 where a checker is not installed.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 kernel_files() { find kernels tests tools -name '*.cl' | sort; }
 
@@ -17,7 +17,7 @@ refuse_plain_inline() {
 compile() { # KERNEL OPTION...
   local kernel=$1
   shift
-  clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -include tools/refused_calls.h -fsyntax-only -Ikernels \
+  clang -x cl -cl-std=CL1.2 -Xclang -finclude-default-header -include tools/checks/refused_calls.h -fsyntax-only -Ikernels \
     -Wall -Wextra -Wconversion -Werror -Wno-unused-function -Wno-unused-const-variable \
     -DVOROCL_GUARD=16 -DVOROCL_BITS_X=11 -DVOROCL_BITS_Y=10 -DVOROCL_BITS_Z=10 "$@" "$kernel"
 }

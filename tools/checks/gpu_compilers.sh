@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Checks without a GPU that every kernel which a GPU gets fits one: check_gpu.sh [MAKER]...
+# Checks without a GPU that every kernel which a GPU gets fits one: gpu_compilers.sh [MAKER]...
 #   nvidia (without any)   clang compiles it for PTX as the library builds it, and ptxas assembles it for an A100 (sm_80) and an
 #                          H100 (sm_90)
 #   amd                    clang compiles it for a Radeon VII (gfx906), an MI200 (gfx90a) and a Radeon RX 6000 (gfx1030)
@@ -9,7 +9,7 @@
 #   CLANG   a clang with the maker's target       LIBCLC   the folder of libclc's .bc files of the same version
 #   PTXAS   ptxas, of CUDA 11.4 or newer          OCLOC    ocloc, of Intel's compute runtime
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 : "${CLANG:=clang}" "${LIBCLC:=/usr/lib/clc}"
 [ $# -gt 0 ] || set -- nvidia
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/vorocl

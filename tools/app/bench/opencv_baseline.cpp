@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "trials/benchmark.hpp"
+#include "app/bench/benchmark.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {

@@ -2,8 +2,8 @@
 //   measure device                        what the device is
 //   measure check                         which known diagrams it gets wrong
 //   measure still SIDE SEEDS MS           jfa, djfa and exact of seeds that stand still
-//   measure moving SIDE SEEDS MS FRAMES   the same of seeds that move by up to a pixel along each axis and
-//   frame measure kernels SIDE SEEDS MS         the time of every kernel of these methods
+//   measure moving SIDE SEEDS MS FRAMES   the same of seeds that move by up to a pixel a frame and axis
+//   measure kernels SIDE SEEDS MS         the time of every kernel of these methods
 // SEEDS is a number of random seeds or an .npy file of points in pixels. Each method runs for MS
 // milliseconds, after others to warm up; for 0 it runs once, for its labels. VOROCL_DEVICE names the device.
 // It links the library's core alone.
@@ -21,8 +21,8 @@
 #include <optional>
 #include <sstream>
 
+#include "checks/known_answers.hpp"
 #include "formats/values.hpp"
-#include "trials/known_answers.hpp"
 #include "vorocl/vorocl.hpp"
 
 using namespace vorocl;
@@ -336,14 +336,8 @@ std::string describe(const Device& device) {
 }
 
 std::string check_known_answers(const Device& device) {
-  std::vector<std::string> wrong;
-  for (const command::KnownAnswer& answer : command::known_answers()) {
-    try {
-      if (command::hash_on(device, answer) != answer.hash) wrong.push_back(quoted(to_string(answer)));
-    } catch (const std::exception& error) {
-      wrong.push_back(quoted(to_string(answer) + ": " + error.what()));
-    }
-  }
+  std::vector<std::string> wrong = command::wrong_answers(device);
+  std::transform(wrong.begin(), wrong.end(), wrong.begin(), quoted);
   return object({{"checked", std::to_string(command::known_answers().size())}, {"wrong", list(wrong)}});
 }
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Checks that clang-format (of version 14) and clang-tidy have nothing to say:
-#   check_style.sh format              all sources; of kernels the length of lines alone
-#   check_style.sh lint [FOLDER]...    the sources in the folders, or in all; takes some 10 seconds for each
-#   check_style.sh quick [FOLDER]...   the same, or of src and tools, for a sixth of the time: the sources of a folder as one, and
+#   style.sh format              all sources; of kernels the length of lines alone
+#   style.sh lint [FOLDER]...    the sources in the folders, or in all; takes some 10 seconds for each
+#   style.sh quick [FOLDER]...   the same, or of src and tools, for a sixth of the time: the sources of a folder as one, and
 #                                      without clang's analyzer
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 configure() { # FOLDER OPTION...: as Clang compiles it, which cannot read the precompiled headers of another compiler
   CC=clang CXX=clang++ cmake --preset dev -B "$1" -DVOROCL_MPI=ON -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON "${@:2}" >/dev/null
@@ -38,7 +38,7 @@ quick)
       --checks=-clang-analyzer-*,-bugprone-suspicious-include
   ;;
 *)
-  echo "check_style.sh format | lint [FOLDER]... | quick [FOLDER]..." >&2
+  echo "style.sh format | lint [FOLDER]... | quick [FOLDER]..." >&2
   exit 2
   ;;
 esac

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # Checks what the preset packager installs, on Debian 12 with what "tools/setup.sh build check" installs:
-#   check_package.sh          the recipe for conda can be rendered; two copies of the last commit, in folders whose names
+#   package.sh          the recipe for conda can be rendered; two copies of the last commit, in folders whose names
 #                             differ in length, install the same bytes; and the shared library has the ABI that this
 #                             minor version's first release recorded, and at most more of it
-#   check_package.sh record   records the ABI in packaging/abi, for a release
+#   package.sh record   records the ABI in packaging/abi, for a release
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 action=${1-check}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -65,7 +65,7 @@ check)
   echo "The ABI $abi is the recorded one."
   ;;
 *)
-  echo "check_package.sh [record]" >&2
+  echo "package.sh [record]" >&2
   exit 2
   ;;
 esac

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "app/terminal/samples.hpp"
 #include "formats/raster.hpp"
-#include "trials/samples.hpp"
 #include "vorocl/grid.hpp"
 #include "vorocl/method.hpp"
 #include "vorocl/seeds.hpp"

@@ -1,4 +1,4 @@
-// For tools/check_kernels.sh, instead of the compiler's own: min(), max() and clamp() without those of
+// For tools/checks/kernels.sh, instead of the compiler's own: min(), max() and clamp() without those of
 // vectors of integers whose bounds are numbers. Oclgrind reads such a bound as a vector, with what lies
 // behind it in memory.
 

@@ -12,7 +12,7 @@ import time
 PIECES = ["check", "still", "moving", "hurtful", "kernels", "cupy"]
 METHODS = ["jfa", "djfa", "exact"]
 PIXELS_PER_SEED = [65536, 4096, 256, 64, 16, 4]
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 LABELS = pathlib.Path(__file__).with_name("labels.json")
 started = time.monotonic()
 

@@ -25,7 +25,7 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 
 # What is replaced: a pattern, and what takes the place of its group.
 OPERATORS = [
@@ -174,7 +174,7 @@ class Kernels:
             how = failure(self.command(test), work, self.environment, self.limit)
             if how:
                 return f"{test} {how}"
-        check = [str(ROOT / "tools/check_kernels.sh"), str(self.build / "tests/core/run_kernels")]
+        check = [str(ROOT / "tools/checks/kernels.sh"), str(self.build / "tests/core/run_kernels")]
         return "Oclgrind" if failure(check, work, self.environment, self.limit) else ""
 
 

@@ -6,7 +6,7 @@
 # that reach something new are kept in build-fuzz/corpus/ for the next time. The corpus and the dictionaries that it
 # starts from are in tests/reliability/fuzz/.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 [ $# -gt 0 ] || { echo "fuzz.sh SECONDS [TARGET]..." >&2; exit 2; }
 seconds=$1
 shift

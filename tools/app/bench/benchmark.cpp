@@ -1,10 +1,10 @@
-#include "trials/benchmark.hpp"
+#include "app/bench/benchmark.hpp"
 
 #include <algorithm>
 #include <functional>
 #include <memory>
 
-#include "trials/samples.hpp"
+#include "app/terminal/samples.hpp"
 #include "vorocl/exact_diagram.hpp"
 #include "vorocl/motion.hpp"
 #include "vorocl/tiles.hpp"

@@ -4,7 +4,7 @@
 #include <nanoflann.hpp>
 #include <opencv2/core/utility.hpp>
 
-#include "trials/benchmark.hpp"
+#include "app/bench/benchmark.hpp"
 #include "vorocl/error.hpp"
 
 namespace vorocl::command {
