@@ -100,9 +100,10 @@ VOROCL_API void draw_text(cv::Mat& picture, const std::string& text);
 struct ColorBar {
   Scale scale;
   Palette palette = Palette::viridis;
-  std::string title;          ///< the quantity and its unit: "area (px)"; ASCII
-  bool whole_values = false;  ///< no ticks between whole numbers
-  bool open_ended = false;    ///< there may be values beyond the scale: its ends are pointed
+  std::string title;                    ///< the quantity and its unit: "area (px)"; ASCII
+  bool whole_values = false;            ///< no ticks between whole numbers
+  bool open_ended = false;              ///< there may be values beyond the scale: its ends are pointed
+  std::vector<std::string> names = {};  ///< that ticks have in the place of 0, 1, 2, ...: whole values; ASCII
 };
 
 /// The picture with a colour bar at its right: a white strip with the title, the bar with its least value at

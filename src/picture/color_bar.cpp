@@ -66,13 +66,21 @@ std::vector<Tick> logarithmic_ticks(const Scale& scale, int most) {
   return ticks;
 }
 
+std::string shortened(const std::string& title) {
+  return title.size() <= longest_title ? title : title.substr(0, longest_title - 3) + "...";
+}
+
 std::vector<Tick> ticks_of(const ColorBar& bar, int most) {
   if (bar.scale.logarithmic) {
     std::vector<Tick> ticks = logarithmic_ticks(bar.scale, most);
     if (ticks.size() >= 2) return ticks;
   }
   double step = round_step(bar.scale, most);
-  if (step == 0) return {{bar.scale.low, number_text(bar.scale.low, 0)}};
+  const auto text_of = [&](double value) {
+    const bool has_name = value >= 0 && value < static_cast<double>(bar.names.size());
+    return has_name ? shortened(bar.names[static_cast<std::size_t>(value)]) : number_text(value, step);
+  };
+  if (step == 0) return {{bar.scale.low, text_of(bar.scale.low)}};
   if (bar.whole_values) step = std::max(step, 1.0);
   std::vector<Tick> ticks;
   const double first = std::ceil(bar.scale.low / step - 1e-9);
@@ -80,7 +88,7 @@ std::vector<Tick> ticks_of(const ColorBar& bar, int most) {
   const int more = static_cast<int>(std::min(last - first, static_cast<double>(most)));
   for (int i = 0; i <= more; ++i) {
     const double value = (first + i) * step + 0.0;  // not -0
-    ticks.push_back({value, number_text(value, step)});
+    ticks.push_back({value, text_of(value)});
   }
   return ticks;
 }
@@ -135,10 +143,6 @@ class Bar {
   int point_;  // the height of a pointed end
 };
 
-std::string shortened(const std::string& title) {
-  return title.size() <= longest_title ? title : title.substr(0, longest_title - 3) + "...";
-}
-
 }  // namespace
 
 cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar) {
@@ -149,7 +153,9 @@ cv::Mat with_color_bar(const cv::Mat& picture, const ColorBar& bar) {
   const int unit = text.height();
   const std::string title = shortened(bar.title);
   const cv::Rect place(picture.cols + unit, 7 * unit / 2, std::max(10, 2 * unit), height - 5 * unit);
-  const std::vector<Tick> ticks = ticks_of(bar, std::clamp(5 * place.height / (8 * unit), 2, most_steps));
+  const std::vector<Tick> ticks = ticks_of(
+      bar,
+      std::clamp(5 * place.height / (8 * unit), 2, std::max(most_steps, static_cast<int>(bar.names.size()))));
 
   const int numbers = place.br().x + unit;  // where they begin
   int right = place.x + text.width(title);

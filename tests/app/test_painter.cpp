@@ -38,7 +38,7 @@ struct Drawn {
     MeasureBuffers buffers;
     const View view = {size, grid};
     Measures measures(seeds, diagram, ids, view, buffers);
-    return painter.draw(measures, values);
+    return painter.draw(measures, {values, {}});
   }
   cv::Mat with(const PictureOptions& options) const {
     Painter painter(options);

@@ -148,6 +148,37 @@ BOOST_AUTO_TEST_CASE(particles_are_coloured_by_a_column_of_the_trajectory) {
   BOOST_TEST(same(cv::imread(folder / "n1.png"), expected(1, 2)));
 }
 
+BOOST_AUTO_TEST_CASE(texts_of_a_column_are_classes) {
+  const TemporaryFolder folder;
+  const auto frame = [](const std::string& left, const std::string& right) {
+    return "2\nLattice=\"10 0 0 0 10 0 0 0 1\" pbc=\"F F F\" Properties=species:S:1:pos:R:3:fixed:L:1\n" +
+           left + " 2.5 5 0 T\n" + right + " 7.5 5 0 F\n";
+  };
+  // In the order of their letters; those of a later frame come behind.
+  folder.file("t.xyz", frame("Si", "O") + frame("Si", "Na"));
+  const Grid grid(20, 20);
+  const auto labels = brute_force(grid, {{5, 10}, {15, 10}}, Metric::euclidean);
+  const auto expected = [&](double left, double right, Palette palette = Palette::okabe_ito) {
+    return color_by_value(labels, grid, {left, right}, {0, 2}, palette);
+  };
+  const std::string trajectory = "--snap --trajectory t.xyz --size 20x20 --color column:";
+  succeeds(folder, "simulate --method exact -o %d.png " + trajectory + "species");
+  BOOST_TEST(same(cv::imread(folder / "0.png"), expected(1, 0)));
+  BOOST_TEST(same(cv::imread(folder / "1.png"), expected(1, 2)));
+  BOOST_TEST(same(render(folder, trajectory + "fixed"), expected(1, 0)));
+
+  folder.file("p.csv", "x,y,kind\n2.5,5,Na\n7.5,5,\"C, 13\"\n2,5,\n2,4.9,3\n");  // 3 is a text here
+  const std::string points =
+      "--snap --points p.csv --size 20x20 --bounds 0,0,10,10 --y-up --color column:kind ";
+  cv::Mat bar = render(folder, points + "--color-bar --palette viridis --enlarge 10");
+  BOOST_TEST(same(bar(cv::Rect(120, 0, 80, 200)), cv::Mat(200, 80, CV_8UC3, bar.at<cv::Vec3b>(0, 120))));
+  const cv::Mat plain = render(folder, points + "--enlarge 10");
+  BOOST_TEST(
+      same(render(folder, points + "--color-bar --enlarge 10"),
+           with_color_bar(plain, {{0, 2}, Palette::okabe_ito, "kind", true, false, {"3", "C, 13", "Na"}})));
+  refuses(folder, "render -o a.png --log " + points, failure, {"kind", "texts", "--log"});
+}
+
 BOOST_AUTO_TEST_CASE(films_with_a_colour_bar_have_even_sides) {
   const TemporaryFolder folder;
   const Result result =
@@ -198,7 +229,7 @@ BOOST_AUTO_TEST_CASE(options_that_contradict_each_other_are_usage_errors) {
 
 BOOST_AUTO_TEST_CASE(columns_that_are_not_there_are_refused) {
   const TemporaryFolder folder;
-  folder.file("p.csv", "x,y,height\n1,2,3\n3,4,tall\n");
+  folder.file("p.csv", "x,y,height\n1,2,NA\n1,2,3\n3,4,tall\n");
   folder.file("p.npy", "");
   folder.file("t.lammpstrj", dump(walled_box, "id x y c_pe", {"1 2 3 4"}));
   const std::string square = " --size 10x10 --method exact -o a.png --color column:";
@@ -206,7 +237,7 @@ BOOST_AUTO_TEST_CASE(columns_that_are_not_there_are_refused) {
           {"--color column:NAME", "--points", "--trajectory"});
   refuses(folder, "render --points p.npy" + square + "q", usage, {"--color column:NAME", ".csv"});
   refuses(folder, "render --points p.csv" + square + "depth", failure, {"p.csv:1", "depth", "x, y, height"});
-  refuses(folder, "render --points p.csv" + square + "height", failure, {"p.csv:3", "\"tall\""});
+  refuses(folder, "render --points p.csv" + square + "height", failure, {"p.csv:4", "\"tall\""});
   refuses(folder, "render --trajectory t.lammpstrj" + square + "vx", failure,
           {"t.lammpstrj:9", "\"vx\"", "id, x, y, c_pe"});
   refuses(folder, "simulate --trajectory t.lammpstrj --size 9x9 --method exact -o %d.png --color column:vx",

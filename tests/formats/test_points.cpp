@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(rows_without_a_coordinate_are_absent_and_the_others_keep_th
       read_csv(folder.file("p.csv", "x,y,v\nNA,1,2\n1.5,-2,NA\nnan,nan,3\n,null,4\n300,0.25,5\n"), {{}, "v"});
   BOOST_TEST((pairs_of(read.points) == two));
   BOOST_TEST((read.ids == std::vector<std::uint32_t>{1, 4}));
-  BOOST_TEST((std::isnan(read.values[0]) && read.values[1] == 5));
+  BOOST_TEST((std::isnan(read.values.numbers[0]) && read.values.numbers[1] == 5));
   BOOST_REQUIRE(read.notes.size() == 1u);
   BOOST_TEST(read.notes[0].find("3 of 5 rows") != std::string::npos);
   refuses_csv("x,y\nNA,NA\n", {"p.csv", "no points", "coordinate"});
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_column_of_ids_names_the_points) {
   const CsvPoints by_id = read("name,ID,x,y,v\n\"a, b\",90,300,0.25,1\nc,70,1.5,-2,2\nd,80,NA,1,3\n");
   BOOST_TEST((pairs_of(by_id.points) == two));
   BOOST_TEST((by_id.ids == std::vector<std::uint32_t>{70, 90}));
-  BOOST_TEST((by_id.values == std::vector<double>{2, 1}));
+  BOOST_TEST((by_id.values.numbers == std::vector<double>{2, 1}));
   BOOST_TEST((by_id.kept == std::vector<CsvFields>{{"c", "2"}, {"a, b", "1"}}));
   BOOST_TEST((by_id.kept_names == CsvFields{"name", "v"}));
   for (const char* const bad : {"70", "a", "-1", "4294967295", "1.5", ""}) {
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(bad_csv_lines_are_named) {
 BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
   const TemporaryFolder folder;
   const auto values = [&](const std::string& content, const std::string& column) {
-    return read_csv(folder.file("p.csv", content), {{}, column}).values;
+    return read_csv(folder.file("p.csv", content), {{}, column}).values.numbers;
   };
   const std::string table = "x,name,y,Height\n1,a,2,-1.5\n3,b,4,\n5,c,6,nan\n7,d,8,+2e3\n";
   for (const char* column : {"Height", "height", "3"}) {
@@ -202,7 +202,8 @@ BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
   BOOST_TEST(values(table, "").empty());
   check_error([&] { values(table, "depth"); }, {"p.csv:1", "no column depth", "x, name, y, Height"});
   check_error([&] { values("1,2,3\n", "depth"); }, {"p.csv:1", "no column depth", "0, 1, 2"});
-  check_error([&] { values(table, "name"); }, {"p.csv:2", "\"a\" is not a number"});
+  BOOST_TEST((values("x,y,name\n1,2,b\n3,4,a\n5,6,b\n", "name") == std::vector<double>{1, 0, 1}));
+  check_error([&] { values("x,y,name\n1,2,3\n3,4,a\n", "name"); }, {"p.csv:3", "\"a\" is not a number"});
   check_error([&] { values("x,y,z\n1,2,3\n4,5\n", "z"); }, {"p.csv:3", "no column 2"});
 }
 

@@ -239,7 +239,8 @@ BOOST_AUTO_TEST_CASE(many_rows_in_any_order_are_sorted_with_all_that_they_hold) 
     BOOST_REQUIRE_EQUAL(frame.ids.size(), by_id.size());
     std::size_t i = 0;
     for (const auto& [id, number] : by_id) {
-      BOOST_TEST((frame.ids[i] == id && frame.values[i] == number && frame.positions[i].x == number / 100.0));
+      BOOST_TEST((frame.ids[i] == id && frame.values.numbers[i] == number &&
+                  frame.positions[i].x == number / 100.0));
       ++i;
     }
   }
@@ -302,11 +303,11 @@ BOOST_AUTO_TEST_CASE(a_column_of_values_follows_the_particles) {
   const auto energies = frames_of(text, "c_pe");
   BOOST_REQUIRE(energies.size() == 2u);
   BOOST_TEST((energies[0].ids == std::vector<std::uint32_t>{3, 5, 7}));
-  BOOST_REQUIRE(energies[0].values.size() == 3u);
-  BOOST_TEST(
-      (std::isnan(energies[0].values[0]) && energies[0].values[1] == 400 && energies[0].values[2] == -1.5));
-  BOOST_TEST((energies[1].values == std::vector<double>{0.25}));
-  BOOST_TEST((frames_of(text, "f[2]")[0].values == std::vector<double>{20, 30, 10}));
-  BOOST_TEST((frames_of(text, "id")[0].values == std::vector<double>{3, 5, 7}));
-  BOOST_TEST(frames_of(text)[0].values.empty());
+  BOOST_REQUIRE(energies[0].values.numbers.size() == 3u);
+  BOOST_TEST((std::isnan(energies[0].values.numbers[0]) && energies[0].values.numbers[1] == 400 &&
+              energies[0].values.numbers[2] == -1.5));
+  BOOST_TEST((energies[1].values.numbers == std::vector<double>{0.25}));
+  BOOST_TEST((frames_of(text, "f[2]")[0].values.numbers == std::vector<double>{20, 30, 10}));
+  BOOST_TEST((frames_of(text, "id")[0].values.numbers == std::vector<double>{3, 5, 7}));
+  BOOST_TEST(frames_of(text)[0].values.numbers.empty());
 }

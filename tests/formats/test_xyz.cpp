@@ -211,11 +211,14 @@ BOOST_AUTO_TEST_CASE(bad_xyz_files_are_refused_with_their_line) {
 BOOST_AUTO_TEST_CASE(a_column_of_values_is_a_property) {
   const std::string text =
       "2\nProperties=species:S:1:pos:R:3:vel:R:2:charge:R:1\nAr 1 2 3 -4 5 0.5\nAr 11 -3 0 6 7 -0.5\n";
-  BOOST_TEST((frames_of(text, "charge")[0].values == std::vector<double>{0.5, -0.5}));
-  BOOST_TEST((frames_of(text, "vel[2]")[0].values == std::vector<double>{5, 7}));
-  BOOST_TEST((frames_of("1\n\nAr 1 2 3\n", "z")[0].values == std::vector<double>{3}));
+  BOOST_TEST((frames_of(text, "charge")[0].values.numbers == std::vector<double>{0.5, -0.5}));
+  BOOST_TEST((frames_of(text, "vel[2]")[0].values.numbers == std::vector<double>{5, 7}));
+  BOOST_TEST((frames_of("1\n\nAr 1 2 3\n", "z")[0].values.numbers == std::vector<double>{3}));
   check_error([&] { frames_of(text, "vel"); },
               {"trajectory:2", "\"vel\"", "species, pos[1], pos[2], pos[3], vel[1], vel[2], charge"});
-  check_error([&] { frames_of(text, "species"); }, {"trajectory:3", "\"Ar\"", "number"});
+  const std::string texts = "2\n\nSi 1 2 3\nO 1 2 3\n";
+  BOOST_TEST((frames_of(texts, "species")[0].values.texts == std::vector<std::string>{"O", "Si"}));
+  BOOST_TEST((frames_of(texts + "1\n\nNa 1 2 3\n", "species")[1].values.numbers == std::vector<double>{2}));
+  check_error([&] { frames_of("2\n\n1 1 2 3\nO 1 2 3\n", "species"); }, {"trajectory:4", "\"O\"", "number"});
   check_error([&] { frames_of("1\n\nAr 1 2 3\n", "vx"); }, {"trajectory:2", "\"vx\"", "species, x, y, z"});
 }

@@ -67,7 +67,7 @@ bool is_number(const std::string& field) { return parse_number<double>(field).ha
 /// What programs write where there is no number.
 bool is_absent(const std::string& field) {
   static const std::set<std::string> texts = {"", "na", "n/a", "null", "nan"};
-  return texts.count(lower(field)) > 0;
+  return texts.count(lower(field)) > 0 && field != "Na";  // sodium
 }
 
 /// The names that pandas gives the columns of an array: 0,1,2.
@@ -155,20 +155,24 @@ void refuse_columns_to_choose_from(const Line& first, std::size_t needed, bool h
                     of_decimal_commas);
 }
 
-/// NaN where it is absent.
-double number(const Line& line, std::size_t index, bool has_decimal_commas) {
-  std::string text = field(line, index);
-  if (is_absent(text)) return std::numeric_limits<double>::quiet_NaN();
+std::optional<double> number(std::string text, bool has_decimal_commas) {
   if (has_decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
-  if (const auto parsed = parse_number<double>(text)) return *parsed;
-  throw line.error("\"" + line.fields[index] + "\" is not a number" +
-                   (text.find(',') == std::string::npos ? "" : of_decimal_commas));
+  return parse_number<double>(text);
 }
 
+Error no_number(const Line& line, const std::string& text, bool has_decimal_commas) {
+  const bool may_be_decimal = !has_decimal_commas && text.find(',') != std::string::npos;
+  return line.error("\"" + text + "\" is not a number" + (may_be_decimal ? of_decimal_commas : ""));
+}
+
+/// NaN where it is absent.
 double coordinate(const Line& line, std::size_t index, bool has_decimal_commas) {
-  const double value = number(line, index, has_decimal_commas);
-  if (std::isinf(value)) throw line.error("\"" + line.fields[index] + "\" is not finite");
-  return value;
+  const std::string& text = field(line, index);
+  if (is_absent(text)) return std::numeric_limits<double>::quiet_NaN();
+  const auto value = number(text, has_decimal_commas);
+  if (!value) throw no_number(line, text, has_decimal_commas);
+  if (std::isinf(*value)) throw line.error("\"" + text + "\" is not finite");
+  return *value;
 }
 
 bool is_empty(const Fields& fields) {
@@ -340,12 +344,18 @@ bool CsvReader::next() {
     }
     const auto at = [&](std::size_t index) { return coordinate(line, index, options_.decimal_comma); };
     point_ = {at(indices_->x), at(indices_->y), indices_->z ? at(*indices_->z) : 0};
-    if (indices_->value) value_ = number(line, *indices_->value, options_.decimal_comma);
     if (indices_->id) id_ = parse_number<std::uint32_t>(field(line, *indices_->id)).value_or(no_label);
     return has_points_ = true;
   }
   if (!has_points_) throw Error(path_ + " holds no points");
   return false;
+}
+
+void CsvReader::add_value(ColumnReader& column) const {
+  const Line line{lines_, fields_};
+  const std::string& text = field(line, *indices_->value);
+  if (!column.add(is_absent(text) ? "" : text, number(text, options_.decimal_comma)))
+    throw no_number(line, text, options_.decimal_comma);
 }
 
 CsvFields CsvReader::kept() const {
@@ -381,7 +391,7 @@ void take_ids(const std::string& path, CsvPoints& read, const std::vector<std::u
   read.ids.clear();
   for (const IdAndRow row : rows) read.ids.push_back(id_of(row));
   arrange(read.points, rows);
-  arrange(read.values, rows);
+  arrange(read.values.numbers, rows);
   arrange(read.kept, rows);
 }
 
@@ -392,15 +402,17 @@ CsvPoints read_csv(const std::string& path, const CsvOptions& options, bool has_
   CsvPoints read;
   std::vector<std::uint32_t> ids;
   std::uint32_t rows = 0;
+  ColumnReader column;
   for (; reader.next(); ++rows) {
     const Point& point = reader.point();
     if (std::isnan(point.x) || std::isnan(point.y) || std::isnan(point.z)) continue;
     read.points.push_back(point);
     read.ids.push_back(rows);
-    if (!options.value_column.empty()) read.values.push_back(reader.value());
+    if (!options.value_column.empty()) reader.add_value(column);
     if (!options.keep.empty()) read.kept.push_back(reader.kept());
     if (reader.id()) ids.push_back(*reader.id());
   }
+  read.values = column.take();
   read.notes = reader.notes();
   read.kept_names = reader.kept_names();
   if (read.points.empty()) throw Error(path + " holds no points: all rows lack a coordinate");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "formats/trajectory/line_reader.hpp"
+#include "formats/values.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -68,12 +69,14 @@ class CsvReader {
   /// coordinate and a column that is not there, and at the end if there was no point at all.
   bool next();
 
-  // Numbers that are absent (empty, NA, NaN, null) are NaN.
-  const Point& point() const { return point_; }  ///< z is that of a volume, or 0
-  double value() const { return value_; }        ///< of the value column
+  /// Coordinates that are absent (empty, NA, NaN, null) are NaN; z is that of a volume, or 0.
+  const Point& point() const { return point_; }
 
   /// Of the column id, if the header names one: no_label if it is none.
   std::optional<std::uint32_t> id() const { return indices_->id ? std::optional(id_) : std::nullopt; }
+
+  /// Adds that of the value column. Throws Error, as above, for a text among numbers.
+  void add_value(ColumnReader& column) const;
 
   CsvFields kept() const;
   const std::vector<std::string>& kept_names() const { return options_.keep; }
@@ -96,14 +99,13 @@ class CsvReader {
   bool has_points_ = false;
   std::vector<std::string> notes_;
   Point point_;
-  double value_ = 0;
   std::uint32_t id_ = no_label;
 };
 
 /// By point, those of its row; those of other columns are empty.
 struct CsvPoints {
   std::vector<Point> points;
-  std::vector<double> values;  ///< of the value column
+  ColumnValues values;  ///< of the value column
   std::vector<std::uint32_t>
       ids;  ///< ascending, of the column id, or the numbers of rows if some have no point
   std::vector<CsvFields> kept;

@@ -1,13 +1,17 @@
-// Single values: numbers in text, metrics by name, and a hash of numbers; the same in every locale and on
-// every machine.
+// Values: numbers in text, columns of them, metrics by name, and a hash of numbers; the same in every locale
+// and on every machine.
 #pragma once
 
 #include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "vorocl/grid.hpp"
 
@@ -32,6 +36,52 @@ std::optional<T> parse_number(std::string_view text) {
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) return std::nullopt;
   return value;
 }
+
+/// What a column has row by row: numbers (NaN: absent), or those by which its texts stand in `texts`.
+struct ColumnValues {
+  std::vector<double> numbers;
+  std::vector<std::string> texts;
+};
+
+/// Reads a column, which is one of texts if its first value is no number. Texts are in the order of their
+/// letters, and those that are new in a later frame behind the earlier ones.
+class ColumnReader {
+ public:
+  /// False for a text, not "", among numbers.
+  bool add(const std::string& text, const std::optional<double>& number) {
+    if (!has_texts_ && !text.empty()) has_texts_ = !number;
+    if (!has_texts_.value_or(false)) {
+      numbers_.push_back(number.value_or(std::numeric_limits<double>::quiet_NaN()));
+      return number || text.empty();
+    }
+    while (places_.size() < numbers_.size()) places_.push_back(nullptr);
+    numbers_.push_back(std::numeric_limits<double>::quiet_NaN());
+    places_.push_back(text.empty() ? nullptr : &*place_of_text_.try_emplace(text, texts_.size()).first);
+    return true;
+  }
+
+  /// All since the last call.
+  ColumnValues take() {
+    const std::size_t known = texts_.size();
+    for (auto& [text, place] : place_of_text_) {
+      if (place < known) continue;
+      place = texts_.size();
+      texts_.push_back(text);
+    }
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (places_[i] != nullptr) numbers_[i] = static_cast<double>(places_[i]->second);
+    }
+    places_.clear();
+    return {std::exchange(numbers_, {}), texts_};
+  }
+
+ private:
+  std::optional<bool> has_texts_;
+  std::vector<double> numbers_;
+  std::vector<std::string> texts_;
+  std::map<std::string, std::size_t> place_of_text_;
+  std::vector<const std::pair<const std::string, std::size_t>*> places_;  // by row
+};
 
 /// The name that options, tables and JSON give it.
 inline std::string to_string(Metric metric) {

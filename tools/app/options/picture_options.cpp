@@ -55,8 +55,8 @@ void add_picture_options(Command& command, PictureOptions& options) {
       .add_parsed(
           "--color", options.color, parse_coloring,
           "What the colour of a pixel shows: its cell's seed, the distance to it, the cell's area or its "
-          "number of neighbours, or a column of the CSV file or the trajectory (grey where a value is "
-          "absent): " +
+          "number of neighbours, or a column of numbers or texts of the CSV file or the trajectory (grey "
+          "where a value is absent): " +
               names_of(quantities))
       .value_name("NAME")
       .default_text("id");

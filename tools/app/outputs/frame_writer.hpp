@@ -44,7 +44,7 @@ struct FrameFacts {
   std::string stamp;        ///< what is written into pictures where the options ask for it
   double milliseconds = 0;  ///< of the device, for the diagram
   std::optional<Box> box = std::nullopt;  ///< of the trajectory
-  std::vector<double> values = {};        ///< those that pictures may show, as in Painter::draw()
+  ColumnValues values = {};               ///< those that pictures may show, as in Painter::draw()
   std::optional<FrameSimilarity> similarity = std::nullopt;
 };
 

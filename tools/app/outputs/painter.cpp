@@ -118,14 +118,14 @@ void Painter::read(Measures& measures) const {
   if (options_.points_overlay) measures.seeds();
 }
 
-cv::Mat Painter::draw(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
+cv::Mat Painter::draw(Measures& measures, const ColumnValues& values, const std::string& stamp) {
   if (!options_.slice) return draw_plane(measures, values, stamp);
   MeasureBuffers buffers;
   Measures of_slice = in_slice(measures, *options_.slice, options_.points_overlay, buffers);
   return draw_plane(of_slice, values, stamp);
 }
 
-cv::Mat Painter::draw_plane(Measures& measures, const std::vector<double>& values, const std::string& stamp) {
+cv::Mat Painter::draw_plane(Measures& measures, const ColumnValues& values, const std::string& stamp) {
   const View& view = measures.view();
   const Size size = view.size();
   // Of a tilted box the last row does not lie on the first one, so that no line is drawn between them.
@@ -143,8 +143,9 @@ cv::Mat Painter::draw_plane(Measures& measures, const std::vector<double>& value
   if (options_.stamp) draw_text(picture, stamp);
   if (!options_.color_bar) return picture;
   if (!scale_) throw Error("there is no value yet for the colour bar to show; give --scale LOW,HIGH");
-  return with_color_bar(picture, {*scale_, palette_, title_of(options_.color, view.units),
-                                  whole_values_.value_or(false), many_ || options_.scale.has_value()});
+  return with_color_bar(
+      picture, {*scale_, palette_, title_of(options_.color, view.units), whole_values_.value_or(false),
+                many_ || options_.scale.has_value(), values.texts});
 }
 
 bool Painter::is_independent() const {
@@ -154,7 +155,7 @@ bool Painter::is_independent() const {
   return has_scale && has_numbers && (!options_.contours || contour_interval_);
 }
 
-cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
+cv::Mat Painter::color(Measures& measures, const ColumnValues& values) {
   switch (options_.color.quantity) {
     case Quantity::distance: {
       const std::vector<float> distances = measures.view().units.lengths(measures.distances());
@@ -167,7 +168,8 @@ cv::Mat Painter::color(Measures& measures, const std::vector<double>& values) {
     case Quantity::neighbours:
       return color_by_values(measures, {measures.neighbours().begin(), measures.neighbours().end()});
     case Quantity::column:
-      return color_by_values(measures, values);
+      return values.texts.empty() ? color_by_values(measures, values.numbers)
+                                  : color_by_text(measures, values);
     default:
       return color_by_id(measures);
   }
@@ -195,6 +197,21 @@ cv::Mat Painter::color_by_id(Measures& measures) {
     colored_ids_ = ids;
   }
   return color_by_seed(measures.labels(), window, colors_of_ids_);
+}
+
+cv::Mat Painter::color_by_text(Measures& measures, const ColumnValues& values) {
+  if (options_.scale || options_.logarithmic)
+    throw Error(options_.color.column + " has texts, and --scale and --log are for numbers");
+  palette_ = options_.palette.value_or(Palette::okabe_ito);
+  const std::size_t texts = values.texts.size();
+  if (texts > 8 && is_categorical(palette_) && !std::exchange(omission_noted_, true)) {
+    print_note(fmt::format("{} has {} texts, and okabe-ito 8 colours, which recur; --palette turbo has more",
+                           options_.color.column, texts));
+  }
+  const Scale of_all = {0, static_cast<double>(texts - 1)};
+  if (!scale_) scale_ = of_all;  // the colour bar's; later texts have colours too
+  whole_values_ = true;
+  return color_by_value(measures.labels(), measures.view().size().grid(), values.numbers, of_all, palette_);
 }
 
 cv::Mat Painter::color_by_values(Measures& measures, const std::vector<double>& values) {

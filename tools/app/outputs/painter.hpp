@@ -56,10 +56,10 @@ class Painter {
   /// Reads what draw() draws, from the device.
   void read(Measures& measures) const;
 
-  /// `values` are those of the value column, by label; NaN: absent. `stamp` is written where the options ask
+  /// `values` are those of the value column, by label. `stamp` is written where the options ask
   /// for it. Throws Error if they ask for a scale or colours that the values do not allow. Notes on standard
   /// error, once, what a logarithmic scale leaves out of the first picture.
-  cv::Mat draw(Measures& measures, const std::vector<double>& values, const std::string& stamp = "");
+  cv::Mat draw(Measures& measures, const ColumnValues& values, const std::string& stamp = "");
 
   /// Says on standard error, if the scale is the first picture's and another has more than half of its values
   /// beyond it, which one holds all.
@@ -69,9 +69,10 @@ class Painter {
   bool is_independent() const;
 
  private:
-  cv::Mat draw_plane(Measures& measures, const std::vector<double>& values, const std::string& stamp);
-  cv::Mat color(Measures& measures, const std::vector<double>& values);
+  cv::Mat draw_plane(Measures& measures, const ColumnValues& values, const std::string& stamp);
+  cv::Mat color(Measures& measures, const ColumnValues& values);
   cv::Mat color_by_id(Measures& measures);
+  cv::Mat color_by_text(Measures& measures, const ColumnValues& values);
   cv::Mat color_by_values(Measures& measures, const std::vector<double>& values);
   /// The scale of all pictures: the option's, or else the range of the first that has one. `shown` are the
   /// values there.
@@ -86,7 +87,7 @@ class Painter {
   std::optional<Scale> scale_;
   std::optional<Scale> seen_;         // the range of all pictures
   bool is_beyond_ = false;            // some picture's values are, of the scale
-  bool omission_noted_ = false;       // what a logarithmic scale leaves out of the first picture
+  bool omission_noted_ = false;       // of what the scale leaves out, or of colours that recur
   std::optional<bool> whole_values_;  // whether those of the first picture are
   std::optional<double> contour_interval_;
   std::vector<std::uint32_t> colored_ids_;  // those of the last picture, by label, and their colours

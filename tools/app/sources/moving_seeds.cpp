@@ -36,7 +36,7 @@ class RandomWalk : public MovingSeeds {
   void move(Seeds& seeds, Window& window) const override { motion_(seeds, window, frame_); }
   std::optional<double> displacement() const override { return motion_.step_length; }
   const std::vector<std::uint32_t>& ids() const override { return input_.ids; }
-  const std::vector<double>& values() const override { return input_.values; }
+  const ColumnValues& values() const override { return input_.values; }
   std::optional<Box> box() const override { return std::nullopt; }
   std::optional<std::int64_t> timestep() const override { return std::nullopt; }
   std::optional<double> done() const override { return static_cast<double>(frame_) / frames_; }
@@ -53,7 +53,7 @@ template <typename Points>
 struct PlacedFrame {
   Points points;
   std::vector<std::uint32_t> ids;
-  std::vector<double> values;
+  ColumnValues values;
   std::optional<View> view;  // of every frame
   std::optional<double> displacement;
   std::optional<Box> box;
@@ -95,7 +95,7 @@ class Trajectory : public MovingSeeds {
   }
   std::optional<double> displacement() const override { return present_.displacement; }
   const std::vector<std::uint32_t>& ids() const override { return present_.ids; }
-  const std::vector<double>& values() const override { return present_.values; }
+  const ColumnValues& values() const override { return present_.values; }
   std::optional<Box> box() const override { return present_.box; }
   std::optional<std::int64_t> timestep() const override { return present_.timestep; }
   std::optional<double> done() const override {

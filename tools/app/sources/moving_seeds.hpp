@@ -55,7 +55,7 @@ class MovingSeeds {
   virtual const std::vector<std::uint32_t>& ids() const = 0;
 
   /// The values of the value column, by seed; NaN: absent.
-  virtual const std::vector<double>& values() const = 0;
+  virtual const ColumnValues& values() const = 0;
 
   /// The box of the frame; none without a trajectory, or in an XYZ without a lattice.
   virtual std::optional<Box> box() const = 0;

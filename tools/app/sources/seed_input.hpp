@@ -99,7 +99,7 @@ struct Input {
   View view;
   std::function<Seeds(const Device&)> place;
   std::vector<std::uint32_t> ids;                       // that labels carry, by seed; empty: the seeds' own
-  std::vector<double> values;                           // of the value column, by seed; NaN: absent
+  ColumnValues values;                                  // of the value column, by seed; NaN: absent
   bool is_window = false;                               // see MappedPoints
   std::optional<std::int64_t> timestep = std::nullopt;  // of a trajectory's frame, where the file has one
   KeptColumns kept = {};                                // of --keep

@@ -248,7 +248,8 @@ void TrajectorySeeds::take_frame(const std::optional<Bounds>& bounds, const Size
   is_window_ = mapped.is_window();
   const std::vector<std::uint32_t> by_cell = slots_by_cell(places, slots_);
   ids_ = by_slot(frame_.ids, by_cell, slots_.size(), no_label);
-  values_ = by_slot(frame_.values, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN());
+  values_ = {by_slot(frame_.values.numbers, by_cell, slots_.size(), std::numeric_limits<double>::quiet_NaN()),
+             frame_.values.texts};
 }
 
 }  // namespace vorocl::command

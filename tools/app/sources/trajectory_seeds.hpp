@@ -54,7 +54,7 @@ class TrajectorySeeds {
   const std::vector<std::uint32_t>& ids() const { return ids_; }
 
   /// The values of the value column, in the same order; NaN for an empty slot, and without such a column.
-  const std::vector<double>& values() const { return values_; }
+  const ColumnValues& values() const { return values_; }
 
   /// The greatest displacement along an axis to this frame of a particle that was there before, in pixels of
   /// the diagram's grid, and none if that is another one; the shorter way round where the box is periodic.
@@ -109,7 +109,7 @@ class TrajectorySeeds {
   std::vector<std::optional<Point>> points_;
   bool is_window_ = false;
   std::vector<std::uint32_t> ids_;
-  std::vector<double> values_;
+  ColumnValues values_;
   std::optional<double> max_displacement_;
   std::future<Read> ahead_;  // none: nothing is being read
 };

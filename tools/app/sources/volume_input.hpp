@@ -66,7 +66,7 @@ class VolumeFrames {
 
   // The same as of TrajectorySeeds; volumes have no value columns, and no method that asks for displacements.
   const std::optional<Box>& box() const { return frame_.box; }
-  const std::vector<double>& values() const { return frame_.values; }
+  const ColumnValues& values() const { return frame_.values; }
   std::optional<double> max_displacement() const { return std::nullopt; }
   std::optional<std::uintmax_t> bytes_left() const { return reader_->bytes_left(); }
 

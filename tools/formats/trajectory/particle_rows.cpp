@@ -40,12 +40,6 @@ std::uint32_t parse_id(const LineReader& lines, std::string_view field) {
   return static_cast<std::uint32_t>(*id);
 }
 
-double parse_value(const LineReader& lines, std::string_view field) {
-  const auto value = parse_number<double>(field);
-  if (!value) throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
-  return *value;
-}
-
 /// The place of a column among those of a property, if it is one of them.
 std::optional<std::size_t> place_in(const Property& property, std::string_view column) {
   if (property.columns == 1) return column == property.name ? std::optional<std::size_t>(0) : std::nullopt;
@@ -127,7 +121,9 @@ void ParticleRows::read(LineReader& lines, const RowLayout& layout, const Partic
   give(ids_, frame.ids);
   give(positions_, frame.positions);
   give(z_, frame.z);
-  give(values_, frame.values);
+  ColumnValues values = values_.take();
+  give(values.numbers, frame.values.numbers);
+  frame.values.texts = std::move(values.texts);
   frame.box = box ? std::optional<Box>(box->extent()) : std::nullopt;
 }
 
@@ -135,7 +131,7 @@ void ParticleRows::clear() {
   ids_.clear();
   positions_.clear();
   z_.clear();
-  values_.clear();
+  values_.take();
   order_.clear();
   lowest_z_ = std::numeric_limits<double>::infinity();
   highest_z_ = -lowest_z_;
@@ -166,7 +162,11 @@ void ParticleRows::add(const LineReader& lines, const RowLayout& layout, const P
   } else if (layout.z) {
     z = parse_number<double>(fields_[*layout.z]).value_or(0);
   }
-  if (layout.value) values_.push_back(parse_value(lines, fields_[*layout.value]));
+  if (layout.value) {
+    const std::string_view field = fields_[*layout.value];
+    if (!values_.add(std::string(field), parse_number<double>(field)))
+      throw lines.error(fmt::format("{} stands where a number is due, to colour by", shown(field)));
+  }
   if (box) position = layout.scaled ? box->from_scaled(position) : box->turned(position);
   if (box) position = box->place(lines, id, position);
   if (!std::isfinite(position.x) || !std::isfinite(position.y) || !std::isfinite(z)) {

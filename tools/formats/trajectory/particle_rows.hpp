@@ -74,7 +74,7 @@ class ParticleRows {
   std::vector<std::uint32_t> ids_;
   std::vector<Point> positions_;
   std::vector<double> z_;  // of a volume
-  std::vector<double> values_;
+  ColumnReader values_;
   double lowest_z_ = 0, highest_z_ = 0;
   std::vector<std::string_view> fields_;  // of the present row
   std::vector<IdAndRow> order_, spare_;   // the rows by id; empty: as they are

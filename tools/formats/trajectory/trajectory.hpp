@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/values.hpp"
 #include "vorocl/grid.hpp"
 
 namespace vorocl::command {
@@ -42,9 +43,9 @@ struct Frame {
   /// In data units, in the order of the ids. On a periodic axis a position is wrapped into [x0, x1);
   /// elsewhere the box holds it, grown where the file's box is no wall.
   std::vector<Point> positions;
-  std::vector<double> z;       ///< of a volume, likewise; else empty
-  double z_span = 0;           ///< how far the particles lie apart along z; 0 where the file has no z
-  std::vector<double> values;  ///< of the value column, in the order of the ids; empty without one
+  std::vector<double> z;  ///< of a volume, likewise; else empty
+  double z_span = 0;      ///< how far the particles lie apart along z; 0 where the file has no z
+  ColumnValues values;    ///< of the value column, in the order of the ids; empty without one
 };
 
 /// Reads one frame at a time: memory does not grow with the number of frames.
