@@ -93,7 +93,7 @@ VOROCL_API void draw_points(cv::Mat& picture, const std::vector<Point>& seeds);
 VOROCL_API void draw_points(cv::Mat& picture, const std::vector<std::optional<Point>>& seeds);
 
 /// Writes a line of text (ASCII) into the lower left corner of a picture, dark on a light ground. The text
-/// grows with the picture's height; what is too long for its width is cut off.
+/// grows with the picture's height; what is too long for its width is broken at a comma, or else cut off.
 VOROCL_API void draw_text(cv::Mat& picture, const std::string& text);
 
 /// What a colour bar says.

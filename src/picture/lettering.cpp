@@ -34,6 +34,12 @@ void draw_text(cv::Mat& picture, const std::string& text) {
   const Lettering letters(text_height(picture.rows));
   const int margin = letters.height() / 2;
   const cv::Size ground(letters.width(text) + 2 * margin, letters.height() + 2 * margin);
+  const std::size_t comma = text.find(", ");
+  if (ground.width > picture.cols && ground.height < picture.rows && comma != std::string::npos) {
+    draw_text(picture, text.substr(comma + 2));
+    cv::Mat above = picture.rowRange(0, picture.rows - ground.height);
+    return draw_text(above, text.substr(0, comma));
+  }
   const cv::Rect whole({0, 0}, picture.size());
   picture(cv::Rect({0, picture.rows - ground.height}, ground) & whole).setTo(light);
   letters.draw(picture, text, {margin, picture.rows - margin});

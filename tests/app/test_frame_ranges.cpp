@@ -133,4 +133,12 @@ BOOST_AUTO_TEST_CASE(frames_that_are_not_there_are_refused) {
   succeeds(last, melt + labels + "14:");
   BOOST_TEST(last.names().count("l14.npy") == 1u);
   BOOST_TEST(last.names().count("l13.npy") == 0u);
+  for (const std::string& subcommand : {melt + labels, exact}) {
+    const Result result = run(last, subcommand + "14:99");
+    BOOST_TEST(result.exit_code == 0);
+    BOOST_TEST(
+        result.error.find("lj-melt.lammpstrj: frame 14 is the last one, and --frames asks for frames up to "
+                          "99\n") != std::string::npos,
+        result.error);
+  }
 }

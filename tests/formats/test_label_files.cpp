@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(bad_files_are_refused) {
   refuses("none.npy", replaced("(3, 5)", "(0, 5)"), {"none.npy", "(0, 5)"});
   refuses("huge.npy", replaced("(3, 5), }      ", "(30000, 30000)}"), {"huge.npy", "ends early"});
   refuses("text.tif", "labels", {"text.tif", "no image"});
-  refuses("short.tif", tiff.substr(0, 40), {"short.tif", "no TIFF file"});
+  refuses("short.tif", tiff.substr(0, 40), {"short.tif", "damaged TIFF file"});
   cv::imwrite(folder / "colours.tif", cv::Mat(3, 3, CV_8UC3, cv::Scalar(1)));
   check_error([&] { read_labels(folder / "colours.tif"); }, {"colours.tif", "no labels"});
   write_pixels(folder / "float.tif", "float", Size(1, 1), std::vector<float>{1});

@@ -197,6 +197,8 @@ BOOST_AUTO_TEST_CASE(csv_files_may_have_a_column_of_values) {
     BOOST_TEST((found[0] == -1.5 && std::isnan(found[1]) && std::isnan(found[2]) && found[3] == 2000));
   }
   BOOST_TEST((values("1,2,3\n4,5,6\n", "2") == std::vector<double>{3, 6}));
+  check_error([&] { read_csv(folder.file("p.csv", "1,2,3\n"), {}); },
+              {"choose two", "three with --exact", "WxHxD"});
   check_error([&] { values("1,5,2,5\n", "3"); }, {"p.csv:1", "4 columns without names"});
   BOOST_TEST((values("x,y\n4,5\n", "y") == std::vector<double>{5}));
   BOOST_TEST(values(table, "").empty());

@@ -27,6 +27,12 @@ BOOST_AUTO_TEST_CASE(a_line_of_text_is_in_the_lower_left_corner) {
   BOOST_TEST(cv::norm(picture(corner), before(corner), cv::NORM_INF) > 90);
   before(corner).copyTo(picture(corner));
   BOOST_TEST(cv::norm(picture, before, cv::NORM_INF) == 0);
+  cv::Mat narrow(100, 90, CV_8UC3, cv::Scalar::all(128)), lines = narrow.clone(),
+                                                          above = lines.rowRange(0, 84);
+  draw_text(narrow, "frame 12, step 500");
+  draw_text(lines, "step 500");
+  draw_text(above, "frame 12");
+  BOOST_TEST(cv::norm(narrow, lines, cv::NORM_INF) == 0);
   cv::Mat small(5, 7, CV_8UC3, cv::Scalar::all(128));
   draw_text(small, "frame 12");  // what does not fit is cut off
 }

@@ -151,7 +151,8 @@ void refuse_columns_to_choose_from(const Line& first, std::size_t needed, bool h
   const auto columns = static_cast<std::size_t>(first.fields.rend() - past_empty_ends);
   if (columns <= needed) return;
   throw first.error("there are " + std::to_string(columns) + " columns without names: choose " +
-                    (has_z ? "three" : "two") + " with --columns, such as " + (has_z ? "0,1,2" : "0,1") +
+                    (has_z ? "three" : "two") + " with --columns, such as " +
+                    (has_z ? "0,1,2" : "0,1 (three with --exact, or of a volume, with --size WxHxD)") +
                     of_decimal_commas);
 }
 

@@ -36,10 +36,12 @@ void keep_library_quiet() {
 }
 
 File open_tiff(const std::string& path) {
-  open_to_read(path);  // for its reasons where the file cannot be read at all
+  std::vector<std::uint8_t> start(4);
+  open_to_read(path).read(reinterpret_cast<char*>(start.data()), 4);  // its reasons where it cannot be read
   keep_library_quiet();
   File file(TIFFOpen(path.c_str(), "r"));
-  if (!file) throw Error(path + " is no TIFF file");
+  if (!file)
+    throw Error(path + (is_tiff(start) ? " is a damaged TIFF file; it seems cut off" : " is no TIFF file"));
   return file;
 }
 

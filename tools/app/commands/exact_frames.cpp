@@ -167,6 +167,7 @@ void run_exact_frames(const ExactFramesOptions& options) {
   if (!trouble.empty())
     throw Error(fmt::format("{}; frames complete before that: {}{}{}", trouble, run.frames(),
                             how_to_continue(options.frames, run.frames(), run.has_tables()), late));
+  note_of_last(options.seeds.trajectory, options.frames, run.next_frame() - 1);
   run.print_result(device);
 }
 

@@ -234,6 +234,7 @@ void run(const SimulateOptions& options) {
         is_film ? "" : how_to_continue(options.motion.frames, course.frames, writer.has_tables());
     throw Error(course.trouble + writer.progress() + more + late);
   }
+  note_of_last(options.seeds.trajectory, options.motion.frames, run.simulation().frame());
   print_result(options, *source, run.simulation(), course, *run.measures());
 }
 

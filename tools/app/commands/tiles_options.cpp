@@ -198,7 +198,7 @@ void print_result(const TilesOptions& options, const Device& device, const Plane
   }
   if (course.made_before > 0) print("made before: {}\n", counted(course.made_before, "tile"));
   if (course.processes > 1) print("processes: {}\n", course.processes);
-  print("{:.1f} million pixels per second, {:.0f} % of the time for writing\n", rate / million,
+  print("{:.3g} million pixels per second, {:.0f} % of the time for writing\n", rate / million,
         course.milliseconds > 0 ? 100 * course.writing / course.milliseconds : 0);
   print_written(requested_files(options.output));
 }

@@ -237,7 +237,10 @@ void add_seed_options(Command& command, SeedOptions& options, std::size_t least,
   command.begin_section(grid_section);
   const std::string about_size =
       std::string("Width and height of the grid in pixels; with --mask those of the image") +
-      (volumes ? "; with a depth, those of a volume" : "");
+      (volumes
+           ? "; with a depth, those of a volume, which takes no --mask, --width, --outside, --domain, --y-up "
+             "or --y-down, and pictures of its slices by id alone"
+           : "");
   const Option size = command
                           .add(
                               "--size",

@@ -155,6 +155,12 @@ std::string how_to_continue(const FrameRange& frames, int complete, bool has_tab
                      has_tables ? ", with other names of tables" : "");
 }
 
+void note_of_last(const std::string& trajectory, const FrameRange& frames, int last) {
+  if (!frames.last || last >= *frames.last) return;
+  print_note(fmt::format("{}: frame {} is the last one, and --frames asks for frames up to {}", trajectory,
+                         last, *frames.last));
+}
+
 std::unique_ptr<MovingSeeds> read_moving_seeds(const SeedOptions& seeds, const MotionOptions& motion,
                                                const Interruption& interruption) {
   const bool needs_all = motion.fit == Fit::all && !seeds.bounds;

@@ -24,6 +24,10 @@ struct FrameRange {
 /// is left, or none is complete.
 std::string how_to_continue(const FrameRange& frames, int complete, bool has_tables);
 
+/// Says on standard error that the trajectory's last frame comes before the last one that is asked for, if
+/// so.
+void note_of_last(const std::string& trajectory, const FrameRange& frames, int last);
+
 struct MotionOptions {
   FrameRange frames;
   std::optional<int> step_length;
